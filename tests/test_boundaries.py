@@ -52,7 +52,9 @@ def test_finite_elements_never_import_lubfric():
     assert offenders("verification/fem", ["lubfric", "verification.studies"]) == []
 
 
-@pytest.mark.parametrize("name", ["exact", "check", "rates", "run", "report", "page", "wording", "meshes", "plotting"])
+@pytest.mark.parametrize(
+    "name", ["exact", "check", "convergence", "run", "report", "page", "wording", "meshes", "plotting"]
+)
 def test_closed_forms_and_the_framework_never_import_lubfric(name):
     assert not any(n.split(".")[0] == "lubfric" for n in imported(ROOT / "verification" / f"{name}.py"))
 
@@ -140,7 +142,7 @@ def test_no_circle_of_imports_between_modules():
 def test_no_circle_of_imports_between_packages():
     """Nor between a package and what stands beside it, at any depth: what is above imports what is below."""
     arrows = arrows_of_imports()
-    assert len(arrows) > 200
+    assert len(arrows) > 100
     for depth in (2, 3):
         rooms: dict[str, set[str]] = {}
         for name, others in arrows.items():

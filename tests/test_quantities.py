@@ -8,8 +8,7 @@ import pytest
 import lubfric
 from lubfric import quantities as q
 from lubfric.sampling import FIELDS, Uncertainty
-from lubfric.scene.file import SECTIONS
-from lubfric.scene.short_forms import short_keys
+from lubfric.scene import SECTIONS, short_keys
 
 
 def test_results_have_the_numbers_of_the_table_and_no_others():

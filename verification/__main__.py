@@ -14,7 +14,6 @@ from .studies import STUDIES
 # subcommand -> module with main(argv) -> exit code; imported only when asked for
 SUBCOMMANDS: dict[str, str] = {
     "figures": "verification.figures",
-    "levels": "verification.levels",
     "model": "verification.model",
     "mutations": "verification.mutations",
     "sampling": "verification.sampling",

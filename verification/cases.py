@@ -1,10 +1,18 @@
-"""Smooth line contacts by their Moes numbers, as arguments of the film solvers."""
+"""Smooth line contacts as arguments of the film solvers, in SI units: by their Moes numbers, or of a scene."""
 
 from __future__ import annotations
 
 import math
 
 ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
+
+
+def case_of_scene(scene, load: float, speed: float) -> dict:
+    """The smooth film of a scene under a load [N] at an entrainment speed [m/s]."""
+    bodies, oil = scene.bodies, scene.lubricant
+    laws = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law")
+    case = {"load_per_width": load / bodies.width, "radius": bodies.radius, "e_prime": bodies.e_prime}
+    return case | {"entrainment_speed": speed} | {name: getattr(oil, name) for name in laws}
 
 
 def case_of(M: float, L: float, law: str = "roelands", density: str = "constant") -> dict:

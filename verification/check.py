@@ -38,9 +38,7 @@ class Check:
     ----------
     source : where ``expected`` comes from (closed form, publication, another solver)
     seconds : filled in by the runner for studies that yield their checks one by one
-    decisive : False for what is only shown beside the others, such as a method that users do not get unasked; it may
-        fail
-        without the run failing
+    decisive : False for what is only shown beside the others; it may fail without the run failing
     refused : what the method said in place of a number, which then is NaN
     at : where it was measured (axes of a map, setting and cost of a method, seed of a scene), by name
 
@@ -66,17 +64,17 @@ class Check:
     def __post_init__(self):
         for key in ("measured", "expected", "tolerance"):
             object.__setattr__(self, key, float(getattr(self, key)))
+        wrong = ""
         if self.kind not in KINDS:
-            raise ValueError(f"check {self.name!r}: kind = {self.kind!r}; allowed: {', '.join(KINDS)}")
-        if not self.name.strip() or not self.source.strip():
-            raise ValueError(f"check {self.name!r}: a name and a source are needed")
-        if not (math.isfinite(self.expected) and math.isfinite(self.tolerance) and self.tolerance >= 0):
-            raise ValueError(
-                f"check {self.name!r}: expected = {self.expected}, tolerance = {self.tolerance}; "
-                "allowed: finite, tolerance >= 0"
-            )
-        if self.kind == RELATIVE and self.expected == 0:
-            raise ValueError(f"check {self.name!r}: a relative tolerance about 0 means nothing; use 'absolute'")
+            wrong = f"kind = {self.kind!r}; allowed: {', '.join(KINDS)}"
+        elif not self.name.strip() or not self.source.strip():
+            wrong = "a name and a source are needed"
+        elif not (math.isfinite(self.expected) and math.isfinite(self.tolerance) and self.tolerance >= 0):
+            wrong = f"expected = {self.expected}, tolerance = {self.tolerance}; allowed: finite, tolerance >= 0"
+        elif self.kind == RELATIVE and self.expected == 0:
+            wrong = "a relative tolerance about 0 means nothing; use 'absolute'"
+        if wrong:
+            raise ValueError(f"check {self.name!r}: {wrong}")
 
     @property
     def deviation(self) -> float:
@@ -141,7 +139,7 @@ class Table:
     name: str
     caption: str
     columns: Sequence[str]
-    rows: Sequence[Sequence[Any]]
+    rows: Iterable[Sequence[Any]]
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "columns", tuple(self.columns))
@@ -194,19 +192,15 @@ class Field:
 Item = Check | Table | Figure | Field
 
 
-@dataclass(frozen=True)
-class StudyResult:
-    """All that a study found. It is for a study that returns once at its end, and does not yield as it goes."""
+def bound(name: str, error: float, limit: float, source: str, note: str = "") -> Check:
+    """The check that an error, or what is left over, is at most ``limit``."""
+    return Check(name, error, 0.0, limit, source, AT_MOST, note=note)
 
-    checks: tuple[Check, ...] = ()
-    tables: tuple[Table, ...] = ()
-    figures: tuple[Figure, ...] = ()
-    fields: tuple[Field, ...] = ()
 
-    def __iter__(self) -> Iterator[Item]:
-        kinds: tuple[Iterable[Item], ...] = (self.checks, self.tables, self.figures, self.fields)
-        for items in kinds:
-            yield from items
+def compared(label: str, rows: Iterable[tuple], source: str, note: str = "") -> Iterator[Check]:
+    """A relative check of each row: (quantity, unit, measured, expected, tolerance)."""
+    for quantity, unit, measured, expected, tolerance in rows:
+        yield Check(f"{label}: {quantity}", measured, expected, tolerance, source, unit=unit, note=note)
 
 
 def file_name(name: str) -> str:

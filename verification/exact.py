@@ -91,13 +91,7 @@ class Parabola:
     def load(self) -> float:
         """``integral p dx`` in N/m, by parts: ``- integral X dP``."""
         xe = self.exit
-        lift = quad(
-            lambda t: -np.tan(t) * (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 4,
-            np.arctan(self.inlet),
-            np.arctan(xe),
-            epsabs=1e-13,
-            epsrel=1e-13,
-        )[0]
+        lift = self._integral(lambda t: -np.tan(t) * (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 4)
         return self.pressure_scale * self.scale * lift
 
     @property
@@ -114,14 +108,12 @@ class Parabola:
     def rolling(self) -> float:
         """``integral (h/2) dp/dx dx``, N/m."""
         xe = self.exit
-        lift = quad(
-            lambda t: (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 2,
-            np.arctan(self.inlet),
-            np.arctan(xe),
-            epsabs=1e-13,
-            epsrel=1e-13,
-        )[0]
+        lift = self._integral(lambda t: (np.tan(t) ** 2 - xe**2) * np.cos(t) ** 2)
         return self.pressure_scale * self.film_thickness / 2 * lift
+
+    def _integral(self, f) -> float:
+        """Integral over t from inlet to exit, with X = tan t."""
+        return quad(f, np.arctan(self.inlet), np.arctan(self.exit), epsabs=1e-13, epsrel=1e-13)[0]
 
 
 def antiderivative(big_x, xe: float):
@@ -180,12 +172,8 @@ class ExponentialPad:
         """Pressure at (x[0], x[1]) in m."""
         p = np.zeros(np.shape(x[0]))
         for k, special, first, second, up, down in zip(*self.modes(), strict=True):
-            along = (
-                special * np.exp(2 * self.decay * x[0])
-                + first * np.exp(down * x[0])
-                + second * np.exp(up * (x[0] - self.length))
-            )
-            p += along * np.cos(k * x[1])
+            homogeneous = first * np.exp(down * x[0]) + second * np.exp(up * (x[0] - self.length))
+            p += (special * np.exp(2 * self.decay * x[0]) + homogeneous) * np.cos(k * x[1])
         return p
 
     @property
@@ -193,11 +181,8 @@ class ExponentialPad:
         """``integral p``, N."""
         k, special, first, second, up, down = self.modes()
         length, g = self.length, self.decay
-        along = (
-            special * np.expm1(2 * g * length) / (2 * g)
-            + first * np.expm1(down * length) / down
-            - second * np.expm1(-up * length) / up
-        )
+        homogeneous = first * np.expm1(down * length) / down - second * np.expm1(-up * length) / up
+        along = special * np.expm1(2 * g * length) / (2 * g) + homogeneous
         return float((along * 2 / k * np.sin(k * self.width / 2)).sum())
 
     @property

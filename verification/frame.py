@@ -1,7 +1,8 @@
 """The frame of every command: what may be asked, the studies run, page and files written, the exit code.
 
 A command is a list of studies and little else (`Command`). Its studies hand over checks, tables, figures and fields
-(`check`). The run fails when a check that decides fails.
+(`check`). The run fails when a check that decides fails. The studies of a `campaign` solve many cases, which are kept
+in the folder of the report (`kept.Run`).
 """
 
 from __future__ import annotations
@@ -10,15 +11,18 @@ import argparse
 import difflib
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from . import kept
 from . import report as reports
 from .check import Check
-from .run import run
+from .run import Outcome, run
 from .studies import Study
+
+LEVELS = ("default", "quick", "full")
 
 
 @dataclass(frozen=True)
@@ -34,17 +38,19 @@ class Command:
     add_options : adds its own options to the parser
     prepared : the studies as the parsed options want them
     finished : writes what else belongs to the report, and returns text for the terminal
+    campaign : its studies are given a `kept.Run`, and its tables are put where the pages of ``--docs`` name them
     """
 
     name: str
     summary: str
     studies: tuple[Study, ...]
     out: str
-    levels: tuple[str, ...] = ("default", "quick", "full")
+    levels: tuple[str, ...] = LEVELS
     workers: int = 0
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None
     prepared: Callable[[Study, argparse.Namespace], Study] = lambda study, options: study
     finished: Callable[[reports.Report, argparse.Namespace], str] = lambda report, options: ""
+    campaign: bool = False
 
     @property
     def program(self) -> str:
@@ -67,7 +73,37 @@ def main(command: Command, argv: list[str]) -> int:
     if options.go_on:
         for file in sorted(options.out.rglob("*.jsonl")):
             kept.adopt(file)
-    return run_all(command, tuple(command.prepared(s, options) for s in studies), options)
+    return run_all(command, tuple(_prepared(command, s, options) for s in studies), options)
+
+
+def campaign(
+    name: str,
+    summary: str,
+    parts: Sequence[tuple[str, str, str, dict[str, Any]]],
+    levels: tuple[str, ...] = LEVELS,
+    add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None,
+    own: Callable[[str, argparse.Namespace], dict[str, Any]] = lambda part, options: {},
+) -> Command:
+    """A command whose ``parts`` are (name, "module:function" in this package, title, keywords).
+
+    Each is ``function(level, run=..., **keywords)`` with a `kept.Run`, and yields what a study does. ``own(name,
+    options)`` are more keywords.
+    """
+
+    def prepared(study: Study, options: argparse.Namespace) -> Study:
+        return replace(study, options=study.options | own(study.name, options))
+
+    studies = tuple(Study(part, f"verification.{target}", title, levels, keys) for part, target, title, keys in parts)
+    return Command(name, summary, studies, f"out/{name}", levels, 1, add_options, prepared, campaign=True)
+
+
+def _prepared(command: Command, study: Study, options: argparse.Namespace) -> Study:
+    """The study as the options want it. Those of a campaign keep their rows in one folder for each level."""
+    study = command.prepared(study, options)
+    if not command.campaign:
+        return study
+    run = kept.Run(options.out / f"kept-{options.level}", options.workers, study.name)
+    return replace(study, options=study.options | {"run": run})
 
 
 def parser(command: Command) -> argparse.ArgumentParser:
@@ -84,6 +120,8 @@ def parser(command: Command) -> argparse.ArgumentParser:
     p.add_argument("--list", action="store_true", help="name the parts and stop")
     if command.workers:
         p.add_argument("--workers", type=int, default=command.workers, help="processes (default: %(default)s)")
+    if command.campaign:
+        p.add_argument("--docs", type=Path, metavar="DIR", help="put its tables into the pages there that name them")
     command.add_options(p)
     p.set_defaults(level=command.levels[0])
     return p
@@ -117,16 +155,8 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
     """Run the studies. The report is written after every one, so that a killed process loses only the one at work."""
     out, level = options.out, options.level
     out.mkdir(parents=True, exist_ok=True)
-    begun = time.perf_counter()
-    so_far = reports.Report(
-        level,
-        tuple(s.name for s in studies),
-        (),
-        False,
-        time.strftime("%Y-%m-%d %H:%M:%S %z"),
-        0.0,
-        reports.environment(),
-    )
+    begun, now = time.perf_counter(), time.strftime("%Y-%m-%d %H:%M:%S %z")
+    so_far = reports.Report(level, tuple(s.name for s in studies), (), False, now, 0.0, reports.environment())
 
     def save(report: reports.Report) -> reports.Report:
         report = replace(report, seconds=time.perf_counter() - begun)
@@ -134,10 +164,12 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
         return report
 
     so_far, interrupted = save(so_far), False
-    workers = options.workers if command.workers else 0
+    workers = options.workers if command.workers and not command.campaign else 0
     try:
         for outcome in run(studies, level, tell_check, lambda s: tell_study(s, so_far.selected), workers):
             so_far = save(replace(so_far, outcomes=(*so_far.outcomes, reports.save_files(outcome, out))))
+            if command.campaign and options.docs and not outcome.error:
+                put_tables(command, outcome, options)
     except KeyboardInterrupt:
         interrupted = True
     result = save(replace(so_far, complete=not interrupted))
@@ -147,6 +179,15 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
         print(words)
     print(f"report: {out / 'report.html'}")
     return 130 if interrupted else 0 if result.passed else 1
+
+
+def put_tables(command: Command, outcome: Outcome, options: argparse.Namespace) -> None:
+    """Put the tables of a study into the pages that name them, with the command that measures them."""
+    from .tables.pages import put
+
+    level = "" if options.level == command.levels[0] else f" --{options.level}"
+    for table in outcome.tables:
+        put(options.docs, table, f"{command.program}{level} --only {outcome.study.name} --docs docs")
 
 
 def tell_study(study: Study, names: tuple[str, ...]) -> None:

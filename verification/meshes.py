@@ -8,13 +8,7 @@ import numpy as np
 
 from .check import Field
 
-CELL_NAMES = {
-    "MeshLine": "line",
-    "MeshTri": "triangle",
-    "MeshQuad": "quad",
-    "MeshTet": "tetra",
-    "MeshHex": "hexahedron",
-}
+CELL_NAMES = dict(MeshLine="line", MeshTri="triangle", MeshQuad="quad", MeshTet="tetra", MeshHex="hexahedron")
 
 
 def read_gmsh(path) -> tuple[np.ndarray, dict[str, np.ndarray], dict[str, np.ndarray]]:
@@ -72,12 +66,8 @@ def write_vtu(path, field: Field) -> Path:
     for name, values in field.point_data.items():
         if len(values) != count:
             raise ValueError(f"field {field.name!r}: {name} has {len(values)} values for {count} points")
-    meshio.Mesh(
-        in_space(field.points),
-        list(field.cells.items()),
-        point_data=dict(field.point_data),
-        cell_data=dict(field.cell_data),
-    ).write(path, file_format="vtu")
+    data = {"point_data": dict(field.point_data), "cell_data": dict(field.cell_data)}
+    meshio.Mesh(in_space(field.points), list(field.cells.items()), **data).write(path, file_format="vtu")
     return Path(path)
 
 
@@ -105,12 +95,6 @@ def mesh_field(name: str, caption: str, mesh, point_data=None, cell_data=None) -
     kind = next((v for k, v in CELL_NAMES.items() if type(mesh).__name__.startswith(k)), None)
     if kind is None:
         raise ValueError(f"field {name!r}: no cell name is known for {type(mesh).__name__}")
-    vertices = len(mesh.elem.refdom.p.T)
-    return Field(
-        name,
-        caption,
-        mesh.p.T,
-        {kind: mesh.t[:vertices].T},
-        dict(point_data or {}),
-        {k: [np.asarray(v)] for k, v in (cell_data or {}).items()},
-    )
+    cells = {kind: mesh.t[: len(mesh.elem.refdom.p.T)].T}
+    by_cell = {k: [np.asarray(v)] for k, v in (cell_data or {}).items()}
+    return Field(name, caption, mesh.p.T, cells, dict(point_data or {}), by_cell)

@@ -22,13 +22,13 @@ class Mutant:
     ----------
     name, what : its name, and what it is in a sentence
     places : for each place "module:attribute" what replaces it
-    studies : those that are asked to catch it
+    suite : the studies that are asked to catch it
     """
 
     name: str
     what: str
     places: dict[str, Callable]
-    suite: tuple[str, ...] = ("contact_grid", "ehl_grid", "friction", "load_sharing")
+    suite: tuple[str, ...] = ()
 
 
 @contextlib.contextmanager

@@ -7,10 +7,9 @@ catch. The unbroken library runs the same studies and has to pass them all.
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import replace
 
 from .check import AT_LEAST, AT_MOST, Check
 from .frame import Command
@@ -29,7 +28,7 @@ ON_PURPOSE = "lubfric.errors."
 def main(argv: list[str]) -> int:
     """The command."""
     levels = ("default",)
-    return run(Command("mutations", __doc__, trials(), "out/mutations", levels, 2, _options, _prepared, table), argv)
+    return run(Command("mutations", __doc__, trials(), "out/mutations", levels, 2, finished=table), argv)
 
 
 def trials() -> tuple[Study, ...]:
@@ -39,8 +38,8 @@ def trials() -> tuple[Study, ...]:
     return tuple(Study(name, target, title, ("default",), {"name": name}) for name, title in titles.items())
 
 
-def trial(level: str, name: str, thorough: bool = False, suite: tuple[str, ...] = ()) -> Iterator[Check]:
-    """The studies on one mutant, one after the other until a check fails (``thorough``: all of them).
+def trial(level: str, name: str, suite: tuple[str, ...] = ()) -> Iterator[Check]:
+    """The studies on one mutant, one after the other until a check fails.
 
     The measured number is how many checks failed: none of the library as it is, one or more of a mutant.
     """
@@ -55,7 +54,7 @@ def trial(level: str, name: str, thorough: bool = False, suite: tuple[str, ...] 
             failed += [(study.name, *words(c)) for c in outcome.checks if c.failed]
             if outcome.error and not outcome.error.startswith(ON_PURPOSE):
                 crash = outcome.error
-            if failed and mutant and not thorough:
+            if failed and mutant:
                 break
     yield judged(name, mutant is not None, failed, looked_at, crash, len(calls))
 
@@ -103,11 +102,3 @@ def table(report: Report, options: Namespace) -> str:
     mutants = [c for o in report.outcomes for c in o.checks if o.study.name != NONE]
     caught = f"{sum(c.passed for c in mutants)} of {len(mutants)} mutants caught"
     return f"{markdown(COLUMNS, rows(report.outcomes))}\n\n{caught}"
-
-
-def _options(parser: ArgumentParser) -> None:
-    parser.add_argument("--all-checks", action="store_true", help="go on after the first study that fails")
-
-
-def _prepared(study: Study, options: Namespace) -> Study:
-    return replace(study, options=study.options | {"thorough": options.all_checks})

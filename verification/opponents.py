@@ -12,6 +12,11 @@ from collections.abc import Callable
 
 import numpy as np
 
+from lubfric import solve_contact
+from lubfric.contact.operator import half_space
+
+from .polonsky_keer import polonsky_keer
+
 COARSEST = 48
 
 Solver = Callable[[float, float], np.ndarray]
@@ -26,7 +31,7 @@ def version(package: str) -> str:
 
 
 def tamaas_solver(
-    heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1, max_iterations: int = 20000
+    heights: np.ndarray, spacing: float, e_prime: float, threads=1, max_iterations=20000
 ) -> Solver | None:
     """Polonsky-Keer-Rey of `tamaas`, pressure as its primal variable; its wheel runs on one thread whatever is asked.
 
@@ -54,12 +59,7 @@ def tamaas_solver(
 
 
 def aspher_solver(
-    heights: np.ndarray,
-    spacing: float,
-    e_prime: float,
-    threads: int = 1,
-    precision: str = "float_then_double",
-    engine: str = "fft",
+    heights: np.ndarray, spacing: float, e_prime: float, threads=1, precision="float_then_double", engine="fft"
 ) -> Solver | None:
     """Nested grids of `aspher`, periodic: its fastest setting is float to double with the transform as preconditioner.
 
@@ -75,51 +75,28 @@ def aspher_solver(
         coarsest //= 2
     gap = heights.max() - heights
 
+    settings = {"backend": "periodic", "precision": precision, "precond_engine": engine, "coarsest": coarsest}
+    settings |= {"domain_size": n * spacing, "E_star": e_prime / 2}
+
     def solve(load: float, tolerance: float) -> np.ndarray:
-        result = aspher.solve_nested(
-            n,
-            gap,
-            load,
-            domain_size=n * spacing,
-            E_star=e_prime / 2,
-            coarsest=coarsest,
-            tol=tolerance,
-            backend="periodic",
-            precision=precision,
-            precond_engine=engine,
-        )
-        return np.array(result.pressure).reshape(n, n)
+        return np.array(aspher.solve_nested(n, gap, load, tol=tolerance, **settings).pressure).reshape(n, n)
 
     return solve
 
 
 def lubfric_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver:
     """The default of the library, its operator made once."""
-    from lubfric import solve_contact
-    from lubfric.contact import half_space
-
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
     def solve(load: float, tolerance: float) -> np.ndarray:
-        return solve_contact(
-            heights.max() - heights,
-            spacing,
-            e_prime,
-            mean_pressure=load,
-            tolerance=tolerance,
-            operator=operator,
-            raise_on_failure=False,
-        ).pressure
+        asked = {"mean_pressure": load, "tolerance": tolerance, "operator": operator, "raise_on_failure": False}
+        return solve_contact(heights.max() - heights, spacing, e_prime, **asked).pressure
 
     return solve
 
 
 def polonsky_keer_solver(heights: np.ndarray, spacing: float, e_prime: float, threads: int = 1) -> Solver:
     """Plain Polonsky-Keer with the library's operator."""
-    from lubfric.contact import half_space
-
-    from .polonsky_keer import polonsky_keer
-
     operator = half_space(heights.shape, spacing, e_prime, workers=threads)
 
     def solve(load: float, tolerance: float) -> np.ndarray:

@@ -138,26 +138,21 @@ def checks_table(checks) -> str:
 
 def data_table(table) -> str:
     """A table of a study. A wide one scrolls inside its own box."""
-    head = "".join(f"<th>{escape(str(c))}</th>" for c in table.columns)
-    body = "".join("<tr>" + "".join(f"<td>{escape(number(v))}</td>" for v in row) + "</tr>" for row in table.rows)
-    return (
-        f'<div class="scroll"><table><caption>{escape(table.caption)}</caption><thead><tr>{head}</tr></thead>'
-        f"<tbody>{body}</tbody></table></div>"
-    )
+    rows = ([escape(number(v)) for v in row] for row in table.rows)
+    body = html_table([escape(str(c)) for c in table.columns], rows, "wide", table.caption)
+    return f'<div class="scroll">{body}</div>'
 
 
-def html_table(columns, rows) -> str:
-    """A table of ready HTML cells that turns into cards on a narrow screen."""
+def html_table(columns, rows, kind: str = "cards", caption: str = "") -> str:
+    """A table of ready HTML cells; one of cards turns into them on a narrow screen."""
     head = "".join(f"<th>{c}</th>" for c in columns)
-    body = "".join(
-        "<tr>"
-        + "".join(
-            f'<td data-label="{c}">{f"<span>{v}</span>" if v else ""}</td>' for c, v in zip(columns, row, strict=True)
-        )
-        + "</tr>"
-        for row in rows
-    )
-    return f'<table class="cards"><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>'
+    body = []
+    for row in rows:
+        pairs = zip(columns, row, strict=True)
+        cells = (f'<td data-label="{c}">{f"<span>{v}</span>" if v else ""}</td>' for c, v in pairs)
+        body.append(f"<tr>{''.join(cells)}</tr>")
+    top = f"<caption>{escape(caption)}</caption>" if caption else ""
+    return f'<table class="{kind}">{top}<thead><tr>{head}</tr></thead><tbody>{"".join(body)}</tbody></table>'
 
 
 def figure(item) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TypeVar
 
-from lubfric.contact import ContactResult, HalfSpaceContact
+from lubfric.contact import HalfSpaceContact
+from lubfric.contact.result import ContactResult
 from lubfric.sampling import FrictionResult
 from lubfric.sharing import Decision, Lubricated, Prepared
 

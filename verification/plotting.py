@@ -6,10 +6,7 @@ import io
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from .check import Figure
-from .rates import fitted_order
 
 if TYPE_CHECKING:
     from matplotlib.typing import RcKeyType
@@ -42,6 +39,23 @@ def axes(rows: int = 1, columns: int = 1, width: float = 6.4, height: float = 4.
         return canvas, canvas.subplots(rows, columns, **options)
 
 
+def panels(count: int, columns: int, width: float, height: float):
+    """A figure of ``count`` panels in rows of at most ``columns``, each row so high, and its axes in a flat array."""
+    columns = min(columns, count)
+    rows = -(-count // columns)
+    canvas, grid = axes(rows, columns, width, height * rows + 0.4, squeeze=False)
+    for spare in grid.flat[count:]:
+        spare.set_axis_off()
+    return canvas, grid.ravel()[:count]
+
+
+def image(canvas, ax, field, extent, label: str, **options):
+    """A map (nx, ny) with x to the right and a labelled colour bar."""
+    shown = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)
+    ax.grid(False)
+    canvas.colorbar(shown, ax=ax, label=label, shrink=0.85)
+
+
 def plain_ticks(axis) -> None:
     """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
     would write every tick as a product, one over the other. Ticks that were chosen stay."""
@@ -54,7 +68,7 @@ def plain_ticks(axis) -> None:
         axis.set_minor_formatter(NullFormatter())
 
 
-def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
+def finish(name: str, canvas, caption: str, format: str = "svg", dpi: int = 160) -> Figure:
     """The bytes of a drawn figure; "svg" for lines, "png" for dense fields."""
     import matplotlib
 
@@ -64,33 +78,8 @@ def finish(name: str, canvas, caption: str, format: str = "svg") -> Figure:
     for legend in [a.get_legend() for a in canvas.axes if a.get_legend()]:
         legend.set_frame_on(False)
     with matplotlib.rc_context(STYLE):
-        canvas.savefig(stream, format=format, dpi=160, metadata={"Date": None} if format == "svg" else None)
+        canvas.savefig(stream, format=format, dpi=dpi, metadata={"Date": None} if format == "svg" else None)
     return Figure(name, caption, stream.getvalue(), format)
-
-
-def convergence(name: str, caption: str, series: dict, size_label: str, error_label: str, notes: str = "") -> Figure:
-    """Errors against mesh size, log-log, each with its fitted order and a line of the expected one.
-
-    ``series`` maps a label to ``(sizes, errors, expected_order)``; ``expected_order`` may be None.
-    """
-    canvas, ax = axes(height=3.6 + 0.2 * ((len(series) + 1) // 2))
-    for label, (sizes, errors, expected) in series.items():
-        sizes, errors = np.asarray(sizes, dtype=float), np.asarray(errors, dtype=float)
-        text = f"{label}: order {fitted_order(sizes, errors):.2f}"
-        text += "" if expected is None else f" (expected {expected:g})"
-        (line,) = ax.loglog(sizes, errors, "o-", label=text)
-        if expected is not None:
-            finest = np.argmin(sizes)
-            ax.loglog(
-                sizes,
-                errors[finest] * (sizes / sizes[finest]) ** expected,
-                ":",
-                color=line.get_color(),
-                linewidth=1.0,
-            )
-    ax.set(xlabel=size_label, ylabel=error_label, title=notes)
-    canvas.legend(loc="outside lower center", ncols=1 if len(series) == 1 else 2, frameon=False)
-    return finish(name, canvas, caption)
 
 
 def compact(figure: Figure, colours: int = 128) -> Figure:

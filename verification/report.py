@@ -8,7 +8,7 @@ import json
 import math
 import os
 import platform
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 from . import page
@@ -66,26 +66,16 @@ class Report:
 
     def as_dict(self) -> dict:
         """Plain types for report.json; a number that is not finite becomes null."""
-        return finite(
-            {
-                "format": FORMAT,
-                "passed": self.passed,
-                "complete": self.complete,
-                "verdict": self.verdict,
-                "level": self.level,
-                "selected": list(self.selected),
-                "started": self.started,
-                "seconds": self.seconds,
-                "environment": self.environment,
-                "studies": [outcome_dict(o) for o in self.outcomes],
-            }
-        )
+        shown = ("passed", "complete", "verdict", "level", "selected", "started", "seconds", "environment")
+        values = {"format": FORMAT} | {name: getattr(self, name) for name in shown}
+        return finite(values | {"studies": [outcome_dict(o) for o in self.outcomes]})
 
 
 def outcome_dict(outcome: Outcome) -> dict:
     """One study for report.json."""
+    name = outcome.study.name
     return {
-        "name": outcome.study.name,
+        "name": name,
         "title": outcome.study.title,
         "description": outcome.description,
         "passed": outcome.passed,
@@ -94,19 +84,9 @@ def outcome_dict(outcome: Outcome) -> dict:
         "error": outcome.error,
         "traceback": outcome.trace,
         "checks": [c.as_dict() for c in outcome.checks],
-        "tables": [
-            {
-                "name": t.name,
-                "caption": t.caption,
-                "columns": list(t.columns),
-                "rows": [list(r) for r in t.rows],
-            }
-            for t in outcome.tables
-        ],
-        "figures": [
-            {"file": file_of(outcome.study.name, f.name, f.format), "caption": f.caption} for f in outcome.figures
-        ],
-        "fields": [{"file": file_of(outcome.study.name, f.name, "vtu"), "caption": f.caption} for f in outcome.fields],
+        "tables": [asdict(table) for table in outcome.tables],
+        "figures": [{"file": file_of(name, f.name, f.format), "caption": f.caption} for f in outcome.figures],
+        "fields": [{"file": file_of(name, f.name, "vtu"), "caption": f.caption} for f in outcome.fields],
     }
 
 

@@ -10,15 +10,16 @@ import resource
 import sys
 import time
 import traceback
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from .check import AT_MOST, Check, Field, Figure, Item, Table
 from .parent import end_with_parent
 from .studies import Study
 
 EXTRAS = {"skfem": "scikit-fem", "meshio": "meshio", "pyamg": "pyamg"}
+Progress = Callable[[Check], None]
 INSTALL = 'pip install "lubfric[verification]"'
 
 
@@ -55,46 +56,31 @@ class Outcome:
         return not self.error and bool(self.checks) and not any(c.failed for c in self.checks)
 
 
-@dataclass
-class Collector:
-    """Sorts what a study yields, and times its checks."""
-
-    items: dict[type, list] = field(default_factory=lambda: {k: [] for k in (Check, Table, Figure, Field)})
-    progress: Callable[[Check], None] = lambda check: None
-
-    def take(self, items, timed: bool) -> None:
-        """Take every item. The time since the one before belongs to a check that brings no time of its own."""
-        last = time.perf_counter()
-        for item in items:
-            now = time.perf_counter()
-            if isinstance(item, Check):
-                item = replace(item, seconds=now - last) if timed and item.seconds is None else item
-            last = now
-            self.add(item)
-
-    def add(self, item: Item) -> None:
-        """Put one item with its kind.
-
-        Two of one name would overwrite each other's file, or hide each other. Checks that say where they were measured
-        are told apart by that.
-        """
-        kind = type(item)
-        if kind not in self.items:
+def collected(items: Iterable[Item], timed: bool, found: dict[type, list], progress: Progress) -> None:
+    """Put every item of a study with its kind in ``found``. The time since the one before belongs to a check that
+    brings no time of its own."""
+    last = time.perf_counter()
+    for item in items:
+        now, kind = time.perf_counter(), type(item)
+        if kind not in found:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
+        # two of one name would hide each other, or their files; checks may also differ by where they were measured
         placed = isinstance(item, Check) and item.at
-        if not placed and any(other.name == item.name for other in self.items[kind]):
+        if not placed and any(other.name == item.name for other in found[kind]):
             raise ValueError(f"two {kind.__name__.lower()}s are named {item.name!r}")
-        self.items[kind].append(item)
         if isinstance(item, Check):
-            self.progress(item)
+            item = replace(item, seconds=now - last) if timed and item.seconds is None else item
+            progress(item)
+        found[kind].append(item)
+        last = now
+
+
+def quiet(check: Check) -> None:
+    """Progress that nobody watches."""
 
 
 def run(
-    studies,
-    level: str,
-    progress: Callable[[Check], None] = lambda check: None,
-    announce: Callable[[Study], None] = lambda study: None,
-    workers: int = 0,
+    studies, level: str, progress: Progress = quiet, announce: Callable[[Study], None] = lambda study: None, workers=0
 ) -> Iterator[Outcome]:
     """Yield the `Outcome` of each study in order. ``announce`` is called before each, ``progress`` on each check.
 
@@ -119,44 +105,28 @@ def run(
             yield outcome
 
 
-def quiet(check: Check) -> None:
-    """Progress that nobody watches."""
-
-
-def run_one(study: Study, level: str, progress: Callable[[Check], None]) -> Outcome:
+def run_one(study: Study, level: str, progress: Progress) -> Outcome:
     """Import and run one study. Only an interrupt from the keyboard goes past here."""
-    collector = Collector(progress=progress)
+    found: dict[type, list] = {kind: [] for kind in (Check, Table, Figure, Field)}
     start = time.perf_counter()
     description = error = trace = ""
     try:
         function = load(study)
         description = inspect.getdoc(function) or ""
         produced = function(level, **study.options)
-        collector.take(produced, timed=inspect.isgenerator(produced))
-        if not collector.items[Check]:
+        collected(produced, inspect.isgenerator(produced), found, progress)
+        if not found[Check]:
             raise RuntimeError("the study ended without a single check")
     except (Exception, SystemExit) as exc:  # noqa: BLE001  a study may fail in any way; all are reported
         error, trace = explain(exc), traceback.format_exc()
         progress(raised(study, error))
-    checks, tables, figures, fields = (tuple(v) for v in collector.items.values())
-    if error:
-        checks = (*checks, raised(study, error))
-    return Outcome(
-        study,
-        level,
-        description,
-        checks,
-        tables,
-        figures,
-        fields,
-        time.perf_counter() - start,
-        peak_memory(),
-        error,
-        trace,
-    )
+        found[Check].append(raised(study, error))
+    checks, tables, figures, fields = (tuple(items) for items in found.values())
+    seconds, memory = time.perf_counter() - start, peak_memory()
+    return Outcome(study, level, description, checks, tables, figures, fields, seconds, memory, error, trace)
 
 
-def load(study: Study) -> Callable[[str], object]:
+def load(study: Study) -> Callable[..., Iterable[Item]]:
     """The function behind ``study.target``."""
     module, _, function = study.target.partition(":")
     return getattr(importlib.import_module(module), function)

@@ -6,11 +6,12 @@ Formulas for the film thickness are quick, and a few per cent off. Here Moes' fo
 pressure has its maximum is set beside the numerical film, from light to heavy loads.
 """
 
+from dataclasses import replace
+
 import matplotlib.pyplot as plt
 import numpy as np
 
 import lubfric
-from lubfric.film.formulas import moes_flow_film
 
 CONTACT = dict(
     radius=0.01,  # m
@@ -21,10 +22,11 @@ CONTACT = dict(
 )
 loads = np.geomspace(1e3, 3e5, 9)  # N/m
 
-numerical = np.array([lubfric.solve_ehl(load_per_width=w, **CONTACT).flow_film for w in loads])
-formula = np.array([moes_flow_film(load_per_width=w, **CONTACT) for w in loads])
+films = [lubfric.solve_ehl(load_per_width=w, **CONTACT) for w in loads]
+numerical = np.array([film.flow_film for film in films])
+formula = np.array([film.contact.moes_film for film in films])
 fine = np.geomspace(loads[0], loads[-1], 100)
-drawn = np.array([moes_flow_film(load_per_width=w, **CONTACT) for w in fine])
+drawn = np.array([replace(films[0].contact, load_per_width=w).moes_film for w in fine])
 error = 100 * (formula / numerical - 1)
 print(f"the formula is off by {error.min():+.1f} to {error.max():+.1f} %")
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 import lubfric
-from lubfric.output.vtk import vtk_bytes
+from lubfric.output.fields import vtk_bytes
 
 model = lubfric.prepare(lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}))
 point = lubfric.friction(model, 0.003, fields=True)

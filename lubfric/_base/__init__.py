@@ -1,38 +1,43 @@
-"""What every room uses: checks of input, repr, text tables, files, figures."""
+"""What every room uses: checks of input, records, text tables, files, figures, a bracketed root."""
 
-from .axes import (
-    axes_or_new,
-    curve_axes,
-    friction_over_time,
-    history_axes,
-    loop_axes,
-    pressure_axes,
-    surface_axes,
-    time_scale,
-)
-from .columns import read_columns
-from .files import PART, clear_parts, read_checked, saying, sync_folder, whole_file, write_checked, write_whole
-from .frozen import FieldsOnly, FrozenArrays
-from .lock import FolderLock
-from .plain import plain
-from .plot import (
+from .figures import (
     BLUE,
+    FRICTION,
     GREEN,
     GREY,
     RED,
+    axes_or_new,
+    curve_axes,
+    field_image,
     friction_lines,
+    friction_over_speed,
+    friction_over_time,
+    history_axes,
     interval_band,
     load_shares,
+    loop_axes,
     make_ready,
     new_figure,
     plain_ticks,
-    plot_contact,
-    plot_stribeck,
+    pressure_axes,
     speed_label,
+    surface_axes,
+    time_scale,
 )
+from .files import (
+    PART,
+    FolderLock,
+    clear_parts,
+    read_checked,
+    saying,
+    sync_folder,
+    whole_file,
+    write_checked,
+    write_whole,
+)
+from .records import Brief, FieldsOnly, FrozenArrays, Shown, changed, table
 from .roots import Root, increasing_root
-from .shown import Brief, Shown, changed, table
-from .table import read_table, table_bytes
+from .tables import plain, read_columns, read_table, table_bytes
 from .validate import (
     array,
     choice,
@@ -46,61 +51,5 @@ from .validate import (
     shown,
     spacing,
 )
-from .version import __version__
 
-__all__ = [
-    "BLUE",
-    "Brief",
-    "FieldsOnly",
-    "FolderLock",
-    "FrozenArrays",
-    "GREEN",
-    "GREY",
-    "PART",
-    "RED",
-    "Root",
-    "Shown",
-    "__version__",
-    "array",
-    "axes_or_new",
-    "changed",
-    "choice",
-    "clear_parts",
-    "curve_axes",
-    "friction_lines",
-    "friction_over_time",
-    "history_axes",
-    "increasing_root",
-    "instance",
-    "integer",
-    "interval_band",
-    "load_shares",
-    "loop_axes",
-    "make_ready",
-    "new_figure",
-    "nonnegative",
-    "number",
-    "plain",
-    "plain_ticks",
-    "plot_contact",
-    "plot_stribeck",
-    "positive",
-    "pressure_axes",
-    "python_fields",
-    "python_value",
-    "read_checked",
-    "read_columns",
-    "read_table",
-    "saying",
-    "shown",
-    "spacing",
-    "speed_label",
-    "surface_axes",
-    "sync_folder",
-    "table",
-    "table_bytes",
-    "time_scale",
-    "whole_file",
-    "write_checked",
-    "write_whole",
-]
+__version__ = "0.2.0"

@@ -1,18 +1,29 @@
-"""Files that appear whole or not at all, and files that tell when they were damaged."""
+"""Files that appear whole or not at all, files that tell when they were damaged, and one writer a folder."""
 
 from __future__ import annotations
 
 import hashlib
 import os
 import uuid
+import weakref
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
-from ..errors import OutputError
+from ..errors import InputError, OutputError
+
+try:
+    import fcntl
+except ImportError:  # Windows has no fcntl: there the locking of msvcrt serves
+    import msvcrt
+
+    fcntl = None  # type: ignore[assignment]
 
 MARK = b"lubfric 1 "  # of a checked file, before the SHA-256 of the rest and a line feed
 HEAD = len(MARK) + 65
+LOCK = ".lock"  # the file in a folder that its writer holds locked
 PART = ".part-"  # begins the name of a file that is being written
+_HELD: weakref.WeakSet = weakref.WeakSet()  # by this process; a forked child must not hold them too
 
 
 def write_whole(path, *content, sync: bool = True) -> None:
@@ -22,17 +33,9 @@ def write_whole(path, *content, sync: bool = True) -> None:
     ``sync=False`` leaves it to the operating system when the disk gets it, for what may be lost with the power. Raises
     as `whole_file`.
     """
-    with whole_file(path, sync=sync) as part:
-        with part.open("wb", buffering=0) as file:
-            for piece in content:
-                _write_all(file, piece)
-
-
-def _write_all(file, piece) -> None:
-    """Write all of ``piece``. The system may take less at once than it is given."""
-    rest = memoryview(piece)
-    while len(rest):
-        rest = rest[file.write(rest) :]
+    with whole_file(path, sync=sync) as part, part.open("wb") as file:
+        for piece in content:
+            file.write(piece)
 
 
 @contextmanager
@@ -104,3 +107,74 @@ def sync_folder(folder: Path) -> None:
             os.fsync(handle)
         finally:
             os.close(handle)
+
+
+class FolderLock:
+    """``with FolderLock(folder):`` makes the folder and locks it. Refuses with `InputError` while another process holds
+    the lock.
+
+    The lock is held by the open file. So a killed process leaves no lock behind; only its file stays.
+    """
+
+    def __init__(self, folder):
+        self.path = Path(folder) / LOCK
+        self._file: Any = None
+
+    def __enter__(self) -> FolderLock:
+        while self._file is None:
+            with saying(f"{self.path.parent} cannot be used"):
+                self.path.parent.mkdir(parents=True, exist_ok=True)
+                self._file = self.path.open("a+")
+            self._take()
+            if not self._still_there():  # that of a run which ended, and removed it, meanwhile
+                self.drop()
+        with saying(f"{self.path} was not written"):
+            self._file.seek(0)
+            self._file.truncate()
+            self._file.write(str(os.getpid()))
+            self._file.flush()
+        _HELD.add(self)
+        return self
+
+    def __exit__(self, *_) -> None:
+        if fcntl is not None:
+            self.path.unlink(missing_ok=True)
+        self.drop()
+
+    def drop(self) -> None:
+        """Close the file: this process holds the lock no more."""
+        _HELD.discard(self)
+        if self._file is not None:
+            self._file.close()
+        self._file = None
+
+    def _take(self) -> None:
+        try:
+            if fcntl is not None:
+                fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            else:
+                self._file.seek(2**20)  # beyond what is written, so that others can read who holds it
+                msvcrt.locking(self._file.fileno(), msvcrt.LK_NBLCK, 1)
+        except OSError:
+            self._file.seek(0)
+            holder = self._file.read().strip() or "unknown"
+            self.drop()
+            raise InputError(
+                f"{self.path.parent} is being written by another run (process {holder}); "
+                "give another folder, or wait until it ends"
+            ) from None
+
+    def _still_there(self) -> bool:
+        try:
+            return os.path.samestat(os.fstat(self._file.fileno()), self.path.stat())
+        except FileNotFoundError:
+            return False
+
+
+def _drop_in_child() -> None:
+    for lock in list(_HELD):
+        lock.drop()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_drop_in_child)

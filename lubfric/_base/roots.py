@@ -81,15 +81,13 @@ class _Search:
 
     def root(self) -> Root:
         """The result."""
-        status = CONVERGED if abs(self.best[1]) <= self.tolerance else ITERATION_LIMIT
+        slope = None
+        if len(self.points) > 1:
+            (a, fa), (b, fb) = self.points[-2:]
+            slope = (fb - fa) / (b - a) if (fb - fa) * (b - a) > 0 else None
         x, value, payload = self.best
-        return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status, self._slope())
-
-    def _slope(self) -> float | None:
-        if len(self.points) < 2:
-            return None
-        (a, fa), (b, fb) = self.points[-2:]
-        return (fb - fa) / (b - a) if (fb - fa) * (b - a) > 0 else None
+        status = CONVERGED if abs(value) <= self.tolerance else ITERATION_LIMIT
+        return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status, slope)
 
 
 def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None):
@@ -117,7 +115,7 @@ def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None
 def _close_in(search: _Search, a, b) -> None:
     """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or until the bracket is down to
     rounding and f still jumps in it."""
-    fraction, c = _secant(a, b), None
+    fraction, c = min(max(a[1] / (a[1] - b[1]), 0.02), 0.98), None  # the secant's first
     while True:
         x = a[0] + fraction * (b[0] - a[0])
         if x in (a[0], b[0]):
@@ -132,17 +130,12 @@ def _close_in(search: _Search, a, b) -> None:
         fraction = _next_fraction(a, b, c)
 
 
-def _secant(a, b) -> float:
-    return min(max(a[1] / (a[1] - b[1]), 0.02), 0.98)
-
-
 def _next_fraction(a, b, c) -> float:
     """Inverse quadratic interpolation where it is safe (Chandrupatla), else bisection; in (0, 1)."""
     xi = (a[0] - b[0]) / (c[0] - b[0])
     phi = (a[1] - b[1]) / (c[1] - b[1])
     if not (phi**2 < xi and (1 - phi) ** 2 < 1 - xi):
         return 0.5
-    t = a[1] / (b[1] - a[1]) * c[1] / (b[1] - c[1]) + (c[0] - a[0]) / (b[0] - a[0]) * a[1] / (c[1] - a[1]) * b[1] / (
-        c[1] - b[1]
-    )
+    (xa, fa), (xb, fb), (xc, fc) = a, b, c
+    t = fa / (fb - fa) * fc / (fb - fc) + (xc - xa) / (xb - xa) * fa / (fc - fa) * fb / (fc - fb)
     return min(max(t, 1e-3), 1 - 1e-3)

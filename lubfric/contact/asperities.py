@@ -17,10 +17,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import ConvergenceError, InputError
+from ..errors import ConvergenceError
 from ..scene import Scene
 from .asperity import AsperityResult, find_asperities
-from .hertz_strip import area_weight, centred_axis, check_strip, weighted_mean
+from .hertz_strip import area_weight, centred_axis, weighted_mean
 from .rough_contract import ContactState, Grid, RoughContact
 
 
@@ -75,25 +75,6 @@ class AsperityContact(RoughContact):
         )
         return self._state(film, under, touch + root, law(under[:, None] - touch - root))
 
-    def carry(self, film, start=None, shape=None) -> tuple[float, ContactState]:
-        """Contact load [N] under the imposed film, found directly, because the offset does not depend on the load."""
-        from scipy.optimize import brentq
-
-        under, mean_film = self._under(film, shape), weighted_mean(film, self.weight)
-        touch = float((under[:, None] - self.heights).min())
-        if self._gap(under, touch) <= mean_film:
-            return 0.0, self._state(film, under, touch, None)
-        offset = brentq(
-            lambda e: self._gap(under, e) - mean_film,
-            touch,
-            touch + 2 * (float(np.ptp(under)) + np.ptp(self.heights)),
-            xtol=1e-3 * self.tolerance * mean_film,
-            rtol=1e-14,
-        )
-        found = self._law()(under[:, None] - offset)
-        load = found.load * self.width / (self.heights.shape[1] * self.spacing[1])
-        return load, self._state(film, under, offset, found)
-
     @property
     def name(self) -> str:
         return f"independent {self.definition}"
@@ -101,11 +82,6 @@ class AsperityContact(RoughContact):
     @property
     def grid(self) -> Grid:
         return Grid(self.heights.shape, self.spacing)
-
-    def again(self, scene: Scene, old: Scene) -> AsperityContact:
-        """The contact for another scene, on the same heights."""
-        check_strip(scene, self.spacing[0], self.x.size * self.spacing[0])
-        return asperities_under_cylinder(scene, self.heights, self.spacing)
 
     def _law(self):
         return find_asperities(
@@ -158,11 +134,6 @@ class AsperityContact(RoughContact):
 def asperities_under_cylinder(scene: Scene, heights, spacing) -> AsperityContact:
     """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean."""
     bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
-    if numerics.film_deflection == "total":
-        raise InputError(
-            f"contact.model = {contact.model!r} under a cylinder has no deflection for film_deflection = "
-            "'total'; allowed: 'half-space'"
-        )
     x = centred_axis(heights.shape[0], spacing[0])
     return AsperityContact(
         heights=heights,

@@ -1,19 +1,20 @@
-"""Load and area of all asperities at a separation."""
+"""Load and area of all asperities at a separation, and the separation at which they carry a load."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from .._base import validate
-from ..errors import InputError, Report
+from .._base import increasing_root, validate
+from ..errors import CONVERGED, STAGNATED, InputError, Report
 from .asperity_find import FINDERS
 
-DEFINITIONS = ("summits", "patches")
+DEFINITIONS = tuple(FINDERS)
+APPROACHES = np.geomspace(1e-5, 1.0, 53)  # of the height range, each 25 % longer: down to the deepest valley
 
 
 @dataclass(frozen=True)
@@ -143,3 +144,85 @@ def asperity_contact(
         raise InputError(f"separation must be a number or an array of shape {shape} in m") from None
     validate.array("separation", flat, "m", ndim=2)
     return found.at(separation)
+
+
+def separation_for_load(
+    heights,
+    spacing,
+    e_prime,
+    *,
+    mean_pressure,
+    definition="summits",
+    hardness=None,
+    periodic=True,
+    tolerance=1e-3,
+    raise_on_failure=True,
+) -> AsperityResult:
+    """The separation at which independent asperities carry a given load.
+
+    The flat comes down in steps. Each approach to the highest point is 25 % longer than the last, and none goes below
+    the deepest valley. When the load is reached, the last step is searched (Chandrupatla), until
+    ``|load - target|/target <= tolerance``. The load of summits is continuous and falls with the separation. That of
+    patches jumps where cells join (a tolerance of 1e-3 suits some hundred contacts). It also has a largest value,
+    because patches grow together.
+
+    Parameters
+    ----------
+    heights, spacing, e_prime, definition, hardness, periodic : as in `asperity_contact`
+    mean_pressure : load over the area of the map [Pa]
+    tolerance, raise_on_failure : relative, on the load; False returns the closest result with its report
+
+    Returns
+    -------
+    AsperityResult
+
+    Raises
+    ------
+    InputError : a value out of range
+    ConvergenceError : the model cannot carry the load, or jumps over it; carries report and the closest result
+    """
+    options = {"definition": definition, "hardness": hardness, "periodic": periodic}
+    asperities = find_asperities(heights, spacing, e_prime, **options)
+    target = validate.positive("mean_pressure", mean_pressure, "Pa")
+    validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
+    top, span = asperities.heights.max(), float(np.ptp(asperities.heights))
+    if span == 0:
+        raise InputError("heights are all equal: no asperities; give a rough surface in m")
+
+    def excess(approach, _=None):
+        result = asperities.at(float(top - approach))
+        return result.mean_pressure / target - 1, result
+
+    before, scanned, best, advice, history = 0.0, 0, excess(0.0)[1], "", ()
+    for approach in span * APPROACHES:
+        value, result = excess(approach)
+        scanned += 1
+        best = max(best, result, key=lambda found: found.load)
+        if value >= 0:
+            middle, step, bounds = 0.5 * (before + approach), 0.25 * (approach - before), (before, approach)
+            root = increasing_root(excess, middle, step=step, bounds=bounds, tolerance=tolerance)
+            best, history = root.payload, root.history
+            break
+        before = approach
+    else:
+        advice = (
+            f"{definition} cannot carry a mean pressure of {target:.4g} Pa: at most {best.mean_pressure:.4g} Pa, at "
+            f"separation {best.separation:.4g} m"
+        )
+    error, done = abs(best.mean_pressure / target - 1), len(history)
+    status = CONVERGED if error <= tolerance else STAGNATED
+    report = Report(
+        "asperity separation",
+        status,
+        done or scanned,
+        error,
+        tolerance,
+        residuals={"load": error},
+        history=history,
+        evaluations=scanned + done,
+        advice=advice,
+    )
+    result = replace(best, report=report)
+    if raise_on_failure:
+        report.raise_if_failed(result)
+    return result

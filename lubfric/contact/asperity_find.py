@@ -7,16 +7,16 @@ from collections import defaultdict
 
 import numpy as np
 
+AHEAD = ((0, 1), (1, -1), (1, 0), (1, 1))  # one of each pair of opposite neighbours
+
 
 def _summit_finder(heights, spacing, periodic):
     """The summits are found once; find(flat) -> (index, overlap, radius) of those that touch."""
     inside = np.ones(heights.shape, bool)
     for axis in range(2):
         if not periodic[axis]:
-            rim: list = [slice(None)] * 2
-            rim[axis] = [0, -1]
-            inside[tuple(rim)] = False
-    for step in ((0, 1), (1, -1), (1, 0), (1, 1)):  # of equal neighbours the later one is the summit
+            np.moveaxis(inside, axis, 0)[[0, -1]] = False
+    for step in AHEAD:  # of equal neighbours the later one is the summit
         inside &= heights >= np.roll(heights, (-step[0], -step[1]), (0, 1))
         inside &= heights > np.roll(heights, step, (0, 1))
     index = np.argwhere(inside)
@@ -36,67 +36,62 @@ def _summit_finder(heights, spacing, periodic):
 
 def _patch_finder(heights, spacing, periodic):
     """find(flat) -> (index of the largest overlap, that overlap, equivalent radius) of every region."""
-    from scipy import ndimage
 
     def find(flat):
-        overlap = heights - flat
-        regions, count = ndimage.label(overlap > 0, np.ones((3, 3)))
-        label, count = _join_across_edges(regions, count, periodic)
-        if count == 0:
-            return np.zeros((0, 2), int), np.zeros(0), np.zeros(0)
+        overlap = (heights - flat).ravel()
+        label = _joined(_labelled(heights > flat), periodic).ravel()
         cells = np.flatnonzero(label)
-        order = np.lexsort((overlap.ravel()[cells], label.ravel()[cells]))
-        cells = cells[order]
-        sizes = np.bincount(label.ravel()[cells])[1:]
+        cells = cells[np.lexsort((overlap[cells], label[cells]))]
+        sizes = np.bincount(label[cells])[1:]
         highest = cells[np.cumsum(sizes) - 1]
-        delta = overlap.ravel()[highest]
-        radius = sizes * spacing[0] * spacing[1] / (2 * math.pi * delta)
-        return np.stack(np.unravel_index(highest, heights.shape), axis=1), delta, radius
+        radius = sizes * spacing[0] * spacing[1] / (2 * math.pi * overlap[highest])
+        return np.stack(np.unravel_index(highest, heights.shape), axis=1), overlap[highest], radius
 
     return find
 
 
-def _crossings(label, periodic):
-    """Regions that touch across a periodic edge, also diagonally: pairs (n, 2) of their numbers, and by how many
-    periods the second lies ahead along each axis (n, 2)."""
-    pairs, ahead = [np.zeros((0, 2), int)], [np.zeros((0, 2), int)]
-    for axis in range(2):
-        if periodic[axis]:
-            first, last = np.take(label, 0, axis), np.take(label, -1, axis)
-            for shift in (-1, 0, 1):
-                there, periods = np.roll(first, shift), np.zeros((first.size, 2), int)
-                periods[:, axis] = 1
-                if shift:
-                    end = 0 if shift == 1 else -1
-                    periods[end, 1 - axis] = -shift
-                    there[end] *= bool(periodic[1 - axis])
-                both = (last > 0) & (there > 0)
-                pairs.append(np.stack([last[both], there[both]], axis=1))
-                ahead.append(periods[both])
-    return np.concatenate(pairs), np.concatenate(ahead)
+FINDERS = {"summits": _summit_finder, "patches": _patch_finder}
 
 
-def _join_across_edges(label, count, periodic):
-    """Give regions that touch across a periodic edge (also diagonally) one number."""
+def _labelled(touching) -> np.ndarray:
+    """Number of the region of every touching cell, from 1 on; 0 elsewhere. Neighbours touch diagonally too."""
+    from scipy import ndimage
+
+    return ndimage.label(touching, np.ones((3, 3)))[0]
+
+
+def _crossings(label, periodic) -> np.ndarray:
+    """Regions that touch across a periodic edge, also diagonally: rows (region, region, by how many periods the second
+    lies ahead along each axis)."""
+    cells, found = np.argwhere(label), []
+    for step in AHEAD:
+        periods, there = np.divmod(cells + step, label.shape)
+        across = periods.any(axis=1) & ((periods == 0) | periodic).all(axis=1)
+        pair = (label[tuple(part[across].T)] for part in (cells, there))
+        found.append(np.column_stack([*pair, periods[across]]))
+    rows = np.concatenate(found)
+    return rows[rows[:, 1] > 0]
+
+
+def _joined(label, periodic) -> np.ndarray:
+    """Regions that touch across a periodic edge (also diagonally) get one number."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    a, b = _crossings(label, periodic)[0].T
-    if count == 0 or a.size == 0:
-        return label, count
+    a, b = _crossings(label, periodic)[:, :2].T
+    if not a.size:
+        return label
+    count = label.max()
     graph = coo_matrix((np.ones(a.size), (a - 1, b - 1)), shape=(count, count))
-    count, number = connected_components(graph, directed=False)
-    return np.concatenate([[0], number + 1])[label], count
+    return np.concatenate([[0], connected_components(graph, directed=False)[1] + 1])[label]
 
 
 def ridges(heights, bearing: float, periodic) -> int:
     """How many patches have no ends: above the separation at which ``bearing`` of the map touches, a way along them
     leads to the same cell of another period."""
-    from scipy import ndimage
-
-    regions, _ = ndimage.label(heights > np.quantile(heights, 1 - bearing), np.ones((3, 3)))
+    label = _labelled(heights > np.quantile(heights, 1 - bearing))
     ways = defaultdict(list)
-    for a, b, i, j in np.unique(np.hstack(_crossings(regions, periodic)), axis=0).tolist():
+    for a, b, i, j in np.unique(_crossings(label, periodic), axis=0).tolist():
         ways[a].append((b, i, j))
         ways[b].append((a, -i, -j))
     period: dict[int, tuple[int, int]] = {}
@@ -115,6 +110,3 @@ def ridges(heights, bearing: float, periodic) -> int:
                 endless |= period[there] != met
         count += endless
     return count
-
-
-FINDERS = {"summits": _summit_finder, "patches": _patch_finder}

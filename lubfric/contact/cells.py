@@ -1,12 +1,13 @@
-"""The cells of a patch that a search may load, taken from its fields and put back."""
+"""The cells of a patch that a search may load, and pressures on them that carry a given load."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from .strip_kernel import rounded
+from .transforms import rounded
 
 DENSE = 0.6  # share of the cells from which all are taken: their numbers take more memory than they save
+NEWTON = 12  # steps before every other one halves the bracket
 
 
 class Cells:
@@ -35,13 +36,11 @@ class Cells:
 
     def narrowed(self, kept) -> Cells:
         """Those of these cells whose positions are ``kept``."""
-        index = kept if self.index is None else self.index.take(kept)
-        return Cells(self.operator, index, self.rows, self.whole)
+        return Cells(self.operator, kept if self.index is None else self.index.take(kept), self.rows, self.whole)
 
     def gather(self, field) -> np.ndarray:
         """Values of a field of the rows, one axis."""
-        flat = field.ravel()
-        return flat if self.index is None else flat.take(self.index)
+        return field.ravel() if self.index is None else field.ravel().take(self.index)
 
     def field(self, values) -> np.ndarray:
         """Field of the rows in single precision with these values, zero elsewhere; valid until the next call."""
@@ -52,19 +51,68 @@ class Cells:
 
     def take(self, field, dtype=float, factor: float = 1.0) -> np.ndarray:
         """Copy of the values from a field of the whole patch, times ``factor``, in ``dtype``."""
-        flat = field[self.rows].ravel()
-        values = flat.copy() if self.index is None else flat.take(self.index)
-        if factor != 1.0:
-            values *= factor
-        return values.astype(dtype, copy=False)
+        return (factor * self.gather(field[self.rows])).astype(dtype, copy=False)
 
     def spread(self, values) -> np.ndarray:
         """Field of the whole patch with these values, zero elsewhere."""
-        if values.size == self.whole[0] * self.whole[1]:
-            return values.reshape(self.whole)
         field = np.zeros(self.whole)
-        if self.index is None:
-            field[self.rows] = values.reshape(self.shape)
-        else:
-            field[self.rows].ravel()[self.index] = values
+        field[self.rows].ravel()[slice(None) if self.index is None else self.index] = values
         return field
+
+
+def with_load(pressure, load: float, hardness: float) -> np.ndarray:
+    """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load``.
+
+    This is the Euclidean projection, for 0 <= load <= hardness size. Newton's method works on the piecewise linear sum,
+    inside a shrinking bracket, so it is exact once the right piece is found. What remains is the rounding error of a
+    pressure far above the load. A last factor removes it; cells at the hardness stay there.
+    """
+    upper = min(hardness, load) - pressure.min()
+    lower, shift = -pressure.max(), 0.0
+    for attempt in range(200):
+        result = np.clip(pressure + shift, 0.0, hardness)
+        missing = load - result.sum()
+        if abs(missing) <= 4e-16 * load:
+            break
+        lower, upper = (shift, upper) if missing > 0 else (lower, shift)
+        movable = np.count_nonzero((result > 0) & (result < hardness))
+        newton = shift + missing / movable if movable else np.nan
+        if newton == shift:
+            break
+        halve = attempt > NEWTON and attempt % 2 or not lower <= newton <= upper
+        shift = 0.5 * (lower + upper) if halve else newton
+    if not result.any() and load > 0:  # a load below the rounding of the highest pressure: one cell bears it
+        result[np.argmax(pressure)] = min(load, hardness)
+    elastic = result < hardness
+    carried = result[elastic].sum()
+    if carried > 0:
+        result[elastic] *= (load - (result.sum() - carried)) / carried
+        np.clip(result, 0.0, hardness, out=result)
+    return result
+
+
+def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
+    """``pressure`` times a factor. With a hardness it is then `shifted` to carry ``load``."""
+    result = pressure * (load / pressure.sum())
+    if hardness == np.inf:
+        return result
+    np.minimum(result, hardness, out=result)
+    result[pressure >= hardness] = hardness
+    return shifted(result, load, hardness)
+
+
+def shifted(pressure, load: float, hardness: float) -> np.ndarray:
+    """``pressure`` with its elastic cells shifted by the same amount, within 0..hardness, so that it carries ``load``.
+    If those cells cannot do it, all loaded cells are shifted, else all cells.
+
+    This is a start for another load. Spots of contact grow and shrink at their edges, and their pressure changes as
+    under a flat punch. That is nearer to an even change than to one in proportion.
+    """
+    yielded, loaded = pressure >= hardness, pressure > 0
+    for movable in (loaded & ~yielded, loaded, np.ones(pressure.shape, bool)):
+        share = load - pressure[~movable].sum()
+        if 0 < share <= hardness * np.count_nonzero(movable):
+            result = pressure.copy()
+            result[movable] = with_load(pressure[movable], share, hardness)
+            return result
+    return np.full(pressure.shape, load / pressure.size)

@@ -86,24 +86,6 @@ class ContactCurve(FieldsOnly):
         table = np.stack([self.mean_gap, np.log(area), self.plastic_area_fraction / area])[:, ::-1]
         return PchipInterpolator(np.log(self.mean_pressure[::-1]), table, axis=1)
 
-    def pressure_at(self, mean_gap: float) -> float:
-        """Mean pressure [Pa] at a mean gap [m]: 0 above first touch, the heaviest below the curve's least gap."""
-        from scipy.optimize import brentq
-
-        if mean_gap >= self.touching_gap:
-            return 0.0
-        if mean_gap <= self.mean_gap[0]:
-            return float(self.mean_pressure[0])
-        if mean_gap >= self.mean_gap[-1]:
-            share = (self.touching_gap - mean_gap) / (self.touching_gap - self.mean_gap[-1])
-            return float(share**1.5 * self.mean_pressure[-1])
-        ends = np.log(self.mean_pressure[[-1, 0]]) + [1e-14, -1e-14]
-        return float(
-            np.exp(
-                brentq(lambda log_pressure: self.at(np.exp(log_pressure))[0] - mean_gap, *ends, xtol=1e-12, rtol=1e-14)
-            )
-        )
-
 
 def contact_curve(
     heights, spacing, e_prime, *, heaviest, hardness=None, tolerance=1e-4, accuracy=3e-3, operator=None

@@ -33,8 +33,6 @@ def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
         missing = f"{100 * surface.missing_fraction:.3g} % of the heights are unmeasured (NaN)"
         raise InputError(f"surface: {missing}; call level() and fill() first")
     check_grid(scene, surface)
-    if scene.numerics.contact_level == "flat" and scene.contact.geometry != "flat":
-        surface = surface.periodic("mirror", axes=(True, False))
     return surface
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from .._base import validate
 from ..errors import InputError
 from .operator import HalfSpace, half_space
-from .residual import spread
 
 COARSEST = 24  # cells along an axis below which it is not halved
 COARSE_TOLERANCE = 1e-2  # coarse grids only give a start
@@ -37,26 +36,16 @@ class Problem:
     def coarsened(self) -> Problem | None:
         """The same problem on cells twice as long (mean gap0) along every axis that can be halved; None if there is
         none."""
-        factors = [
+        operator = self.operator
+        fx, fy = (
             2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST else 1
-            for kept, padded in zip(self.operator.shape, self.operator.padded)
-        ]
-        if factors == [1, 1]:
-            return None
-        (fx, fy), gap0 = factors, self.gap0
-        if fx == 2:
-            gap0 = 0.5 * (gap0[::2] + gap0[1::2])
-        if fy == 2:
-            gap0 = 0.5 * (gap0[:, ::2] + gap0[:, 1::2])
-        return Problem(
-            gap0,
-            self.offset,
-            self.roughness,
-            self.operator.coarsened((fx, fy)),
-            self.hardness,
-            COARSE_TOLERANCE,
-            COARSE_ITERATIONS,
+            for kept, padded in zip(operator.shape, operator.padded)
         )
+        if fx == fy == 1:
+            return None
+        gap0 = sum(self.gap0[i::fx, j::fy] for i in range(fx) for j in range(fy)) / (fx * fy)
+        limits = {"tolerance": COARSE_TOLERANCE, "max_iterations": COARSE_ITERATIONS}
+        return replace(self, gap0=gap0, operator=operator.coarsened((fx, fy)), **limits)
 
 
 def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations) -> Problem:
@@ -73,40 +62,20 @@ def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator
     if operator is None:
         operator = half_space(gap0.shape, spacing, e_prime, boundary)
     else:
-        _check_operator(
-            operator,
-            gap0.shape,
-            validate.spacing("spacing", spacing),
-            validate.positive("e_prime", e_prime, "Pa"),
-            boundary,
-        )
+        asked = {
+            "shape": gap0.shape,
+            "spacing": validate.spacing("spacing", spacing),
+            "e_prime": validate.positive("e_prime", e_prime, "Pa"),
+            "boundary": (boundary, boundary) if isinstance(boundary, str) else tuple(boundary),
+        }
+        for name, value in asked.items():
+            if (built := getattr(operator, name)) != value:
+                raise InputError(
+                    f"operator was built for {name} = {built}, the contact has {value}; they must be the same"
+                )
     offset = float(gap0.min())
     gap0 = gap0 - offset if offset else gap0
-    return Problem(gap0, offset, spread(gap0), operator, hardness, tolerance, max_iterations)
-
-
-def _check_operator(operator, shape, spacing, e_prime, boundary) -> None:
-    asked = (shape, spacing, e_prime, (boundary, boundary) if isinstance(boundary, str) else tuple(boundary))
-    built = (operator.shape, operator.spacing, operator.e_prime, operator.boundary)
-    for name, a, b in zip(("shape", "spacing", "e_prime", "boundary"), asked, built):
-        if a != b:
-            raise InputError(f"operator was built for {name} = {b}, the contact has {a}; they must be the same")
-
-
-def check_control(problem: Problem, mean_pressure, mean_gap) -> None:
-    """Check that exactly one of load and mean gap is given, in a range that has a solution."""
-    if (mean_pressure is None) == (mean_gap is None):
-        given = "both are given" if mean_gap is not None else "neither is given"
-        raise InputError(f"mean_pressure [Pa] and mean_gap [m]: {given}; give exactly one of them")
-    if mean_gap is not None:
-        validate.positive("mean_gap", mean_gap, "m")
-        return
-    validate.nonnegative("mean_pressure", mean_pressure, "Pa")
-    if mean_pressure > problem.hardness:
-        raise InputError(
-            f"mean_pressure = {mean_pressure:g} Pa cannot be carried; allowed: at most the hardness "
-            f"{problem.hardness:g} Pa, at which the whole area yields"
-        )
+    return Problem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
 
 
 def starting_pressure(problem: Problem, start) -> np.ndarray | None:

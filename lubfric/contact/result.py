@@ -1,7 +1,8 @@
-"""What a dry contact solve returns."""
+"""What a dry contact solve returns, and the residuals by which any pressure is judged, whatever method found it."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +30,7 @@ class ContactResult(Shown):
     Notes
     -----
     The residuals of the report are computed from the returned pressure alone, in double precision, after the iteration
-    has ended. L is the length of `lubfric.contact.residual.length_scale`:
+    has ended. L is the length of `length_scale`:
 
     - complementarity: ``Σ p m / (L Σ p)``, with the misfit m = |gap|, or max(gap, 0) where p = H
     - penetration: ``max(-gap)/L`` over cells with p < H
@@ -55,3 +56,60 @@ class ContactResult(Shown):
             "contact area": f"{100 * self.contact_area_fraction:.3g} %",
             "status": self.report.status,
         }
+
+
+def dot(a, b) -> float:
+    """Sum of products, on this thread alone: BLAS threads would fight those of the transforms."""
+    return float(np.einsum("i,i", a.ravel(), b.ravel()))
+
+
+def length_scale(pressure, displacement, gap0, operator, roughness: float | None = None) -> float:
+    """Length L [m] in which gap residuals are measured.
+
+    ``max(min(Σ p u / Σ p, max(d, r)), min(d, r))`` with the ``roughness`` r (None: rms of gap0) and the deflection
+    ``d = (4/pi) p_mean a/E'`` of the shortest ripple that the grid resolves (a: the finer spacing) under the mean
+    pressure. The load-weighted elastic deflection Σ p u / Σ p is twice the elastic energy per load. It is the
+    indentation of one touching cell, about the approach of a Hertz contact, and about the roughness height when most of
+    it is flattened. Two bounds are needed. At most max(d, r): without periodicity the deflection includes the bulk,
+    which deforms under the whole load however smooth the surface. At least min(d, r): in full contact hardly any
+    deflection is left to compare with. L is proportional to the lengths, and does not change with E' and p together. It
+    is never below 1e-9 d, where rounding begins (flat on flat). Infinite without load.
+    """
+    total = float(pressure.sum())
+    if total <= 0:
+        return math.inf
+    ripple = 4 / math.pi * total / pressure.size * min(operator.spacing) / operator.e_prime
+    smaller, larger = sorted((ripple, float(gap0.std()) if roughness is None else roughness))
+    return float(max(min(dot(pressure, displacement) / total, larger), smaller, 1e-9 * ripple))
+
+
+def contact_residuals(pressure, gap, scale: float, hardness: float, mean_pressure: float) -> dict[str, float]:
+    """Complementarity, penetration and load residuals, dimensionless; see `ContactResult` for formulas."""
+    apart, total = np.abs(gap), float(pressure.sum())
+    lowest = float(gap.min())
+    if hardness < np.inf:
+        yielded = pressure >= hardness
+        np.maximum(gap, 0.0, out=apart, where=yielded)
+        lowest = float(gap.min(where=~yielded, initial=0.0))
+    if total == 0:
+        return {"complementarity": 0.0, "penetration": math.inf if lowest < 0 else 0.0, "load": 0.0}
+    return {
+        "complementarity": dot(pressure, apart) / (total * scale),
+        "penetration": max(0.0, -lowest) / scale,
+        "load": float(abs(total / pressure.size - mean_pressure) / mean_pressure),
+    }
+
+
+def zero_level(height, elastic, yielded, otherwise: float = 0.0) -> float:
+    """The approach [m] at which the mean gap over the ``elastic`` cells is zero, from the ``height`` of the gap.
+
+    If no cell is elastic, it is halfway between the highest ``yielded`` cell and the lowest other one; if no cell is
+    loaded at all, ``otherwise``. elastic, yielded: flags (yielded None: no hardness).
+    """
+    count = np.count_nonzero(elastic)
+    if count:
+        return dot(height, elastic.astype(height.dtype)) / count
+    if yielded is None or not yielded.any():
+        return otherwise
+    highest = float(height[yielded].max())
+    return 0.5 * (highest + (highest if yielded.all() else float(height[~yielded].min())))

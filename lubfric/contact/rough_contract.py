@@ -1,7 +1,7 @@
 """What every rough contact under a film must offer: all that you need to know to write one.
 
-`RoughContact` is the contract. `close` and `carry` have to be written. The rest has defaults for a contact that is
-always solved as it stands. `lubfric.prepare` takes one from outside (``contact``), and the balance needs nothing else.
+`RoughContact` is the contract. `close` has to be written; the rest has defaults. `lubfric.prepare` takes one from
+outside (``contact``), and the balance needs nothing else.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import InputError
-from ..scene import Bodies, Scene
 from .result import ContactResult
 
 
@@ -27,7 +26,6 @@ class ContactState:
       ``plastic_area_fraction``: of the area A.
     - ``fields``: pressure and gap on the contact grid, (nx, ny) (None: separated, or the contact has none); ``y`` [m]
       (ny,): of their cells.
-    - ``pressure`` [Pa] (nx, ny): from which a neighbour may start.
     - ``gap_error`` [m], ``area_error`` [-]: estimated errors of ``mean_gap`` and ``real_contact_area_fraction`` where
       they are interpolated.
     """
@@ -39,7 +37,6 @@ class ContactState:
     real_contact_area_fraction: float
     plastic_area_fraction: float
     fields: ContactResult | None = None
-    pressure: np.ndarray | None = field(default=None, repr=False)
     y: np.ndarray | None = field(default=None, repr=False)
     gap_error: float = 0.0
     area_error: float = 0.0
@@ -48,11 +45,6 @@ class ContactState:
     def volume_residual(self) -> float:
         """(gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
         return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
-
-    @property
-    def contact(self) -> ContactResult | None:
-        """``fields``, by the name it had up to version 0.1."""
-        return self.fields
 
     def along_y(self, weight, stretches: int) -> tuple[np.ndarray, np.ndarray]:
         """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal sections of the width.
@@ -102,10 +94,6 @@ class RoughContact:
         """
         raise NotImplementedError
 
-    def carry(self, film, start: ContactState | None = None, shape=None) -> tuple[float, ContactState]:
-        """Load [N] of the contact on which ``film`` is imposed, so that mean gap = mean film, and the state."""
-        raise NotImplementedError
-
     @property
     def nominally_flat(self) -> bool:
         """Whether the load is spread evenly over the Hertz strip, without a distribution along x."""
@@ -130,40 +118,6 @@ class RoughContact:
         """The same contact, solved to ``tolerance``."""
         return self
 
-    def coarsened(self) -> RoughContact | None:
-        """The same on cells twice as long and wide, with averaged heights; None if that is not possible."""
-        return None
-
-    def thinned(self, every: int) -> RoughContact | None:
-        """The same on every ``every``-th cell along each axis, with their own heights; None if that is not possible."""
-        return None
-
-    lost = 0.0  # height [m] by which its highest summits fall short of those of the grid it was coarsened from
-
-    @property
-    def sq(self) -> float:
-        """Standard deviation [m] of the heights on its grid (asked only of what `coarsened` gives)."""
-        return 0.0
-
-    def cut(self, state: ContactState, found_on: RoughContact) -> RoughContact:
-        """The part that is enough for a contact such as ``state``, which was found on the same or a coarser grid."""
-        return self
-
-    def holds(self, part: RoughContact, shape, state: ContactState) -> bool:
-        """Whether nothing outside of ``part``, which was cut from this contact, touches. ``shape`` (nx,) [m] is on the
-        x of this contact."""
-        return True
-
     def on_the_ends(self, state: ContactState) -> float:
-        """Share of the load on the edge columns, whose ends cut a contact off; ``state`` is on this contact, on a part
-        of it, or on coarser cells. A cell that is longer counts by the part of it that belongs to these columns."""
+        """Share of the load on the edge columns, whose ends cut a contact off; ``state`` is on this contact."""
         return 0.0
-
-    def foretell(self, bodies: Bodies, film: float) -> None:
-        """Raise `InputError`, before any film is solved, if it is clear that too much will be `on_the_ends`. ``film``
-        [m]: roughly the smooth film of the whole load."""
-
-    def again(self, scene: Scene, old: Scene) -> RoughContact:
-        """The same map for ``scene``, which differs in load, motion or tolerance from ``old``, for which the contact
-        was made. Raises `InputError` if that is not possible."""
-        return self

@@ -1,17 +1,24 @@
-"""Dry contact of a rough half-space: `solve_contact`."""
+"""Dry contact of a rough half-space, with its load or its mean gap prescribed: `solve_contact`."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from ..errors import CONVERGED, ITERATION_LIMIT, Report
-from .control import gap_controlled
-from .nested import load_controlled
-from .problem import check_control, make_problem, starting_pressure
-from .residual import volume
+from .._base import increasing_root, validate
+from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
+from .cells import rescaled, shifted
+from .problem import Problem, make_problem, starting_pressure
 from .result import ContactResult
+from .rounds import Found, State, approximate, refine
+from .search import FIRST_PACE
+
+HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than what the old ones bear
+FLATTENED = 10.0  # times E' height/spacing: 1.1 would do for a periodic ripple
+LOOSEST = 1e-2  # tolerance of a solve whose mean gap is far off
+CERTAIN = 20.0  # a surplus so many times its uncertainty away from zero has a certain sign
 
 
 def solve_contact(
@@ -61,74 +68,165 @@ def solve_contact(
     ConvergenceError : the tolerance was not met; carries report and result
     """
     problem = make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
-    check_control(problem, mean_pressure, mean_gap)
+    _check_control(problem, mean_pressure, mean_gap)
     start = starting_pressure(problem, start)
     touching = float(problem.gap0.mean())
     if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching):
-        return _separated(problem, touching if mean_gap is None else mean_gap)
-    if mean_gap is None:
-        found = load_controlled(problem, float(mean_pressure), start)
+        found = _separated(problem, touching if mean_gap is None else float(mean_gap))
+    elif mean_gap is None:
+        found = _solved(problem, start, float(mean_pressure), mean_pressure=float(mean_pressure))
     else:
-        found = gap_controlled(problem, float(mean_gap), start)
-    result = _finish(problem, found, mean_pressure, mean_gap)
+        found = _gap_controlled(problem, float(mean_gap), start)
+    result = _result(problem, found, mean_pressure, mean_gap)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
 
 
-def _separated(problem, mean_gap) -> ContactResult:
-    approach = float(problem.gap0.mean() - mean_gap)
-    zero = np.zeros_like(problem.gap0)
-    report = Report(
-        "none",
-        CONVERGED,
-        0,
-        0.0,
-        problem.tolerance,
-        notes=("the bodies carry no load",),
-        residuals={"complementarity": 0.0, "penetration": 0.0, "load": 0.0},
-    )
-    return ContactResult(
-        zero, problem.gap0 - approach, zero.copy(), approach + problem.offset, 0.0, float(mean_gap), 0.0, 0.0, report
+def _check_control(problem: Problem, mean_pressure, mean_gap) -> None:
+    """Check that exactly one of load and mean gap is given, in a range that has a solution."""
+    if (mean_pressure is None) == (mean_gap is None):
+        given = "both are given" if mean_gap is not None else "neither is given"
+        raise InputError(f"mean_pressure [Pa] and mean_gap [m]: {given}; give exactly one of them")
+    if mean_gap is not None:
+        validate.positive("mean_gap", mean_gap, "m")
+        return
+    validate.nonnegative("mean_pressure", mean_pressure, "Pa")
+    if mean_pressure > problem.hardness:
+        raise InputError(
+            f"mean_pressure = {mean_pressure:g} Pa cannot be carried; allowed: at most the hardness "
+            f"{problem.hardness:g} Pa, at which the whole area yields"
+        )
+
+
+def _solved(problem: Problem, start, uniform: float, *, mean_pressure=None, approach=None) -> Found:
+    """Solve for a mean pressure [Pa] or an approach [m] from ``start``, made to carry the load. Without one, from
+    coarser grids, the coarsest of which starts from a ``uniform`` pressure [Pa]."""
+    load = None if mean_pressure is None else mean_pressure * problem.gap0.size
+    if start is None or not start.any():
+        start, pace, spent = _coarse_start(problem, uniform, mean_pressure, approach)
+        found = refine(problem, start, load=load, level=approach, pace=pace)
+        return replace(found, convolutions=found.convolutions + spent)
+    if load is not None:
+        start = (shifted if load <= HEAVIER * start.sum() else rescaled)(start, load, problem.hardness)
+    return refine(problem, start, load=load, level=approach)
+
+
+def _coarse_start(problem: Problem, uniform, mean_pressure, approach) -> tuple[np.ndarray, float, float]:
+    """A loose solution on cells twice as long, which is made in the same way: its pressure, its pace, and the number of
+    convolutions in units of this grid. A grid that cannot be halved starts from the ``uniform`` pressure."""
+    coarse = problem.coarsened()
+    if coarse is None:
+        return np.full(problem.gap0.shape, uniform), FIRST_PACE, 0.0
+    start, pace, spent = _coarse_start(coarse, uniform, mean_pressure, approach)
+    load = None if mean_pressure is None else mean_pressure * coarse.gap0.size
+    pressure, pace, more = approximate(coarse, start, load=load, level=approach, pace=pace)
+    fx, fy = (n // m for n, m in zip(problem.gap0.shape, coarse.gap0.shape))
+    share = coarse.gap0.size / problem.gap0.size
+    return pressure.repeat(fx, axis=0).repeat(fy, axis=1), pace, share * (spent + more)
+
+
+def _gap_controlled(problem: Problem, mean_gap: float, start) -> Found:
+    """Contact whose mean gap is ``mean_gap`` [m].
+
+    In an elastic periodic contact the mean deflection is zero. So the approach is known, and one solve is enough.
+    Otherwise, or if that solve fails, the load is searched. The first pressure is E' times rms height over the longer
+    side, which flattens a wave of that length and height.
+    """
+    operator = problem.operator
+    longest = max(n * d for n, d in zip(operator.shape, operator.spacing))
+    guess = min(operator.e_prime * problem.roughness / longest, 0.5 * problem.hardness)
+    if problem.roughness > 0:  # the smaller the gap, the more exactly its zeros have to be met
+        finer = problem.tolerance * min(1.0, 0.3 * mean_gap / problem.roughness)
+        problem = replace(problem, tolerance=max(finer, 1e-13))
+    if operator.boundary != ("periodic", "periodic") or math.isfinite(problem.hardness):
+        return _load_searched(problem, mean_gap, guess, start)
+    found = _solved(problem, start, guess, approach=float(problem.gap0.mean()) - mean_gap)
+    if found.status == CONVERGED:
+        return found
+    note = f"at the known approach: {found.status} after {found.iterations} iterations; load searched instead"
+    again = _load_searched(problem, mean_gap, guess, found.pressure if found.pressure.any() else start)
+    return replace(again, notes=(note,), convolutions=again.convolutions + found.convolutions)
+
+
+def _load_searched(problem: Problem, mean_gap: float, guess: float, start) -> Found:
+    """Find the load with that mean gap, by one bracketed root in the logarithm of the pressure.
+
+    The mean gap falls with the load, so there is one root. Each solve starts from the last, and is only as exact as the
+    sign of the remaining gap requires. No load exceeds the one that flattens the whole height as if it were the
+    shortest ripple that the grid resolves.
+    """
+    finest = 0.2 * problem.tolerance
+    pressure, spent, iterations = start, 0.0, 0
+
+    def surplus(log_pressure, _):
+        nonlocal pressure, spent, iterations
+        tolerance = max(finest, LOOSEST)
+        while True:
+            mean = math.exp(log_pressure)
+            found = _solved(replace(problem, tolerance=tolerance), pressure, mean, mean_pressure=mean)
+            pressure = found.pressure
+            spent, iterations = spent + found.convolutions, iterations + found.iterations
+            smaller = min(mean_gap, found.state.scale)
+            value = (mean_gap - _volume(found.state.gap)) / smaller
+            doubt = CERTAIN * tolerance * found.state.scale / smaller
+            if tolerance == finest or abs(value) > doubt:
+                return value, found
+            tolerance = max(finest, tolerance * min(0.1, abs(value) / doubt))
+
+    if start is not None and start.any():
+        guess = float(start.mean())
+    flattening = FLATTENED * problem.operator.e_prime * float(np.ptp(problem.gap0)) / min(problem.operator.spacing)
+    bounds = (-300.0, math.log(min(problem.hardness, flattening)))
+    root = increasing_root(surplus, math.log(guess), step=0.7, bounds=bounds, tolerance=0.5 * problem.tolerance)
+    found = root.payload
+    return replace(
+        found,
+        iterations=iterations,
+        convolutions=spent,
+        history=tuple(root.history),
+        status=root.status if found.status == CONVERGED else found.status,
+        solver="bracketed load, preconditioned conjugate gradient",
     )
 
 
-def _finish(problem, found, mean_pressure, mean_gap) -> ContactResult:
-    state = found.state
-    pressure, gap, scale = state.pressure, state.gap, state.scale
-    carried = float(pressure.mean())
-    mean = volume(gap)
+def _volume(gap) -> float:
+    """Mean of the gap [m] where it is open, over all cells: overlap counts zero."""
+    return float(np.maximum(gap, 0.0).mean())
+
+
+def _separated(problem: Problem, mean_gap: float) -> Found:
+    """Bodies that carry no load."""
+    approach, zero = float(problem.gap0.mean()) - mean_gap, np.zeros_like(problem.gap0)
+    residuals = {"complementarity": 0.0, "penetration": 0.0}
+    state = State(zero, zero.copy(), problem.gap0 - approach, approach, math.inf, residuals)
+    return Found(state, CONVERGED, 0, 0.0, (), FIRST_PACE, "none", ("the bodies carry no load",))
+
+
+def _result(problem: Problem, found: Found, mean_pressure, mean_gap) -> ContactResult:
+    state, tolerance, status = found.state, problem.tolerance, found.status
+    pressure, carried, volume = state.pressure, float(state.pressure.mean()), _volume(state.gap)
     residuals = dict(state.residuals)
     if mean_gap is None:
-        residuals["load"] = abs(carried - mean_pressure) / mean_pressure
+        residuals["load"] = abs(carried - mean_pressure) / (mean_pressure or 1.0)
     else:
-        residuals["volume"] = abs(mean - mean_gap) / min(scale, mean_gap)
+        residuals["volume"] = abs(volume - mean_gap) / min(state.scale, mean_gap)
     worst = max(residuals.values())
-    status = (
-        CONVERGED if worst <= problem.tolerance else (found.status if found.status != CONVERGED else ITERATION_LIMIT)
-    )
-    report = Report(
-        found.solver,
-        status,
-        found.iterations,
-        worst if math.isfinite(worst) else math.inf,
-        problem.tolerance,
-        residuals,
-        tuple(found.history),
-        found.convolutions,
-        tuple(found.notes),
-    )
-    saturated = (
-        np.count_nonzero(pressure >= problem.hardness) / pressure.size if math.isfinite(problem.hardness) else 0.0
-    )
+    if worst <= tolerance:
+        status = CONVERGED
+    elif status == CONVERGED:
+        status = ITERATION_LIMIT
+    worst = worst if math.isfinite(worst) else math.inf
+    cost, said = (found.history, found.convolutions), found.notes
+    report = Report(found.solver, status, found.iterations, worst, tolerance, residuals, *cost, said)
     return ContactResult(
         pressure,
-        gap,
+        state.gap,
         state.displacement,
         float(state.approach) + problem.offset,
         carried,
-        mean,
+        volume,
         np.count_nonzero(pressure) / pressure.size,
-        saturated,
+        np.count_nonzero(pressure >= problem.hardness) / pressure.size,
         report,
     )

@@ -1,23 +1,24 @@
-"""A stencil of nine points for |k|, the inverse of the half-space up to E'/4: exact enough for a search direction. It
-is too stiff for long waves, which are corrected (`lubfric.contact.long_waves`).
+"""A stencil of nine points for |k|, the inverse of the half-space up to E'/4: exact enough for a search direction.
 
-It is the Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours. Those nine
-numbers are always a multiple of the identity less an outer product of three and three. So two passes of three points
-are enough. They run over values that are scaled by the middle of that product.
+It is the Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours.
+
+The series is too stiff for waves much longer than a cell: unlike |k| it does not fall to zero with k. So spots of many
+cells, as smooth surfaces have them, would converge more slowly than with |k| itself. The difference is smooth: a
+transform of cells four times as long, a sixteenth of the cells, contains it, and takes it off.
 """
 
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
-from .fields import BLOCK
-from .long_waves import LongWaves, worth
+from .transforms import filtered, wavenumber
 
 POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
-SPARSE = 0.15  # share of the cells below which their neighbours are gathered one by one
+BLOCK = 16384  # cells that stay in the cache from one pass to the next
+FACTOR = 4  # cells, each way, that are one for long waves
+LEAST = 64  # cells along an axis: on shorter ones long waves cost more than they save
 
 
 @lru_cache(maxsize=16)
@@ -34,62 +35,55 @@ def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
 
 class Stencil:
     """Applies the nine points, less long waves, times ``factor``, to single-precision values on some ``cells`` of a
-    grid (None: all). The values of the others are zero; periodic axes wrap around."""
+    grid (flat numbers; None: all). The values of the others are zero; periodic axes wrap around."""
 
     def __init__(self, shape, spacing, boundary, cells, factor: float):
         self.shape, self.boundary = shape, boundary
         self.padded = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)
-        own, along_x, along_y, across = nearest = nearest_coefficients(shape, spacing)
-        middle = factor * along_x * along_y / across if across else 1.0  # of the outer product
-        self.middle = np.float32(middle)
-        self.coefficients = tuple(np.float32(factor * c / middle) for c in nearest)
-        self.long_waves = LongWaves(shape, spacing, boundary, nearest, factor / middle) if worth(shape) else None
-        self.take_on(cells)
+        nearest = nearest_coefficients(shape, spacing)
+        self.coefficients = tuple(np.float32(factor * c) for c in nearest)
+        self.long_waves = None  # the series less |k|, on cells FACTOR times as long
+        if min(shape) >= LEAST:
+            self.coarse = tuple(
+                (2 if kind == "free" else 1) * -(-n // FACTOR) for n, kind in zip(shape, boundary)
+            )  # free axes are padded to twice their length
+            missed = _series(nearest, self.coarse) - wavenumber(self.coarse, tuple(FACTOR * d for d in spacing))
+            self.long_waves = (factor / FACTOR**2 * np.maximum(missed, 0.0)).astype(np.float32)
+        self.move(cells)
 
-    def on(self, cells) -> Stencil:
-        """The same on other cells."""
+    def move(self, cells) -> None:
+        """Apply to other ``cells`` from now on."""
         self.padded.fill(0)
-        self.take_on(cells)
-        return self
-
-    def take_on(self, cells) -> None:
-        shape = self.shape
-        thin, size = 1 in shape, shape[0] * shape[1]
-        cells = np.arange(size) if thin and cells is None else cells
-        row: Any = None if cells is None else cells // shape[1]
-        self.corner: Any = None if cells is None else cells + 2 * row  # flat index of the lower left point
-        if self.long_waves is not None:
-            self.long_waves.take_on(cells, row, shape[1])
-        self.sparse = thin or cells is not None and cells.size < SPARSE * size
-
-    def __call__(self, values: np.ndarray) -> np.ndarray:
-        """The sums at the cells."""
-        sums = np.empty_like(values)
-        self.apply(values, sums)
-        return sums
+        self.cells = np.arange(self.shape[0] * self.shape[1]) if cells is None and 1 in self.shape else cells
+        if self.cells is not None:
+            self.corner = self.cells + 2 * (self.cells // self.shape[1])  # flat number of the lower left point
 
     def apply(self, values: np.ndarray, sums: np.ndarray) -> None:
         """Write the sums at the cells into ``sums``."""
         padded, width = self.padded, self.padded.shape[1]
-        if self.corner is None:
-            np.multiply(values.reshape(self.shape), self.middle, out=padded[1:-1, 1:-1])
+        inner = padded[1:-1, 1:-1]
+        if self.cells is None:
+            inner[:] = values.reshape(self.shape)
         else:
-            padded.ravel()[width + 1 :][self.corner] = values * self.middle
+            padded.ravel()[width + 1 :][self.corner] = values
         if self.boundary[0] == "periodic":
             padded[0], padded[-1] = padded[-2], padded[1]
         if self.boundary[1] == "periodic":
             padded[:, 0], padded[:, -1] = padded[:, -2], padded[:, 1]
-        if self.sparse:
-            self._gathered(values, sums)
+        if self.cells is None:
+            self._sweep(sums.reshape(self.shape))
         else:
-            self._swept(sums)
+            self._gather(values, sums)
         if self.long_waves is not None:
-            self.long_waves.take_off(padded[1:-1, 1:-1], sums)
+            found = filtered(_summed(inner), self.long_waves, self.coarse, None)
+            found = found.repeat(FACTOR, axis=1)[:, : inner.shape[1]].repeat(FACTOR, axis=0)[: inner.shape[0]].ravel()
+            sums -= found if self.cells is None else found.take(self.cells)
 
-    def _gathered(self, values, sums) -> None:
+    def _gather(self, values, sums) -> None:
+        """The sums at the cells, one neighbour after the other."""
         flat, width = self.padded.ravel(), self.padded.shape[1]
         own, along_x, along_y, across = self.coefficients
-        np.multiply(values, own * self.middle, out=sums)
+        np.multiply(values, own, out=sums)
         for coefficient, offsets in (
             (along_x, (1, 2 * width + 1)),
             (along_y, (width, width + 2)),
@@ -101,29 +95,35 @@ class Stencil:
             part *= coefficient
             sums += part
 
-    def _swept(self, sums) -> None:
+    def _sweep(self, sums) -> None:
         """The sums for all cells, some rows at a time, within the cache."""
-        flat, (nx, ny), width = self.padded.ravel(), self.shape, self.padded.shape[1]
-        own, along_x, along_y, _ = self.coefficients
-        rows = max(1, BLOCK // width)
-        triples, nines = np.empty((rows + 2) * width, np.float32), np.empty(rows * width, np.float32)
-        first = 0
-        for begin in range(0, nx, rows):
-            end = min(begin + rows, nx)
-            points, size = flat[begin * width : (end + 2) * width], (end - begin) * width
-            triple, nine = triples[: points.size - 2], nines[: size - 2]
-            np.add(points[:-2], points[2:], out=triple)
-            triple *= along_y
-            triple += points[1:-1]
-            np.add(triple[: -2 * width], triple[2 * width :], out=nine)
-            nine *= along_x
-            nine += triple[width:-width]
-            alone = np.multiply(points[width + 1 : width + 1 + nine.size], own - 1, out=triple[: nine.size])
-            if self.corner is None:
-                left, right = (values[:size].reshape(-1, width)[:, :-2] for values in (nines, triples))
-                np.add(left, right, out=sums.reshape(nx, ny)[begin:end])
-            else:
-                nine += alone
-                last = first + int(np.searchsorted(self.corner[first:], end * width))
-                nine.take(self.corner[first:last] - begin * width, out=sums[first:last], mode="clip")
-                first = last
+        own, along_x, along_y, across = self.coefficients
+        rows = max(1, BLOCK // self.padded.shape[1])
+        for begin in range(0, self.shape[0], rows):
+            points, total = self.padded[begin : begin + rows + 2], sums[begin : begin + rows]
+            beside = points[:, :-2] + points[:, 2:]
+            np.multiply(points[1:-1, 1:-1], own, out=total)
+            total += along_y * beside[1:-1]
+            beside *= across
+            beside += along_x * points[:, 1:-1]
+            total += beside[:-2]
+            total += beside[2:]
+
+
+def _series(nearest, shape) -> np.ndarray:
+    """The cut series at the waves of a grid of ``shape`` cells, each FACTOR cells long."""
+    own, along_x, along_y, across = nearest
+    x, y = (np.cos(2 * np.pi * np.fft.rfftfreq(n, FACTOR)) for n in shape)
+    return own + 2 * along_x * x[:, None] + 2 * along_y * y + 4 * across * x[:, None] * y
+
+
+def _summed(field) -> np.ndarray:
+    """Sums over FACTOR x FACTOR cells; the last ones of an axis may have fewer."""
+    for axis in (0, 1):
+        field = np.moveaxis(field, axis, 0)
+        total = field[::FACTOR].copy()
+        for k in range(1, FACTOR):
+            part = field[k::FACTOR]
+            total[: part.shape[0]] += part
+        field = np.moveaxis(total, 0, axis)
+    return np.ascontiguousarray(field)

@@ -12,27 +12,3 @@ from .reynolds import first_film
 from .solve import Start, solve_point
 from .start import RUPTURE, dry_contact
 from .transfer import state_on
-
-__all__ = [
-    "DeterministicResult",
-    "Inlet",
-    "LEAST",
-    "Problem",
-    "RUPTURE",
-    "Refined",
-    "Start",
-    "couette_flow",
-    "deterministic_point",
-    "dry_contact",
-    "estimate",
-    "first_film",
-    "gmres",
-    "grids",
-    "inlet",
-    "lay_out",
-    "layer",
-    "reach",
-    "solve_point",
-    "solve_refined",
-    "state_on",
-]

@@ -1,9 +1,14 @@
-"""`solve_ehl`: nested grids from a warm or a cold start. `solve_line_contact` is the same for a `LineContact`."""
+"""The film of any regime, on nested grids from a warm or a cold start.
+
+``solve_line_contact(LineContact(...), Effort(tolerance, least_cells), imposed=, start=)`` returns an `EHLResult`;
+`solve_ehl` is the same with plain numbers. A light film (Moes' M below 1) takes some 5 ms.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
@@ -11,15 +16,15 @@ from .._base import instance, integer, number, positive
 from ..errors import CONVERGED, InputError
 from ..oil import Lubricant
 from .assemble import assemble, grid_error
+from .deflection import LinePressure, line_pressure
 from .ehl_result import EHLResult
 from .grid import FAR_INLET, make_grid, node_positions
-from .imposed import LinePressure, Seat, find_seats, line_pressure
 from .line_contact import LineContact
 from .newton import Solution, newton
-from .problem import Problem
-from .start import State, cold_start, from_alone, refined_start, rupture_guess, solution_state, warm_start
+from .problem import Problem, Seat
+from .start import State, cold_start, find_seats, refined_start, rupture_guess, solution_state, warm_start
 
-COARSEST, LAST_START, FINEST = 48, 768, 3072
+COARSEST, STARTS, FINEST = 48, 5, 3072  # cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
 WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
 COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
 DOUBLINGS = 8  # of the speed, to begin with a film too thick to feel an imposed pressure
@@ -39,11 +44,6 @@ class Effort:
         number("tolerance", self.tolerance, "", minimum=1e-5, maximum=0.1)
         integer("least_cells", self.least_cells, minimum=0)
         integer("max_iterations", self.max_iterations, minimum=1)
-
-    @property
-    def cells(self) -> int:
-        """``least_cells``, or the number of cells of the finest grid."""
-        return min(self.least_cells, FINEST)
 
 
 def solve_ehl(
@@ -68,8 +68,9 @@ def solve_ehl(
 
     The equations are d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx, with p = dp/dx = 0 at the rupture point
     (Swift-Stieber), h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx', and ∫ p dx = load_per_width. They are solved by
-    Newton's method on nested grids (`lubfric.film.reynolds`), and checked for Moes' M = 1e-6 to 1000, L = 0 to 20. The
-    cells are doubled until the largest residual of the report (`EHLResult`) is <= tolerance.
+    Newton's method on nested grids (`lubfric.film.reynolds`), and checked for Moes' M = 1e-12 to 1000, L = 0 to 20, and
+    for nearly rigid bodies (L to 1e4 at M <= 0.01). The cells are doubled until the largest residual of the report
+    (`EHLResult`) is <= tolerance.
 
     Parameters
     ----------
@@ -101,7 +102,7 @@ def solve_ehl(
         LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant),
         Effort(tolerance, least_cells, max_iterations),
         inlet_length=inlet_length,
-        imposed=line_pressure(imposed_pressure),
+        imposed=imposed_pressure,
         start=start,
         raise_on_failure=raise_on_failure,
     )
@@ -112,12 +113,13 @@ def solve_line_contact(
     effort: Effort = Effort(),
     *,
     inlet_length: float | None = None,
-    imposed: LinePressure | None = None,
+    imposed=None,
     start: EHLResult | None = None,
     raise_on_failure: bool = True,
 ) -> EHLResult:
-    """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
-    problem = make_problem(contact, inlet_length, imposed)
+    """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits; ``imposed``: as ``imposed_pressure`` there, or
+    a `LinePressure`."""
+    problem = make_problem(contact, inlet_length, line_pressure(imposed))
     if start is not None:
         instance("start", start, EHLResult, "an EHLResult or None")
     seats = find_seats(problem)
@@ -125,7 +127,7 @@ def solve_line_contact(
     first: list[Solution] = []
     notes: tuple[str, ...] = ()
     if start is not None:
-        alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.seat.modulus < 1.0)]
+        alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.problem.seat.modulus < 1.0)]
         problem = replace(problem, seat=(alike or seats)[0])
         levels = _warm(problem, effort, start.state)
         if not _sound(levels):
@@ -144,11 +146,9 @@ def make_problem(contact: LineContact, inlet_length: float | None, imposed: Line
     contact."""
     if imposed is not None and contact.entrainment_speed < 0:
         imposed = imposed.mirrored()
-    if inlet_length is None:
-        return Problem(contact, None, imposed)
-    problem = Problem(contact, positive("inlet_length", inlet_length, "m"), imposed)
+    problem = Problem(contact, inlet_length, imposed)
     half_width = problem.flat_half_width * problem.length_unit
-    if inlet_length <= half_width:
+    if inlet_length is not None and positive("inlet_length", inlet_length, "m") <= half_width:
         raise InputError(
             f"inlet_length = {inlet_length:g} m lies inside the dry contact; "
             f"allowed: more than its half-width {half_width:.4g} m"
@@ -159,7 +159,7 @@ def make_problem(contact: LineContact, inlet_length: float | None, imposed: Line
 def _warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
     """Two grids; the finer one is at least as fine as the error of ``state`` demands."""
     n = _coarsest(problem)
-    needed = max(effort.cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
+    needed = max(effort.least_cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
     while 2 * n < min(needed, FINEST):
         n *= 2
     return _ascend(problem, effort, state, n, 2)
@@ -174,7 +174,10 @@ def _cold(
     """
     spent: list[Solution] = []
     notes: tuple[str, ...] = ()
-    for n, seat, doublings in _attempts(seats, _coarsest(problem)):
+    coarsest = _coarsest(problem)
+    grids = sorted((COARSEST * 2**k for k in range(STARTS)), key=lambda n: n != coarsest)
+    beginnings = [(seat, 0) for seat in seats] + [(seats[0], DOUBLINGS)] * (len(seats) > 1)
+    for n, (seat, doublings) in product(grids, beginnings):
         if spent:
             notes += (f"the cold start failed; tried again from {n} cells",)
         problem = replace(problem, seat=seat)
@@ -183,25 +186,14 @@ def _cold(
         if _sound(levels):
             return problem, levels, spent + first, notes
         spent += first + levels
-        if levels[0].status == CONVERGED and levels[-1].grid.n >= LAST_START:
+        if levels[0].status == CONVERGED and levels[-1].grid.n >= COARSEST * 2 ** (STARTS - 1):
             break  # it is not the start that fails
     return problem, levels, spent[: -len(levels)], notes
 
 
 def _coarsest(problem: Problem) -> int:
     """Cells of the coarsest grid: more if the inlet is far narrower than the contact."""
-    return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), int(math.log2(LAST_START / COARSEST)))
-
-
-def _attempts(seats: tuple[Seat, ...], coarsest: int) -> list[tuple[int, Seat, int]]:
-    """The cold starts to try, one after the other: (cells, seat, doublings of the speed)."""
-    grids = [COARSEST * 2**k for k in range(int(math.log2(LAST_START / COARSEST)) + 1)]
-    grids = [coarsest, *(n for n in grids if n < coarsest), *(n for n in grids if n > coarsest)]
-    if len(seats) == 1:
-        return [(n, seats[0], 0) for n in grids]
-    return [
-        (n, seat, doublings) for n in grids for seat, doublings in ((seats[0], 0), (seats[1], 0), (seats[0], DOUBLINGS))
-    ]
+    return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), STARTS - 1)
 
 
 def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int) -> list[Solution]:
@@ -212,56 +204,43 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
         grid = make_grid(problem_nodes(problem, n, rupture))
         z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
         levels.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
-        if levels[-1].status != CONVERGED or n >= FINEST or problem.imposed is not None and not _sound(levels):
+        if not _sound(levels) or n >= FINEST:
             return levels
-        if len(levels) >= fewest and n >= effort.cells and grid_error(levels) <= effort.tolerance:
+        if len(levels) >= fewest and n >= effort.least_cells and grid_error(levels) <= effort.tolerance:
             return levels
         rupture = levels[-1].z[-1]
         n *= 2
 
 
 def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -> tuple[State, list[Solution]]:
-    """The first solution: rough ones on n cells while alpha rises from the value at which L = EASY.
+    """The first state, and the chain of rough solutions on n cells that leads there, each started from the one before.
 
-    With an imposed pressure it begins with the cylinder of the seat, or with a speed that is doubled so many times.
+    alpha rises from the value at which L = EASY. With an imposed pressure this is done for the cylinder of the seat
+    alone, at a speed that is doubled so many times, because a thick film bridges any gap that an imposed pressure
+    leaves. Then the speed is halved again and again.
     """
-    if doublings:
-        return _descent(problem, n, max_steps, doublings)
-    if problem.imposed is not None:
-        alone, led_there = _first_state(problem.alone(), n, max_steps)
-        return from_alone(problem, alone), led_there
-    state: State | None = None
+    slower = [_faster(problem, 2.0**k) for k in range(doublings, 0, -1)]
+    alone = (slower or [problem])[0].alone()
+    shares = [min(1.0, EASY / max(alone.L, EASY))]
+    while shares[-1] < 1.0:
+        shares.append(min(1.0, STAGE * shares[-1]))
+    states: list[State] = []
     solutions: list[Solution] = []
-    share = min(1.0, EASY / max(problem.L, EASY))
-    while True:
-        stage = problem.softened(share)
+    for stage in [alone.softened(share) for share in shares] + slower:
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
-        z, H = warm_start(grid, stage, state) if state else cold_start(grid, stage)
+        z, H = warm_start(grid, stage, states[-1]) if states else cold_start(grid, stage)
         solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
-        state = solution_state(stage, solutions[-1], 0.0)
-        if share == 1.0 or not np.isfinite(solutions[-1].error):
-            return state, solutions
-        share = min(1.0, STAGE * share)
-
-
-def _descent(problem: Problem, n: int, max_steps: int, doublings: int) -> tuple[State, list[Solution]]:
-    """Begin with a thick film, which bridges any gap that an imposed pressure leaves, and halve the speed again and
-    again."""
-
-    def stage_of(k: int) -> Problem:
-        faster = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * 2.0**k)
-        stage = replace(problem, contact=faster)
-        return replace(stage, seat=find_seats(stage)[0])
-
-    state, solutions = _first_state(stage_of(doublings), n, max_steps)
-    for k in range(doublings, 0, -1):
-        stage = stage_of(k)
-        grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
-        solutions.append(newton(grid, stage, *warm_start(grid, stage, state), 0.03, max_steps))
-        state = solution_state(stage, solutions[-1], 0.0)
-        if solutions[-1].status != CONVERGED:
+        states.append(solution_state(stage, solutions[-1], 0.0))
+        if not np.isfinite(solutions[-1].error):
             break
-    return state, solutions
+    return states[-1], solutions
+
+
+def _faster(problem: Problem, factor: float) -> Problem:
+    """The same contact at ``factor`` times its speed, on the likelier seat there."""
+    contact = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * factor)
+    faster = replace(problem, contact=contact)
+    return replace(faster, seat=find_seats(faster)[0])
 
 
 def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:

@@ -4,17 +4,24 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
 from .._base import Shown
 from ..errors import Report
-from .imposed import LinePressure, line_deflection
+from .deflection import LinePressure, line_deflection
 from .line_contact import LineContact, OfLineContact
-from .rolling import Rolling
 from .start import State
 
 LUMP = 6  # neighbouring nodes that act as one line force far away
+
+
+class Rolling(NamedTuple):
+    """``force`` [N/m]: half of ∫ h dp over the nodes, along the motion; ``error``: estimated."""
+
+    force: float
+    error: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -37,7 +44,7 @@ class EHLResult(Shown, OfLineContact):
     imposed : the pressure, if any, that deflects the film beside its own
     report : how the solve ended
     state : what a neighbouring solve starts from
-    rolling : half of ∫ h dp [N/m] and its estimated error (`lubfric.film.rolling`; None: not known)
+    rolling : half of ∫ h dp [N/m] and its estimated error (`lubfric.film.assemble.rolling_resistance`; None: not known)
 
     Notes
     -----
@@ -74,16 +81,6 @@ class EHLResult(Shown, OfLineContact):
     rolling: Rolling | None = None
 
     @property
-    def load_number(self) -> float:
-        """Moes' M."""
-        return self.contact.M
-
-    @property
-    def material_number(self) -> float:
-        """Moes' L."""
-        return self.contact.L
-
-    @property
     def cells(self) -> int:
         """Number of cells of the finest grid, before rupture."""
         return self.state.pressure.size
@@ -91,8 +88,8 @@ class EHLResult(Shown, OfLineContact):
     def _facts(self) -> dict[str, str]:
         return {
             "": f"{self.x.size} nodes",
-            "M": f"{self.load_number:.3g}",
-            "L": f"{self.material_number:.3g}",
+            "M": f"{self.contact.M:.3g}",
+            "L": f"{self.contact.L:.3g}",
             "min film": f"{self.min_film:.4g} m",
             "central film": f"{self.central_film:.4g} m",
             "status": self.report.status,
@@ -104,7 +101,16 @@ class EHLResult(Shown, OfLineContact):
         Between the nodes the deflection by the own pressure is interpolated by cubics; outside it is the line kernel
         of the pressure lumped in groups of nodes.
         """
-        return film_at(self, x)
+        x = np.asarray(x, dtype=float)
+        flat = x.ravel()
+        parabola = flat**2 / (2.0 * self.radius)
+        nodes = self.x
+        inside = (flat >= nodes[0]) & (flat <= nodes[-1])
+        film = np.empty_like(flat)
+        bend = self.film_thickness - nodes**2 / (2.0 * self.radius) - self.imposed_deflection(nodes)
+        film[inside] = cubic(nodes, bend, flat[inside])
+        film[~inside] = self.approach + _far_deflection(self, flat[~inside])
+        return (film + parabola + self.imposed_deflection(flat)).reshape(x.shape)
 
     def imposed_deflection(self, x) -> np.ndarray:
         """Part of the film [m] at ``x`` [m], any shape, that is due to the imposed pressure, up to a constant."""
@@ -114,23 +120,6 @@ class EHLResult(Shown, OfLineContact):
         b, imposed = self.half_width, self.imposed
         found, _ = line_deflection(x.ravel() / b, imposed.x / b, imposed.pressure)
         return (b / self.e_prime * found).reshape(x.shape)
-
-
-def film_at(result: EHLResult, x) -> np.ndarray:
-    """Film thickness [m] of an `EHLResult` at any positions ``x`` [m]; see `EHLResult.film_at`."""
-    x = np.asarray(x, dtype=float)
-    flat = x.ravel()
-    parabola = flat**2 / (2.0 * result.radius)
-    nodes = result.x
-    inside = (flat >= nodes[0]) & (flat <= nodes[-1])
-    film = np.empty_like(flat)
-    bend = result.film_thickness - nodes**2 / (2.0 * result.radius)
-    if result.imposed is not None:
-        bend -= result.imposed_deflection(nodes)
-        parabola += result.imposed_deflection(flat)
-    film[inside] = cubic(nodes, bend, flat[inside])
-    film[~inside] = result.approach + _far_deflection(result, flat[~inside])
-    return (film + parabola).reshape(x.shape)
 
 
 def cubic(nodes: np.ndarray, values: np.ndarray, x: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .kernel import hat_kernel
+from .deflection import hat_kernel
 
 FAR_INLET = 30.0  # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
 RISE_CELL, RISE_GROWTH = 0.3, 0.35  # smallest cell where the pressure rises / rise length; growth

@@ -3,7 +3,7 @@
 The stress is constant across the film. If the viscosity falls as exp(-beta (T - T_w)) from the walls, the heat equation
 k T'' = -tau gamma integrates in closed form for any law gamma = gamma_w(tau) exp(beta (T - T_w)), Newtonian and
 Ree-Eyring: with a = exp(beta (T_middle - T_w)) and G = beta tau gamma_w h²/k, ``a - 1 = beta tau dU²/(8 k gamma_w)``
-and ``asinh²√(a - 1) = a G/8``, one root for tau (for a Newtonian fluid `lubfric.film.nahme`).
+and ``asinh²√(a - 1) = a G/8``, one root for tau (for a Newtonian fluid `lubfric.film.formulas.nahme_stress`).
 
 With the temperature change:
 

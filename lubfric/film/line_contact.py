@@ -10,9 +10,7 @@ from functools import cached_property
 from .._base import validate
 from ..errors import InputError
 from ..oil import Lubricant
-from . import formulas as film
-from . import hertz
-from . import rigid_cylinder as rigid
+from . import formulas, hertz, rigid_cylinder
 
 
 @dataclass(frozen=True)
@@ -44,24 +42,14 @@ class LineContact:
             raise InputError("entrainment_speed = 0 m/s carries no steady film; give another speed")
         if not isinstance(self.lubricant, Lubricant):
             raise InputError(f"lubricant = {self.lubricant!r} is not a Lubricant; allowed: lubfric.Lubricant")
-        checked = {
-            "load_per_width": validate.positive("load_per_width", self.load_per_width, "N/m"),
-            "radius": validate.positive("radius", self.radius, "m"),
-            "e_prime": validate.positive("e_prime", self.e_prime, "Pa"),
-            "entrainment_speed": speed,
-        }
-        for name, value in checked.items():
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "entrainment_speed", speed)
+        for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa")):
+            object.__setattr__(self, name, validate.positive(name, getattr(self, name), unit))
 
     @cached_property
     def speed_number(self) -> float:
         """U1 = 2 eta0 |U|/(E' R) [-]."""
-        return film.speed_number(
-            radius=self.radius,
-            e_prime=self.e_prime,
-            entrainment_speed=abs(self.entrainment_speed),
-            viscosity=self.lubricant.viscosity,
-        )
+        return self.lubricant.viscosity * 2 * abs(self.entrainment_speed) / (self.e_prime * self.radius)
 
     @cached_property
     def length_unit(self) -> float:
@@ -101,19 +89,14 @@ class LineContact:
         return float(hertz.line_peak_pressure(self.load_per_width, self.radius, self.e_prime))
 
     @cached_property
-    def mean_pressure(self) -> float:
-        """w/(2 b) [Pa] of the dry contact."""
-        return float(hertz.line_mean_pressure(self.load_per_width, self.radius, self.e_prime))
-
-    @cached_property
     def moes_film(self) -> float:
         """Moes' film h [m] where dp/dx = 0, a regression within some 5 to 10 % (`lubfric.film.formulas.moes_film`)."""
-        return self.film_unit * film.moes_film(self.M, self.L)
+        return self.film_unit * formulas.moes_film(self.M, self.L)
 
     @cached_property
     def rigid_film(self) -> float:
         """Smallest film [m] of rigid bodies and constant viscosity, 4.895 eta0 |U| R/w."""
-        return rigid.isoviscous_min_film(
+        return rigid_cylinder.isoviscous_min_film(
             load_per_width=self.load_per_width,
             radius=self.radius,
             entrainment_speed=abs(self.entrainment_speed),

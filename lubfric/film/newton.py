@@ -8,9 +8,11 @@ import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
-from .limiter import step_length
 from .problem import Problem
 from .reynolds import Terms, linearise, residual
+
+VISCOSITY_STEP = 3.0  # largest change of ln(eta) in one step
+FILM_STEP = 0.7  # largest share of the film (or the flux) that one step may remove
 
 
 @dataclass(frozen=True)
@@ -25,15 +27,20 @@ class Solution:
     history: tuple[float, ...]
 
 
+def step_length(log_viscosity_change: np.ndarray, film_loss: float) -> float:
+    """The part of a step to take, 0 to 1. It follows from two effects of the whole step: the change of ln(eta) at the
+    nodes, and ``film_loss``, the largest fraction of the film (or flux) that it removes."""
+    change = float(np.max(np.abs(log_viscosity_change)))
+    length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change
+    return length if film_loss * length <= FILM_STEP else FILM_STEP / film_loss
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int) -> Solution:
     """Solve the equations from unknowns z and film H > 0 to max(|residual|, |defect|/H) <= ``tolerance``.
 
-    A step that overflows ends the iteration as "diverged"."""
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        return _iterate(grid, problem, z, H, tolerance, max_steps)
-
-
-def _iterate(grid, problem, z, H, tolerance, max_steps) -> Solution:
+    A step that overflows ends the iteration as "diverged".
+    """
     from scipy.linalg.lapack import dgesv
 
     history = []

@@ -17,11 +17,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..oil import density_ratio, log_viscosity_ratio
+from .deflection import LinePressure, line_deflection
 from .formulas import moes_film
-from .imposed import LinePressure, Seat, line_deflection
 from .line_contact import LineContact
 
 STARVED = 0.1  # film of a badly starved contact, relative to the square of the inlet length
+
+
+@dataclass(frozen=True)
+class Seat:
+    """A cylinder that approximates the gap which an imposed pressure leaves: ``radius`` R and ``modulus`` E' (ratios to
+    the real ones) about ``centre`` [m].
+
+    The film in that gap, and the dry contact of the film's own load, are roughly those of this cylinder. It only serves
+    to make grids and starts.
+    """
+
+    centre: float = 0.0
+    radius: float = 1.0
+    modulus: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -101,12 +115,18 @@ class Problem:
         return replace(self, contact=cylinder, imposed=None, seat=Seat())
 
     @property
+    def flooded_film(self) -> float:
+        """Moes' film of the cylinder of the seat, in the units of the real one."""
+        seat = self.seat
+        root = math.sqrt(seat.radius * seat.modulus)
+        return moes_film(self.M / root, self.L * seat.modulus / math.sqrt(root)) * seat.radius / root
+
+    @property
     def film_guess(self) -> float:
         """Moes' film; less if the lubricant begins within the length on which a flooded film builds up."""
-        film = seated_film(self.M, self.L, self.seat)
         if self.inlet_length is None:
-            return film
-        return min(film, STARVED * (self.inlet_length / self.length_unit) ** 2)
+            return self.flooded_film
+        return min(self.flooded_film, STARVED * (self.inlet_length / self.length_unit) ** 2)
 
     def softened(self, share: float) -> Problem:
         """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
@@ -125,9 +145,3 @@ class Problem:
         """rho/rho0 and its derivative with respect to P."""
         value, slope = density_ratio(self.contact.lubricant, P * self.pressure_unit)
         return value, slope * self.pressure_unit
-
-
-def seated_film(M: float, L: float, seat: Seat) -> float:
-    """Moes' film of the cylinder of the seat, in the units of the real one."""
-    root = math.sqrt(seat.radius * seat.modulus)
-    return moes_film(M / root, L * seat.modulus / math.sqrt(root)) * seat.radius / root

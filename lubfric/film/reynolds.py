@@ -60,11 +60,8 @@ def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.n
 def elastic_film(grid: Grid, problem: Problem, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """H00 + X²/2 + K P + imposed deflection at the nodes, and its derivative by e."""
     X = grid.xi + z[-1]
-    film = grid.kernel[:, :-1] @ z[:-3] + (z[-3] + 0.5 * X * X)
-    if problem.imposed is None:
-        return film, X
     deflection, slope = problem.imposed_deflection(X)
-    return film + deflection, X + slope
+    return grid.kernel[:, :-1] @ z[:-3] + (z[-3] + 0.5 * X * X) + deflection, X + slope
 
 
 def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, Terms]:

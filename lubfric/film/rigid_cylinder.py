@@ -2,7 +2,8 @@
 
 With ``x = sqrt(2 R h0) tan(theta)`` Reynolds' equation integrates in closed form up to the
 rupture angle, the root of one scalar equation (p = dp/dx = 0 there: Swift-Stieber). Valid for
-h0 << R, a Newtonian lubricant and rigid surfaces.
+h0 << R, a Newtonian lubricant and rigid surfaces. A viscosity that rises with pressure leaves the
+equation as it is, with the reduced pressure ``q = ∫ dp eta0/eta(p)`` in place of p.
 Sources: H. M. Martin, Engineering 102 (1916) 119; P. L. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747;
 H. Blok, Proc. Int. Symp. Lubrication and Wear, Houston 1963 (piezoviscous limit).
 """
@@ -11,9 +12,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
+
+from ..oil import Lubricant, log_viscosity_ratio
+
+TABLE = 4000  # points of q(p), up to alpha p = FARTHEST
+FARTHEST = 1e4
 
 
 def _reduced(theta, rupture):
@@ -113,3 +119,23 @@ def squeeze_film(time, initial_film, *, load_per_width, radius, viscosity):
     """h0(t) [m] sinking under a constant load [N/m]: ``h0^(-1/2) = h0(0)^(-1/2) + w t / (6 sqrt(2) pi eta R^1.5)``."""
     rate = load_per_width / (6 * math.sqrt(2) * math.pi * viscosity * radius**1.5)
     return (initial_film**-0.5 + rate * np.asarray(time)) ** -2
+
+
+@lru_cache(maxsize=16)
+def true_pressure(lubricant: Lubricant):
+    """p(q) [Pa] by the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest possible q."""
+    if lubricant.viscosity_law == "constant":
+        return np.positive
+    alpha = lubricant.pressure_viscosity_coefficient
+    if lubricant.viscosity_law == "barus":
+
+        def barus(q):
+            with np.errstate(divide="ignore"):
+                return -np.log1p(-np.minimum(alpha * q, 1.0)) / alpha
+
+        return barus
+    p = np.expm1(np.linspace(0.0, math.log1p(FARTHEST), TABLE)) / alpha
+    fluidity = np.exp(-np.minimum(log_viscosity_ratio(lubricant, p)[0], 700.0))
+    q = np.append(0.0, np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(p)))
+    ratio = np.append(1.0, p[1:] / q[1:])  # smooth where q is small
+    return lambda reduced: reduced * np.interp(reduced, q, ratio, right=math.inf)

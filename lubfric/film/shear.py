@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..oil import Lubricant, carried_stress, shear_stress
-from .rolling import Rolling
+from .ehl_result import EHLResult, Rolling
 
 
 @dataclass(frozen=True)
@@ -19,9 +19,8 @@ class ShearForce:
       sum, F_sh of Eq. (10).
     - ``quadrature``: estimated error of these sums, from two rules. It is large if the nodes do not resolve a pressure
       spike, whatever the error of the film.
-    - ``rolling_parts``: at high pressure the rolling force is the small difference of two parts, and this is the larger
-      one. The parts are those of rising and of falling pressure. For a film that knows the force in another way, they
-      are that of the whole film and what the spots take from it. An error of the film is that much larger in the force.
+    - ``rolling_parts``: the sum of the two parts, without sign, of which the rolling force is the difference: that of
+      the whole film, and what the spots take from it. An error of the film is that much larger in the force.
     - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
       (`lubfric.oil.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
     """
@@ -45,7 +44,7 @@ class ShearForce:
 
 
 def shear_force(
-    film,
+    film: EHLResult,
     lubricant: Lubricant,
     *,
     slide_roll_ratio: float,
@@ -53,17 +52,17 @@ def shear_force(
     contact_fraction,
     cavitated: str = "none",
     warm=None,
-    rolling: Rolling | None = None,
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
-    ``film``: `lubfric.film.contract.Film`; ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of
-    the width in contact, which carries no fluid shear, averaged over each of the n - 1 cells between them. The Couette
-    term reaches from far upstream (the parabola is followed to -infinity in closed form, as much thinned by its own
-    heat as the first node: at any h that is the same factor) to the rupture. cavitated="striated" adds the streamers
-    behind it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts
-    on the Couette term. ``warm``: `lubfric.sharing.heat.WarmFilm`, the stress of the heated film and the viscosity that
-    it was solved with; None: isothermal. ``rolling``: ∫ (h/2) dp over the nodes as the film knows it; None: summed.
+    ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of the width in contact, which carries no
+    fluid shear, averaged over each of the n - 1 cells between them. The Couette term reaches from far upstream (the
+    parabola is followed to -infinity in closed form, as much thinned by its own heat as the first node: at any h that
+    is the same factor) to the rupture. cavitated="striated" adds the streamers behind it, which fill the fraction
+    h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the Couette term. ``warm``:
+    `lubfric.sharing.heat.WarmFilm`, the stress of the heated film and the viscosity that it was solved with; None:
+    isothermal. ∫ (h/2) dp is ``film.rolling`` less what the spots take; it is summed over the nodes if the film does
+    not know it (None).
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
@@ -71,14 +70,12 @@ def shear_force(
     order = np.argsort(x)
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))
     wet = 1.0 - contact_fraction(x * direction)
+    resistance, parts, off = _rolling(p, h, 1.0 - wet, film.rolling)
 
-    resistance, parts, off = _rolling(p, h, wet, rolling)
+    def isothermal(at, pressure, thickness):
+        return shear_stress(lubricant, pressure, sliding / thickness)
 
-    heated = None if warm is None else warm.stress
-
-    def stress(at, pressure, thickness):
-        return heated(at, pressure, thickness) if heated else shear_stress(lubricant, pressure, sliding / thickness)
-
+    stress = isothermal if warm is None or warm.stress is None else warm.stress
     tau = stress(x, p, h)
     face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
     full = x[:-1] < film.rupture * direction  # the rupture point is a node
@@ -88,7 +85,7 @@ def shear_force(
     quadrature += off
     ratio, excess = _above_carried(p, tau, np.diff(x) * wet, full)
     inlet, thin = _upstream(h[0], -x[0], radius)
-    couette += (tau[0] * h[0] if heated else lubricant.viscosity * sliding) * inlet
+    couette += (lubricant.viscosity * sliding if warm is None else tau[0] * h[0]) * inlet
     viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
     resistance += 6 * viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
     if cavitated == "striated":
@@ -125,21 +122,18 @@ def spike_error(x, tau) -> float:
     return abs(coarse - fine) / 24
 
 
-def _rolling(p, h, wet, known: Rolling | None) -> tuple[float, float, float]:
-    """∫ (h/2) dp [N/m] where the film is ``wet``, the parts by which an error of the film is felt, and the error of the
-    sum."""
-    if known is None:
-        rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p) * wet
-        parts = max(np.sum(rolls[rolls > 0]), -np.sum(rolls[rolls < 0]))
-        return float(np.sum(rolls)), float(parts), rolling_error(p, h, 1.0)
-    touched = 1.0 - wet
-    taken = float(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * touched))
-    return known.force - taken, abs(known.force) + abs(taken), known.error + rolling_error(p, h, touched)
+def _rolling(p, h, touched, known: Rolling | None) -> tuple[float, float, float]:
+    """∫ (h/2) dp [N/m] without the share of the width that is ``touched``, the parts by which an error of the film is
+    felt, and the error of the sum."""
+    rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p)
+    force, error = known or (np.sum(rolls), rolling_error(p, h, 1.0))
+    taken = np.sum(rolls * touched)
+    return force - taken, abs(force) + abs(taken), error + rolling_error(p, h, touched)
 
 
 def rolling_error(p, h, share) -> float:
     """A third of the change of ∫ (h/2) share dp when every second node is left out: an error of second order.
-    ``share``: of the width of each of the n - 1 cells; None: all of it."""
+    ``share``: of the width of each of the n - 1 cells."""
     last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one
     share = np.broadcast_to(share, p.size - 1)[: last - 1]
     shares = share, 0.5 * (share[::2] + share[1::2])

@@ -2,44 +2,46 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .deflection import line_deflection
 from .grid import Grid
-from .imposed import Seat
 from .newton import Solution
-from .problem import Problem, seated_film
+from .problem import Problem, Seat
 from .reynolds import elastic_film
+
+FLATTEST = 1e8  # radius of a seat, in radii of the cylinder
+FLAT_WINDOW = 0.8  # of the Hertz half-width of all the load: a film that reaches so far sees the edges of the flat
 
 
 @dataclass(frozen=True)
 class State:
     """Solution in Moes' variables, kept with a result so that it can start another solve.
 
-    pressure: at the n nodes before rupture; film: at all n + 1 nodes; flux: q; rupture: e, from the centre of the seat;
-    grid_error: estimated relative discretisation error on these n cells; seat: of `Problem`.
+    problem: of which it is a solution; pressure: at the n nodes before rupture; film: at all n + 1 nodes; flux: q;
+    rupture: e, from the centre of the seat; grid_error: estimated relative discretisation error on these n cells.
     """
 
-    M: float
-    L: float
+    problem: Problem
     pressure: np.ndarray
     film: np.ndarray
     flux: float
     rupture: float
     grid_error: float
-    seat: Seat = Seat()
 
 
-def expected_rupture(M: float, L: float, seat: Seat = Seat()) -> float:
+def _expected_rupture(problem: Problem) -> float:
     """Rupture point of the guess, in units of x, from the centre of the seat."""
-    film, b = seated_film(M, L, seat) * seat.radius, np.sqrt(8.0 * M * seat.radius / (np.pi * seat.modulus))
+    film, b = problem.flooded_film * problem.seat.radius, problem.seat_half_width
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
 
 
 def rupture_guess(problem: Problem) -> float:
-    """`expected_rupture`, but nearer to the centre if a starved film is thin."""
-    expected = problem.seat_centre + expected_rupture(problem.M, problem.L, problem.seat)
+    """Rupture point of the guess, in units of x: nearer to the centre if a starved film is thin."""
+    expected = problem.seat_centre + _expected_rupture(problem)
     if problem.inlet_length is None:
         return expected
     return min(expected, problem.seat_centre + problem.seat_half_width + np.sqrt(2.0 * problem.film_guess))
@@ -61,33 +63,8 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
 
 def solution_state(problem: Problem, solution: Solution, error: float) -> State:
     """The `State` of a solution, ``error`` its estimated discretisation error."""
-    t = solution.terms
-    return State(
-        problem.M,
-        problem.L,
-        t.P[:-1],
-        t.H,
-        float(t.q),
-        float(solution.z[-1]) - problem.seat_centre,
-        error,
-        problem.seat,
-    )
-
-
-def from_alone(problem: Problem, state: State) -> State:
-    """A state of ``problem.alone()``, in the units of ``problem``, as a state of ``problem``."""
-    other = problem.alone()
-    pressure, film = other.pressure_unit / problem.pressure_unit, other.film_unit / problem.film_unit
-    return State(
-        problem.M,
-        problem.L,
-        state.pressure * pressure,
-        state.film * film,
-        state.flux * film,
-        state.rupture * (other.length_unit / problem.length_unit),
-        state.grid_error,
-        problem.seat,
-    )
+    t, rupture = solution.terms, float(solution.z[-1]) - problem.seat_centre
+    return State(problem, t.P[:-1], t.H, float(t.q), rupture, error)
 
 
 def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
@@ -100,15 +77,15 @@ def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
 
 
 def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, np.ndarray]:
-    """(z, H): pressure and film of ``state`` node by node, scaled to the load and by Moes' formula."""
+    """(z, H): pressure and film of ``state``, which may be of another problem, node by node, scaled to the load and by
+    Moes' formula."""
     P, H = np.append(state.pressure, 0.0), state.film
     while H.size > grid.n + 1:
         P, H = P[::2], H[::2]
     while H.size < grid.n + 1:
         P, H = refine(P), refine(H)
-    new, old = (problem.M, problem.L, problem.seat), (state.M, state.L, state.seat)
-    ratio = seated_film(*new) / seated_film(*old)
-    e = problem.seat_centre + state.rupture * (expected_rupture(*new) / expected_rupture(*old))
+    ratio = problem.flooded_film / state.problem.flooded_film
+    e = problem.seat_centre + state.rupture * (_expected_rupture(problem) / _expected_rupture(state.problem))
     P = P * (problem.M / (grid.weights @ P))
     z = np.append(P[:-1], [0.0, state.flux * ratio, e])
     gap, _ = elastic_film(grid, problem, z)
@@ -125,3 +102,49 @@ def refine(values: np.ndarray) -> np.ndarray:
     fine[::2] = values
     fine[1::2] = np.where(middle > 0.0, middle, mean)
     return fine
+
+
+def find_seats(problem: Problem) -> tuple[Seat, ...]:
+    """The seats of a `Problem`, the likelier one first; a single one if no pressure is imposed.
+
+    One seat is flat: it has Johnson's modulus, E' times the film's share of the load. The other is curved. Over a
+    window |x - x0| <= s the gap G = x²/2R + imposed deflection is close to a parabola where the Chebyshev mean of G' is
+    zero. Its curvature is k = 2/(pi s) ∫ sin(t) G'(x0 + s sin t) dt. A dry contact of the half-width s then carries
+    what a cylinder of the radius 1/k does (K. L. Johnson, Contact Mechanics, 1985, Sec. 2.7). The window is that of
+    contact and film, s² = b² + 2 h/k.
+    """
+    if problem.imposed is None:
+        return (Seat(),)
+    from scipy.optimize import brentq
+
+    imposed, radius = problem.imposed, problem.contact.radius
+    wide = problem.flat_half_width * problem.length_unit
+    reach = max(2.0 * wide + _window(problem, 1.0), float(np.abs(imposed.x).max()))
+    x = reach * np.sinh(np.linspace(-6.0, 6.0, 1201)) / 50.0
+    slope = x / radius + line_deflection(x, imposed.x, imposed.pressure)[1] / problem.contact.e_prime
+    sine = np.sin((np.arange(64) + 0.5) * (math.pi / 64) - math.pi / 2)
+
+    def slopes(centre, window):
+        return np.interp(centre + window * sine, x, slope)
+
+    def centre_of(window):
+        return brentq(lambda centre: slopes(centre, window).sum(), -reach, reach, xtol=1e-6 * wide)
+
+    def ratio_of(window):
+        curvature = float(slopes(centre_of(window), window) @ sine) / 32.0 / window
+        return min(1.0 / (radius * curvature), FLATTEST) if curvature > 0 else FLATTEST
+
+    def surplus(log_window):
+        return log_window - math.log(_window(problem, ratio_of(math.exp(log_window))))
+
+    load = problem.contact.load_per_width
+    window = math.exp(brentq(surplus, math.log(1e-4 * wide), math.log(2.0 * reach), xtol=1e-2))
+    flat = Seat(0.5 * float(imposed.x[0] + imposed.x[-1]), 1.0, load / (load + imposed.load))
+    curved = Seat(centre_of(window), ratio_of(window))
+    return (curved, flat) if window < FLAT_WINDOW * wide else (flat, curved)
+
+
+def _window(problem: Problem, ratio: float) -> float:
+    """Half-width of the dry contact and length of the film on a cylinder of ``ratio`` radii, as a hypotenuse [m]."""
+    seated = replace(problem, seat=Seat(0.0, ratio))
+    return math.hypot(seated.seat_half_width, math.sqrt(2.0 * seated.film_guess * ratio)) * problem.length_unit

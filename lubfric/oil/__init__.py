@@ -1,7 +1,6 @@
 """Oils: viscosity index, viscosity over temperature, density, pressure-viscosity coefficient. SI units: m²/s, K, kg/m³,
 1/Pa."""
 
-from .describe import estimate_in_words, list_oils, show_oil
 from .lubricant import (
     NO_LIQUID,
     ROELANDS_LOG_VISCOSITY,
@@ -12,11 +11,29 @@ from .lubricant import (
     shear_stress,
     viscosity,
 )
-from .make import from_grade, from_index, from_table, from_viscosities, grade_viscosity, named_oil, oil_names
+from .make import (
+    estimate_in_words,
+    from_grade,
+    from_index,
+    from_table,
+    from_viscosities,
+    grade_viscosity,
+    list_oils,
+    named_oil,
+    oil_names,
+    show_oil,
+)
 from .oil import Oil
 from .pressure import Estimate, gold, so_klaus
-from .temperature import CELSIUS, ViscosityTable, Walther, checked_temperature, walther
-from .viscosity_index import viscosity_at_100, viscosity_index
+from .viscosity import (
+    CELSIUS,
+    ViscosityTable,
+    Walther,
+    checked_temperature,
+    viscosity_at_100,
+    viscosity_index,
+    walther,
+)
 
 __all__ = [
     "CELSIUS",

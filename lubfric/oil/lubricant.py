@@ -14,7 +14,7 @@ import numpy as np
 from .._base import Brief, choice, nonnegative, number, positive, python_fields
 from ..errors import InputError
 from .oil import Oil
-from .temperature import checked_temperature
+from .viscosity import checked_temperature
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
 DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
@@ -72,31 +72,27 @@ class Lubricant(Brief):
         python_fields(self)
         choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
         choice("density_law", self.density_law, DENSITY_LAWS)
-        eta0 = positive("viscosity", self.viscosity, "Pa s")
-        alpha = nonnegative("pressure_viscosity_coefficient", self.pressure_viscosity_coefficient, "1/Pa", maximum=1e-6)
+        positive("viscosity", self.viscosity, "Pa s")
+        nonnegative("pressure_viscosity_coefficient", self.pressure_viscosity_coefficient, "1/Pa", maximum=1e-6)
         if self.viscosity_law == "roelands":
-            if alpha == 0.0:
-                raise InputError(
-                    " = 0 1/Pa has no Roelands exponent",
-                    "pressure_viscosity_coefficient",
-                    "> 0 1/Pa, or viscosity_law = 'constant'",
-                )
-            if math.log(eta0) + ROELANDS_LOG_VISCOSITY <= 0.0:
-                raise InputError(
-                    f" = {eta0:g} Pa s is out of range for the Roelands law",
-                    "viscosity",
-                    f"> exp(-9.67) = {math.exp(-ROELANDS_LOG_VISCOSITY):.4g} Pa s",
-                )
-        if self.eyring_stress is not None:
-            positive("eyring_stress", self.eyring_stress, "Pa")
-        if self.limiting_stress_coefficient is not None:
-            positive("limiting_stress_coefficient", self.limiting_stress_coefficient, "")
+            self._check_roelands()
+        for name, unit in (("eyring_stress", "Pa"), ("limiting_stress_coefficient", "")):
+            if getattr(self, name) is not None:
+                positive(name, getattr(self, name), unit)
         nonnegative("limiting_stress_offset", self.limiting_stress_offset, "Pa")
         if self.temperature is not None:
             checked_temperature(self.temperature, "lubricant.temperature")
         if self.temperature_coefficient is not None:
             nonnegative("temperature_coefficient", self.temperature_coefficient, "1/K", maximum=0.5)
         number("conductivity", self.conductivity, "W/(m K)", minimum=0.02, maximum=2.0)
+
+    def _check_roelands(self) -> None:
+        name, least = "pressure_viscosity_coefficient", math.exp(-ROELANDS_LOG_VISCOSITY)
+        if self.pressure_viscosity_coefficient == 0.0:
+            raise InputError(" = 0 1/Pa has no Roelands exponent", name, "> 0 1/Pa, or viscosity_law = 'constant'")
+        if self.viscosity <= least:
+            said = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
+            raise InputError(said, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")
 
     @property
     def heats(self) -> bool:
@@ -111,11 +107,8 @@ class Lubricant(Brief):
     @property
     def roelands_exponent(self) -> float:
         """z = alpha p0/(ln eta0 + 9.67)."""
-        return (
-            self.pressure_viscosity_coefficient
-            * ROELANDS_PRESSURE
-            / (math.log(self.viscosity) + ROELANDS_LOG_VISCOSITY)
-        )
+        pole = math.log(self.viscosity) + ROELANDS_LOG_VISCOSITY
+        return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / pole
 
 
 def log_viscosity_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:

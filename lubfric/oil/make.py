@@ -1,15 +1,13 @@
-"""Ways to an `Oil`: two viscosities, an ISO VG grade and a viscosity index, a table, a name."""
+"""Ways to an `Oil`: two viscosities, an ISO VG grade and a viscosity index, a table, a name; and an oil in words."""
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
 from .._base import validate
 from ..errors import InputError
 from .oil import Oil
-from .temperature import CELSIUS, ViscosityTable, walther
-from .viscosity_index import viscosity_at_100
+from .viscosity import CELSIUS, ViscosityTable, Walther, viscosity_at_100, walther
 
 AT_40, AT_100 = 40 + CELSIUS, 100 + CELSIUS
 GRADES = {  # ISO 3448: grade -> mid-point kinematic viscosity at 40 °C [mm²/s], the grade holds +-10 % of it
@@ -18,33 +16,16 @@ GRADES = {  # ISO 3448: grade -> mid-point kinematic viscosity at 40 °C [mm²/s
 }
 
 
-@dataclass(frozen=True)
-class Entry:
-    """A named oil: two points (temperature [°C], kinematic viscosity [mm²/s]), base, density [kg/m³] at 15 °C (None:
-    typical of the base), alpha [1/Pa] (None: estimated), and the source."""
-
-    name: str
-    points: tuple[tuple[float, float], tuple[float, float]]
-    base: str
-    density: float | None
-    alpha: float | None
-    source: str
-
-
-def _generic(grade: float, at_100: float, base: str, text: str) -> Entry:
-    source = (
-        "generic oil of its grade, D341 through both points; coefficients estimated, density typical of the base oil"
-    )
-    return Entry(text, ((40.0, grade), (100.0, at_100)), base, None, None, source)
-
-
-OILS = {
-    "mineral-32": _generic(31.81, 5.385, "mineral", "mineral oil, ISO VG 32, VI 102"),
-    "mineral-100": _generic(99.14, 10.954, "mineral", "mineral oil, ISO VG 100, VI 94"),
-    "mineral-220": _generic(217.98, 18.915, "mineral", "mineral oil, ISO VG 220, VI 97"),
-    "pao-220": _generic(218.06, 25.577, "pao", "polyalphaolefin, ISO VG 220, VI 149"),
-    "polyglycol-220": _generic(218.78, 31.906, "polyglycol", "polyglycol, ISO VG 220, VI 190"),
+OILS = {  # name: kinematic viscosities [mm²/s] at 40 and 100 °C, base, words
+    "mineral-32": (31.81, 5.385, "mineral", "mineral oil, ISO VG 32, VI 102"),
+    "mineral-100": (99.14, 10.954, "mineral", "mineral oil, ISO VG 100, VI 94"),
+    "mineral-220": (217.98, 18.915, "mineral", "mineral oil, ISO VG 220, VI 97"),
+    "pao-220": (218.06, 25.577, "pao", "polyalphaolefin, ISO VG 220, VI 149"),
+    "polyglycol-220": (218.78, 31.906, "polyglycol", "polyglycol, ISO VG 220, VI 190"),
 }
+SOURCE = "generic oil of its grade, D341 through both points; coefficients estimated, density typical of the base oil"
+SHOWN = (20, 40, 60, 70, 80, 100, 120)  # °C
+FILM_EXPONENT = 0.56  # of alpha, in the central film of a full EHL contact (Dowson and Toyoda, 1978)
 
 
 def from_viscosities(nu40: float, nu100: float, **properties) -> Oil:
@@ -69,8 +50,8 @@ def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
     viscosity index (ASTM D2270 inverted, then D341)."""
     nu40 = grade_viscosity(grade)
     nu100 = viscosity_at_100(nu40, viscosity_index)
-    said = {"grade": str(grade), "viscosity_index": float(viscosity_index)}
-    return _through(nu40, nu100, said, {"name": f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}"} | properties)
+    given = {"grade": str(grade), "viscosity_index": float(viscosity_index)}
+    return _through(nu40, nu100, given, {"name": f"ISO VG {nu40 * 1e6:g}, VI {viscosity_index:g}"} | properties)
 
 
 def _through(nu40: float, nu100: float, said: dict, properties: dict) -> Oil:
@@ -89,10 +70,9 @@ def named_oil(name: str, **properties) -> Oil:
     if str(name).lower() not in OILS:
         near = validate.nearest(str(name).lower(), OILS)
         raise InputError(f"oil {name!r} is not known{near}; allowed: {', '.join(OILS)}")
-    entry = OILS[str(name).lower()]
-    fields = {"base": entry.base, "density": entry.density, "alpha": entry.alpha, "name": entry.name} | properties
-    cold, warm = ((t + CELSIUS, nu * 1e-6) for t, nu in entry.points)
-    return Oil(walther(cold, warm, oil=str(name).lower()), **fields)
+    at_40, at_100, base, words = OILS[str(name).lower()]
+    law = walther((AT_40, at_40 * 1e-6), (AT_100, at_100 * 1e-6), oil=str(name).lower())
+    return Oil(law, **{"base": base, "name": words} | properties)
 
 
 def oil_names() -> tuple[str, ...]:
@@ -107,9 +87,7 @@ def grade_viscosity(grade: str) -> float:
     if not found or float(found[1]) not in GRADES:
         names = ", ".join(f"{g:g}" for g in GRADES)
         hint = "; an SAE grade is no ISO grade: give nu40 and nu100" if "sae" in str(grade).lower() else ""
-        raise InputError(
-            f"grade = {grade!r} is not an ISO viscosity grade; allowed: 'ISO VG n' with n of {names}{hint}"
-        )
+        raise InputError(f" = {grade!r} is not an ISO viscosity grade", "grade", f"'ISO VG n' with n of {names}{hint}")
     return GRADES[float(found[1])] * 1e-6
 
 
@@ -117,9 +95,55 @@ def _viscosity(name: str, value: float) -> float:
     """A checked kinematic viscosity [m²/s]. The error says so if mm²/s were likely meant."""
     nu = validate.positive(name, value, "m²/s")
     if nu > 0.5:
-        raise InputError(
-            f" = {nu:g} m²/s is out of range",
-            name,
-            f"up to 0.5 m²/s (mm²/s were meant? {nu:g} mm²/s = {nu * 1e-6:g})",
-        )
+        meant = f"mm²/s were meant? {nu:g} mm²/s = {nu * 1e-6:g}"
+        raise InputError(f" = {nu:g} m²/s is out of range", name, f"up to 0.5 m²/s ({meant})")
     return nu
+
+
+def list_oils() -> str:
+    """One line a named oil."""
+    lines = [f"{name:<16} {words}" for name, (*_, words) in OILS.items()]
+    other = 'any other: grade = "ISO VG 68" with viscosity_index, or nu40 and nu100 in m²/s, in [lubricant]'
+    return "\n".join([*lines, "", other])
+
+
+def show_oil(name: str) -> str:
+    """A table of the properties of a named oil over temperature, with their sources."""
+    oil = named_oil(name)
+    law = oil.viscosity_law
+    said = f"ASTM D341 (constant 0.7): m = {law.m:.4f}, n = {law.n:.4f}" if isinstance(law, Walther) else "a table"
+    lines = [
+        f"{name}: {oil.name}",
+        f"  {SOURCE}",
+        f"  {said}; viscosity index {oil.index:.1f} (ASTM D2270); density {oil.density_15:g} kg/m³ at 15 °C",
+        "",
+        "   °C   mm²/s    mPa s   kg/m³   alpha 1/GPa (measured oils from, to)   1/K",
+    ]
+    return "\n".join([*lines, *(_row(oil, t + CELSIUS) for t in SHOWN)])
+
+
+def _row(oil: Oil, temperature: float) -> str:
+    alpha = oil.pressure_viscosity_coefficient(temperature)
+    bounds = f"({alpha.low * 1e9:.3g}, {alpha.high * 1e9:.3g})"
+    return (
+        f"  {temperature - CELSIUS:3.0f}  {oil.kinematic_viscosity(temperature) * 1e6:6.4g}  "
+        f"{oil.viscosity(temperature) * 1e3:7.4g}  {oil.density_at(temperature):6.1f}   {alpha.value * 1e9:5.3g} "
+        f"{bounds:<28}  {oil.temperature_coefficient(temperature):.4f}"
+    )
+
+
+def estimate_in_words(oil: Oil, temperature: float) -> str:
+    """Viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the coefficient
+    is known."""
+    text = (
+        f"oil: {oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, "
+        f"constant 0.7), density {oil.density_at(temperature):.4g} kg/m³"
+    )
+    alpha, other = oil.pressure_viscosity_coefficient(temperature), oil.other_estimate(temperature)
+    if alpha.low == alpha.high:
+        return f"{text}, alpha {alpha.value * 1e9:.3g} /GPa as given"
+    text += f", alpha {alpha.text} /GPa"
+    if other is not None:
+        text += f"; {other.source} gives {other.value * 1e9:.3g} ({100 * (other.value / alpha.value - 1):+.2g} %)"
+    thin, thick = ((bound / alpha.value) ** FILM_EXPONENT - 1 for bound in (alpha.low, alpha.high))
+    return f"{text}; the range is worth {100 * thin:+.2g} to {100 * thick:+.2g} % of a full film"

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 
 from .._base import Brief, validate
 from ..errors import InputError
 from .pressure import BASES, Estimate, gold, so_klaus
-from .temperature import CELSIUS, ViscosityTable, Walther, at_each, checked_temperature
-from .viscosity_index import viscosity_index
+from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_index
 
 AT_15 = 15 + CELSIUS  # K
 DENSITY = {"mineral": 880.0, "pao": 840.0, "ester": 950.0, "polyglycol": 1030.0}  # kg/m³ at 15 °C, typical
@@ -20,7 +20,6 @@ DENSITY_SLOPE = {"mineral": 0.64, "pao": 0.62, "ester": 0.72, "polyglycol": 0.78
 CONDUCTIVITY = {"mineral": 0.13, "pao": 0.15, "ester": 0.15, "polyglycol": 0.17}  # W/(m K), typical within 15 %
 ESTIMATES = ("so-klaus", "gold")
 STEP = 0.05  # K, of a central difference
-Temperatures = Sequence[float] | np.ndarray
 
 
 @dataclass(frozen=True, repr=False)
@@ -49,32 +48,25 @@ class Oil(Brief):
 
     def __post_init__(self):
         validate.choice("base", self.base, BASES)
-        if self.density is not None:
-            validate.number("density", self.density, "kg/m³ (at 15 °C)", minimum=600, maximum=2000)
-        if self.density_slope is not None:
-            validate.nonnegative("density_slope", self.density_slope, "kg/(m³ K)", maximum=3.0)
+        for name, value, unit, least, most in (
+            ("density", self.density, "kg/m³ (at 15 °C)", 600, 2000),
+            ("density_slope", self.density_slope, "kg/(m³ K)", 0, 3),
+            ("conductivity", self.conductivity, "W/(m K)", 0.02, 2),
+        ):
+            if value is not None:
+                validate.number(name, value, unit, minimum=least, maximum=most)
         if self.alpha is not None:
             validate.positive("pressure_viscosity_coefficient", self.alpha, "1/Pa", maximum=1e-6)
-        if self.conductivity is not None:
-            validate.number("conductivity", self.conductivity, "W/(m K)", minimum=0.02, maximum=2.0)
         if self.estimate is not None:
             validate.choice("estimate", self.estimate, ESTIMATES)
         if self.estimate == "so-klaus" and self.base != "mineral":
             raise InputError(f"estimate = 'so-klaus' is for mineral oils, base = {self.base!r}; allowed: 'gold'")
 
-    @overload
-    def kinematic_viscosity(self, temperature: float) -> float: ...
-    @overload
-    def kinematic_viscosity(self, temperature: Temperatures) -> np.ndarray: ...
-    def kinematic_viscosity(self, temperature: float | Temperatures) -> float | np.ndarray:
+    def kinematic_viscosity(self, temperature):
         """nu [m²/s] at ``temperature`` [K], one or an array of them."""
         return at_each(self.viscosity_law, temperature)
 
-    @overload
-    def density_at(self, temperature: float) -> float: ...
-    @overload
-    def density_at(self, temperature: Temperatures) -> np.ndarray: ...
-    def density_at(self, temperature: float | Temperatures) -> float | np.ndarray:
+    def density_at(self, temperature):
         """Density rho [kg/m³] at ``temperature`` [K], one or an array of them.
 
         It is the density at 15 °C, less ``density_slope`` times the distance from 15 °C. This straight line is good to
@@ -94,30 +86,23 @@ class Oil(Brief):
         GPa)."""
         return CONDUCTIVITY[self.base] if self.conductivity is None else self.conductivity
 
-    @overload
-    def viscosity(self, temperature: float) -> float: ...
-    @overload
-    def viscosity(self, temperature: Temperatures) -> np.ndarray: ...
-    def viscosity(self, temperature: float | Temperatures) -> float | np.ndarray:
+    def viscosity(self, temperature):
         """Dynamic viscosity eta = nu rho [Pa s] at ``temperature`` [K], one or an array of them."""
         return self.kinematic_viscosity(temperature) * self.density_at(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
         """-d ln(eta)/dT [1/K] at ``temperature`` [K], from its law by a central difference."""
-        from math import log
-
         low, high = temperature - STEP, temperature + STEP
         if isinstance(self.viscosity_law, ViscosityTable):
             low, high = max(low, self.viscosity_law.temperatures[0]), min(high, self.viscosity_law.temperatures[-1])
-        return log(self.viscosity(low) / self.viscosity(high)) / (high - low)
+        return math.log(self.viscosity(low) / self.viscosity(high)) / (high - low)
 
     def pressure_viscosity_coefficient(self, temperature: float) -> Estimate:
         """alpha at ``temperature`` [K], with the range in which measured oils lie. Where alpha is known it is
         returned as given."""
         if self.alpha is not None:
             return Estimate(self.alpha, self.alpha, self.alpha, "the scene")
-        method = self.estimate or ("so-klaus" if self.base == "mineral" else "gold")
-        return self._estimated(method, temperature)
+        return self._estimated(self.estimate or ("so-klaus" if self.base == "mineral" else "gold"), temperature)
 
     def other_estimate(self, temperature: float) -> Estimate | None:
         """alpha by the estimate that was not chosen, or None where there is no other. How far the two differ is a
@@ -134,9 +119,8 @@ class Oil(Brief):
 
     def slope(self, temperature: float) -> float:
         """n of ASTM D341 [-] at ``temperature`` [K]."""
-        if isinstance(self.viscosity_law, Walther):
-            return self.viscosity_law.n
-        return self.viscosity_law.piece(temperature).n
+        law = self.viscosity_law
+        return law.n if isinstance(law, Walther) else law.piece(temperature).n
 
     @property
     def said(self) -> dict[str, Any]:
@@ -146,14 +130,8 @@ class Oil(Brief):
             viscosity: dict[str, Any] = {"viscosity_table": tuple(zip(law.temperatures, law.viscosities))}
         else:
             viscosity = dict(law.said) or {"nu40": law(40 + CELSIUS), "nu100": law(100 + CELSIUS)}
-        given = {
-            "base": self.base,
-            "density": self.density,
-            "density_slope": self.density_slope,
-            "pressure_viscosity_coefficient": self.alpha,
-            "alpha_estimate": self.estimate,
-            "conductivity": self.conductivity,
-        }
+        given = {key: getattr(self, key) for key in ("base", "density", "density_slope", "conductivity")}
+        given |= {"pressure_viscosity_coefficient": self.alpha, "alpha_estimate": self.estimate}
         return viscosity | {key: value for key, value in given.items() if value is not None}
 
     @property
@@ -164,3 +142,11 @@ class Oil(Brief):
     def with_(self, **changed) -> Oil:
         """A copy with fields replaced."""
         return replace(self, **changed)
+
+
+def at_each(function: Callable[[float], float], temperature) -> Any:
+    """``function`` of one temperature [K], as a float, or of an array of them, as an array of its shape."""
+    if np.ndim(temperature) == 0:
+        return function(temperature)
+    temperatures = validate.array("temperature", temperature, "K", ndim=np.ndim(temperature))
+    return np.array([function(t) for t in temperatures.ravel().tolist()]).reshape(temperatures.shape)

@@ -1,5 +1,3 @@
 """Tables, pictures, reports and the command line."""
 
 from .command_line import main
-
-__all__ = ["main"]

@@ -1,116 +1,128 @@
-"""A scene in words: regime numbers, and what will be solved."""
+"""A scene in words: its inputs with their units, regime numbers, and what will be solved."""
 
 from __future__ import annotations
 
 import math
 
-from ..contact import contact_map, measured
+from ..contact import Strips, contact_map, measured, strips_of
 from ..errors import InputError
 from ..film import hertz
-from ..oil import CELSIUS, estimate_in_words
+from ..oil import estimate_in_words
+from ..quantities import KEYS, key_unit
+from ..sampling import forecast
 from ..scene import Scene, told_doubts
-from ..sharing import first_line, gathered, lines_of, outlook, takes_line
-from ..sharing import lines_outlook as of_lines
-from ..sharing.validity_outlook import foretold
-from ..surface import correlation_length, rms_slope
+from ..sharing import expected, gathered, takes_strips
+from ..surface import Surface, correlation_length, rms_slope
 
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
 
 
 def describe_scene(scene: Scene) -> str:
-    """Regime numbers (Hertz, Moes M and L, lambda at the scene's speeds) and the plan, as text."""
+    """Inputs, regime numbers (Hertz, Moes M and L, lambda at the scene's speeds) and the plan, as text. Nothing is
+    solved."""
     with told_doubts(scene):
-        first = first_line(lines_of(scene)) if takes_line(scene) else None
+        strips = strips_of(scene) if takes_strips(scene) else None
+        first = None if strips is None else strips.stack(strips.first)
         surface = contact_map(scene) if first is None or measured(scene) else first
-    nx, ny = surface.heights.shape
-    lines = [
-        f"scene {scene.name}",
-        *_section("bodies", _bodies(scene)),
-        *_section("lubricant", _lubricant(scene)),
-        *_section("motion", _motion(scene)),
-        f"  surface        {surface.describe()}",
-        *_map_lines(scene, surface),
-        f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (um)':>10} {'lambda':>8}   film of the whole load, by Moes",
-    ]
     speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]}):
+    return "\n".join(
+        [
+            f"scene {scene.name}",
+            *_section("bodies", _bodies(scene)),
+            *_section("lubricant", _lubricant(scene)),
+            *_section("motion", _motion(scene)),
+            *_section("surface", [surface.describe()]),
+            *_map_rows(scene, surface),
+            *_film_rows(scene, surface.sq, sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})),
+            *_section("contact", [f"{_plan(scene, surface)}; {len(speeds)} speeds"]),
+            *_section("validity", _validity(scene, surface if first is None else first, sorted(set(speeds)))),
+            *_sample_rows(scene, strips, surface, speeds),
+        ]
+    )
+
+
+def _section(name: str, rows) -> list[str]:
+    return [f"  {name if i == 0 else '':<14} {text}" for i, text in enumerate(rows)]
+
+
+def _plan(scene: Scene, surface: Surface) -> str:
+    cells = "{} x {} cells".format(*surface.shape)
+    if scene.numerics.model == "deterministic":
+        what = "one gap and one pressure, on grids of the map halved and doubled"
+    elif scene.contact.geometry == "flat":
+        what = f"periodic contact curve on {cells}, once, then read at every speed"
+    elif takes_strips(scene):
+        what = "semi-periodic contact on strips of the roughness (below) under the film at every speed"
+    else:
+        what = f"semi-periodic contact on {cells} under the film at every speed"
+    return f"{what}; f within {100 * scene.numerics.tolerance:g} %"
+
+
+def _validity(scene: Scene, surface: Surface, speeds: list[float]) -> list[str]:
+    """What is known before the solve: of bodies and map, and of the speeds."""
+    known = expected(scene, surface, speeds)
+    of_speeds = gathered([(speed, (entry,)) for speed, entry in known if speed is not None])
+    found = [entry.text for speed, entry in known if speed is None] + [*of_speeds]
+    return found or ["no assumption of the model fails by what is known before the solve"]
+
+
+def _sample_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
+    """Whether the summits touch, and what the sample costs, at some speeds of the scene."""
+    some = sorted({*speeds[:: max(1, len(speeds) // 6)], scene.motion.entrainment_speed, speeds[-1]})
+    summit = float(surface.heights.max() - surface.heights.mean())
+    expected = [forecast(scene, strips, surface.sq, summit, speed) for speed in some]
+    rows = [f"  {'U (m/s)':<12} {'summits':<22} {'clearance (Sq)':>14}"]
+    if strips is not None:
+        dx, dy = strips.cells.coarse
+        asked = 100 * scene.numerics.sampling_tolerance
+        head = f"strips of the roughness for f within {asked:g} %, on cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um"
+        rows = [f"  {head} (orders of magnitude)", f"{rows[0]} {'strips':>8} {'length (mm)':>12} {'time (s)':>9}"]
+    for one in expected:
+        row = f"  {one.speed:<12.4g} {one.touching:<22} {one.clearance:>14.2g}"
+        if strips is not None:
+            row += f" {one.strips:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
+        rows.append(row)
+    return rows
+
+
+def _film_rows(scene: Scene, sq: float, speeds: list[float]) -> list[str]:
+    """Moes numbers and Moes' film under the whole load [m]."""
+    rows = [f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (um)':>10} {'lambda':>8}   film of the whole load, by Moes"]
+    for speed in speeds:
         if speed == 0:
-            lines.append(f"  {0:<12} no entrainment: all contact")
+            rows.append(f"  {0:<12} no entrainment: all contact")
             continue
         line = scene.line_contact(abs(speed))
-        h = line.moes_film
-        ratio = h / surface.sq if surface.sq > 0 else math.inf
-        lines.append(f"  {speed:<12.4g} {line.M:9.3g} {line.L:8.3g} {h * 1e6:10.4f} {ratio:8.3g}")
-    if scene.numerics.model == "deterministic":
-        plan = "one gap and one pressure, on grids of the map halved and doubled"
-    elif scene.contact.geometry == "flat":
-        plan = f"periodic contact curve on {nx} x {ny} cells, once, then read at every speed"
-    elif takes_line(scene):
-        plan = "semi-periodic contact on a line of the roughness (below) under the film at every speed"
-    else:
-        plan = f"semi-periodic contact on {nx} x {ny} cells under the film at every speed"
-    lines += [
-        f"  contact        {plan}; the coarsest grid and the shortest patch that give f within "
-        f"{100 * scene.numerics.tolerance:g} %; {len(speeds)} speeds"
-    ]
-    if scene.numerics.model == "deterministic":
-        return "\n".join(lines)
-    lines += [
-        f"  U = {speed:<10.4g} {outlook(scene, surface, speed)}"
-        for speed in sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})
-    ]
-    told = foretold(scene, surface if first is None else first, sorted(set(speeds)))
-    lines += [f"  {entry.text}" for speed, entry in told if speed is None]
-    lines += [f"  {text}" for text in gathered([(speed, (entry,)) for speed, entry in told if speed is not None])]
-    lines += [f"  {note}" for note in _no_doubts(told)]
-    return "\n".join([*lines, *_sampling_lines(scene, surface.sq)])
+        film = line.moes_film
+        ratio = film / sq if sq > 0 else math.inf
+        rows.append(f"  {speed:<12.4g} {line.M:9.3g} {line.L:8.3g} {film * 1e6:10.4f} {ratio:8.3g}")
+    return rows
 
 
-def _sampling_lines(scene: Scene, sq: float) -> list[str]:
-    """Length of the line and its cost at the speeds of the scene."""
-    if not takes_line(scene):
-        return []
-    speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    some = sorted({speeds[0], scene.motion.entrainment_speed, *speeds[:: max(1, len(speeds) // 6)], speeds[-1]})
-    return [f"  {row}" for row in of_lines.table(scene, lines_of(scene), sq, some)]
-
-
-def _no_doubts(told) -> list[str]:
-    return [] if told else ["validity       no assumption of the model fails by what is known before the solve"]
-
-
-def _map_lines(scene: Scene, surface) -> list[str]:
+def _map_rows(scene: Scene, surface: Surface) -> list[str]:
     """Statistics of the map on its own grid, how well that grid resolves them, and the memory of a contact solve on
     it."""
     (nx, ny), (dx, dy), b = surface.shape, surface.spacing, scene.bodies.half_width
-    slopes = rms_slope(surface)
-    lengths = [_correlation_length(surface, axis) for axis in range(2)]
-    in_um = " x ".join("-" if c is None else f"{c * 1e6:.3g}" for c in lengths)
-    in_cells = " x ".join("-" if c is None else f"{c / step:.3g}" for c, step in zip(lengths, (dx, dy)))
+    along_x, along_y, total = rms_slope(surface)
+    lengths = [(_correlation_length(surface, axis), step) for axis, step in enumerate((dx, dy))]
+    in_um = " x ".join("-" if c is None else f"{c * 1e6:.3g}" for c, _ in lengths)
+    in_cells = " x ".join("-" if c is None else f"{c / step:.3g}" for c, step in lengths)
+    memory = f"about {SOLVE_FIELDS * 8 * nx * ny / 2**20:.3g} MiB at a contact solve on all of them"
+    slopes = f"{total:.3g}  ({along_x:.3g} along x, {along_y:.3g} along y)"
     rows = [
-        (
-            "Sq",
-            f"{surface.sq * 1e9:.4g} nm",
-            "rms slope",
-            f"{slopes[2]:.3g}  ({slopes[0]:.3g} along x, {slopes[1]:.3g} along y)",
-        ),
+        ("Sq", f"{surface.sq * 1e9:.4g} nm", "rms slope", slopes),
         (
             "cells per b",
             f"{b / dx:.3g}",
             "correlation length",
             f"{in_um} um = {in_cells} cells  (along x and y, to 1/e)",
         ),
-        (
-            "length / 2b",
-            f"{nx * dx / (2 * b):.3g}",
-            "cells",
-            f"{nx * ny}, about {SOLVE_FIELDS * 8 * nx * ny / 2**20:.3g} MiB at a contact solve on all of them",
-        ),
+        ("length / 2b", f"{nx * dx / (2 * b):.3g}", "cells", f"{nx * ny}, {memory}"),
     ]
     return [f"    {left:<12} {value:<11} {right:<19} {text}" for left, value, right, text in rows]
 
 
-def _correlation_length(surface, axis) -> float | None:
+def _correlation_length(surface: Surface, axis: int) -> float | None:
     """Correlation length [m] along an axis. None where a map has none: it is flat, has one cell, or is shorter than
     twice that length."""
     try:
@@ -119,71 +131,46 @@ def _correlation_length(surface, axis) -> float | None:
         return None
 
 
-def _section(name: str, rows) -> list[str]:
-    return [f"  {name if i == 0 else '':<14} {text}" for i, text in enumerate(rows)]
+def _inputs(scene: Scene, section: str) -> list[str]:
+    """Every number of a section of the scene, with its unit and what it is."""
+    rows = []
+    for key, quantity in KEYS.items():
+        value = getattr(getattr(scene, section), key.removeprefix(f"{section}."), None)
+        if value is None or value == ():
+            continue
+        if isinstance(value, tuple) and len(value) > 2:
+            text = f"{len(value)} values, {min(value):.4g} to {max(value):.4g}"
+        else:
+            text = " and ".join(f"{v:.4g}" for v in (value if isinstance(value, tuple) else (value,)))
+        rows.append(f"{quantity.label}: {text} {key_unit(*key.split('.'))}".rstrip() + f"  ({key})")
+    return rows
 
 
-def _bodies(scene: Scene):
-    bodies = scene.bodies
-    peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
-    yield (
-        f"reduced radius R = {bodies.radius:.4g} m ({bodies.radius * 1e3:.4g} mm), "
-        f"line length B = {bodies.width:.4g} m ({bodies.width * 1e3:.4g} mm)"
-    )
-    yield (
-        f"load F_T = {bodies.load:.4g} N ({bodies.load / bodies.width / 1e3:.4g} N/mm), "
-        f"reduced modulus E' = {bodies.e_prime / 1e9:.4g} GPa"
-    )
-    yield (
-        f"Hertz: half-width {bodies.half_width * 1e6:.3f} um, "
-        f"mean pressure {bodies.mean_hertz_pressure / 1e6:.1f} MPa, peak {peak / 1e6:.1f} MPa"
-    )
-    limit = "none (elastic)" if bodies.hardness is None else f"{bodies.hardness / 1e9:.3g} GPa"
-    friction = bodies.boundary_friction_coefficient
-    yield f"plastic limit of the contact spots: {limit}; their friction coefficient f_b = {friction:g} (-)"
-    if scene.lubricant.heats:
-        conductivity = " and ".join(f"{k:.3g}" for k in bodies.conductivity)
-        capacity = " and ".join(f"{c / 1e6:.3g}" for c in bodies.volumetric_heat)
-        yield f"thermal conductivity {conductivity} W/(m K), heat capacity {capacity} MJ/(m³ K)"
+def _bodies(scene: Scene) -> list[str]:
+    b = scene.bodies
+    peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
+    return [
+        *_inputs(scene, "bodies"),
+        f"Hertz: half-width {b.half_width * 1e6:.3f} um, mean pressure {b.mean_hertz_pressure / 1e6:.1f} MPa, "
+        f"peak {peak / 1e6:.1f} MPa; {b.load / b.width / 1e3:.4g} N/mm",
+        *(["contact spots: elastic (no bodies.hardness)"] if b.hardness is None else []),
+    ]
 
 
-def _lubricant(scene: Scene):
-    lubricant = scene.lubricant
-    if lubricant.oil is not None and lubricant.temperature is not None:
-        yield from estimate_in_words(lubricant.oil, lubricant.temperature).replace(", alpha", "; alpha").split("; ")
-    else:
-        at = (
-            ""
-            if lubricant.temperature is None
-            else f" at {lubricant.temperature:.5g} K ({lubricant.temperature - CELSIUS:.4g} °C)"
-        )
-        yield (
-            f"viscosity {lubricant.viscosity:.4g} Pa s ({lubricant.viscosity * 1e3:.4g} mPa s){at}, pressure-viscosity "
-            f"coefficient {lubricant.pressure_viscosity_coefficient * 1e9:.4g} /GPa"
-        )
-    yield f"viscosity over pressure: {lubricant.viscosity_law}; density over pressure: {lubricant.density_law}"
-    if lubricant.newtonian:
-        yield "shear: Newtonian at any stress (no eyring_stress, no limiting_stress_coefficient)"
-    else:
-        eyring = "none" if lubricant.eyring_stress is None else f"{lubricant.eyring_stress / 1e6:.4g} MPa"
-        limit = "none"
-        if lubricant.limiting_stress_coefficient is not None:
-            limit = f"{lubricant.limiting_stress_offset / 1e6:.4g} MPa + {lubricant.limiting_stress_coefficient:g} p"
-        yield f"shear: Eyring stress {eyring}, limiting stress {limit}"
-    if lubricant.heats and lubricant.temperature_coefficient is not None:
-        yield (
-            f"viscosity falls by {100 * lubricant.temperature_coefficient:.3g} % a K, "
-            f"film conductivity {lubricant.conductivity:.3g} W/(m K); heat: {scene.numerics.heat}"
-        )
-    else:
-        yield "heat: isothermal, how the viscosity falls with the temperature is not given"
+def _lubricant(scene: Scene) -> list[str]:
+    oil, rows = scene.lubricant, _inputs(scene, "lubricant")
+    if oil.oil is not None and oil.temperature is not None:
+        rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
+    rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
+    if oil.newtonian:
+        rows.append("shear: Newtonian at any stress (no eyring_stress, no limiting_stress_coefficient)")
+    known = oil.heats and oil.temperature_coefficient is not None
+    why = "isothermal, how the viscosity falls with the temperature is not given"
+    return [*rows, f"heat: {scene.numerics.heat if known else why}"]
 
 
-def _motion(scene: Scene):
-    motion = scene.motion
-    u, ratio = motion.entrainment_speed, motion.slide_roll_ratio
+def _motion(scene: Scene) -> list[str]:
+    u, ratio = scene.motion.entrainment_speed, scene.motion.slide_roll_ratio
     u1, u2 = u * (1 - ratio / 2), u * (1 + ratio / 2)
-    yield f"entrainment speed U = {u:.4g} m/s, slide-roll ratio (u2 - u1)/U = {ratio:.4g} ({100 * ratio:.4g} %)"
-    yield f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
-    if motion.speeds:
-        yield f"{len(motion.speeds)} speeds of the curve, {min(motion.speeds):.4g} to {max(motion.speeds):.4g} m/s"
+    surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
+    return [*_inputs(scene, "motion"), surfaces]

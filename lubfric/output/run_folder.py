@@ -10,23 +10,15 @@ from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
 
-from .._base import FolderLock, clear_parts, saying, whole_file, write_whole
+from .._base import FolderLock, clear_parts, plain, saying, whole_file, write_whole
 from ..errors import InputError
 
 RESULT, UNFINISHED, CHECKPOINT = "result.json", "unfinished", "checkpoint"
 # of sweeps and of runs in time; the result, which says that a folder is complete, first to go and last to come
 OUTPUTS = (
     RESULT,
-    "stribeck.csv",
-    "stribeck.png",
-    "contact.png",
-    "traction.csv",
-    "traction.png",
-    "history.csv",
-    "history.png",
-    "animation.gif",
-    "fields.npz",
-    "report.html",
+    *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
+    *("contact.png", "animation.gif", "fields.npz", "report.html"),
 )
 
 
@@ -75,10 +67,10 @@ class RunFolder:
         self.written.append(name)
 
     def finish(self, record: dict) -> None:
-        """Write result.json, which names the files that belong to it. Then the run is complete, and what was saved for
-        a resume is removed."""
-        files = sorted([*self.written, RESULT])
-        self.write(RESULT, json.dumps({"files": files} | record, indent=1, allow_nan=False).encode())
+        """Write ``record`` as result.json, which names the files that belong to it. Then the run is complete, and what
+        was saved for a resume is removed."""
+        whole = plain({"files": sorted([*self.written, RESULT])} | record)
+        self.write(RESULT, json.dumps(whole, indent=1, allow_nan=False).encode())
         shutil.rmtree(self.unfinished, ignore_errors=True)
         with saying(f"{self.unfinished.parent} was not removed"):
             if self.unfinished.parent.is_dir() and not any(self.unfinished.parent.iterdir()):

@@ -4,5 +4,3 @@ from .alternating import alternating
 from .differential import solve_differential_deflection
 from .differential_transient import solve_differential_transient
 from .single_loop import single_loop
-
-__all__ = ["alternating", "single_loop", "solve_differential_deflection", "solve_differential_transient"]

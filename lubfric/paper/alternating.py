@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from .._base import increasing_root, validate
-from ..contact import ContactResult, make_problem, refine
+from ..contact import ContactResult, refine
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .imposed_film import ImposedFilm, Outcome, impose
 
@@ -29,7 +29,6 @@ def alternating(
     boundary=("periodic", "periodic"),
     tolerance=1e-6,
     update="root",
-    start=None,
     operator=None,
     max_iterations=100,
     raise_on_failure=True,
@@ -48,12 +47,9 @@ def alternating(
     convolution.
     """
     validate.choice("update", update, UPDATES)
-
-    def make(gap):
-        return make_problem(gap, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
-
     iterate = _by_root if update == "root" else _by_repetition
-    return impose(heights, film, weight, make).solved(iterate, f"alternating, {update}", start, raise_on_failure)
+    contact = impose(heights, film, weight, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+    return contact.solved(iterate, f"alternating, {update}", raise_on_failure)
 
 
 class _Inner:
@@ -61,13 +57,13 @@ class _Inner:
 
     def __init__(self, contact: ImposedFilm, pressure):
         self.contact, self.pressure, self.convolutions = contact, pressure, 1.0
+        self.first_offset = contact.offset(contact.problem.operator.apply(pressure))
         self.tight = replace(contact.problem, tolerance=0.3 * contact.problem.tolerance, max_iterations=2000)
 
     def solve(self, offset: float) -> float:
         """Solve at this epsilon and return (film - volume)/min(L, film), which rises with epsilon."""
         found = refine(self.tight, self.pressure.copy(), level=offset)
         problem, self.pressure = self.contact.problem, found.pressure
-        self.converged = found.status == CONVERGED
         self.displacement = problem.operator.apply(self.pressure)
         self.convolutions += found.convolutions + 1
         volume = self.contact.mean(np.maximum(problem.gap0 + self.displacement - offset, 0.0))
@@ -75,16 +71,10 @@ class _Inner:
         return (self.contact.mean_film - volume) / min(scale, self.contact.mean_film)
 
 
-def _first_offset(contact: ImposedFilm, pressure) -> float:
-    displacement = contact.problem.operator.apply(pressure)
-    return contact.offset(displacement)
-
-
 def _by_repetition(contact: ImposedFilm, pressure) -> Outcome:
-    inner, offset = _Inner(contact, pressure), _first_offset(contact, pressure)
-    history, status, iteration = [], ITERATION_LIMIT, 0
-    while iteration < contact.problem.max_iterations:
-        iteration += 1
+    inner = _Inner(contact, pressure)
+    offset, history, status = inner.first_offset, [], ITERATION_LIMIT
+    for _ in range(contact.problem.max_iterations):
         history.append(abs(inner.solve(offset)))
         if history[-1] <= 0.5 * contact.problem.tolerance:
             status = CONVERGED
@@ -94,11 +84,12 @@ def _by_repetition(contact: ImposedFilm, pressure) -> Outcome:
             status = DIVERGED
             break
         offset = following
-    return Outcome(inner.pressure, offset, status, iteration, inner.convolutions, history, [])
+    return Outcome(inner.pressure, offset, status, len(history), inner.convolutions, history, [])
 
 
 def _by_root(contact: ImposedFilm, pressure) -> Outcome:
-    inner, first = _Inner(contact, pressure), _first_offset(contact, pressure)
+    inner = _Inner(contact, pressure)
+    first = inner.first_offset
     lowest = float(contact.problem.gap0.min())  # first touch: below it there is no pressure
 
     def surplus(offset, _):

@@ -1,4 +1,4 @@
-"""`solve_differential_deflection`: the film by the method on which the load-sharing model was first built."""
+"""The film by differential deflection, the method on which the load-sharing model was first built."""
 
 from __future__ import annotations
 
@@ -7,41 +7,41 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import instance, integer, number
-from ..errors import CONVERGED, InputError
+from .._base import integer, number
+from ..errors import CONVERGED, STAGNATED, InputError, Report
 from ..film import (
     Effort,
     EHLResult,
     LineContact,
     Problem,
+    State,
     cubic,
-    expected_rupture,
     make_problem,
     moes_film,
+    node_positions,
     rupture_guess,
+    smallest,
 )
 from ..oil import Lubricant
-from .differential_equations import load_row
-from .differential_mesh import Mesh, convolve, make_mesh
+from .differential_equations import Mesh, convolve, load_row, make_mesh
 from .differential_newton import Solution, newton
-from .differential_result import assemble, grid_error
 
 COARSEST, FINEST = 64, 32768  # cells
 FEWEST = 3  # grids to judge an error by: two may agree by chance
 RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pressure rise
+STATE_CELLS = 96  # of the graded grid from which `lubfric.solve_ehl` may start
 
 
 @dataclass(frozen=True)
-class UniformEffort:
-    """The accuracy asked ``on_a_grid``, the nodes (None: doubled until accurate), at most how many, and the
-    bandwidth."""
+class UniformEffort(Effort):
+    """The accuracy asked, the nodes (None: doubled until accurate), at most how many, and the bandwidth."""
 
-    on_a_grid: Effort = Effort()
     nodes: int | None = None
     most_nodes: int = FINEST + 1
     bandwidth: int = 8
 
     def __post_init__(self):
+        super().__post_init__()
         if self.nodes is not None:
             integer("nodes", self.nodes, minimum=COARSEST + 1)
         integer("most_nodes", self.most_nodes, minimum=COARSEST + 1)
@@ -60,7 +60,6 @@ def solve_differential_deflection(
     density_law: str = "constant",
     tolerance: float = 3e-3,
     inlet_length: float | None = None,
-    start: EHLResult | None = None,
     max_iterations: int = 60,
     nodes: int | None = None,
     domain: tuple[float, float] | None = None,
@@ -78,7 +77,7 @@ def solve_differential_deflection(
     ----------
     load_per_width, radius, e_prime, entrainment_speed, viscosity : as in `lubfric.solve_ehl`, SI units
     pressure_viscosity_coefficient, viscosity_law, density_law, tolerance, inlet_length : as in `lubfric.solve_ehl`
-    start, max_iterations : a neighbouring result, used on the coarsest grid; Newton steps per grid
+    max_iterations : Newton steps per grid
     nodes : at least 65; None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
     domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry contact.
         None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream. Not together with inlet_length
@@ -97,32 +96,18 @@ def solve_differential_deflection(
     """
     lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
     contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant)
-    effort = UniformEffort(Effort(tolerance, max_iterations=max_iterations), nodes, most_nodes, bandwidth)
-    if start is not None:
-        instance("start", start, EHLResult, "an EHLResult or None")
+    effort = UniformEffort(tolerance, 0, max_iterations, nodes, most_nodes, bandwidth)
     if domain is not None and inlet_length is not None:
         raise InputError("domain and inlet_length both say where the grid begins; give one of them")
     problem = make_problem(contact, inlet_length)
-    return solve_differential(problem, effort, domain_ends(problem, domain), start, raise_on_failure)
+    return solve_differential(problem, effort, domain_ends(problem, domain), raise_on_failure)
 
 
 def solve_differential(
-    problem: Problem,
-    effort: UniformEffort,
-    ends: tuple[float, float],
-    start: EHLResult | None = None,
-    raise_on_failure: bool = True,
+    problem: Problem, effort: UniformEffort, ends: tuple[float, float], raise_on_failure: bool = True
 ) -> EHLResult:
     """`solve_differential_deflection` for a `Problem` on a grid between ``ends`` [units of x]."""
-    levels: list[Solution] = []
-    notes: tuple[str, ...] = ()
-    if start is not None:
-        levels = _ascend(problem, effort, ends, start)
-        if levels[-1].status != CONVERGED:
-            notes = ("the warm start failed; solved again from a cold start",)
-    if not levels or levels[-1].status != CONVERGED:
-        levels = _ascend(problem, effort, ends, None)
-    result = assemble(problem, levels, effort.on_a_grid.tolerance, notes)
+    result = assemble(problem, _ascend(problem, effort, ends), effort.tolerance)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
@@ -156,29 +141,24 @@ def _cells(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) -
     return cells
 
 
-def _ascend(
-    problem: Problem, effort: UniformEffort, ends: tuple[float, float], start: EHLResult | None
-) -> list[Solution]:
+def _ascend(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) -> list[Solution]:
     """Solutions on grids of doubling size, up to the nodes asked for, or until two of them agree to the tolerance."""
-    cells, grid = _cells(problem, effort, ends), effort.on_a_grid
+    cells = _cells(problem, effort, ends)
     levels: list[Solution] = []
     for n in cells:
         mesh = make_mesh(*ends, n + 1, effort.bandwidth, problem.inlet_length is None)
-        if levels:
-            P, H = _transfer(mesh, levels[-1].mesh.X, levels[-1].P, levels[-1].H)
-        else:
-            P, H = _cold(mesh, problem) if start is None else _warm(mesh, problem, start)
-        levels.append(newton(mesh, problem, P, H, 1e-3 * grid.tolerance, grid.max_iterations))
+        P, H = _transferred(mesh, levels[-1]) if levels else cold_start(mesh, problem)
+        levels.append(newton(mesh, problem, P, H, 1e-3 * effort.tolerance, effort.max_iterations))
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
             levels.pop()  # too coarse to start on
             continue
-        enough = effort.nodes is None and len(levels) >= FEWEST and grid_error(levels) <= grid.tolerance
+        enough = effort.nodes is None and len(levels) >= FEWEST and grid_error(levels) <= effort.tolerance
         if levels[-1].status != CONVERGED or enough:
             break
     return levels
 
 
-def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+def cold_start(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     """A first guess: a semi-ellipse of the right load that ends at the expected rupture, and the expected film."""
     film = problem.film_guess
     width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
@@ -189,22 +169,103 @@ def _cold(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     return P, gap - gap.min() + film
 
 
-def _warm(mesh: Mesh, problem: Problem, start: EHLResult) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure and film of ``start``, stretched to the expected rupture and film and to the load."""
-    M, L = start.load_number, start.material_number
-    film_unit = start.load / (start.e_prime * M)
-    X = start.x * math.copysign(1.0, start.entrainment_speed) / math.sqrt(start.radius * film_unit)
-    order = np.argsort(X)
-    X, P, H = X[order], start.pressure[order], start.film_thickness[order] / film_unit
-    place = mesh.X * (expected_rupture(M, L) / expected_rupture(problem.M, problem.L))
-    P = np.interp(place, X, P, left=0.0)
-    H = np.interp(place, X, H - 0.5 * X**2) + 0.5 * place**2
-    load = load_row(mesh, problem) @ P
-    if not load > 0.0:  # no pressure on this mesh
-        return _cold(mesh, problem)
-    return P / load, H * (moes_film(problem.M, problem.L) / moes_film(M, L))
+def _transferred(mesh: Mesh, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure (linear) and film (cubic) of a solution on another mesh."""
+    X, parabola = solution.mesh.X, 0.5 * mesh.X**2
+    return np.interp(mesh.X, X, solution.P), cubic(X, solution.H - 0.5 * X**2, mesh.X) + parabola
 
 
-def _transfer(mesh: Mesh, X: np.ndarray, P: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure (linear) and film (cubic) on another mesh."""
-    return np.interp(mesh.X, X, P), cubic(X, H - 0.5 * X**2, mesh.X) + 0.5 * mesh.X**2
+def grid_error(levels: list[Solution]) -> float:
+    """Largest relative change of minimum, central and flow film between the last two grids, or a quarter of the change
+    before that. This is some three times the error, because the rupture point is always at a node, which makes the
+    error uneven."""
+    films = np.array([[smallest(s.mesh.X, s.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
+    if len(films) < 2:
+        return math.inf
+    changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
+    return float(max(changes[-1], changes[0] / 4 ** (changes.size - 1)))
+
+
+def _at_centre(solution: Solution) -> float:
+    X = solution.mesh.X
+    return float(cubic(X, solution.H - 0.5 * X**2, np.zeros(1))[0])
+
+
+def _domain_error(problem: Problem, solution: Solution) -> float:
+    """The estimated effect of the finite inlet: the tail's share of the load times its departure from the parabola."""
+    if problem.inlet_length is not None:
+        return 0.0
+    a = -solution.mesh.X[0]
+    return float(0.5 * a * solution.P[0] / problem.M * abs(2.0 * solution.H[0] / a**2 - 1.0))
+
+
+def _report(problem: Problem, levels: list[Solution], tolerance: float) -> Report:
+    last = levels[-1]
+    residuals = {"discretisation": grid_error(levels), "domain": _domain_error(problem, last)}
+    residuals |= last.residuals
+    residual = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else math.inf
+    status = last.status
+    if status == CONVERGED and not residual <= tolerance:
+        status = STAGNATED
+    history = tuple(e for level in levels for e in level.history)
+    first, end = last.mesh.X[[0, -1]] / problem.half_width
+    notes: tuple[str, ...] = (f"{last.mesh.size} nodes from {first:.4g} to {end:.4g} half-widths",)
+    if last.terms.last >= last.mesh.size - 2:
+        notes += ("the film did not rupture inside the domain",)
+    steps, solves = len(history) - len(levels), sum(level.solves for level in levels)
+    solver = "line-contact EHL, differential deflection"
+    return Report(solver, status, steps, residual, tolerance, residuals, history, solves, notes)
+
+
+def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
+    """The rupture point, where the film is that of the flow, and X, P, H with a node added there."""
+    X, P, H, last, q = solution.mesh.X, solution.P, solution.H, solution.terms.last, solution.terms.q
+    if last >= X.size - 2:  # none: reported
+        return float(X[last]), X, P, H
+    before, behind = 0.5 * (H[last] + H[last + 1]), 0.5 * (H[last + 1] + H[last + 2])
+    share = np.clip((q - before) / (behind - before), 0.0, 1.0) if behind > before else 0.5
+    e = X[last] + (0.5 + float(share)) * solution.mesh.step
+    i = int(np.searchsorted(X, e))
+    if min(abs(X[i] - e), abs(X[i - 1] - e)) < 1e-3 * solution.mesh.step:
+        return float(X[i] if X[i] - e < e - X[i - 1] else X[i - 1]), X, P, H
+    film = cubic(X, H - 0.5 * X**2, np.array([e]))[0] + 0.5 * e * e
+    return e, np.insert(X, i, e), np.insert(P, i, 0.0), np.insert(H, i, film)
+
+
+def _state(problem: Problem, solution: Solution, rupture: float, error: float) -> State:
+    """The `State` from which `solve_ehl` can start: the solution on the graded grid of `solve_ehl`."""
+    xi = node_positions(problem.half_width, moes_film(problem.M, problem.L), STATE_CELLS)
+    X = xi + rupture
+    P = np.interp(X, solution.mesh.X, solution.P, left=0.0)
+    H = np.interp(X, solution.mesh.X, solution.H - 0.5 * solution.mesh.X**2) + 0.5 * X**2
+    return State(problem, P[:-1], H, solution.terms.q, rupture, error)
+
+
+def assemble(problem: Problem, levels: list[Solution], tolerance: float) -> EHLResult:
+    """The result in SI units, seen along +x."""
+    last, contact = levels[-1], problem.contact
+    sign = math.copysign(1.0, contact.entrainment_speed)
+    rupture, X, P, H = _with_rupture(last)
+    mesh, q = last.mesh, last.terms.q
+    b, length, film = problem.half_width, problem.length_unit, problem.film_unit
+    constant = last.H[0] - 0.5 * mesh.X[0] ** 2 - mesh.log_kernel @ last.P
+    order = slice(None) if sign > 0 else slice(None, None, -1)
+    report = _report(problem, levels, tolerance)
+    return EHLResult(
+        x=(sign * X * length)[order],
+        pressure=(P * problem.pressure_unit)[order],
+        film_thickness=(H * film)[order],
+        viscosity=contact.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
+        density_ratio=problem.density(P)[0][order],
+        min_film=smallest(mesh.X, last.H) * film,
+        central_film=_at_centre(last) * film,
+        flow_film=q * film,
+        flux=q * film * contact.entrainment_speed,
+        rupture=rupture * length * sign,
+        approach=float(constant - 4.0 / math.pi * mesh.step * last.P.sum() * math.log(b)) * film,
+        half_width=b * length,
+        hertz_pressure=2.0 * problem.M / (math.pi * b) * problem.pressure_unit,
+        contact=contact,
+        report=report,
+        state=_state(problem, last, rupture, report.residuals["discretisation"]),
+    )

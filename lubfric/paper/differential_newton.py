@@ -13,8 +13,18 @@ import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ..film import Problem, step_length
-from .differential_equations import STEADY, Squeeze, Terms, evaluate, inlet_ratio, load_row, measure, tilt_row
-from .differential_mesh import Mesh, convolve
+from .differential_equations import (
+    STEADY,
+    Mesh,
+    Squeeze,
+    Terms,
+    convolve,
+    evaluate,
+    inlet_ratio,
+    load_row,
+    measure,
+    tilt_row,
+)
 
 KRYLOV_LIMIT = 40  # GMRES vectors in one Newton step
 FORCING = 1e-2  # share of the far deflection that a Newton step may leave to the next one
@@ -34,29 +44,13 @@ class Solution:
     solves: int
 
 
-@dataclass(frozen=True)
-class Factors:
-    """The factorised near equations.
+def near_solver(mesh: Mesh, problem: Problem, t: Terms):
+    """The equations with near weights, factorised; None if the matrix is singular.
 
-    Attributes
-    ----------
-    LU : the near equations
-    border : (2N, 2) their solution for the two films at the ends
-    rows : (2, N) the closing equations by P
-    closing : (2, 2) the closing equations by those films, condensed
+    The function returned takes the right sides: (N,) of the balances and of the second differences, (2,) of the closing
+    equations. It gives the changes (2N,) of P and H of a node side by side. The two films at the ends are a border of
+    the banded matrix.
     """
-
-    lu: np.ndarray
-    pivots: np.ndarray
-    lower: int
-    upper: int
-    border: np.ndarray
-    rows: np.ndarray
-    closing: np.ndarray
-
-
-def factorise(mesh: Mesh, problem: Problem, t: Terms) -> Factors | None:
-    """Factors of the equations with near weights, P and H of a node side by side; None if the matrix is singular."""
     from scipy.linalg.lapack import dgbtrf, dgbtrs
 
     n, m = mesh.size, mesh.bandwidth
@@ -75,7 +69,14 @@ def factorise(mesh: Mesh, problem: Problem, t: Terms) -> Factors | None:
     border[1, 0] = border[-1, 1] = 1.0
     border, _ = dgbtrs(lu, lower, upper, border, pivots, overwrite_b=1)
     rows = np.stack([tilt_row(mesh), load_row(mesh, problem)])
-    return Factors(lu, pivots, lower, upper, border, rows, rows @ border[0::2] + [[1.0, -1.0], [0.0, 0.0]])
+    closing = rows @ border[0::2] + [[1.0, -1.0], [0.0, 0.0]]
+
+    def solve(balance, bend, ends):
+        right = np.column_stack([balance, bend]).ravel()
+        z, _ = dgbtrs(lu, lower, upper, right, pivots, overwrite_b=1)
+        return z + border @ np.linalg.solve(closing, ends - rows @ z[0::2])
+
+    return solve
 
 
 def _put_reynolds(mesh: Mesh, t: Terms, put) -> None:
@@ -107,18 +108,13 @@ def _put_film(mesh: Mesh, put) -> None:
     put(2 * n - 1, 2 * n - 1, 1.0)
 
 
-def newton_step(mesh: Mesh, t: Terms, factors: Factors) -> tuple[np.ndarray, int]:
+def newton_step(mesh: Mesh, t: Terms, near) -> tuple[np.ndarray, int]:
     """The change (2N,) of P and H in turn, and the number of banded solves.
 
-    With A the near equations, the change z solves A z = b + f, where f = far(z) is the effect of far pressures on the
-    second differences. So z = A⁻¹b + A⁻¹f and f - far(A⁻¹f) = far(A⁻¹b). GMRES solves the latter for f.
+    With A the near equations, which ``near`` solves, the change z solves A z = b + f, where f = far(z) is the effect of
+    far pressures on the second differences. So z = A⁻¹b + A⁻¹f and f - far(A⁻¹f) = far(A⁻¹b). GMRES solves the latter
+    for f.
     """
-    from scipy.linalg.lapack import dgbtrs
-
-    def near(balance, bend, ends):
-        right = np.column_stack([balance, bend]).ravel()
-        z, _ = dgbtrs(factors.lu, factors.lower, factors.upper, right, factors.pivots, overwrite_b=1)
-        return z + factors.border @ np.linalg.solve(factors.closing, ends - factors.rows @ z[0::2])
 
     def far(z):
         f = convolve(mesh.far_transform, z[0::2])
@@ -149,6 +145,7 @@ def newton_step(mesh: Mesh, t: Terms, factors: Factors) -> tuple[np.ndarray, int
     return (z + size * (y @ np.array(answers)) if answers else z), len(answers) + 1
 
 
+@np.errstate(over="ignore", divide="ignore", invalid="ignore")  # history tests for it
 def newton(
     mesh: Mesh,
     problem: Problem,
@@ -160,11 +157,6 @@ def newton(
 ) -> Solution:
     """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film ruptures inside
     the grid."""
-    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):  # history tests for it
-        return _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze)
-
-
-def _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze) -> Solution:
     history, solves, status = [], 0, ITERATION_LIMIT
     for step in range(max_steps + 1):
         t = evaluate(mesh, problem, P, H, squeeze)
@@ -175,10 +167,10 @@ def _iterate(mesh, problem, P, H, tolerance, max_steps, squeeze) -> Solution:
             status = CONVERGED
         if status == CONVERGED or history[-1] == np.inf or step == max_steps:
             break
-        factors = factorise(mesh, problem, t)
-        if factors is None:
+        near = near_solver(mesh, problem, t)
+        if near is None:
             break
-        z, count = newton_step(mesh, t, factors)
+        z, count = newton_step(mesh, t, near)
         solves += count
         length = step_length(z[0::2] * t.slope, float(np.max(-z[1::2] / H)))
         P, H = _without_tension(P + length * z[0::2], t.last), H + length * z[1::2]

@@ -16,29 +16,18 @@ from ..errors import CONVERGED, ConvergenceError
 from ..film import LineContact, Problem, cubic, smallest
 from ..oil import Lubricant
 from ..scene import History, checked_history
-from ..time import FIRST_STEP, WET, Memory, Plan, TransientFilm, checked_times, plan_of, report_of, started, steps
+from ..time import FIRST_STEP, WET, Memory, Plan, Step, TransientFilm, checked_times, marched, plan_of, report_of
 from .differential import UniformEffort, domain_ends, solve_differential
-from .differential_equations import Squeeze
-from .differential_mesh import NEAR, make_mesh
+from .differential_equations import NEAR, Squeeze, make_mesh
 from .differential_newton import newton
 
 TOLERANCE, MOST_STEPS = 1e-6, 40  # of Newton's method in a step
 
 
 @dataclass(frozen=True)
-class Step:
-    """A solved step in SI units. z holds pressures and films."""
-
-    status: str
-    z: np.ndarray
-    film: np.ndarray
-    payload: None = None
-
-
-@dataclass(frozen=True)
 class UniformSetting:
     """A contact whose load and speed change, on a uniform grid between the ends of ``domain`` [m] (a
-    `lubfric.time.bdf.Solver`)."""
+    `lubfric.time.march.Solver`). In SI units; z holds pressures and films."""
 
     contact: LineContact  # as it is before t = 0
     load: History
@@ -59,7 +48,7 @@ class UniformSetting:
         )
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: None = None) -> Step:
-        """One implicit step (`lubfric.time.bdf.Solver`)."""
+        """One implicit step (`lubfric.time.march.Solver`)."""
         problem, n = self.problem(time), self.nodes
         unit, film, pressure = problem.length_unit, problem.film_unit, problem.pressure_unit
         mesh = make_mesh(self.domain[0] / unit, self.domain[1] / unit, n, self.bandwidth, True)
@@ -67,7 +56,8 @@ class UniformSetting:
         squeeze = Squeeze(rate, rate * memory.film / film)
         found = newton(mesh, problem, z[:n] / pressure, z[n:] / film, TOLERANCE, MOST_STEPS, squeeze)
         stored = problem.density(found.P)[0] * found.H * film
-        return Step(found.status, np.concatenate([found.P * pressure, found.H * film]), stored)
+        z = np.concatenate([found.P * pressure, found.H * film])
+        return Step(status=found.status, film=stored, z=z)
 
     def error_of(self, solution: Step, difference: np.ndarray) -> float:
         """Root mean square of a difference of films over the pressurised film, relative to the film."""
@@ -138,14 +128,9 @@ def _start(setting: UniformSetting) -> Step:
 
 
 def _march(setting: UniformSetting, first: Step, plan: Plan) -> TransientFilm:
-    now = started(first, plan.first_step)
-    times, states = ([0.0], [first.z]) if plan.times[0] == 0.0 else ([], [])
-    for now in steps(setting, plan, now):
-        if now.at_output:
-            times.append(now.time)
-            states.append(now.solution.z)
+    now, times, states = marched(setting, plan, first)
     x, n = setting.x, setting.nodes
-    P, H = (np.array([z[part] for z in states]).reshape(-1, n) for part in (slice(None, n), slice(n, None)))
+    P, H = (np.array([state.z[part] for state in states]).reshape(-1, n) for part in (slice(None, n), slice(n, None)))
     parabola = x**2 / (2.0 * setting.contact.radius)
     return TransientFilm(
         np.array(times),

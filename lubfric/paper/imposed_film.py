@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from .._base import validate
-from ..contact import ContactResult, Problem, contact_residuals, length_scale, starting_pressure
-from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, InputError, Report
+from ..contact import ContactResult, Problem, contact_residuals, length_scale, make_problem
+from ..errors import CONVERGED, STAGNATED, InputError, Report
 
 
 @dataclass(frozen=True)
@@ -67,16 +67,26 @@ class ImposedFilm:
         stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))
         return np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
 
-    def certify(self, state: Outcome, solver: str) -> ContactResult:
-        """The result of an iteration, with residuals computed anew from the pressure alone."""
+    def residuals(self, pressure, displacement, offset) -> dict[str, float]:
+        """Complementarity, penetration and volume, as in `lubfric.paper.single_loop`."""
+        gap = self.problem.gap0 + displacement - offset
+        scale = self.scale(pressure, displacement)
+        found = contact_residuals(pressure, gap, scale, self.problem.hardness, 1.0)
+        del found["load"]
+        volume = abs(self.mean(np.maximum(gap, 0.0)) - self.mean_film)
+        return found | {"volume": volume / min(scale, self.mean_film)}
+
+    def solved(self, iterate: Iteration, solver: str, raise_on_failure: bool) -> ContactResult:
+        """The contact by ``iterate``, with residuals computed anew from the pressure alone."""
+        if self.separated:
+            zero, note = np.zeros_like(self.problem.gap0), "the film clears the surface: no contact"
+            solver, state = "none", Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], [note])
+        else:
+            state = iterate(self, self.first_pressure())
         problem, p = self.problem, state.pressure
         u = problem.operator.apply(p)
         gap = problem.gap0 + u - state.offset
-        scale = self.scale(p, u)
-        residuals = contact_residuals(p, gap, scale, problem.hardness, p.mean())
-        del residuals["load"]
-        film = self.mean(np.maximum(gap, 0.0))
-        residuals["volume"] = abs(film - self.mean_film) / min(scale, self.mean_film)
+        residuals = self.residuals(p, u, state.offset)
         worst = max(residuals.values())
         worst = worst if math.isfinite(worst) else math.inf
         status = state.status
@@ -84,80 +94,50 @@ class ImposedFilm:
             status = CONVERGED
         elif status == CONVERGED:
             status = STAGNATED
-        report = Report(
-            solver,
-            status,
-            state.iterations,
-            worst,
-            problem.tolerance,
-            residuals,
-            tuple(state.history),
-            state.convolutions + 1,
-            tuple(state.notes),
-        )
-        size = p.size
-        return ContactResult(
+        effort = tuple(state.history), state.convolutions + 1, tuple(state.notes)
+        report = Report(solver, status, state.iterations, worst, problem.tolerance, residuals, *effort)
+        result = ContactResult(
             p,
             gap,
             u,
             float(state.offset) + problem.offset,
             float(p.mean()),
             float(np.maximum(gap, 0.0).mean()),
-            np.count_nonzero(p) / size,
-            np.count_nonzero(p >= problem.hardness) / size,
+            np.count_nonzero(p) / p.size,
+            np.count_nonzero(p >= problem.hardness) / p.size,
             report,
         )
-
-    def solved(self, iterate: Iteration, solver: str, start, raise_on_failure: bool) -> ContactResult:
-        """The contact by ``iterate``, started from ``start``: a pressure, a result, or None for a guess."""
-        pressure = starting_pressure(self.problem, start)
-        if self.separated:
-            return self._touchless()
-        if pressure is not None and not pressure.any():
-            pressure = None
-        result = self.certify(iterate(self, self.first_pressure() if pressure is None else pressure), solver)
-        if pressure is not None and not result.report.converged:  # no start decides what can be solved
-            again = iterate(self, self.first_pressure())
-            note = f"from the start: {result.report.status}; begun again without it"
-            result = self.certify(replace(again, notes=[note, *again.notes]), solver)
         if raise_on_failure:
-            result.report.raise_if_failed(result)
+            report.raise_if_failed(result)
         return result
 
-    def _touchless(self) -> ContactResult:
-        """The result if the film keeps the surfaces apart."""
-        zero = np.zeros_like(self.problem.gap0)
-        state = Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], ["the film clears the surface: no contact"])
-        return self.certify(state, "none")
 
-
-@dataclass
+@dataclass(frozen=True)
 class Outcome:
-    """The present state of an iteration, or its end."""
+    """The end of an iteration."""
 
     pressure: np.ndarray
     offset: float
-    status: str = ITERATION_LIMIT
-    iterations: int = 0
-    convolutions: float = 0
-    history: Sequence[float] = ()
-    notes: Sequence[str] = ()
+    status: str
+    iterations: int
+    convolutions: float
+    history: Sequence[float]
+    notes: Sequence[str]
 
 
 Iteration = Callable[[ImposedFilm, np.ndarray], Outcome]  # from a first pressure
 
 
-def impose(heights, film, weight, make: Callable[[np.ndarray], Problem]) -> ImposedFilm:
-    """The validated contact; ``make(gap)`` makes the `Problem` of h - z (nx, ny) [m]."""
+def impose(heights, film, weight, *problem) -> ImposedFilm:
+    """The validated contact; ``problem``: what `lubfric.contact.make_problem` takes after the gap h - z [m]."""
     heights = validate.array("heights", heights, "m", ndim=2)
     film = _on_grid("film", film, heights.shape, "m")
     weight = np.ones(heights.shape) if weight is None else _on_grid("weight", weight, heights.shape, "(-)")
     if weight.min() < 0 or weight.sum() == 0:
         raise InputError("weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)")
     weight = weight / weight.sum()
-    problem = make(film - heights)
     mean_film = validate.positive("mean of film over the area A", float(np.vdot(weight, film)), "m")
-    return ImposedFilm(problem, weight, mean_film)
+    return ImposedFilm(make_problem(film - heights, *problem), weight, mean_film)
 
 
 def _on_grid(name, value, shape, unit) -> np.ndarray:

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from .._base import validate
-from ..contact import ContactResult, contact_residuals, make_problem
+from ..contact import ContactResult
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
 from .imposed_film import ImposedFilm, Outcome, impose
 
@@ -43,7 +43,6 @@ def single_loop(
     form="consistent",
     stop="residual",
     separation_tolerance=1e-6,
-    start=None,
     operator=None,
     max_iterations=2000,
     raise_on_failure=True,
@@ -58,13 +57,13 @@ def single_loop(
     form : "consistent" or "printed" (see the module)
     stop : "residual", the honest test below; or "separation", Eq. (23):
         ``|h_s - h_s_old| <= separation_tolerance |h_s_old|`` with h_s its mean over A
-    spacing, e_prime, hardness, boundary, tolerance, start, operator, max_iterations, raise_on_failure : as in
+    spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations, raise_on_failure : as in
         `lubfric.solve_contact`
 
     Returns
     -------
     ContactResult : its ``approach`` is epsilon. ``report.residuals`` come from the returned pressure alone, and are
-        measured by the length L of `lubfric.contact.residual.length_scale`: complementarity and penetration as in
+        measured by the length L of `lubfric.contact.length_scale`: complementarity and penetration as in
         `solve_contact`, and volume ``|mean_A max(g, 0) - mean_A h|/min(L, mean_A h)``. The solve has converged when the
         largest is <= tolerance, *also* when it was stopped by Eq. (23). The notes say when Eq. (23) was met first.
 
@@ -77,75 +76,46 @@ def single_loop(
     validate.choice("stop", stop, STOPS)
     validate.positive("separation_tolerance", separation_tolerance, "(-)")
 
-    def make(gap):
-        return make_problem(gap, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
-
     def iterate(contact: ImposedFilm, pressure) -> Outcome:
         step = {"consistent": _Consistent, "printed": _Printed}[form](contact, pressure)
         with np.errstate(all="ignore"):  # a printed loop may overflow; it then ends as diverged
-            return _loop(contact, step, _Watch(contact, stop, separation_tolerance))
+            return _loop(contact, step, stop, separation_tolerance)
 
-    contact = impose(heights, film, weight, make)
-    return contact.solved(iterate, f"single loop, {form}", start, raise_on_failure)
+    contact = impose(heights, film, weight, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+    return contact.solved(iterate, f"single loop, {form}", raise_on_failure)
 
 
-def _loop(contact: ImposedFilm, step, watch: _Watch) -> Outcome:
-    status, iteration = ITERATION_LIMIT, 0
-    best = (np.inf, step.pressure, step.offset)
-    while True:
-        error = watch.see(iteration, step)
+def _loop(contact: ImposedFilm, step, stop: str, separation_tolerance: float) -> Outcome:
+    """Iterate; both stopping tests are made after every iteration."""
+    problem, status = contact.problem, ITERATION_LIMIT
+    history: list[float] = []
+    notes: list[str] = []
+    best, lowest, waiting, old = (np.inf, step.pressure, step.offset), np.inf, 0, np.inf
+    for iteration in range(problem.max_iterations + 1):
+        if iteration > 0 and not step.advance():
+            status = DIVERGED
+            break
+        error = max(contact.residuals(step.pressure, step.displacement, step.offset).values())
+        error = error if np.isfinite(error) else np.inf
+        history.append(error)
         if error < best[0]:
             best = (error, step.pressure.copy(), step.offset)
-        if watch.done:
+        lowest, waiting = (error, 0) if error < 0.9 * lowest else (lowest, waiting + 1)
+        separation = contact.mean(problem.gap0) - step.offset  # Eq. (23), from the mean plane of the surface over A
+        settled = np.isfinite(old) and abs(separation - old) <= separation_tolerance * abs(old)
+        old = separation
+        if settled and not notes:
+            notes.append(f"Eq. (23) met at iteration {iteration}, where the residual was {error:.2e}")
+        if settled if stop == "separation" else error <= 0.9 * problem.tolerance:
             status = CONVERGED
-        elif not np.isfinite(error) and iteration > 0:
+        elif error == np.inf and iteration > 0:
             status = DIVERGED
-        elif watch.waiting > PATIENCE:
+        elif waiting > PATIENCE:
             status = STAGNATED
-        if status != ITERATION_LIMIT or iteration == contact.problem.max_iterations:
-            break
-        iteration += 1
-        if not step.advance():
-            status = DIVERGED
+        if status != ITERATION_LIMIT:
             break
     pressure, offset = (step.pressure, step.offset) if status == CONVERGED else best[1:]
-    return Outcome(pressure, offset, status, iteration, step.convolutions + 1, watch.history, watch.notes)
-
-
-class _Watch:
-    """Both stopping tests, made after every iteration."""
-
-    def __init__(self, contact: ImposedFilm, stop: str, separation_tolerance: float):
-        self.contact, self.stop, self.separation_tolerance = contact, stop, separation_tolerance
-        self.history: list[float] = []
-        self.notes: list[str] = []
-        self.done, self.waiting, self.best, self.old = False, 0, np.inf, None
-
-    def see(self, iteration, step) -> float:
-        problem, p = self.contact.problem, step.pressure
-        gap = problem.gap0 + step.displacement - step.offset
-        scale = self.contact.scale(p, step.displacement)
-        residuals = contact_residuals(p, gap, scale, problem.hardness, 1.0)
-        del residuals["load"]
-        film = self.contact.mean_film
-        volume = abs(self.contact.mean(np.maximum(gap, 0.0)) - film) / min(scale, film)
-        error = max(volume, *residuals.values())
-        error = error if np.isfinite(error) else np.inf
-        self.history.append(error)
-        self.best, self.waiting = (error, 0) if error < 0.9 * self.best else (self.best, self.waiting + 1)
-        settled = self._settled(iteration, step.offset, error)
-        self.done = settled if self.stop == "separation" else error <= 0.9 * problem.tolerance
-        return error
-
-    def _settled(self, iteration, offset, error) -> bool:
-        """Eq. (23), with h_s measured from the mean plane of the surface over A."""
-        separation = self.contact.mean(self.contact.problem.gap0) - offset
-        old, self.old = self.old, separation
-        if old is None or not abs(separation - old) <= self.separation_tolerance * abs(old):
-            return False
-        if not self.notes:
-            self.notes.append(f"Eq. (23) met at iteration {iteration}, where the residual was {error:.2e}")
-        return True
+    return Outcome(pressure, offset, status, iteration, step.convolutions + 1, history, notes)
 
 
 class _Printed:

@@ -1,31 +1,16 @@
-"""The answer at one speed: the sample of the surface, the models, the interval of f."""
+"""The answer at one speed: the sample of the surface, the models, the interval of f.
+
+`sample` solves strips of the surface until the standard error is within what is asked; `cells` corrects for their
+coarse cells; `scatter` reads the standard error off one solved contact; `errors_of` and `uncertainty` make the
+interval. `friction` is the entry; `answer` and `answer_deterministic` are the two models.
+"""
 
 from .cite import together
-from .estimate import of_line
 from .friction import friction
-from .grid_pair import mean_of
-from .line_friction import LineFound, line_friction
+from .missed import missed_share
 from .moment_error import moment_error
-from .patch_error import correlation_along_y
+from .outlook import Forecast, forecast
 from .result import FrictionResult
-from .sample import lines_of_model
+from .sample import Found, sampled
+from .scatter import block_error, gap_influence, line_load, strip_gap
 from .uncertainty import FIELDS, Uncertainty, UncertaintyCurve, curve_of, percent, student
-
-__all__ = [
-    "FIELDS",
-    "FrictionResult",
-    "LineFound",
-    "Uncertainty",
-    "UncertaintyCurve",
-    "correlation_along_y",
-    "curve_of",
-    "friction",
-    "line_friction",
-    "lines_of_model",
-    "mean_of",
-    "moment_error",
-    "of_line",
-    "percent",
-    "student",
-    "together",
-]

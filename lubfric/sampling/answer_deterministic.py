@@ -3,12 +3,15 @@ know."""
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Iterator
 from dataclasses import replace
 
 from ..deterministic import Refined, deterministic_point
-from ..sharing import Decision, Prepared, Validity, of_error, of_motion, of_pressure, of_thickness
-from .answer_resolved import resolved_result
+from ..scene import Scene
+from ..sharing import Prepared, Validity, inlet_at, of_error, of_motion, of_pressure, of_thickness
+from .decision import Decision
 from .result import FrictionResult
 from .uncertainty import field_errors_of, not_sampled
 
@@ -16,24 +19,32 @@ NO_PLACES = "not estimated for one pressure of film and contact"
 DRAWN, CUT = 0.1, 0.1  # lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
 
 
-def deterministic_answer(
-    prepared: Prepared, speed: float, start: FrictionResult | None, begun: float
-) -> FrictionResult:
-    """Solve ``prepared`` at ``speed`` [m/s], which is not 0. ``start``: the result of a neighbouring speed; ``begun``:
-    the starting time, by `time.perf_counter`."""
+def deterministic_answer(prepared: Prepared, speed: float, begun: float) -> FrictionResult:
+    """Solve ``prepared`` at ``speed`` [m/s], which is not 0. ``begun``: the starting time, by `time.perf_counter`. The
+    film is isothermal."""
     scene, surface = prepared.scene, prepared.surface
-    found = deterministic_point(scene, surface, speed, None if start is None else start.deterministic)
-    known = {} if found.error is None else {"coefficient": found.error}
-    decision = Decision(
-        "deterministic", "asperity spots", scene.numerics.tolerance, film_words=_words(found), notes=_notes(found)
-    )
-    entries = tuple(_entries(prepared, speed, found))
-    per_width, numbers = _per_width(prepared, found), _numbers(prepared, found)
-    return replace(
-        resolved_result(prepared, speed, begun, decision, found.result.report, entries, per_width, numbers),
+    found = deterministic_point(scene, surface, speed)
+    width, forces, numbers = scene.bodies.width, _per_width(prepared, found), _numbers(prepared, found)
+    tolerance, central = scene.numerics.tolerance, numbers["central_film"]
+    decision = Decision("deterministic", _words(found), "asperity spots", tolerance, notes=_notes(found))
+    entries = (*_entries(prepared, speed, found), *_heat_left_out(scene, speed, forces["couette_force"], central))
+    return FrictionResult(
+        speed=speed,
+        **{name: force * width for name, force in forces.items()},
+        shear_force=(forces["couette_force"] + forces["rolling_force"]) * width,
+        **numbers,
+        film_to_roughness_ratio=central / surface.sq if surface.sq > 0 else math.inf,
+        inlet_film_factor=1.0,
+        flash_temperature_rise=0.0,
+        film_temperature_rise=0.0,
+        volume_residual=math.nan,
+        seconds=time.perf_counter() - begun,
+        report=replace(found.result.report, notes=(decision.text, *(entry.text for entry in entries))),
+        decision=decision,
+        validity=entries,
         deterministic=found,
         uncertainty=not_sampled(found.error, scene, surface.size[1], NO_PLACES),
-        errors=field_errors_of(known, NO_PLACES),
+        errors=field_errors_of({} if found.error is None else {"coefficient": found.error}, NO_PLACES),
     )
 
 
@@ -99,3 +110,30 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> Iterator[Valid
         remedy = "read f to a percent or two: hardly any lubricant passes the contact"
         yield Validity("share of the lubricant out of touching cells", result.drawn, DRAWN, "", consequence, remedy)
     yield from of_error(found.error, scene.numerics.tolerance, "a finer contact.spacing, a larger tolerance")
+
+
+def _heat_left_out(scene: Scene, speed: float, couette: float, film: float) -> tuple[Validity, ...]:
+    """A caution if the heat that these models leave out would matter.
+
+    It matters by the heat of the inlet, or by the viscosity that the film loses. For the latter, the mean rise of the
+    film over its walls is ``tau du h/(12 k)``. ``couette``: its force [N/m].
+    """
+    inlet, _ = inlet_at(scene, speed)
+    if inlet is None:
+        return ()
+    lubricant, sliding = scene.lubricant, abs(scene.motion.slide_roll_ratio * speed)
+    stress = abs(couette) / (2 * scene.bodies.half_width)
+    rise = stress * sliding * film / (12 * lubricant.conductivity)
+    change = max(1 - inlet.factor, rise * (lubricant.temperature_coefficient or 0.0))
+    if not change > scene.numerics.tolerance:
+        return ()
+    return (
+        Validity(
+            "loss of film or viscosity by heat",
+            change,
+            scene.numerics.tolerance,
+            "",
+            "this model is isothermal: in truth the film is thinner and shears more easily",
+            "load sharing (numerics.model = 'auto') has the heat; heat = 'off' asks for none",
+        ),
+    )

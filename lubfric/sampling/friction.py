@@ -11,9 +11,8 @@ from .._base import validate
 from ..errors import InputError
 from ..scene import FASTEST, Scene, told_doubts
 from ..sharing import Prepared, at_tolerance, refused
+from .answer import load_sharing_answer
 from .answer_deterministic import deterministic_answer
-from .answer_one_way import one_way_answer
-from .answer_sharing import load_sharing_answer
 from .methods import with_methods
 from .result import FrictionResult
 
@@ -22,7 +21,7 @@ def friction(
     scene: Scene | Prepared,
     speed: float | None = None,
     *,
-    start: FrictionResult | None = None,
+    start: object = None,
     tolerance: float | None = None,
     model: str | None = None,
     fields: bool = False,
@@ -39,10 +38,9 @@ def friction(
     ----------
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
-    start : a result at a neighbouring speed of the same map. One without fields or film (at rest) is not used
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
-    model : "full": everything, on the scene's own grid; "deterministic": one gap and one pressure; None: the scene's
-    fields : True: ``result.balance`` has film and contact on the scene's own contact grid (on a long line: its cells)
+    model : "load-sharing", or "deterministic": one gap and one pressure; None: the scene's
+    fields : True: ``result.balance`` has film and contact on the cells of the map (on strips: on theirs)
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
 
     Returns a `FrictionResult`.
@@ -57,17 +55,17 @@ def friction(
     prepared = at_tolerance(scene, tolerance, model)
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
-    validate.instance("start", start, (FrictionResult, type(None)), "what lubfric.friction returned, or None")
-    start = start if start is not None and start.starts else None
+    if start is not None:
+        raise InputError(
+            "start is not taken any more: every point is solved from its scene and speed alone; leave it out"
+        )
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):
         if numerics.model == "deterministic" and speed != 0:
-            result = deterministic_answer(prepared, speed, start, begun)
-        elif numerics.closure == "one-way" and speed != 0:
-            result = one_way_answer(prepared, speed, start, begun)
+            result = deterministic_answer(prepared, speed, begun)
         else:
-            result = load_sharing_answer(prepared, speed, start, fields, begun)
+            result = load_sharing_answer(prepared, speed, fields, begun)
     result = with_methods(prepared, result)
     if not math.isfinite(result.coefficient):
         raise InputError(

@@ -7,7 +7,6 @@ from dataclasses import replace
 from ..sharing import Prepared
 from .result import FrictionResult
 
-RIGID = ("isoviscous", "piezoviscous")
 LAWS = {"roelands": "Roelands", "barus": "Barus"}
 OWN = {  # names of lubfric's own rough contacts; another may have been given
     "half-space": ("semi-periodic", "flat periodic curve"),
@@ -30,8 +29,6 @@ def _model(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     return {
         "load sharing": not whole,
         "one gap": whole,
-        "one-way": bool(result.one_way),
-        "film under spots": any(one.spot_film > 0 for one in result.one_way),
         "half-space contact": own and model == "half-space",
         "summits": own and model == "summits",
         "patches": own and model == "patches",
@@ -50,12 +47,10 @@ def _surface(prepared: Prepared) -> dict[str, bool]:
 
 
 def _film(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
-    told, scene, whole = result.decision, prepared.scene, result.deterministic is not None
-    option = scene.numerics.film_deflection if told is None or not told.deflected_by else told.deflected_by
+    scene, whole = prepared.scene, result.deterministic is not None
     return {
-        "rigid film": told is not None and told.film in RIGID,
-        "scaled modulus": option == "scaled" and result.contact_load > 0,
-        "kept mass": whole or bool(result.one_way),
+        "scaled modulus": scene.numerics.film_deflection == "scaled" and result.contact_load > 0 and not whole,
+        "kept mass": whole,
         "sheared flow": whole and scene.lubricant.eyring_stress is not None,
     }
 
@@ -66,7 +61,7 @@ def _lubricant(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     if oil is not None and lubricant.temperature is not None:
         estimate = oil.pressure_viscosity_coefficient(lubricant.temperature).method
     return {name: lubricant.viscosity_law == law for law, name in LAWS.items()} | {
-        "Dowson-Higginson": lubricant.density_law == "dowson-higginson" and not result.one_way,
+        "Dowson-Higginson": lubricant.density_law == "dowson-higginson",
         "Eyring stress": lubricant.eyring_stress is not None and slides,
         "limiting stress": lubricant.limiting_stress_coefficient is not None and slides,
         "viscosity over temperature": oil is not None,

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from .influence import SPOT
+from .scatter import SPOT
 
 FEWEST, ENOUGH = 4, 14  # blocks, the latter of 25 correlation lengths
 UNSURE = 2.0  # times the scale that fewer blocks than enough show
@@ -14,21 +14,13 @@ OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
 
 
-def missed_share(prepared, film, found, correlation_length: float) -> float:
-    """Relative effect of `missed_load` on f; NaN if the contact has no cells, or too few along y."""
-    if prepared.contact.grid is None or prepared.contact.nominally_flat or not found.coefficient:
+def missed_share(scene, contact, film, found, correlation_length: float) -> float:
+    """Relative effect of `missed_load` on f; NaN if ``contact`` has no cells, or too few along y."""
+    if contact.grid is None or not found.coefficient:
         return math.nan
-    bodies = prepared.scene.bodies
-    heights = prepared.surface.heights - prepared.surface.heights.mean()
-    load = missed_load(
-        heights,
-        prepared.surface.spacing,
-        film.film_at(prepared.contact.x),
-        bodies.e_prime,
-        bodies.width,
-        correlation_length,
-    )
-    return _share(prepared.scene, load, found)
+    under, bodies = film.film_at(contact.x), scene.bodies
+    load = missed_load(contact.heights, contact.spacing, under, bodies.e_prime, bodies.width, correlation_length)
+    return _share(scene, load, found)
 
 
 def missed_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
@@ -55,12 +47,13 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
     return rate * spot / (size * step) * width
 
 
-def hidden_share(prepared, found, surface, depth: float) -> float:
-    """Relative effect on f of the highest summit of a piece of ``surface`` that is pressed ``depth`` [m] into a body,
-    if every such piece has one."""
-    bodies = prepared.scene.bodies
-    load = _spot(surface.heights, surface.spacing, bodies.e_prime, depth) / surface.size[1] * bodies.width
-    return _share(prepared.scene, load, found)
+def hidden_share(scene, contact, found, depth: float) -> float:
+    """Relative effect on f of the highest summit of ``contact``, a piece, that is pressed ``depth`` [m] into a body, if
+    every such piece has one."""
+    bodies = scene.bodies
+    length = contact.heights.shape[1] * contact.spacing[1]
+    load = _spot(contact.heights, contact.spacing, bodies.e_prime, depth) / length * bodies.width
+    return _share(scene, load, found)
 
 
 def _share(scene, load: float, found) -> float:

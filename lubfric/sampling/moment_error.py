@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from .influence import block_error, gap_influence, line_load, strip_gap
+from .scatter import block_error, gap_influence, line_load, strip_gap
 
 
 def moment_error(

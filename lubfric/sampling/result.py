@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+import math
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,9 @@ import numpy as np
 from .._base import Shown
 from ..deterministic import Refined
 from ..errors import InputError, Report
-from ..one_way import OneWay
-from ..sharing import Balance, Decision, Validity
+from ..sharing import Balance, Validity
 from .cite import cited
-from .line_friction import LineStart
+from .decision import Decision
 from .uncertainty import FieldErrors, Uncertainty
 
 
@@ -21,9 +21,9 @@ from .uncertainty import FieldErrors, Uncertainty
 class FrictionResult(Shown):
     """One operating point.
 
-    The residuals are relative. ``balance`` holds the fields: the film (``balance.film``, an `EHLResult` or `RigidFilm`)
-    and, for a cylinder in contact, the dry contact (``balance.contact.fields``, a `ContactResult`). On a long line it
-    has the fields of the first 180 correlation lengths; forces and areas are those of all of the line.
+    The residuals are relative. ``balance`` holds the fields: the film (``balance.film``, an `EHLResult`)
+    and, for a cylinder in contact, the dry contact (``balance.contact.fields``, a `ContactResult`). On strips of
+    the surface these are on the cells of the strips; ``fields=True`` gives the map's own.
 
     Attributes
     ----------
@@ -49,7 +49,8 @@ class FrictionResult(Shown):
         (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
     methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
-    line : on a long line, what a neighbouring speed starts from
+    heights : of the cells of the contact that was solved [m], (nx, ny), about their mean; None if there are none
+    steepness : d ln(F_H/F_C)/d ln U [-]; NaN where film and contact do not share the load
     """
 
     speed: float
@@ -75,24 +76,18 @@ class FrictionResult(Shown):
     seconds: float
     report: Report
     balance: Balance | None = None
+    heights: np.ndarray | None = None
     decision: Decision | None = None
     validity: tuple[Validity, ...] = ()
     deterministic: Refined | None = None
-    one_way: tuple[OneWay, ...] = ()
     uncertainty: Uncertainty = Uncertainty()
     errors: FieldErrors = FieldErrors()
     methods: tuple[str, ...] = ()
-    line: LineStart | None = field(default=None, repr=False)
-
-    @property
-    def starts(self) -> bool:
-        """Whether a neighbouring speed can start from it, which needs its fields and a film."""
-        whole = self.deterministic is not None or bool(self.one_way)
-        return whole or (self.balance is not None and self.balance.film is not None)
+    steepness: float = math.nan
 
     def without_fields(self) -> FrictionResult:
         """A copy with its numbers alone."""
-        return replace(self, balance=None, deterministic=None, one_way=(), line=None)
+        return replace(self, balance=None, heights=None, deterministic=None)
 
     def _facts(self) -> dict[str, str]:
         facts = {
@@ -114,16 +109,13 @@ class FrictionResult(Shown):
     @property
     def shows_contact(self) -> bool:
         """Whether `pressure` and `gap` are available."""
-        whole = self.deterministic is not None or bool(self.one_way)
-        return whole or (self.balance is not None and self.balance.contact.fields is not None)
+        return self.deterministic is not None or (self.balance is not None and self.balance.contact.fields is not None)
 
     @property
     def x(self) -> np.ndarray:
         """Cells of the contact along the motion [m], (nx,), around the line of contact. Needs ``fields=True``."""
         if self.deterministic is not None:
             return self.deterministic.result.x
-        if self.one_way:
-            return self.one_way[-1].x
         return self._kept("x", None if self.balance is None else self.balance.contact.x)
 
     @property
@@ -132,9 +124,6 @@ class FrictionResult(Shown):
         if self.deterministic is not None:
             whole = self.deterministic.result
             return np.arange(whole.pressure.shape[1]) * whole.spacing[1]
-        if self.one_way:
-            count = self.one_way[-1].gap.shape[1]
-            return np.arange(count) * self.uncertainty.length / count
         return self._kept("y", None if self.balance is None else self.balance.contact.y)
 
     @property
@@ -142,8 +131,6 @@ class FrictionResult(Shown):
         """Pressure of the rough contact [Pa], (nx, ny); 0 where it is separated. Needs ``fields=True``."""
         if self.deterministic is not None:
             return self.deterministic.result.pressure
-        if self.one_way:
-            return self.one_way[-1].contact_pressure
         return self._fields("pressure").pressure
 
     @property
@@ -151,8 +138,6 @@ class FrictionResult(Shown):
         """Gap of the rough contact [m], (nx, ny). Needs ``fields=True``, and contact."""
         if self.deterministic is not None:
             return self.deterministic.result.gap
-        if self.one_way:
-            return self.one_way[-1].gap
         return self._fields("gap").gap
 
     def plot_contact(self, ax=None):

@@ -8,6 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 CONFIDENCE = 0.95
+MOST_MODEL, LEAST_MODEL = 0.3, 0.02  # error of load sharing: about lift-off, and at least
+STEEPNESS = 0.56  # of that error over the share of the film, from boundary lubrication on
+FULL_FILM = 3.2  # that error times (film/Sq)²
 FEW = 10.0  # participation below which an interval covers less often than it says
 MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 
@@ -27,7 +30,7 @@ class Uncertainty:
     participation : number of equally loaded spots that would carry the load as unevenly
     length : of the line used [m]
     area_needed : how many times more of a measured map would be needed (1: enough; NaN: ``sampling`` is not known)
-    model_form : estimated relative error of load sharing itself (`lubfric.sampling.model_form`), not in the interval;
+    model_form : estimated relative error of load sharing itself (`load_sharing_error`), not in the interval;
         NaN if it is not known
     """
 
@@ -73,6 +76,21 @@ def too_few(participation: float, reached: float, asked: float) -> bool:
     """Whether so few spots carry the load that an interval is too narrow more often than it says, and the standard
     error ``reached`` is not small beside the one ``asked``. 0 spots: nothing touches."""
     return 0 < participation < FEW and reached > MATTERS * asked
+
+
+def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> float:
+    """Relative error of f by Eq. (8), as far as a study has shown it (docs/model-error.md).
+
+    In contact ``min(0.3, 0.02 + 0.56 (1 - s))`` with s = F_C/F_T. For a full film ``min(0.3, 3.2/λ²)`` with λ =
+    central film/Sq. 0 if the contact carries the whole load. The rms over surfaces of f/f_deterministic - 1 lies below
+    that: the cylinder of the paper, Sq 100 nm, 5.5 to 110 N, patches of 90 µm, where much of it differs from patch to
+    patch.
+    """
+    if contact_share >= 1 or (contact_share <= 0 and film_to_roughness_ratio == math.inf):
+        return 0.0
+    if contact_share > 0:
+        return min(MOST_MODEL, LEAST_MODEL + STEEPNESS * (1 - contact_share))
+    return min(MOST_MODEL, FULL_FILM / film_to_roughness_ratio**2)
 
 
 NUMBERS = ("numerical", "sampling", "line_scatter", "participation", "length", "area_needed", "model_form")

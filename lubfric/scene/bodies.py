@@ -1,13 +1,29 @@
-"""The line contact: two bodies, pressed together."""
+"""The line contact: two bodies, how they move, and the part of their contact that is resolved."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from .._base import Brief, validate
 from ..errors import InputError
 from ..film import hertz
+
+FASTEST = 1e6  # m/s
+LARGEST_RATIO = 1e6  # slide-roll ratio
+GEOMETRIES = ("cylinder", "flat")
+REGIONS = ("hertz", "box")
+CONTACT_MODELS = ("half-space", "summits", "patches")
+ASPERITY_SEPARATIONS = ("volume", "mean-plane")
+LARGEST = 2**26  # cells of a contact grid
+
+
+def pair(name: str, value, unit: str) -> tuple:
+    """A list or tuple of two values, one for each body."""
+    if not isinstance(value, (list, tuple)) or len(value) != 2:
+        raise InputError(f" = {validate.shown(value)} must be a pair, one value a body [{unit}]", name)
+    return tuple(value)
 
 
 @dataclass(frozen=True, repr=False)
@@ -37,27 +53,23 @@ class Bodies(Brief):
 
     def __post_init__(self):
         validate.python_fields(self)
-        validate.positive("bodies.radius", self.radius, "m", minimum=1e-9, maximum=1e3)
-        validate.positive("bodies.width", self.width, "m", minimum=1e-9, maximum=1e3)
-        validate.positive("bodies.load", self.load, "N", minimum=1e-12, maximum=1e12)
+        for name, unit, least, most in (
+            ("radius", "m", 1e-9, 1e3),
+            ("width", "m", 1e-9, 1e3),
+            ("load", "N", 1e-12, 1e12),
+        ):
+            validate.positive(f"bodies.{name}", getattr(self, name), unit, minimum=least, maximum=most)
         validate.number("bodies.e_prime", self.e_prime, "Pa", minimum=1e3, maximum=1e13)
-        validate.nonnegative(
-            "bodies.boundary_friction_coefficient", self.boundary_friction_coefficient, "(-)", maximum=10.0
-        )
+        name = "bodies.boundary_friction_coefficient"
+        validate.nonnegative(name, self.boundary_friction_coefficient, "(-)", maximum=10.0)
         if self.hardness is not None:
             validate.positive("bodies.hardness", self.hardness, "Pa", minimum=1.0, maximum=1e14)
             if self.mean_hertz_pressure >= self.hardness:
-                raise InputError(
-                    f" = {self.load:g} N is above hardness x Hertz area",
-                    "bodies.load",
-                    f"below {self.hardness * 2 * self.half_width * self.width:g} N",
-                    also=("bodies.hardness",),
-                )
-
+                said = f" = {self.load:g} N is above hardness x Hertz area"
+                most = self.hardness * 2 * self.half_width * self.width
+                raise InputError(said, "bodies.load", f"below {most:g} N", also=("bodies.hardness",))
         for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):
-            both = getattr(self, name)
-            if not isinstance(both, (tuple, list)) or len(both) != 2:
-                raise InputError(f"bodies.{name} = {both!r} must be a pair, one value a body [{unit}]")
+            both = pair(f"bodies.{name}", getattr(self, name), unit)
             object.__setattr__(self, name, tuple(validate.positive(f"bodies.{name}", v, unit) for v in both))
 
     @property
@@ -80,3 +92,93 @@ class Bodies(Brief):
     def mean_hertz_pressure(self) -> float:
         """F_T / (2 b B) [Pa]."""
         return hertz.line_mean_pressure(self.load / self.width, self.radius, self.e_prime)
+
+
+@dataclass(frozen=True, repr=False)
+class Motion(Brief):
+    """Speeds of the two surfaces. Surface 2 is the upper one, on which the shear is taken (paper, Eq. 12).
+
+    Attributes
+    ----------
+    entrainment_speed : U = (u1 + u2)/2 [m/s]
+    slide_roll_ratio : (u2 - u1)/U [-], kept while the entrainment speed varies along a Stribeck curve. 2: surface 1
+        stands still, 0: pure rolling
+    speeds : the entrainment speeds of the Stribeck curve [m/s]
+    """
+
+    entrainment_speed: float
+    slide_roll_ratio: float = 2.0
+    speeds: tuple[float, ...] = ()
+
+    def __post_init__(self):
+        validate.python_fields(self)
+        for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", LARGEST_RATIO)):
+            value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
+            object.__setattr__(self, name, value)
+        if not isinstance(self.speeds, (list, tuple)):
+            raise InputError(f" = {validate.shown(self.speeds)}", "motion.speeds", "a list of numbers in m/s")
+        speeds = validate.numbers("motion.speeds", self.speeds, "m/s", FASTEST) if self.speeds else ()
+        object.__setattr__(self, "speeds", tuple(float(u) for u in speeds))
+
+
+@dataclass(frozen=True, repr=False)
+class ContactDomain(Brief):
+    """The part of the contact that is resolved, and how film and contact are compared on it.
+
+    Attributes
+    ----------
+    geometry : "cylinder": free in x, periodic in y, under the film's own shape (paper, Sec. 3.2); "flat": nominally
+        flat and periodic, the contact load spread over the Hertz strip (Sec. 3.1)
+    region : area A of the volume balance, Eq. (8), under a cylinder: "hertz", the strip |x| <= b of the total load, or
+        "box", the whole patch
+    shape, spacing : (nx, ny) and (dx, dy) [m] of the contact grid. If they are left out, a measured map keeps its own
+        grid
+    model : "half-space": every point of the surface may carry load, and deforms all others; "summits" or "patches":
+        independent Hertz contacts (`lubfric.contact`)
+    asperity_separation : how the film sets the separation of independent asperities: "volume" (Eq. 8 without
+        deflection) or "mean-plane" (the mean film itself)
+    """
+
+    geometry: str = "cylinder"
+    region: str = "hertz"
+    shape: tuple[int, int] | None = None
+    spacing: float | tuple[float, float] | None = None
+    model: str = "half-space"
+    asperity_separation: str = "volume"
+
+    def __post_init__(self):
+        validate.python_fields(self)
+        for name, options in (
+            ("model", CONTACT_MODELS),
+            ("asperity_separation", ASPERITY_SEPARATIONS),
+            ("geometry", GEOMETRIES),
+            ("region", REGIONS),
+        ):
+            validate.choice(f"contact.{name}", getattr(self, name), options)
+        if self.geometry == "flat" and self.region != "hertz":
+            said = f" = {self.region!r} does nothing with geometry = 'flat', whose patch stands for the Hertz strip"
+            raise InputError(said, "contact.region", "'hertz', or geometry = 'cylinder'")
+        if self.model == "half-space" and self.asperity_separation != "volume":
+            said = f" = {self.asperity_separation!r} does nothing with model = 'half-space'"
+            raise InputError(said, "contact.asperity_separation", "'volume', or model = 'summits' or 'patches'")
+        if self.shape is not None:
+            object.__setattr__(self, "shape", _cells(self.shape))
+        if self.spacing is not None:
+            object.__setattr__(self, "spacing", lengths("contact.spacing", self.spacing))
+
+
+def _cells(shape: Any) -> tuple[int, int]:
+    """The numbers of cells along x and y, checked."""
+    if not isinstance(shape, (tuple, list)) or len(shape) != 2:
+        raise InputError(f" = {validate.shown(shape)}", "contact.shape", "a pair (nx, ny) of whole numbers >= 1")
+    nx, ny = (validate.integer("contact.shape (cells of contact.spacing)", n, minimum=1) for n in shape)
+    if nx * ny > LARGEST:
+        cells = float(min(nx * ny, 10**300))
+        raise InputError(f" = {validate.shown(shape)} has {cells:.3g} cells", "contact.shape", f"up to {LARGEST:.3g}")
+    return nx, ny
+
+
+def lengths(name: str, value: Any) -> float | tuple[float, float]:
+    """One length [m], or the pair of those along x and y, checked."""
+    both = validate.spacing(name, value)
+    return both if isinstance(value, (list, tuple)) else both[0]

@@ -1,34 +1,31 @@
 """How the tolerance on the friction coefficient is divided, and how far a share may loosen or tighten a solver.
 
 These numbers stand only here; docs/levels.md quotes them. The shares are upper bounds, hardly ever reached together. An
-error of the film reaches f by a factor, the sensitivity (`lubfric.sharing.Forces`), by which the tolerance of the
+error of the film reaches f by a factor (`lubfric.sharing.Response.per_film`), by which the tolerance of the
 film is divided.
 """
 
 from __future__ import annotations
 
 # shares of the tolerance on f
-FILM_LEVEL = 0.2  # what the film level leaves out
-FILM_GRID = 0.3  # grid of a numerical film
-FILM_GRID_ALONE = 0.6  # the same where there is no contact
+FILM_GRID = 0.3  # grid of the film
+FILM_ALONE = 0.6  # the same where there is no contact
 SHEAR_SUM = 0.3  # sum of the film's shear stress over its nodes
 CONTACT_GRID = 0.4  # grid of the rough contact
 BALANCE = 5e-2  # closing of load and volume
 CONTACT = 1e-2  # solver of the rough contact
-DEFLECTION = 0.5  # leaving the pressure of the contact out of the deflection of the film
 HEAT = 0.2  # what leaving the heat of film and surfaces out changes of f
 INLET = 2e-3  # what leaving the heat of the inlet out changes of the film: it costs nothing, and parts of f may cancel
 CURVE = 0.3  # interpolation of a contact curve
 
 # what a solver is never asked for, however little or much of its error reaches f
 LOOSEST_FILM, TIGHTEST_FILM = 0.03, 2e-4
-COARSE_FILM = 5e-4  # on a contact grid that finer ones follow
 LOOSEST_VOLUME, TIGHTEST_VOLUME = 0.02, 1e-7
 TIGHTEST_CONTACT = 1e-9  # of Sq
 MOST_CELLS = 1536  # of a film whose shear stress is not resolved
+SLOPE = 0.1  # error of the slope by which a balance is corrected for what its root left open
+MOST_MOVED = 0.1  # of ln(F_H/F_C), by that correction: a light contact follows it exponentially
 SLACK = 1.5  # a tolerance off by less is not worth another solve
 
 # the most that holds where f has not been looked at yet: see `Numerics.tolerances`
 FIRST_FILM, FIRST_CONTACT, FIRST_VOLUME = 0.01, 1e-4, 1e-3
-
-LARGEST_LEFT_OUT = 0.3  # of a film, to first order: beyond it the estimate is none

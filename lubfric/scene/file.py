@@ -5,38 +5,18 @@ from __future__ import annotations
 import os
 import tomllib
 from copy import deepcopy
-from dataclasses import fields
 from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 
 from .._base import validate
 from ..errors import InputError
-from ..oil import Lubricant
-from .bodies import Bodies
-from .contact import ContactDomain
-from .history_read import history
-from .missing import check_complete
-from .motion import Motion
-from .numerics import Numerics
-from .plausible import told_slips
-from .roughness import GENERATED, Roughness, check_keys, named
+from .roughness import GENERATED, check_fields, named
 from .scene import Scene
-from .short_forms import resolve, short_keys
-from .transient import Transient
+from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section
+from .transient import UNITS, Transient, history
 
-SECTIONS = {
-    "bodies": Bodies,
-    "lubricant": Lubricant,
-    "motion": Motion,
-    "surface": Roughness,
-    "counterface": Roughness,
-    "contact": ContactDomain,
-    "numerics": Numerics,
-    "transient": Transient,
-}
-OPTIONAL = ("counterface", "contact", "numerics", "transient")
-ROUGH = ("surface", "counterface")
+SCENES = resources.files(__package__) / "scenes"
 HISTORIES = {
     "speed": ("motion", "entrainment_speed"),
     "sliding": ("motion", "sliding_speed"),
@@ -82,17 +62,15 @@ def read_toml(path, what: str) -> dict:
     except (UnicodeDecodeError, OSError) as error:
         raise InputError(f"{what} {str(path)!r} cannot be read as UTF-8 text: {error}") from None
     except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
-        told = validate.shown(str(error))
-        raise InputError(
-            f"{what} {path} is not valid TOML: {told} (numbers have a decimal point and no unit)"
-        ) from None
+        said = f"{what} {path} is not valid TOML: {validate.shown(str(error))}"
+        raise InputError(f"{said} (numbers have a decimal point and no unit)") from None
 
 
 def _put_map(table: dict, section: str, path) -> None:
     path = _map_path(f"{section}_file", path, Path())
     rough, contact = table.setdefault(section, {}), table.setdefault("contact", {})
     if not isinstance(rough, dict) or not isinstance(contact, dict):
-        return  # told by what reads the tables
+        return  # refused by what reads the tables
     if "file" not in rough:
         for key in ("sq", *GENERATED):
             rough.pop(key, None)
@@ -112,43 +90,43 @@ def _map_path(name: str, given, folder: Path) -> Path:
     near = get_close_matches(str(given), [path.name for path in folder.iterdir()] if folder.is_dir() else [], 3, 0.5)
     meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
     where = f" in {folder}" if folder.name else ""
-    raise InputError(
-        f"{name} = {validate.shown(str(given))}: no such file{where}{meant}; give its path from there, or all of it"
-    )
+    said = f" = {validate.shown(str(given))}: no such file{where}{meant}"
+    raise InputError(said, name, way_out="give its path from there, or all of it")
 
 
 def builtin_scenes() -> tuple[str, ...]:
     """Names that `lubfric.load_scene` knows without a file."""
-    folder = resources.files("lubfric") / "scene" / "scenes"
-    return tuple(sorted(f.name.removesuffix(".toml") for f in folder.iterdir() if f.name.endswith(".toml")))
+    return tuple(sorted(f.name.removesuffix(".toml") for f in SCENES.iterdir() if f.name.endswith(".toml")))
 
 
 def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
     """A validated `Scene` from the tables of a TOML file."""
-    allowed = ("name", *SECTIONS)
-    validate.keys("scene", table, allowed)
+    validate.keys("scene", table, ("name", *SECTIONS))
     for section in SECTIONS:
         if not isinstance(table.get(section, {}), dict):
             raise InputError(f"scene entry {section!r} must be a table [{section}]")
     table, plan = _plan(table, folder)
     for section in (s for s in SECTIONS if s in table and s != "transient"):
-        validate.keys(f"[{section}]", table[section], _keys(section))
-    check_complete(name, table, {s: kind for s, kind in SECTIONS.items() if s not in OPTIONAL}, ROUGH)
-    parts = {s: _build(s, dict(table.get(s, {}))) for s in SECTIONS if s not in (*ROUGH, "transient")}
-    for section in ROUGH:
-        if section in table:
-            parts[section] = _rough(section, dict(table[section]), folder)
+        check_keys(section, table[section], ("sliding_speed",) if section == "motion" else ())
+    check_complete(name, table)
+    parts = {}
+    for section in SECTIONS:
+        given = dict(table.get(section, {}))
+        if section in ROUGH and section in table:
+            _check_roughness(section, given, folder)
+        if section != "transient" and (section in table or section != "counterface"):
+            parts[section] = made_section(section, given)
     if not isinstance(table.get("name", name), str):
         raise InputError(f"name = {validate.shown(table['name'])}; write words in quotes")
     return Scene(**parts, name=table.get("name", name), transient=plan)
 
 
-def _rough(section: str, given: dict, folder: Path) -> Roughness:
+def _check_roughness(section: str, given: dict, folder: Path) -> None:
+    """Make the path of a file absolute, and refuse keys that do not apply, whatever their value."""
     if isinstance(given.get("file"), str):
         given["file"] = str(_map_path(f"{section}.file", given["file"], folder.resolve()))
     with named(section):
-        check_keys(given)
-        return _build(section, given)
+        check_fields(given)
 
 
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
@@ -159,7 +137,7 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     """
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
     given = table.get("transient", {})
-    found = {name: history(f"transient.{name}", given.pop(name), folder) for name in HISTORIES if name in given}
+    found = {n: history(f"transient.{n}", given.pop(n), UNITS[n], folder) for n in HISTORIES if n in given}
     for name, (section, key) in HISTORIES.items():
         value = table.get(section, {}).get(key)
         if value is None and name == "sliding":
@@ -167,13 +145,12 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
         if isinstance(value, dict) or (value is not None and name == "sliding"):
             if name in found:
                 raise InputError(f"[transient] {name} and [{section}] {key} are both histories; give one of them")
-            found[name] = history(f"{section}.{key}", value, folder)
-            table[section].pop(key)
+            found[name] = history(f"{section}.{key}", table[section].pop(key), UNITS[name], folder)
     if not found and "transient" not in table:
         return table, None
     if "duration" not in given:
         raise InputError("a scene with a history needs [transient] with duration in s")
-    plan = _build("transient", {**given, **found})
+    plan = made_section("transient", {**given, **found})
     for name, (section, key) in HISTORIES.items():
         if name in found and name != "sliding" and key not in table.get(section, {}):
             value = found[name].range(plan.duration)[1] if name == "load" else found[name].before(0.0)
@@ -183,34 +160,14 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
 
 def _read(source) -> tuple[dict, Path, str]:
     """Its tables, the folder that its files are relative to, and its name."""
+    names = builtin_scenes()
     if not isinstance(source, (str, os.PathLike)):
-        raise InputError(
-            f"scene {validate.shown(source)} is a {type(source).__name__}; allowed: a path, or one of "
-            f"{builtin_scenes()}"
-        )
-    if str(source) in builtin_scenes():
-        return (
-            read_toml(resources.files("lubfric") / "scene" / "scenes" / f"{source}.toml", "scene"),
-            Path(),
-            str(source),
-        )
+        said = f"scene {validate.shown(source)} is a {type(source).__name__}"
+        raise InputError(said, allowed=f"a path, or one of {names}")
+    if str(source) in names:
+        return read_toml(SCENES / f"{source}.toml", "scene"), Path(), str(source)
     path = Path(source)
     if not os.path.isfile(path):
-        raise InputError(
-            f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
-            f"{validate.nearest(source, builtin_scenes())}; built in: {', '.join(builtin_scenes())}"
-        )
+        said = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
+        raise InputError(f"{said}{validate.nearest(source, names)}; built in: {', '.join(names)}")
     return read_toml(path, "scene"), path.parent, path.stem
-
-
-def _build(section: str, table: dict):
-    validate.keys(f"[{section}]", table, _keys(section))
-    with told_slips(section, dict(table)):
-        plain = resolve(section, table)
-        return SECTIONS[section](**{k: tuple(v) if isinstance(v, list) else v for k, v in plain.items()})
-
-
-def _keys(section: str) -> tuple[str, ...]:
-    """All keys of a section, short forms and histories too."""
-    histories = ("sliding_speed",) if section == "motion" else ()
-    return (*(f.name for f in fields(SECTIONS[section])), *short_keys(section), *histories)

@@ -1,7 +1,7 @@
 """Quantities that change in time: constant, ramp, harmonic, table.
 
 Each gives its value just after (``at``) and just before (``before``) a time [s], the times of its jumps, and
-its range. `lubfric.scene.history_read` makes them from a scene file or a CSV file.
+its range. `lubfric.scene.read_history` makes them from a scene file or a CSV file.
 """
 
 from __future__ import annotations
@@ -14,9 +14,10 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from .history_corners import corners
 
 ROUNDING = 1e-12  # relative: times that are closer are one time
+BEND = 0.01  # of the value, by which a straight line may miss it
+LEAST = 1e-4  # of the largest value: what is smaller than it may be missed by as much as it may
 
 
 class History:
@@ -42,6 +43,11 @@ class History:
         """Smallest and largest value from 0 to ``duration`` [s]."""
         raise NotImplementedError
 
+    def _check_numbers(self, **units: str) -> None:
+        """Make the named fields floats, checked to be finite."""
+        for name, unit in units.items():
+            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), unit))
+
 
 @dataclass(frozen=True)
 class Constant(History):
@@ -50,7 +56,7 @@ class Constant(History):
     value: float
 
     def __post_init__(self):
-        object.__setattr__(self, "value", validate.number("history value", self.value, "(SI)"))
+        self._check_numbers(value="(SI)")
 
     def at(self, time: float) -> float:
         return self.value
@@ -69,8 +75,7 @@ class Harmonic(History):
     mean: float = 0.0
 
     def __post_init__(self):
-        for name, unit in (("amplitude", "(SI)"), ("mean", "(SI)"), ("phase", "rad")):
-            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), unit))
+        self._check_numbers(amplitude="(SI)", mean="(SI)", phase="rad")
         object.__setattr__(self, "frequency", validate.positive("history frequency", self.frequency, "Hz"))
 
     def at(self, time: float) -> float:
@@ -80,8 +85,7 @@ class Harmonic(History):
         if self.frequency * duration >= 1.0:
             return self.mean - abs(self.amplitude), self.mean + abs(self.amplitude)
         turns = (np.pi * (np.arange(-2, 6) + 0.5) - self.phase % (2 * np.pi)) / (2 * np.pi * self.frequency)
-        times = np.concatenate([[0.0, duration], turns[(turns > 0.0) & (turns < duration)]])
-        values = [self.at(t) for t in times]
+        values = [self.at(t) for t in (0.0, duration, *turns[(turns > 0.0) & (turns < duration)])]
         return min(values), max(values)
 
 
@@ -90,7 +94,7 @@ class Table(History):
     """Straight lines between ``values`` at ``times`` [s] (not decreasing, from 0 or before).
 
     A time given twice is a jump. ``repeat``: begin again at the last time (a period); without it the table must last as
-    long as the run. A step ends at every corner (`lubfric.scene.history_corners`), so that no step passes over a pulse.
+    long as the run. A step ends at every corner (`corners`), so that no step passes over a pulse.
     """
 
     times: tuple[float, ...] = ()
@@ -102,24 +106,24 @@ class Table(History):
         values = validate.array("history values", self.values, "(SI)", ndim=1)
         if times.size != values.size or times.size < 2:
             raise InputError(f"history has {times.size} times and {values.size} values; allowed: as many, at least two")
+        object.__setattr__(self, "repeat", validate.boolean("history repeat", self.repeat))
+        object.__setattr__(self, "times", tuple(times.tolist()))
+        object.__setattr__(self, "values", tuple(values.tolist()))
+        self._check_times(times)
+
+    def _check_times(self, times: np.ndarray) -> None:
+        name, first, last = "history times", times[0], times[-1]
         falls = np.flatnonzero(np.diff(times) < 0.0)
         if falls.size:
             i = int(falls[0])
-            raise InputError(
-                f"history times are not sorted: {times[i + 1]:g} s follows {times[i]:g} s (entry {i + 2}); "
-                "allowed: times that do not decrease, in s"
-            )
-        if times[0] > 0.0 or times[-1] <= times[0]:
-            raise InputError(
-                f"history times run from {times[0]:g} to {times[-1]:g} s; allowed: from 0 s or before to a later time"
-            )
-        object.__setattr__(self, "repeat", validate.boolean("history repeat", self.repeat))
-        if self.repeat and times[0] != 0.0:
-            raise InputError(f"history times start at {times[0]:g} s; a table that repeats starts at 0 s")
+            said = f" are not sorted: {times[i + 1]:g} s follows {times[i]:g} s (entry {i + 2})"
+            raise InputError(said, name, "times that do not decrease, in s")
+        if first > 0.0 or last <= first:
+            raise InputError(f" run from {first:g} to {last:g} s", name, "from 0 s or before to a later time")
+        if self.repeat and first != 0.0:
+            raise InputError(f" start at {first:g} s", name, "0 s for the start of a table that repeats")
         if np.any(times[2:] == times[:-2]):
-            raise InputError("history times hold the same time three times; allowed: at most twice (a jump)")
-        object.__setattr__(self, "times", tuple(float(t) for t in times))
-        object.__setattr__(self, "values", tuple(float(v) for v in values))
+            raise InputError(" hold the same time three times", name, "at most twice (a jump)")
 
     def at(self, time: float) -> float:
         return self._value(time, "right")
@@ -150,22 +154,22 @@ class Table(History):
 
     def stops(self, duration: float) -> tuple[float, ...]:
         """The corners, of every period."""
-        found = np.array([*corners(np.array(self.times), np.array(self.values)), *self.times[-1:]])
-        if self.repeat:
-            laps = np.arange(math.ceil(duration / self.times[-1]))
-            found = (found[None, :] + laps[:, None] * self.times[-1]).ravel()
-        return tuple(float(x) for x in found if 0.0 < x < duration)
+        found = [*corners(np.array(self.times), np.array(self.values)), self.times[-1]]
+        return tuple(time for time in self._in_every_period(found, duration) if time > 0.0)
 
     def jumps(self, duration: float) -> tuple[float, ...]:
         """Times [s] at which the value jumps, 0 <= t < duration."""
         t, v = np.array(self.times), np.array(self.values)
         found = t[1:][(np.diff(t) == 0.0) & (np.diff(v) != 0.0)]
-        if self.repeat:
-            if v[0] != v[-1]:
-                found = np.append(found, t[-1])
-            laps = np.arange(math.ceil(duration / t[-1]))
-            found = np.unique((found[None, :] + laps[:, None] * t[-1]).ravel())
-        return tuple(float(x) for x in found if 0.0 <= x < duration)
+        if self.repeat and v[0] != v[-1]:
+            found = np.append(found, t[-1])
+        return self._in_every_period(found, duration)
+
+    def _in_every_period(self, times, duration: float) -> tuple[float, ...]:
+        """The ``times`` of the table, in every period, from 0 to before ``duration``."""
+        laps = np.arange(math.ceil(duration / self.times[-1]) if self.repeat else 1)
+        found = np.unique(np.asarray(times, float)[None, :] + laps[:, None] * self.times[-1])
+        return tuple(found[(found >= 0.0) & (found < duration)].tolist())
 
     def range(self, duration: float) -> tuple[float, float]:
         inside = [v for t, v in zip(self.times, self.values) if self.repeat or 0.0 <= t <= duration]
@@ -183,8 +187,7 @@ class Ramp(History):
     begin: float = 0.0
 
     def __post_init__(self):
-        for name in ("start", "end"):
-            object.__setattr__(self, name, validate.number(f"history {name}", getattr(self, name), "(SI)"))
+        self._check_numbers(start="(SI)", end="(SI)")
         object.__setattr__(self, "begin", validate.nonnegative("history begin", self.begin, "s"))
         object.__setattr__(self, "until", validate.number("history until", self.until, "s", above=self.begin))
 
@@ -198,3 +201,26 @@ class Ramp(History):
 
     def range(self, duration: float) -> tuple[float, float]:
         return min(self.at(0.0), self.at(duration)), max(self.at(0.0), self.at(duration))
+
+
+def corners(times: np.ndarray, values: np.ndarray) -> list[float]:
+    """Times [s] at which a line of straight pieces has to have a corner to follow ``values`` within 1 %.
+
+    Every piece begins at a row. It is as long as one straight line from there stays within `BEND` of the values of all
+    rows (the cone of such lines gets narrower with every row). A jump, which is a time given twice, begins a new piece.
+    So a smooth wave has some twenty corners a period, however finely it is sampled, and a pulse keeps all of its own.
+    """
+    allowed = BEND * np.maximum(np.abs(values), LEAST * np.abs(values).max())
+    t, v, miss = times.tolist(), values.tolist(), allowed.tolist()
+    found, start, low, high = [], 0, -math.inf, math.inf
+    for j in range(1, len(t)):
+        if t[j] > t[j - 1] and not low <= (v[j] - v[start]) / (t[j] - t[start]) <= high:
+            start, low, high = j - 1, -math.inf, math.inf
+            found.append(t[start])
+        if t[j] == t[j - 1]:
+            start, low, high = j, -math.inf, math.inf
+            continue
+        run = t[j] - t[start]
+        low = max(low, (v[j] - miss[j] - v[start]) / run)
+        high = min(high, (v[j] + miss[j] - v[start]) / run)
+    return found

@@ -3,21 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from .._base import Brief, validate
 from ..errors import InputError
 from . import budget
 
 MOST_THREADS = 1024
-CAVITATED_SHEAR = ("none", "striated")
-HEATS = ("auto", "on", "off")
-CLOSURES = ("load", "separation", "one-way")
-FILM_DEFLECTIONS = ("auto", "hydrodynamic", "scaled", "total")
-MODELS = ("auto", "full", "deterministic")
-FILM_LEVELS = ("auto", "none", "isoviscous", "piezoviscous", "ehl")
-CONTACT_LEVELS = ("auto", "none", "flat", "semi-periodic")
-GRIDS = ("auto", "given")
-SAMPLINGS = ("line", "patch")
+OPTIONS = {
+    "model": ("auto", "load-sharing", "deterministic"),
+    "film_deflection": ("hydrodynamic", "scaled", "total"),
+    "grid": ("auto", "given"),
+    "sampling": ("strips", "patch"),
+    "heat": ("auto", "on", "off"),
+    "cavitated_shear": ("none", "striated"),
+}
+DROPPED = {  # keys, and values of keys, that there were before: what to do instead
+    "closure": "leave it out: film and contact always share the load as in Eq. (8)",
+    "closure = 'one-way'": "leave it out, or give numerics.model = 'deterministic', which has one gap and one pressure",
+    "closure = 'separation'": "leave it out; lubfric.paper has the paper's closure as contact solvers",
+    "film_level": "leave it out: the film is always the full one (EHL)",
+    "contact_level": "leave it out: contact.geometry says which contact is solved",
+    "ehl_tolerance": "its name is numerics.film_tolerance",
+    "model = 'full'": "leave it out, and give numerics.tolerance a smaller value",
+    "film_deflection = 'auto'": "leave it out, or give 'hydrodynamic', 'scaled' or 'total'",
+    "sampling = 'line'": "leave it out, or give 'strips'",
+}
 
 
 @dataclass(frozen=True)
@@ -39,17 +50,14 @@ class Numerics(Brief):
     tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it if they are left
         out (`tolerances`)
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
-    sampling : the surface that is solved: "line", a line of the scene's roughness as long as ``sampling_tolerance``
+    sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance``
         needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
-    sampling_tolerance : standard error of f that a finite line may leave
-    closure : "load": contact solved at F_T - F_H, volume balanced; "separation": the paper's way, film imposed on the
-        contact, loads balanced; "one-way": one film in the dry contact's own gap
+    sampling_tolerance : standard error of f that a finite surface may leave
     film_deflection : which pressure deforms the film: its own ("hydrodynamic", the paper); the whole load, by Johnson's
-        scaled modulus E' F_H/F_T ("scaled"); film and contact pressure ("total"). "auto": the first if the second
-        changes f by less than its share of the tolerance, else the second
-    model : "auto": no more than the tolerance needs (docs/levels.md); "full": everything, on the scene's own grid;
-        "deterministic": one gap and one pressure instead of load sharing (docs/deterministic.md)
-    film_level, contact_level, grid : a level given by name instead of "auto"
+        scaled modulus E' F_H/F_T ("scaled"); film and contact pressure ("total")
+    model : "load-sharing": film and contact share the load, Eq. (8); "deterministic": one gap and one pressure
+        (docs/deterministic.md); "auto": load sharing
+    grid : "auto": the coarsest contact grid and shortest patch that the tolerance allows; "given": the scene's own
     heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how
         its viscosity falls with the temperature), "on", "off"
     accept : True: results outside the range of the model are returned and marked, instead of refused
@@ -63,38 +71,22 @@ class Numerics(Brief):
     balance_tolerance: float | None = None
     cavitated_shear: str = "none"
     workers: int = 1
-    closure: str = "load"
-    film_deflection: str = "auto"
+    film_deflection: str = "scaled"
     model: str = "auto"
-    film_level: str = "auto"
-    contact_level: str = "auto"
     grid: str = "auto"
-    sampling: str = "line"
+    sampling: str = "strips"
     sampling_tolerance: float = 0.02
     heat: str = "auto"
     accept: bool = False
 
+    def __new__(cls, *args, **given):
+        refuse_dropped(given)
+        return super().__new__(cls)
+
     def __post_init__(self):
         validate.python_fields(self)
-        for name, options in (
-            ("model", MODELS),
-            ("film_level", FILM_LEVELS),
-            ("contact_level", CONTACT_LEVELS),
-            ("grid", GRIDS),
-            ("sampling", SAMPLINGS),
-            ("heat", HEATS),
-            ("closure", CLOSURES),
-            ("film_deflection", FILM_DEFLECTIONS),
-            ("cavitated_shear", CAVITATED_SHEAR),
-        ):
+        for name, options in OPTIONS.items():
             validate.choice(f"numerics.{name}", getattr(self, name), options)
-        if self.film_deflection == "total":
-            for name, allowed in (("closure", ("load",)), ("film_level", ("auto", "none", "ehl"))):
-                if getattr(self, name) not in allowed:
-                    raise InputError(
-                        f"numerics.{name} = {getattr(self, name)!r} does not go with film_deflection = 'total'; "
-                        f"allowed: {', '.join(map(repr, allowed))}"
-                    )
         validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
         validate.number("numerics.sampling_tolerance", self.sampling_tolerance, "(-)", minimum=1e-3, maximum=0.5)
         for name in ("film_tolerance", "contact_tolerance", "balance_tolerance"):
@@ -112,3 +104,11 @@ class Numerics(Brief):
             contact=self.contact_tolerance or min(budget.CONTACT * asked, budget.FIRST_CONTACT),
             balance=self.balance_tolerance or min(budget.BALANCE * asked, budget.FIRST_VOLUME),
         )
+
+
+def refuse_dropped(given: dict[str, Any]) -> None:
+    """Raise `InputError` for a key of [numerics], or a value of one, that there is no more; it says what to do."""
+    for key, value in given.items():
+        way_out = DROPPED.get(f"{key} = {validate.shown(value)}") or DROPPED.get(key)
+        if way_out:
+            raise InputError(f" = {validate.shown(value)} is not there any more", f"numerics.{key}", way_out=way_out)

@@ -22,7 +22,7 @@ class Usual:
     low: float
     high: float
     unit: str
-    others: tuple[tuple[str, float] | tuple[str, float, str], ...] = ()
+    others: tuple[tuple, ...] = ()
 
     def holds(self, value: float) -> bool:
         """True inside the range."""
@@ -59,26 +59,20 @@ USUAL = {
     "numerics.sampling_tolerance": Usual(1e-3, 0.5, "-", (("%", 1e-2),)),
     "contact.spacing": Usual(1e-10, 1e-4, "m", (("um", MICRO), ("nm", NANO), ("mm", 1e-3))),
 }
-NOUGHT = (
-    "lubricant.pressure_viscosity_coefficient",
-    "bodies.boundary_friction_coefficient",
-    "motion.entrainment_speed",
-    "motion.speeds",
-    "motion.slide_roll_ratio",
-    "surface.sq",
-)
+NOUGHT = ("lubricant.pressure_viscosity_coefficient", "surface.sq")  # usual where they are 0
 
 
 def slip(name: str, value) -> str | None:
     """What ``value`` of the key ``name`` (section.key) may have been meant to be. None: the value is usual; "": nothing
     fits."""
     usual = USUAL.get(name)
+    if usual is None:
+        return None
     numbers = value if isinstance(value, (list, tuple)) else (value,)
     numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool) and abs(v) < 1e300]
-    strange = [v for v in numbers if usual is not None and not usual.holds(v)]
-    if usual is None or not strange or (strange[0] == 0 and name in NOUGHT):
+    v = next((v for v in numbers if not usual.holds(v)), None)
+    if v is None or v == 0 and name in NOUGHT:
         return None
-    v = strange[0]
     for unit, factor, *advice in usual.others:
         if usual.holds(v * factor):
             return "; ".join((f"{unit} meant? {v:g} {unit} = {v * factor:g} {usual.unit}", *advice))
@@ -125,7 +119,7 @@ def _index(scene) -> float | None:
 
 
 @contextmanager
-def told_slips(section: str, values: dict):
+def naming_slips(section: str, values: dict):
     """Add the likely slip, if there is one, to an `InputError` about one of ``values``."""
     try:
         yield

@@ -9,32 +9,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
-from .._base import Brief, validate
+from .._base import Brief, changed, validate
 from ..errors import InputError
 from ..surface import ACFS, DECIMALS, FORMS, UNITS
+from .bodies import lengths
 
 NEEDED = "either 'file', or 'sq' and 'correlation_length' in m"
 OUTLIERS = ("refuse", "keep", "mask")
 EXTENSIONS = ("none", "mirror")
-GENERATED = {  # fields of a generated map, and what they are where left out
-    "correlation_length": None,
-    "acf": "exponential",
-    "decay_level": math.exp(-1),
-    "seed": 0,
-    "oversize": 1,
-}
-MEASURED = {  # fields of a map from a file
-    "motion_axis": "x",
-    "spacing": None,
-    "unit": None,
-    "decimal": None,
-    "missing_value": None,
-    "form": "plane",
-    "outliers": "refuse",
-    "s_filter": None,
-    "l_filter": None,
-    "extension": "none",
-}
+GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize")  # fields of a generated map
 
 
 @dataclass(frozen=True, repr=False)
@@ -100,24 +83,17 @@ class Roughness(Brief):
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, check(f"surface.{name}", value))
-        for name, default in (MEASURED if self.file is None else GENERATED).items():
-            if getattr(self, name) != default:
-                raise not_for_this(name, getattr(self, name), self.file is None)
+        check_fields(changed(self))
 
 
-def not_for_this(name: str, value: Any, generated: bool) -> InputError:
-    """The error for a key that has no meaning for this kind of map."""
-    this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
-    told = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
-    return InputError(told, f"surface.{name}", way_out="leave it out")
-
-
-def check_keys(given: dict[str, Any]) -> None:
-    """Raise `InputError` for a key of a scene file that does not apply, whatever its value."""
+def check_fields(given: dict[str, Any]) -> None:
+    """Raise `InputError` for a field that has no meaning for this kind of map, from a file or generated."""
     generated = "file" not in given
-    for name in MEASURED if generated else GENERATED:
-        if name in given:
-            raise not_for_this(name, given[name], generated)
+    this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
+    for name, value in given.items():
+        if name not in ("file", "sq") and (name in GENERATED) != generated:
+            said = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
+            raise InputError(said, f"surface.{name}", way_out="leave it out")
 
 
 @contextmanager
@@ -132,41 +108,23 @@ def named(section: str) -> Iterator[None]:
         raise
 
 
-def counterface(values: dict[str, Any]) -> Roughness:
-    """The roughness of the second body."""
-    for key in values:
-        if key not in Roughness.__dataclass_fields__:
-            allowed = tuple(Roughness.__dataclass_fields__)
-            raise InputError(
-                f"counterface has no field {validate.shown(key)}{validate.nearest(key, allowed)}; allowed: "
-                f"{', '.join(allowed)}"
-            )
-    with named("counterface"):
-        return Roughness(**values)
-
-
 def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
-    """The fields that ``values`` change in ``old``. If a file replaces a generated map, the keys of the generated map
+    """The fields that ``values`` change in ``old``. If a file replaces a generated map, the fields of the generated map
     go."""
     if old is not None and old.file is None and values.get("file") is not None:
-        return {"sq": None, **GENERATED, **values}
+        return {"sq": None, **{name: getattr(Roughness, name) for name in GENERATED}, **values}
     return values
-
-
-def _lengths(name: str, value: Any) -> float | tuple[float, float]:
-    pair = validate.spacing(name, value)
-    return pair if isinstance(value, (list, tuple)) else pair[0]
 
 
 _CHECKS = {
     "sq": lambda name, value: validate.nonnegative(name, value, "m", maximum=1.0),
-    "correlation_length": _lengths,
+    "correlation_length": lengths,
     "acf": lambda name, value: validate.choice(name, value, ACFS),
     "decay_level": lambda name, value: validate.number(name, value, "(-)", above=0, maximum=0.99),
     "seed": lambda name, value: validate.integer(name, value, minimum=0, maximum=2**128 - 1),
     "oversize": lambda name, value: validate.integer(name, value, minimum=1, maximum=64),
     "motion_axis": lambda name, value: validate.choice(name, value, ("x", "y")),
-    "spacing": _lengths,
+    "spacing": lengths,
     "unit": lambda name, value: validate.choice(name, value, UNITS),
     "decimal": lambda name, value: validate.choice(name, value, DECIMALS),
     "missing_value": lambda name, value: validate.number(name, value, "(unit of the file)"),

@@ -3,24 +3,34 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, replace
+from html import escape
 from typing import Any
 
-from .._base import validate
+from .._base import Shown, changed, validate
 from ..errors import InputError
 from ..film import LineContact
 from ..oil import Lubricant
-from .bodies import Bodies
-from .change import changed_section
-from .contact import ContactDomain
-from .motion import Motion
+from ..quantities import key_unit
+from .bodies import Bodies, ContactDomain, Motion
 from .numerics import Numerics
 from .roughness import Roughness
-from .shown import SceneShown
+from .sections import SECTIONS, changed_section
 from .transient import Transient
+
+MANY = 8  # values of a list that are shown
+RESOLVED = (  # key, the values that the deterministic model takes, why no other
+    ("contact.geometry", ("cylinder",), ""),
+    ("contact.model", ("half-space",), ""),
+    ("contact.region", ("hertz",), " (there is no volume balance; means are over the Hertz strip)"),
+    ("motion.slide_roll_ratio", (2.0,), " (the rough body, surface 1, at rest: else the film is not steady)"),
+    ("numerics.film_deflection", ("scaled", "hydrodynamic"), " (no smooth film is deflected)"),
+    ("numerics.cavitated_shear", ("none",), ""),
+    ("numerics.heat", ("auto", "off"), " (the model is isothermal)"),
+)
 
 
 @dataclass(frozen=True, repr=False)
-class Scene(SceneShown):
+class Scene(Shown):
     """One problem, complete: `lubfric.friction` and `lubfric.stribeck` take nothing else.
 
     Attributes
@@ -44,38 +54,34 @@ class Scene(SceneShown):
 
     def __post_init__(self):
         if self.numerics.heat == "on" and not self.lubricant.heats:
-            raise InputError(
-                "numerics.heat = 'on' needs to know how the viscosity falls with the temperature; give an "
-                "oil (lubricant.grade, "
-                "nu40, oil) or lubricant.temperature [K] and temperature_coefficient [1/K], or heat = 'auto'"
-            )
+            by_numbers = "lubricant.temperature [K] and temperature_coefficient [1/K]"
+            ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"
+            said = " = 'on' needs to know how the viscosity falls with the temperature"
+            raise InputError(said, "numerics.heat", way_out=ways)
 
     def with_(self, **sections) -> Scene:
         """A copy with some fields of its sections replaced: ``scene.with_(bodies={"load": 10.0})``.
 
         The short forms of scene files may be used as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
         """
-        changed = {}
+        new = {}
         for section, values in sections.items():
             if section not in self.__dataclass_fields__:
-                raise InputError(
-                    f"scene has no section {section!r}{validate.nearest(section, self.__dataclass_fields__)}"
-                    f"{_dotted(section, values)}"
-                )
-            changed[section] = changed_section(section, getattr(self, section), values)
-        return replace(self, **changed)
+                near = validate.nearest(section, self.__dataclass_fields__)
+                raise InputError(f"scene has no section {section!r}{near}{_dotted(section, values)}")
+            new[section] = changed_section(section, getattr(self, section), values)
+        return replace(self, **new)
 
     def with_keys(self, values: dict[str, Any]) -> Scene:
         """A copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section act at
         once, in any order: a Hertz pressure is that with the radius given beside it."""
-        whole = {key: value for key, value in values.items() if "." not in key}
-        sections = {key: dict(value) for key, value in whole.items() if isinstance(value, dict)}
+        whole = {key: value for key, value in values.items() if "." not in key and not isinstance(value, dict)}
+        parts: dict[str, dict] = {}
         for key, value in values.items():
-            section, dot, field = key.partition(".")
-            if dot:
-                sections.setdefault(section, {})[field] = value
-        ready = {key: value for key, value in whole.items() if not isinstance(value, dict)}
-        return (self.with_(**ready) if ready else self).with_(**sections)
+            section, dot, name = key.partition(".")
+            if key not in whole:
+                parts.setdefault(section, {}).update({name: value} if dot else value)
+        return self.with_(**whole).with_(**parts)
 
     def line_contact(self, speed: float) -> LineContact:
         """The smooth line contact of the whole load at ``speed`` [m/s], not 0."""
@@ -88,6 +94,42 @@ class Scene(SceneShown):
 
         return scene_as_toml(self)
 
+    def _facts(self) -> dict[str, str]:
+        rough = self.surface
+        sq = "" if rough.sq is None else f"Sq {rough.sq:.4g} m"
+        return {
+            "": self.name,
+            "R": f"{self.bodies.radius:.4g} m",
+            "load": f"{self.bodies.load:.4g} N on {self.bodies.width:.4g} m",
+            "viscosity": f"{self.lubricant.viscosity:.4g} Pa s",
+            "U": f"{self.motion.entrainment_speed:.4g} m/s",
+            "surface": " ".join(part for part in (rough.file or "generated", sq) if part),
+        }
+
+    def _repr_html_(self) -> str:
+        rows = []
+        for section in SECTIONS:
+            part = getattr(self, section)
+            values = {} if part is None else changed(part)
+            if values:
+                rows.append(f'<tr><th colspan="3">{section}</th></tr>')
+            rows += [_row(key, _text_of(value), key_unit(section, key)) for key, value in values.items()]
+        head = "<thead><tr><th>key</th><th>value</th><th>unit</th></tr></thead>"
+        return f"<table><caption>{escape(self.name)}</caption>{head}<tbody>{''.join(rows)}</tbody></table>"
+
+
+def _row(*cells: str) -> str:
+    return f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in cells)}</tr>"
+
+
+def _text_of(value: Any) -> str:
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, (tuple, list)):
+        shown = ", ".join(_text_of(part) for part in value[:MANY])
+        return f"{shown}, ... ({len(value)} values)" if len(value) > MANY else shown
+    return str(getattr(value, "name", value))  # an oil by its name
+
 
 def _dotted(key: str, value) -> str:
     """How to write what a dotted key, such as ``numerics.tolerance``, was meant to say."""
@@ -98,3 +140,19 @@ def _dotted(key: str, value) -> str:
 def scene_as_dict(scene: Scene) -> dict:
     """The resolved scene as plain data (for ``result.json``)."""
     return asdict(scene)
+
+
+def resolves_gap(scene: Scene) -> bool:
+    """Whether the rough gap is resolved: the deterministic model."""
+    return scene.numerics.model == "deterministic"
+
+
+def check_resolved_gap(scene: Scene) -> None:
+    """Raise `InputError` for keys that the deterministic model does not take."""
+    for name, allowed, why in RESOLVED:
+        section, _, key = name.partition(".")
+        value = getattr(getattr(scene, section), key)
+        if value not in allowed:
+            said = f" = {value!r} does not go with numerics.model = 'deterministic'"
+            instead = f"{', '.join(map(repr, allowed))}{why}, or numerics.model = 'load-sharing'"
+            raise InputError(said, name, instead)

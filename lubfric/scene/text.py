@@ -1,19 +1,19 @@
-"""A scene as the TOML text that `lubfric.load_scene` reads back to the same numbers."""
+"""A scene as the TOML that `lubfric.load_scene` reads back to the same numbers; a commented one to begin with."""
 
 from __future__ import annotations
 
 import json
 from dataclasses import fields
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from .._base import changed, write_whole
 from ..errors import InputError
 from .history import History
-from .history_read import KINDS
-from .short_lubricant import fields_of
-from .shown import SECTIONS
-
-ROUGH = ("surface", "counterface")  # of which keys that do not apply are refused: defaults are left out
+from .sections import ROUGH, SECTIONS
+from .short_oil import fields_of
+from .transient import KINDS
 
 
 def scene_as_toml(scene) -> str:
@@ -28,9 +28,7 @@ def scene_as_toml(scene) -> str:
         if part is None:
             continue
         lines += ["", f"[{section}]"]
-        keys = {field.name: getattr(part, field.name) for field in fields(part)}
-        if section in ROUGH:
-            keys = {field.name: keys[field.name] for field in fields(part) if keys[field.name] != field.default}
+        keys = changed(part) if section in ROUGH else {f.name: getattr(part, f.name) for f in fields(part)}
         if keys.get("limiting_stress_coefficient", 0.0) is None:
             del keys["limiting_stress_offset"]  # refused where it does nothing
         if keys.get("oil") is not None:
@@ -62,12 +60,19 @@ def _text(value) -> str:
 
 
 def _history(value: History) -> str:
-    shown: Any = value  # a dataclass, whatever kind it is
-    for kind, known in KINDS.items():
-        if type(value) is known:
-            parts = {f.name: getattr(value, f.name) for f in fields(shown)}
-            inner = ", ".join(f"{name} = {_text(part)}" for name, part in parts.items() if part is not None)
-            return f'{{ kind = "{kind}", {inner} }}'
-    raise InputError(
-        f"a history of type {type(value).__name__} has no form in a scene file; allowed: {', '.join(KINDS)}"
-    )
+    kind = next((kind for kind, known in KINDS.items() if type(value) is known), None)
+    if kind is None:
+        said = f"a history of type {type(value).__name__} has no form in a scene file"
+        raise InputError(said, allowed=", ".join(KINDS))
+    inner = ", ".join(f"{name} = {_text(part)}" for name, part in vars(value).items())
+    return f'{{ kind = "{kind}", {inner} }}'
+
+
+def write_template(path: Path) -> None:
+    """Write a scene that is complete, commented and ready to run to ``path``; raises `InputError` if something is there
+    already."""
+    if path.exists():
+        raise InputError(f"{path} exists; give another name, so that no scene is lost")
+    if not path.parent.is_dir():
+        raise InputError(f"{path.parent} is no folder; give a file in an existing one")
+    write_whole(path, (resources.files(__package__) / "template.toml").read_bytes())

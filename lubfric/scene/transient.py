@@ -1,13 +1,18 @@
-"""`Transient`: what changes in time in a scene, and for how long."""
+"""`Transient`: what changes in time in a scene, and for how long; histories from what a user gives."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from pathlib import Path
 
-from .._base import validate
+from .._base import read_columns, validate
 from ..errors import InputError
-from .history import History
-from .history_read import checked_history
+from .history import Constant, Harmonic, History, Ramp, Table
+
+UNITS = {"speed": "m/s", "sliding": "m/s", "load": "N", "radius": "m", "viscosity": "Pa s"}  # of what may change
+MOST_LAPS = 1e5
+LIMITS = {"m/s": (0.0, 1e6), "N": (1e-12, 1e12), "m": (1e-9, 1e3), "Pa s": (1e-9, 1e9)}  # least and largest
+KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
 
 
 @dataclass(frozen=True)
@@ -45,8 +50,7 @@ class Transient:
     @property
     def histories(self) -> tuple[History, ...]:
         """The histories of all that changes."""
-        given = (self.speed, self.sliding, self.load, self.radius, self.viscosity)
-        return tuple(h for h in given if h is not None)
+        return tuple(h for h in (getattr(self, name) for name in UNITS) if h is not None)
 
     def __post_init__(self):
         validate.python_fields(self)
@@ -56,13 +60,79 @@ class Transient:
         if self.initial_film is not None:
             validate.positive("transient.initial_film", self.initial_film, "m", minimum=1e-12, maximum=1.0)
             if self.initial != "auto":
-                told = f" = {self.initial!r} does nothing beside initial_film, from which the run starts"
-                raise InputError(told, "transient.initial", "one of the two")
+                said = f" = {self.initial!r} does nothing beside initial_film, from which the run starts"
+                raise InputError(said, "transient.initial", "one of the two")
         if self.tolerance is not None:
             validate.number("transient.tolerance", self.tolerance, "(-)", minimum=1e-9, maximum=0.1)
-        for name, unit in (("speed", "m/s"), ("sliding", "m/s"), ("load", "N"), ("radius", "m"), ("viscosity", "Pa s")):
+        for name, unit in UNITS.items():
             given = getattr(self, name)
             if given is not None:
-                positive = unit in ("N", "m", "Pa s")
-                given = checked_history(f"transient.{name}", given, unit, self.duration, positive=positive)
+                given = checked_history(f"transient.{name}", given, unit, self.duration, positive=unit != "m/s")
                 object.__setattr__(self, name, given)
+
+
+def history(name: str, given, unit: str | None = None, folder: Path = Path()) -> History:
+    """A history from a number, a history, or an inline table ``{kind = ..., ...}`` of a scene file.
+
+    ``unit``: SI unit of the quantity; ``folder``: which a file of the table is relative to.
+    """
+    if isinstance(given, History):
+        return given
+    if not isinstance(given, dict):
+        return Constant(validate.number(name, given, "(SI)"))
+    table = dict(given)
+    kind = validate.choice(f"{name} kind", table.pop("kind", None), (*KINDS, "file"))
+    allowed = {"file", "column", "time_column", "repeat"} if kind == "file" else {f.name for f in fields(KINDS[kind])}
+    validate.keys(name, table, sorted(allowed))
+    needed = {"constant": ("value",), "file": ("file", "column"), "table": ("times", "values")}.get(kind, ())
+    missing = [key for key in needed if key not in table]
+    if missing:
+        raise InputError(f"{name}: {kind} needs {' and '.join(missing)}; allowed keys: {', '.join(sorted(allowed))}")
+    try:
+        if kind == "file":
+            return read_history(folder / _word("file", table.pop("file")), **table, unit=unit)
+        return KINDS[kind](**table)
+    except InputError as error:
+        error.quantity = f"{name}: {error.quantity}"
+        raise
+
+
+def read_history(
+    path, column: str, *, time_column: str = "time", repeat: bool = False, unit: str | None = None
+) -> Table:
+    """The `Table` in two columns of a CSV file whose first row names the columns.
+
+    Headings may carry units (``time [ms]``, ``load (kN)``); without them times are in s and values in SI. ``unit``: SI
+    unit of the quantity ("m/s", "N", "m", "Pa s"); a column of another quantity is refused.
+    """
+    names = _word("time_column", time_column), _word("column", column)
+    times, values = read_columns(Path(path), names, ("s", unit))
+    return Table(times=tuple(times), values=tuple(values), repeat=repeat)
+
+
+def _word(name: str, value) -> str:
+    if not isinstance(value, str) or not value or "\0" in value:
+        raise InputError(f"{name} = {validate.shown(value)}; give a word in quotes")
+    return value
+
+
+def checked_history(name: str, value, unit: str, duration: float, *, positive: bool = True) -> History:
+    """A number or a history as a history that lasts for ``duration`` [s] and stays in its range."""
+    given = history(name, value, unit)
+    if isinstance(given, Table):
+        last = given.times[-1]
+        if not given.repeat and last < duration * (1 - 1e-9):
+            said = f": the table ends at {last:g} s, the run lasts {duration:g} s"
+            raise InputError(said, name, way_out="give a table as long as the run, or repeat = true")
+        if given.repeat and duration > MOST_LAPS * last:
+            said = f": the table of {last:g} s is repeated {duration / last:.3g} times"
+            raise InputError(said, name, f"up to {MOST_LAPS:g}")
+    low, high = given.range(duration)
+    if positive and low <= 0.0:
+        raise InputError(f" falls to {low:g} {unit} during the run; it must stay above 0 {unit}", name)
+    least, most = LIMITS.get(unit, (1e-30, 1e30))
+    for value in (low, high):
+        if abs(value) > most or (positive or value != 0) and abs(value) < max(least, validate.LEAST):
+            allowed = f"magnitudes up to {most:g} {unit}{f', at least {least:g}' if positive else ''}"
+            raise InputError(f" reaches {value:g} {unit} during the run", name, allowed)
+    return given

@@ -4,258 +4,279 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import Self
 
 from .._base import Root, increasing_root
-from ..contact import ContactState
-from ..errors import CONVERGED, ITERATION_LIMIT, Report
-from ..film import Film, FilmLevel
-from . import total_pressure
+from ..contact import ContactState, RoughContact
+from ..errors import CONVERGED, ConvergenceError, Report
+from ..film import EHLResult
+from ..scene import Scene, budget
+from .checks import meaningless
 from .forces import Forces, forces
-from .operating_point import OperatingPoint, Start, Trial
-from .split import BOUNDS, divided, foretold_split
+from .point import Point, Settings, Trial, exponents
+from .response import Response, divided, respond
 
-THICKER = 0.5  # less of ln(F_H/F_C) than guessed, to begin with, where a film is imposed
-NEARLY_SEPARATED = 3.0  # where to look next to a speed at which the film carries everything
-SPLIT, FLATTEST, ROOTS = 4.0, 0.1, 4  # of ln(F_H/F_C), where a film is imposed; a slope not known; searches
-LARGEST_DRIFT = 0.3  # of ln(F_H/F_C), that one step between speeds is taken to miss like the one before
-LIGHTER = 0.05  # relative step of a load
-FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a neighbour or a guess on the safe side
+SAFE_FILM = 2.0  # times Moes' film: more than any film has
+BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
+FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a balance at another speed
+STEPS, FARTHEST, NEAR = 30, 1.0, 1e-3  # of Newton's method, its longest one, and how far it goes in ln(F_H/F_C)
+ROUNDS = 6  # each with tighter tolerances
+SETTLED = 0.3  # of ln(F_H/F_C): a response found as near as that to the balance is its own
 
 
 @dataclass(frozen=True)
 class Balance:
-    """One operating point in balance, loads in N. ``film`` and its ``level`` are None without entrainment.
-
-    - ``slope``: d residual/d ``split``, from the last two points of the root, or predicted (None: not known).
-      ``gap_slope``: the same, or less, from what was solved alone (None: not known).
-    - ``states``: the contact on each grid on the way here, the coarsest first. A neighbour starts from them.
-    - ``coarse``: volume residual on the first of these grids less that on the last, under the same film.
-    - ``drift``: by how much the prediction of ``split`` from the speed before was too low, over the ln of the ratio of
-      the two speeds.
-    """
+    """One operating point, loads in N. ``film`` is None without entrainment; ``response`` is None if the film carries
+    everything. ``notes``: choices that a reader should know."""
 
     film_load: float
     contact_load: float
-    film: Film | None
+    film: EHLResult | None
     contact: ContactState
-    report: Report
     forces: Forces
-    level: FilmLevel | None
-    slope: float | None = None
-    states: tuple[ContactState, ...] = ()
-    coarse: float = 0.0
-    drift: float = 0.0
-    gap_slope: float | None = None
-
-    @property
-    def closure(self) -> ContactState:
-        """``contact``, by the name it had up to version 0.1."""
-        return self.contact
+    report: Report
+    response: Response | None = None
+    settings: Settings | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def split(self) -> float:
-        """ln(F_H/F_C), the unknown of the root, as a start for a neighbouring speed."""
-        if self.contact_load == 0:
-            return NEARLY_SEPARATED
-        return math.log(self.film_load / self.contact_load) if self.film_load > 0 else BOUNDS[0]
+        """ln(F_H/F_C)."""
+        if self.film_load <= 0:
+            return BOUNDS[0]
+        return math.log(self.film_load / self.contact_load) if self.contact_load > 0 else BOUNDS[1]
 
     @property
-    def gap_sensitivity(self) -> float:
-        """`Forces.gap_sensitivity`. Without a ``gap_slope`` an error of the gap counts like one of the film: a
-        predicted slope says nothing about a light contact, whose residual may depend on the film alone."""
-        return self.forces.gap_sensitivity
-
-    @property
-    def lubricated(self) -> Lubricated | None:
-        """This balance if it has a film, else None."""
-        return None
-
-    @property
-    def closed(self) -> Self:
-        """The balance with the loads at which its volume residual would be zero, by the slope."""
-        return self.moved(-self.contact.volume_residual / self.slope) if self.slope and self.contact_load > 0 else self
-
-    def moved(self, step: float) -> Self:
-        """The loads divided as if ``split`` were larger by ``step``; film and contact stay as they are."""
-        film_load, contact_load = divided(self.film_load + self.contact_load, self.split + step)
-        return replace(self, film_load=film_load, contact_load=contact_load)
+    def slope(self) -> float:
+        """Slope of the volume residual (G - h)/(G + h) over ``split``; infinite without a film that shares the load."""
+        split = 0.0 if self.response is None else self.response.split
+        return -0.5 / (split * self.contact.mean_film) if split else math.inf
 
 
-@dataclass(frozen=True)
-class Lubricated(Balance):
-    """A balance with a film."""
+def solve_balance(
+    scene: Scene,
+    speed: float,
+    contact: RoughContact,
+    sq: float,
+    start: Balance | None = None,
+    *,
+    correctable: bool = False,
+) -> Balance:
+    """The balance of ``scene`` at ``speed`` [m/s] on ``contact``, whose heights have the standard deviation ``sq`` [m].
 
-    film: Film
-    level: FilmLevel
-
-    @property
-    def lubricated(self) -> Lubricated:
-        """This balance."""
-        return self
-
-    @property
-    def trial(self) -> Trial:
-        """Film and contact as a point of the root."""
-        touched = None if self.contact.pressure is None else self.contact
-        return Trial(
-            film=self.film,
-            contact=self.contact,
-            film_load=self.film_load,
-            contact_load=self.contact_load,
-            touched=touched,
-            solved=(self.film.cells,),
-        )
-
-
-def balanced(point: OperatingPoint, start: Balance | None = None, known: Trial | None = None) -> Lubricated:
-    """Find the division of the load at which film and contact agree, by the closure ``numerics.closure``.
-
-    - "load": the residual (gap - film)/(gap + film) of the volume increases with the film's share. So there is one root
-      in ln(F_H/F_C). The load balance holds by construction.
-    - "separation", the paper's way: the film of a film load is imposed on the contact, which gives the contact load.
-      ln((F_C + F_H)/F_T) increases with F_H and is brought to zero. The volume balance holds by construction.
-
-    Stops at |residual - settings.aim| <= settings.balance_tolerance. ``start``: a neighbour, from which
-    `lubfric.sharing.split` predicts this balance. ``known``: film and contact of this point at the split of ``start``,
-    for the closure by load. That the summits touch is either known before, or shown by the root.
+    Without entrainment the contact carries the whole load. The film of the whole load is solved first; if it clears the
+    summits, no contact is solved. Otherwise the residual (gap - film)/(gap + film) of the volume increases with the
+    film's share, so there is one root in ln(F_H/F_C), and the load balance holds by construction. Film, volume and
+    contact are solved as closely as ``numerics.tolerance`` needs, by the response of the friction that a first, loose
+    balance shows (`lubfric.scene.budget`). ``start``: a balance on the same contact at another speed, or on another
+    contact at this one; ``correctable``: what the root leaves open of the volume will be corrected to first order.
+    Raises `ConvergenceError`.
     """
-    by_load = point.scene.numerics.closure == "load"
-    first = Start() if start is None else Start(start.film, start.contact)
-    begin, foretold = (point.guessed_split(), None) if start is None else _begin(point, start)
-    if by_load:
-        root = increasing_root(
-            partial(volume_residual, point),
-            begin,
-            step=FIRST_STEP if start is None else NEXT_STEP,
-            bounds=(_heaviest(point), BOUNDS[1]),
-            tolerance=point.settings.balance_tolerance,
-            slope=foretold,
-            first=(None, first) if known is None else (known.contact.volume_residual - point.settings.aim, known),
-        )
-    else:
-        root = _imposed(point, begin - THICKER, first)
-    found = root.payload
-    residuals = {"volume": min(root.history), "load": 0.0}
-    if not by_load:
-        residuals = {"volume": abs(found.contact.volume_residual), "load": min(root.history)}
-    if not by_load:
-        return _balance(point, found, residuals, root.history, root.status, ())
-    slope = root.slope or foretold
-    gap_slope = slope if len(root.history) > 1 else _slope_of_contact(point, found)
-    return _balance(point, found, residuals, root.history, root.status, (), slope, gap_slope)
+    if speed == 0:
+        return _dry(scene, contact)
+    alone: EHLResult | None = None
+    notes: tuple[str, ...] = ()
+    if not _certainly_touching(scene, speed, contact):
+        try:
+            found = _film_alone(Point(scene, speed, contact, _first_settings(scene, alone=True)))
+        except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
+            notes = (f"the film of the whole load was not solved ({error})",)
+        else:
+            if found.contact.volume_residual <= 0:
+                return found
+            alone = found.film
+    settings = replace(_first_settings(scene), correctable=correctable)
+    if start is not None and start.film is not None and start.film.entrainment_speed == speed:
+        settings = start.settings or settings
+    return replace(_in_contact(Point(scene, speed, contact, settings), sq, start, alone), notes=notes)
 
 
-def _heaviest(point: OperatingPoint) -> float:
-    """The split at which the contact carries all that it can."""
-    load, most = point.scene.bodies.load, point.contact.capacity
-    return max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
+def _dry(scene: Scene, contact: RoughContact) -> Balance:
+    load = scene.bodies.load
+    shape = contact.x**2 / (2 * scene.bodies.radius)
+    state = contact.close(shape, load)
+    report = _report(scene, CONVERGED, (0.0,), state, None, ("no entrainment: all contact",))
+    found = forces(scene, None, state, load)
+    return Balance(0.0, load, None, state, found, report, respond(scene, contact, state, load, shape))
 
 
-def _slope_of_contact(point: OperatingPoint, found: Trial) -> float | None:
-    """d residual/d ``split`` under the same film, where the contact is read from a curve. A film gets thinner with its
-    load, so the slope of both together is larger. None: it takes a solve, or the contact is full."""
-    gap, load = found.contact.mean_gap, found.contact_load
-    if not point.contact.nominally_flat or not load or gap <= 0:
-        return None
-    lighter = point.contact.close(found.film.film_at(point.contact.x), (1 - LIGHTER) * load)
-    return 0.5 * (lighter.mean_gap / gap - 1) / LIGHTER * found.film_load / (load + found.film_load)
-
-
-def separated(point: OperatingPoint, start: Film | None = None) -> Lubricated:
-    """The balance with all the load on the film, if the surfaces are separated: the volume residual of the unloaded
-    contact is <= 0."""
-    found = point.trial(point.scene.bodies.load, 0.0, Start(start))
-    notes = ("separated: the film clears the summits",)
-    return _balance(point, found, {"volume": 0.0, "load": 0.0}, (0.0,), CONVERGED, notes)
-
-
-def volume_residual(point: OperatingPoint, split: float, last: Start) -> tuple[float, Trial]:
-    """Volume residual of a trial (film and contact each at its own share of the load), less the residual aimed at."""
-    film_load, contact_load = divided(point.scene.bodies.load, split)
-    if point.scene.numerics.film_deflection == "total":
-        found = total_pressure.film_and_contact(point, film_load, contact_load, last)
-    else:
-        found = point.trial(film_load, contact_load, last)
-    return found.contact.volume_residual - point.settings.aim, found
-
-
-def load_residual(point: OperatingPoint, split: float, last: Start) -> tuple[float, Trial]:
-    """ln((F_C + F_H)/F_T) of the film at its share of the load, and of the contact on which it is imposed."""
+def _film_alone(point: Point) -> Balance:
+    """The film under the whole load, on the cells that the sum of its shear stress needs, over the unloaded contact."""
     load = point.scene.bodies.load
-    found = point.trial_with_imposed_film(divided(load, split)[0], last)
-    return math.log((found.contact_load + found.film_load) / load), found
+    trial = point.trial(load, 0.0)
+    while True:
+        found = forces(point.scene, trial.film, trial.contact, 0.0)
+        cells = _cells(point, trial.film, found)
+        if cells == point.settings.film_cells:
+            break
+        point = replace(point, settings=replace(point.settings, film_cells=cells))
+        trial = point.trial(load, 0.0, trial)
+    notes = ("separated: the film clears the summits",)
+    report = _report(point.scene, CONVERGED, (0.0,), trial.contact, trial.film, notes)
+    return Balance(load, 0.0, trial.film, trial.contact, found, report, settings=point.settings)
 
 
-def _imposed(point: OperatingPoint, begin: float, first: Start) -> Root:
-    """The root of `load_residual`. Where the contact gains what the film loses, the sum of the loads hardly tells the
-    division. So the search also goes on until residual/slope is within `SPLIT` of the tolerance, or until it fails."""
-    tolerance, value, x, last = point.settings.balance_tolerance, None, begin, first
-    before: tuple[float, ...] = ()
-    for _ in range(ROOTS):
-        root = increasing_root(
-            partial(load_residual, point), x, step=NEXT_STEP, bounds=BOUNDS, tolerance=tolerance, first=(value, last)
-        )
-        root = replace(root, history=(*before, *root.history[bool(before) :]))
-        needed = SPLIT * point.settings.balance_tolerance * abs(root.slope or FLATTEST)
-        if point.scene.numerics.balance_tolerance is not None or abs(root.value) <= needed or root.status != CONVERGED:
-            return root
-        tolerance, value, x, last, before = needed, root.value, root.x, root.payload, root.history
-    return replace(root, status=ITERATION_LIMIT)
+def _certainly_touching(scene: Scene, speed: float, contact: RoughContact) -> bool:
+    """Whether the summits would even reach through twice Moes' film over an undeformed cylinder, which is thicker than
+    any film."""
+    film = SAFE_FILM * scene.line_contact(speed).moes_film
+    return contact.close(film + contact.x**2 / (2 * scene.bodies.radius), 0.0).volume_residual > 0
 
 
-def _begin(point: OperatingPoint, start: Balance) -> tuple[float, float | None]:
-    """The split at which this balance is expected, from that of ``start``, and the slope of the residual there."""
-    if start.film is None or start.film.entrainment_speed == 0:
-        return start.split, start.slope
-    split, slope = foretold_split(point, start.film.entrainment_speed, start.split, start.slope)
-    again = start.drift * math.log(abs(point.speed / start.film.entrainment_speed))
-    return split + min(max(again, -LARGEST_DRIFT), LARGEST_DRIFT), slope
+def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
+    """Film and contact, solved again until the settings are those that the balance shows to be needed. Where a balance
+    cannot be closed as tightly as needed, because f jumps with single cells, the last one stands: its error is told."""
+    split, slope, step, last = _beginning(point, sq, start)
+    if last is None and alone is not None:
+        last = Trial(alone, point.contact.close(alone.film_at(point.contact.x), 0.0), 0.0, 0.0)
+    value: float | None = None
+    closed: Balance | None = None
+    response = None
+    if start is not None and start.response is not None and start.film is not None:
+        if start.film.entrainment_speed == point.speed:
+            response = start.split, start.response
+    for _ in range(ROUNDS):
+        root = _root(point, split, slope, step, (value, last))
+        trial = root.payload
+        if response is None or abs(root.x - response[0]) > SETTLED:
+            response = root.x, _response(point, trial)
+        balance = _balance(point, root, response[1])
+        closed = balance if root.status == CONVERGED else closed
+        settings = _needed(point, balance, sq)
+        if settings == point.settings or root.status != CONVERGED:
+            break
+        same = replace(settings, balance_tolerance=point.settings.balance_tolerance)
+        value = root.value if same == point.settings else None
+        point, split, slope, step, last = replace(point, settings=settings), root.x, balance.slope, NEXT_STEP, trial
+    return closed or balance
 
 
-def drift(point: OperatingPoint, start: Balance, found: Balance) -> float:
-    """`Balance.drift` of what was ``found`` from ``start``. The error of the prediction is much the same from one speed
-    to the next near full film, and under loads that deflect the film."""
-    if start.film is None or start.contact_load == 0 or found.contact_load == 0:
-        return 0.0
-    before = start.film.entrainment_speed
-    step = math.log(abs(point.speed / before)) if before else 0.0
-    if not step:
-        return start.drift
-    foretold = foretold_split(point, before, start.closed.split, start.slope)[0]
-    return (found.closed.split - foretold) / step
+def _response(point: Point, trial: Trial) -> Response:
+    def film_of(load: float) -> EHLResult:
+        return point.film(load, trial.film, trial.film.cells)
+
+    shape = point.on(point.contact, trial.film)
+    return respond(point.scene, point.contact, trial.contact, trial.contact_load, *shape, film_of)
 
 
-def _balance(
-    point: OperatingPoint, found: Trial, residuals, history, status, notes, slope=None, gap_slope=None
-) -> Lubricated:
-    residuals = residuals | {"film": found.film.report.residual}
-    if found.contact.fields is not None:
-        residuals["contact"] = found.contact.fields.report.residual
-    if point.scene.numerics.film_deflection == "total":
-        residuals |= total_pressure.residuals(point.scene, found)
-        notes = (*notes, *total_pressure.notes(point.scene, found))
-    report = Report(
+def _beginning(point: Point, sq: float, start: Balance | None):
+    """Where the root is looked for: ln(F_H/F_C), the slope of the residual there (None: not known), the first step, and
+    the trial to start from. Without ``start``: where the rigid isoviscous film is two Sq thick."""
+    if start is None or start.film is None or start.response is None:
+        thickness = max(2 * sq, 1e-12)
+        share = min(point.line(point.scene.bodies.load).rigid_film / thickness, 0.9)
+        return math.log(share / (1 - share)), None, FIRST_STEP, None
+    trial = Trial(start.film, start.contact, start.film_load, start.contact_load, start.contact)
+    if start.film.entrainment_speed == point.speed:
+        return start.split, start.slope, NEXT_STEP, trial
+    return *predicted(point, start), NEXT_STEP, trial
+
+
+def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
+    """The split at ``point`` predicted from the balance ``start`` at another speed, and the slope of the residual
+    there.
+
+    The film follows Moes' formula, ``h ~ F_H^-m`` locally, and the mean gap a power of the contact's load, ``g ~
+    F_C^-b``. The slope of (g - h)/(g + h) at a balance is (b F_H + m F_C)/(2 F_T), which gives b. The prediction is
+    only a start.
+    """
+    assert start.film is not None
+    load, slope = point.scene.bodies.load, start.slope
+    before, exponent, _ = exponents(
+        replace(point.line(start.film_load), entrainment_speed=start.film.entrainment_speed)
+    )
+    stiffness = max(2 * slope * load - exponent * start.contact_load, 0.0) / start.film_load
+    split = start.split
+    for _ in range(STEPS):
+        film_load, contact_load = divided(load, split)
+        film, exponent, _ = exponents(point.line(film_load))
+        steepness = (stiffness * film_load + exponent * contact_load) / load
+        excess = -stiffness * math.log(contact_load / start.contact_load) - math.log(film / before)
+        split = min(max(split + min(max(-excess / steepness, -FARTHEST), FARTHEST), BOUNDS[0]), BOUNDS[1])
+        if abs(excess) <= NEAR * steepness:
+            break
+    return split, 0.5 * steepness
+
+
+def _root(point: Point, split: float, slope: float | None, step: float, first) -> Root:
+    load, most = point.scene.bodies.load, point.contact.capacity
+    lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
+
+    def residual(x: float, last: Trial | None) -> tuple[float, Trial]:
+        found = point.trial(*divided(load, x), last)
+        return found.contact.volume_residual, found
+
+    tolerance = point.settings.balance_tolerance
+    return increasing_root(
+        residual, split, step=step, bounds=(lowest, BOUNDS[1]), tolerance=tolerance, slope=slope, first=first
+    )
+
+
+def _balance(point: Point, root: Root, response: Response) -> Balance:
+    trial, scene = root.payload, point.scene
+    report = _report(scene, root.status, root.history, trial.contact, trial.film, (), point.settings.balance_tolerance)
+    found = forces(scene, trial.film, trial.contact, trial.contact_load)
+    loads = trial.film_load, trial.contact_load
+    return Balance(*loads, trial.film, trial.contact, found, report, response, point.settings)
+
+
+def _first_settings(scene: Scene, alone: bool = False) -> Settings:
+    numerics = scene.numerics
+    film = numerics.film_tolerance or min(budget.FILM_ALONE * numerics.tolerance, budget.LOOSEST_FILM)
+    if not alone and numerics.film_tolerance is None:
+        film = budget.FIRST_FILM
+    return Settings(film, numerics.balance_tolerance or budget.LOOSEST_VOLUME)
+
+
+def _needed(point: Point, balance: Balance, sq: float) -> Settings:
+    """The settings that ``balance`` shows to be needed: those of ``point`` if they are enough."""
+    numerics, now, response = point.scene.numerics, point.settings, balance.response
+    assert response is not None and balance.film is not None
+    mean_film = balance.contact.mean_film
+    film, volume, contact = now.film_tolerance, now.balance_tolerance, now.contact_tolerance
+    if numerics.film_tolerance is None:
+        share = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
+        film = _tightened(film, max(min(share, budget.FIRST_FILM), budget.TIGHTEST_FILM))
+    if numerics.balance_tolerance is None:
+        allowed = response.gap_for("coefficient", budget.BALANCE * numerics.tolerance)
+        if now.correctable and response.split:
+            allowed /= budget.SLOPE
+            allowed = min(allowed, budget.MOST_MOVED / abs(response.split))
+        volume = _tightened(volume, max(min(0.5 * allowed / mean_film, budget.LOOSEST_VOLUME), budget.TIGHTEST_VOLUME))
+    own = point.contact.adjustable_tolerance
+    if own is not None and sq > 0 and numerics.contact_tolerance is None:
+        enough = max(volume * balance.contact.mean_gap / sq, budget.TIGHTEST_CONTACT)
+        contact = contact if (contact or own) <= budget.SLACK * enough else 0.5 * enough
+    return Settings(film, volume, _cells(point, balance.film, balance.forces), contact, now.correctable)
+
+
+def _tightened(now: float, needed: float) -> float:
+    return now if now <= budget.SLACK * needed else needed
+
+
+def _cells(point: Point, film: EHLResult, found: Forces) -> int:
+    """Least number of cells of the film: twice its present number where the sum of its shear stress is not exact
+    enough. It stays where that sum is of stresses that no oil carries."""
+    numerics, now = point.scene.numerics, point.settings.film_cells
+    resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
+    if numerics.film_tolerance is not None or resolved:
+        return now
+    return min(2 * film.cells, max(budget.MOST_CELLS, now))
+
+
+def _report(scene: Scene, status: str, history, contact, film, notes, tolerance: float | None = None) -> Report:
+    residuals = {"volume": min(history), "load": 0.0}
+    if film is not None:
+        residuals["film"] = film.report.residual
+    if contact.fields is not None:
+        residuals["contact"] = contact.fields.report.residual
+    return Report(
         solver="load sharing",
         status=status,
         iterations=len(history),
         residual=min(history),
-        tolerance=point.settings.balance_tolerance,
+        tolerance=scene.numerics.tolerances.balance if tolerance is None else tolerance,
         residuals=residuals,
         history=tuple(history),
         evaluations=len(history),
-        notes=tuple(notes),
-    )
-    level = point.settings.level
-    return Lubricated(
-        film_load=found.film_load,
-        contact_load=found.contact_load,
-        film=found.film,
-        contact=found.contact,
-        report=report,
-        forces=forces(point.scene, level, found, slope, gap_slope),
-        level=level,
-        slope=slope,
-        gap_slope=gap_slope,
+        notes=notes,
     )

@@ -106,7 +106,7 @@ def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
         slide_roll_ratio=scene.motion.slide_roll_ratio,
         pressure_ratio=4 / math.pi * bodies.mean_hertz_pressure / bodies.e_prime,
     )
-    wanted = numerics.heat == "on" or numerics.model == "full" or 1 - found.factor > budget.INLET * numerics.tolerance
+    wanted = numerics.heat == "on" or 1 - found.factor > budget.INLET * numerics.tolerance
     return found, wanted
 
 
@@ -134,12 +134,9 @@ def film_lubricant(scene, speed: float) -> Lubricant:
     return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
 
 
-def point_heat(scene, balance, force: float, shear) -> tuple[Heat, WarmFilm | None]:
-    """Heat at ``balance``, and its effect on the shear of the film (None: none). ``force``: |f F_T| [N] and ``shear``
-    (`ShearForce`) without the heat of the film."""
-    film = balance.film
-    if film is None:
-        return Heat(), None
+def point_heat(scene, film, contact, contact_load: float, force: float, shear) -> tuple[Heat, WarmFilm | None]:
+    """Heat of ``film`` beside a ``contact`` that carries ``contact_load`` [N], and its effect on the shear of the film
+    (None: none). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`) without the heat of the film."""
     inlet, used = inlet_at(scene, film.entrainment_speed)
     if inlet is None:
         return Heat(), None
@@ -147,12 +144,12 @@ def point_heat(scene, balance, force: float, shear) -> tuple[Heat, WarmFilm | No
     pressed = float(film.pressure.max()) > NO_LIQUID  # a rigid film far above its range, on the way to one that is not
     if scene.motion.slide_roll_ratio == 0 or pressed or not shear.excess < math.inf:
         return Heat(inlet, used), warm
-    x, p, h, around = _surroundings(scene, balance)
+    x, p, h, around = _surroundings(scene, film, contact, contact_load)
     lubricant, numerics = scene.lubricant, scene.numerics
     cold = np.abs(shear_stress(lubricant, p, around.sliding / h))
     once = isothermal_heat(lubricant, x, p, h, around)
     change = _force(scene, x, around, cold - np.abs(once.stress)) / max(force, 1e-300)
-    wanted = numerics.heat == "on" or numerics.model == "full" or change > budget.HEAT * numerics.tolerance
+    wanted = numerics.heat == "on" or change > budget.HEAT * numerics.tolerance
     if not wanted:
         return Heat(inlet, used, change, None, _peclet(scene, film)), warm
     found = heated_film(lubricant, x, p, h, around)
@@ -165,18 +162,18 @@ def point_heat(scene, balance, force: float, shear) -> tuple[Heat, WarmFilm | No
     return heat, WarmFilm(warm.inlet_viscosity if warm else lubricant.viscosity, stress)
 
 
-def _surroundings(scene, balance):
+def _surroundings(scene, film, contact, contact_load: float):
     """Nodes running downstream, pressure and film there, and the `Surroundings`."""
-    film, bodies, motion = balance.film, scene.bodies, scene.motion
+    bodies, motion = scene.bodies, scene.motion
     speed, direction = abs(film.entrainment_speed), math.copysign(1.0, film.entrainment_speed)
     order = np.argsort(film.x * direction)
     x, p, h = film.x[order] * direction, film.pressure[order], film.film_thickness[order]
-    share = 1.0 - balance.contact.touching(x * direction)
+    share = 1.0 - contact.touching(x * direction)
     share = np.where(x[:-1] < film.rupture * direction, share, 0.0)
     wet = 0.5 * (np.append(share[:1], share) + np.append(share, share[-1:]))
     sliding = motion.slide_roll_ratio * speed
     half = bodies.half_width
-    pressed = 2 * balance.contact_load / (math.pi * half * bodies.width) * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))
+    pressed = 2 * contact_load / (math.pi * half * bodies.width) * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))
     spots = bodies.boundary_friction_coefficient * pressed * abs(sliding)
     surfaces = (abs(speed - 0.5 * sliding), abs(speed + 0.5 * sliding))
     carried = sum(e * math.sqrt(u) for e, u in zip(bodies.effusivity, surfaces))

@@ -2,45 +2,80 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Protocol
+from functools import cached_property
+from typing import Any
 
-from .._base import Shown, instance
-from ..contact import RoughContact, check_grid, contact_map, rough_contact
+import numpy as np
+
+from .._base import FieldsOnly, Shown, instance
+from ..contact import (
+    BOUNDARY,
+    AsperityContact,
+    FlatContact,
+    HalfSpaceContact,
+    RoughContact,
+    Strips,
+    asperities_under_cylinder,
+    contact_map,
+    correlation_lengths,
+    flat_contact,
+    half_space,
+    half_space_contact,
+    length_or_half,
+    measured,
+    one_patch,
+    rough_bodies,
+    strips_of,
+)
+from ..contact import check_grid as check_map
 from ..errors import InputError
-from ..film import LEVELS, FilmLevel
 from ..scene import Scene, check_resolved_gap, resolves_gap, told_doubts
 from ..surface import Surface
-from .lines_cells import Cells
-from .lines_contract import Lines
-from .lines_make import lines_of, pilot, takes_line
+from .checks_before import beforehand
 from .validity import Validity
-from .validity_beforehand import beforehand
+
+OWN = HalfSpaceContact, FlatContact, AsperityContact
+REMEMBERED = 64  # strips, pieces, operators and reference points
 
 
 @dataclass(frozen=True, repr=False)
-class Prepared(Shown):
+class Prepared(FieldsOnly, Shown):
     """A scene made ready by `prepare`. It is accepted wherever a scene is, and safe to share: nothing in it changes.
 
     Attributes
     ----------
     scene : the scene
-    surface : its height map
+    surface : the height map that is solved first
     contact : the rough contact on it
-    film_levels : the film levels to choose from, the simplest first
     known : assumptions of the model that bodies and map violate
-    lines : makes further lines, if ``surface`` is a line of the scene's roughness; else None
+    strips : the sample of the surface; None for a contact that has no cells under a cylinder
     given : True: the map was given to `prepare`, and there is no more of it
     """
 
     scene: Scene
     surface: Surface
     contact: RoughContact
-    film_levels: tuple[FilmLevel, ...] = LEVELS
     known: tuple[Validity, ...] = ()
-    lines: Lines | None = None
+    strips: Strips | None = None
     given: bool = False
+
+    @cached_property
+    def memo(self) -> dict[Any, Any]:
+        """What was `remembered`; neither compared nor pickled."""
+        return {}
+
+    def remembered(self, key: Any, make: Callable[[], Any]) -> Any:
+        """What ``make`` gives, made once for ``key`` and kept as long as there is room. It depends on scene and key
+        alone, so that results do not depend on what is kept."""
+        try:
+            return self.memo[key]
+        except KeyError:
+            made = self.memo[key] = make()
+        while len(self.memo) > REMEMBERED:
+            self.memo.pop(next(iter(self.memo)), None)
+        return made
 
     def _facts(self) -> dict[str, str]:
         return {"": self.scene.name, "map": self.surface.describe()}
@@ -52,21 +87,17 @@ def prepare(
     *,
     like: Prepared | None = None,
     contact: RoughContact | None = None,
-    film_levels: Sequence[FilmLevel] = LEVELS,
 ) -> Prepared:
-    """Make a scene ready: build its height map and its rough contact, which all speeds share.
+    """Make a scene ready: its height map and its rough contact, which all speeds share.
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`
     surface : a height map to use as it is, with its grid, instead of the scene's own. Under a cylinder it is taken as
         periodic along y, for a flat contact along x and y (`Surface.periodic` makes it so). Without one, a scene with
-        ``numerics.sampling = "line"`` gets a long line of its roughness (docs/uncertainty.md)
-    like : another prepared scene with the same map, E' and hardness. Its map, and its operator or contact curve, are
-        used again for another load, lubricant, motion or tolerance. A curve suits no heavier load and no tighter
-        tolerance
-    contact : a rough contact other than lubfric's own (`lubfric.contact.rough_contract`)
-    film_levels : films other than lubfric's own, the simplest first (`lubfric.film.contract`)
+        ``numerics.sampling = "strips"`` gets strips of its roughness (docs/uncertainty.md)
+    like : another prepared scene with the same surface, contact and E', whose map is used again
+    contact : a rough contact other than lubfric's own (`lubfric.contact.RoughContact`)
 
     Returns
     -------
@@ -81,60 +112,88 @@ def prepare(
         check_resolved_gap(scene)
     if like is not None:
         instance("like", like, Prepared, "what lubfric.prepare returned")
-    levels = _levels(film_levels) if like is None else like.film_levels
-    _check_levels(scene, levels)
-    if like is not None:
         _check_likeness(scene, like.scene, surface, contact)
-        return _another(scene, like)
+        if _same_contact(scene, like.scene):
+            kept = {key: value for key, value in like.memo.items() if key[0] != "reference"}
+            strips = None if like.strips is None else replace(like.strips, scene=scene)
+            made = replace(like, scene=scene, known=beforehand(scene, like.surface), strips=strips)
+            made.memo.update(kept)
+            return made
+        surface = like.surface if like.given else None
+        contact = None if isinstance(like.contact, OWN) else like.contact
     given = surface is not None or contact is not None
     with told_doubts(scene):
-        if not given and takes_line(scene):
-            return _on_a_line(scene, levels)
+        if not given and takes_strips(scene):
+            strips = strips_of(scene)
+            return _on_strips(scene, strips, given)
         surface = contact_map(scene, surface)
-        contact = rough_contact(scene, surface) if contact is None else contact
-        return Prepared(scene, surface, contact, levels, beforehand(scene, surface), given=given)
+        if contact is not None:
+            return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
+        if scene.contact.geometry == "cylinder" and scene.contact.model == "half-space":
+            return _on_strips(scene, one_patch(scene, surface, _lengths(scene, surface, given)), given, surface)
+        heights = surface.heights - surface.heights.mean()
+        flat = scene.contact.geometry == "flat"
+        contact = (flat_contact if flat else asperities_under_cylinder)(scene, heights, surface.spacing)
+        return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
 
 
-def _another(scene: Scene, like: Prepared) -> Prepared:
-    """Make ``scene`` ready on the map of ``like``. Its lines are used too, unless the scene asks for another sampling
-    or other cells."""
-    lines = None
-    if not like.given and (like.lines is not None or takes_line(scene)):
-        lines = like.lines.again(scene) if like.lines is not None and takes_line(scene) else None
-        if lines is None:
-            return prepare(scene, film_levels=like.film_levels)
-    contact = like.contact.again(scene, like.scene)
-    return replace(like, scene=scene, contact=contact, known=beforehand(scene, like.surface), lines=lines)
+def takes_strips(scene: Scene) -> bool:
+    """Whether ``scene`` is solved on strips of its roughness: it has a rough half-space under a cylinder, and asks
+    neither for one patch nor for the deterministic model."""
+    numerics, contact = scene.numerics, scene.contact
+    modelled = contact.geometry == "cylinder" and contact.model == "half-space" and numerics.model != "deterministic"
+    return numerics.sampling != "patch" and modelled and any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
 
 
-def _on_a_line(scene: Scene, levels: tuple[FilmLevel, ...]) -> Prepared:
-    lines = lines_of(scene)
-    surface, contact = pilot(scene, lines)
-    check_grid(scene, surface)
-    return Prepared(scene, surface, contact, levels, beforehand(scene, surface), lines)
+def on_stack(prepared: Prepared, strips: Strips, count: int) -> HalfSpaceContact:
+    """The contact on the first ``count`` of ``strips``."""
+
+    def make() -> HalfSpaceContact:
+        surface = strips.stack(count)
+        return _contact(prepared, surface.heights, surface.spacing, strips.cells.axis())
+
+    return prepared.remembered(("stack", strips.cells.factors, count), make)
 
 
-def on_halved_cells(prepared: Prepared) -> Prepared:
-    """``prepared`` with lines on cells half as long, no shorter than the scene's own."""
-    if prepared.lines is None:
-        raise ValueError("a model of one patch has no lines")
-    lines = prepared.lines.halved()
-    surface, contact = pilot(prepared.scene, lines)
-    return replace(prepared, surface=surface, contact=contact, lines=lines)
+def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int]) -> HalfSpaceContact:
+    """The contact on every ``factors``-th cell of a piece of ``strips``."""
+
+    def make() -> HalfSpaceContact:
+        surface = prepared.remembered(("piece", strips.cells.factors, index), lambda: strips.piece(index))
+        heights = strips.cells.thinned(surface.heights, factors)
+        spacing = surface.spacing[0] * factors[0], surface.spacing[1] * factors[1]
+        return _contact(prepared, heights, spacing, strips.cells.axis(factors))
+
+    return prepared.remembered(("piece", strips.cells.factors, index, factors), make)
 
 
-class OnCells(Protocol):
-    """What was solved on lines: their ``cells``."""
+def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) -> HalfSpaceContact:
+    scene = prepared.scene
+    operator = prepared.remembered(
+        ("operator", heights.shape, tuple(spacing)),
+        lambda: half_space(heights.shape, spacing, scene.bodies.e_prime, BOUNDARY, workers=scene.numerics.workers),
+    )
+    return half_space_contact(scene, heights - heights.mean(), spacing, operator, x)
 
-    @property
-    def cells(self) -> Cells: ...
+
+def _on_strips(scene: Scene, strips: Strips, given: bool, surface: Surface | None = None) -> Prepared:
+    """``surface``: the whole patch (None: the first strips)."""
+    first = strips.stack(strips.first)
+    whole = first if surface is None else surface
+    check_map(scene, whole)
+    contact = half_space_contact(scene, first.heights - first.heights.mean(), first.spacing, x=strips.cells.axis())
+    made = Prepared(scene, whole, contact, beforehand(scene, whole), strips, given)
+    made.memo[("stack", strips.cells.factors, strips.first)] = contact
+    made.memo[("operator", first.heights.shape, tuple(first.spacing))] = contact.operator
+    return made
 
 
-def on_cells_of(prepared: Prepared, line: OnCells | None) -> Prepared:
-    """``prepared`` with lines on the cells of a point's ``line``, which may be halved; itself on one patch (None)."""
-    while line and prepared.lines and any(a > b for a, b in zip(prepared.lines.cells.factors, line.cells.factors)):
-        prepared = on_halved_cells(prepared)
-    return prepared
+def _lengths(scene: Scene, surface: Surface, given: bool) -> tuple[float, float]:
+    """Correlation lengths [m] of a patch: those of the scene, or of the map itself."""
+    if measured(scene) or given:
+        return length_or_half(surface, 0), length_or_half(surface, 1)
+    along_x, along_y = zip(*(correlation_lengths(rough) for rough, _ in rough_bodies(scene)))
+    return max(along_x), max(along_y)
 
 
 def scene_of(scene: Scene | Prepared) -> Scene:
@@ -146,13 +205,19 @@ def scene_of(scene: Scene | Prepared) -> Scene:
 
 
 def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | None) -> Prepared:
-    """``scene`` made ready, with another tolerance on f and another model ("auto", "full", "deterministic") if they are
-    given."""
+    """``scene`` made ready, with another tolerance on f and another model if they are given."""
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
     if not changed and isinstance(scene, Prepared):
         return scene
     asked, ready = scene_of(scene).with_(numerics=changed), scene if isinstance(scene, Prepared) else None
     return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)
+
+
+def _same_contact(scene: Scene, old: Scene) -> bool:
+    """Whether contact and cells of both scenes are the same to the bit."""
+    names = "tolerance", "contact_tolerance", "workers", "sampling", "grid", "model"
+    same = all(getattr(scene.numerics, name) == getattr(old.numerics, name) for name in names)
+    return same and scene.bodies == old.bodies
 
 
 def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
@@ -167,21 +232,3 @@ def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
     ):
         if a != b:
             raise InputError(f"{name} = {a!r} is not that of the prepared scene to be used again; allowed: {b!r}")
-
-
-def _levels(given) -> tuple[FilmLevel, ...]:
-    levels = given if isinstance(given, (list, tuple)) else [given]
-    for i, level in enumerate(levels):
-        instance(f"film_levels[{i}]", level, FilmLevel, "an object of a class that inherits from it")
-    return tuple(levels)
-
-
-def _check_levels(scene: Scene, levels: Sequence[FilmLevel]) -> None:
-    names = [level.name for level in levels]
-    if not names:
-        raise InputError("film_levels is empty; give at least one level (`lubfric.film.contract.FilmLevel`)")
-    if scene.numerics.film_level not in ("auto", "none", *names):
-        raise InputError(
-            f"numerics.film_level = {scene.numerics.film_level!r} is none of the levels there are; allowed: "
-            f"{', '.join(map(repr, names))}"
-        )

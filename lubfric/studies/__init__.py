@@ -17,37 +17,3 @@ from .sweep import StribeckResult, stribeck
 from .tables import check_tools
 from .traction import TractionResult, traction
 from .vary import Between, sample
-
-__all__ = [
-    "AUTO",
-    "Between",
-    "FitResult",
-    "MOST_WORKERS",
-    "Measured",
-    "QUANTITIES",
-    "StribeckResult",
-    "StudyPlan",
-    "StudyResult",
-    "TractionResult",
-    "check_tools",
-    "classes_of",
-    "csv_bytes",
-    "curve_table",
-    "decode",
-    "encode",
-    "explain_fit",
-    "fingerprint",
-    "fit",
-    "in_words",
-    "load_study",
-    "open_study",
-    "plan_study",
-    "pool",
-    "processors",
-    "read_measured",
-    "sample",
-    "stribeck",
-    "study",
-    "traction",
-    "uncertainty_columns",
-]

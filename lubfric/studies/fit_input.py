@@ -83,7 +83,7 @@ def read_measured(
 
     Notes
     -----
-    A unit in the heading, in square or round brackets, is converted (`lubfric._base.columns`).
+    A unit in the heading, in square or round brackets, is converted (`lubfric._base.tables`).
     """
     if (speed is None) == (slide_roll_ratio is None):
         raise InputError("a measured curve has one axis; give the heading of speed, or that of slide_roll_ratio")

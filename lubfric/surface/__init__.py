@@ -2,22 +2,8 @@
 
 from .generate import ACFS, generate_surface
 from .height_map import Surface
-from .outliers import outliers
-from .prepare import FORMS
+from .instrument import UNITS
+from .prepare import FORMS, outliers
 from .read import read_surface
 from .statistics import correlation_length, rms_slope
-from .table import DECIMALS
-from .units import UNITS
-
-__all__ = [
-    "ACFS",
-    "DECIMALS",
-    "FORMS",
-    "Surface",
-    "UNITS",
-    "correlation_length",
-    "generate_surface",
-    "outliers",
-    "read_surface",
-    "rms_slope",
-]
+from .text import DECIMALS

@@ -9,9 +9,8 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from . import checks
 from .height_map import Surface
-from .prepare import pair
+from .regrid import pair, points
 from .statistics import INVERSE_E, correlation_length, first_crossing
 
 ACFS = ("exponential", "gaussian")
@@ -54,7 +53,7 @@ def generate_surface(
         about 10 lengths for "exponential", 5 for "gaussian"), or when the grid has fewer than 2 cells per length at 1/e
     """
     shape, spacing = pair("shape", shape), validate.spacing("spacing", spacing)
-    checks.points("shape", shape)
+    points("shape", shape)
     sq = validate.nonnegative("sq", sq, "m", maximum=1.0)
     lengths = validate.spacing("correlation_length", correlation_length)
     validate.choice("acf", acf, ACFS)
@@ -65,14 +64,8 @@ def generate_surface(
     spectrum = _spectrum(shape, spacing, scales, acf, cutoff)
     expected = _expected_lengths(spectrum, shape, spacing, lengths, level)
     heights = _filtered_noise(spectrum, shape, seed) * sq
-    surface = Surface(
-        heights,
-        spacing,
-        periodic_axes=(True, True),
-        source=f"generated, {acf} ACF",
-        seed=seed,
-        notes=(f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {sq:.4e} m exactly",),
-    )
+    source, note = f"generated, {acf} ACF", f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {sq:.4e} m exactly"
+    surface = Surface(heights, spacing, periodic_axes=(True, True), source=source, seed=seed, notes=(note,))
     return surface if sq == 0 else _with_lengths(surface, lengths, expected, level)
 
 
@@ -84,17 +77,13 @@ def _decay_scales(lengths, level, acf) -> tuple[float, float]:
 
 
 def _check_grid(shape, spacing, scales) -> None:
-    for name, n, d, scale in zip("xy", shape, spacing, scales):
+    for axis, n, d, scale in zip("xy", shape, spacing, scales):
+        name, said = f"correlation_length along {axis}", f" is {scale:g} m at 1/e"
         if scale < FINEST * d:
-            raise InputError(
-                f"correlation_length along {name} is {scale:g} m at 1/e, {scale / d:.3g} cells; "
-                f"allowed: at least {FINEST:g} cells of {d:g} m"
-            )
+            raise InputError(f"{said}, {scale / d:.3g} cells", name, f"at least {FINEST:g} cells of {d:g} m")
         if n * d < 4 * scale:
-            raise InputError(
-                f"correlation_length along {name} is {scale:g} m at 1/e, the map {n * d:g} m; "
-                "allowed: at most a quarter of it (generate a larger map and crop it)"
-            )
+            allowed = "at most a quarter of it (generate a larger map and crop it)"
+            raise InputError(f"{said}, the map {n * d:g} m", name, allowed)
 
 
 def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
@@ -115,9 +104,8 @@ def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
     spectrum[spectrum < ROUNDING * spectrum.max()] = 0.0
     spectrum[0, 0] = 0.0
     if cutoff is not None:
-        cutoff = validate.number(
-            "cutoff", cutoff, "m", minimum=2 * max(spacing), maximum=0.5 * min(n * d for n, d in zip(shape, spacing))
-        )
+        longest = 0.5 * min(n * d for n, d in zip(shape, spacing))
+        cutoff = validate.number("cutoff", cutoff, "m", minimum=2 * max(spacing), maximum=longest)
         kx, ky = fft.fftfreq(shape[0], spacing[0]), fft.rfftfreq(shape[1], spacing[1])
         spectrum[np.hypot(kx[:, None], ky[None, :]) > 1 / cutoff] = 0.0
     return spectrum
@@ -132,12 +120,10 @@ def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
         half = shape[axis] // 2 + 1
         length = first_crossing(np.arange(half) * spacing[axis], line[:half] / acf[0, 0], level)
         if abs(length / lengths[axis] - 1) > LENGTH_TOLERANCE:
-            raise InputError(
-                f"correlation_length along {'xy'[axis]} = {lengths[axis]:g} m cannot be had: a "
-                f"periodic map of {shape[0] * spacing[0]:g} x {shape[1] * spacing[1]:g} m with "
-                f"this cutoff has {length:g} m; allowed: within {LENGTH_TOLERANCE:.0%} "
-                "(generate a larger map and crop it)"
-            )
+            size = f"{shape[0] * spacing[0]:g} x {shape[1] * spacing[1]:g} m"
+            said = f" = {lengths[axis]:g} m cannot be had: a periodic map of {size} with this cutoff has {length:g} m"
+            allowed = f"within {LENGTH_TOLERANCE:.0%} (generate a larger map and crop it)"
+            raise InputError(said, f"correlation_length along {'xy'[axis]}", allowed)
         found.append(length)
     return found
 

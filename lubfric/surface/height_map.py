@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from .._base import FrozenArrays, Shown, validate
 from ..errors import InputError
-from . import checks, filters, pair, prepare, regrid, statistics
-from .outliers import LIMIT, WINDOW, outliers
+from . import prepare, regrid, statistics
 
 HIGHEST = 1e3  # m, of any height
+LEAST_CELLS = 5  # of the nesting index of a filter: fewer do not resolve the weights
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -43,7 +44,7 @@ class Surface(FrozenArrays, Shown):
 
     def __post_init__(self):
         heights = validate.real_array("heights", self.heights, "m").copy()
-        mask = checks.mask(self.mask, self.heights, heights.shape)
+        mask = _mask(self.mask, self.heights, heights.shape)
         if np.ma.is_masked(self.heights):
             heights[np.ma.getmaskarray(self.heights)] = np.nan
         measured = validate.array("heights", heights if mask is None else np.where(mask, heights, 0.0), "m", ndim=2)
@@ -51,7 +52,7 @@ class Surface(FrozenArrays, Shown):
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "mask", mask)
         object.__setattr__(self, "spacing", validate.spacing("spacing", self.spacing))
-        object.__setattr__(self, "periodic_axes", checks.two_booleans("periodic_axes", self.periodic_axes))
+        object.__setattr__(self, "periodic_axes", _two_booleans("periodic_axes", self.periodic_axes))
         object.__setattr__(self, "notes", tuple(self.notes))
         self.freeze()
 
@@ -120,33 +121,40 @@ class Surface(FrozenArrays, Shown):
 
     def without_outliers(self) -> Surface:
         """Make outliers unmeasured points. Level before, fill after; `lubfric.surface.outliers` has the rule."""
-        mask = np.ones(self.shape, bool) if self.mask is None else self.mask
-        while True:
-            found = outliers(prepare.harmonic_fill(self.heights, mask, self.spacing), mask, self.periodic_axes)
-            if not found.any():
-                break
-            mask = mask & (found == 0)
+        mask, more = np.ones(self.shape, bool) if self.mask is None else self.mask, True
+        while more:
+            filled = prepare.harmonic_fill(self.heights, mask, self.spacing)
+            found = prepare.outliers(filled, mask, self.periodic_axes) != 0
+            mask, more = mask & ~found, found.any()
         count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
-        note = f"{count or 'no'} outliers masked (over {LIMIT:g} deviations off {WINDOW} x {WINDOW} points around)"
-        return replace(self, heights=np.where(mask, self.heights, np.nan), mask=mask, notes=(*self.notes, note))
+        around = f"{prepare.WINDOW} x {prepare.WINDOW} points around"
+        note = f"{count or 'no'} outliers masked (over {prepare.LIMIT:g} deviations off {around})"
+        return self._with(np.where(mask, self.heights, np.nan), note, mask=mask)
 
     def filtered(self, *, s: float | None = None, l: float | None = None) -> Surface:
         """Areal Gaussian filters of ISO 16610-61 with nesting indices ``s`` and ``l`` [m] (None: not used), in this
         order.
 
         S-filter: waves shorter than ``s`` are taken out; L-filter: waves longer than ``l``. Level first (F-operation:
-        `level`), fill after it. See `lubfric.surface.filters`. Raises `InputError` for an index of fewer than 5 cells
+        `level`), fill after it. Raises `InputError` for an index of fewer than 5 cells
         or longer than the map, and for s >= l.
         """
-        s, l = filters.checked_indices(self, s, l)
+        limits = {"minimum": LEAST_CELLS * max(self.spacing), "maximum": min(self.size)}
+        for name, index in (("s_filter", s), ("l_filter", l)):
+            if index is not None:
+                validate.number(name, index, "m", **limits)
+        if s is not None and l is not None and s >= l:
+            said = f"s_filter = {s:g} m and l_filter = {l:g} m leave no wave"
+            raise InputError(said, way_out="give an s_filter below l_filter")
         new = self
         if s is not None:
-            mean = filters.gaussian_mean(new.heights, new.mask, new.spacing, new.periodic_axes, s)
-            new = new._with(mean, f"S-filter: waves shorter than {s:.4e} m taken out")
+            new = new._with(new._mean(s), f"S-filter: waves shorter than {s:.4e} m taken out")
         if l is not None:
-            mean = filters.gaussian_mean(new.heights, new.mask, new.spacing, new.periodic_axes, l)
-            new = new._with(new.heights - mean, f"L-filter: waves longer than {l:.4e} m taken out")
+            new = new._with(new.heights - new._mean(l), f"L-filter: waves longer than {l:.4e} m taken out")
         return new
+
+    def _mean(self, index: float) -> np.ndarray:
+        return prepare.gaussian_mean(self.heights, self.mask, self.spacing, self.periodic_axes, index)
 
     def scaled(self, *, sq: float) -> Surface:
         """Heights about their mean, multiplied so that Sq is ``sq`` [m]."""
@@ -158,23 +166,18 @@ class Surface(FrozenArrays, Shown):
 
     def transposed(self) -> Surface:
         """x and y exchanged: run across the lay instead of along it."""
-        return replace(
-            self,
-            heights=self.heights.T,
-            spacing=self.spacing[::-1],
-            mask=None if self.mask is None else self.mask.T,
-            periodic_axes=self.periodic_axes[::-1],
-            notes=(*self.notes, "x and y exchanged"),
-        )
+        mask = None if self.mask is None else self.mask.T
+        turned = {"spacing": self.spacing[::-1], "mask": mask, "periodic_axes": self.periodic_axes[::-1]}
+        return self._with(self.heights.T, "x and y exchanged", **turned)
 
     def periodic(self, edge: str = "mirror", *, axes: tuple[bool, bool] = (True, True)) -> Surface:
-        """Make the map periodic along the chosen axes; see `prepare.close_axis`.
+        """Make the map periodic along the chosen axes; see `regrid.close_axis`.
 
         edge "mirror": the map and its mirror image, twice as long (even number of points; heights and slopes keep their
         statistics, the lay is reflected). edge "window": the last tenth is blended over the first, so the map gets one
         tenth shorter (no mirror image, Sq kept for independent ends).
         """
-        validate.choice("edge", edge, prepare.EDGES)
+        validate.choice("edge", edge, regrid.EDGES)
         new = self._filled("periodic")
         for axis in range(2):
             if axes[axis] and not new.periodic_axes[axis]:
@@ -183,32 +186,25 @@ class Surface(FrozenArrays, Shown):
 
     def cropped(self, shape, start=None) -> Surface:
         """``shape`` points from index ``start`` (default: centred); no longer periodic where cut."""
-        shape = prepare.pair("shape", shape)
+        shape = regrid.pair("shape", shape)
         start = tuple((n - m) // 2 for n, m in zip(self.shape, shape)) if start is None else tuple(start)
         for axis in range(2):
             if not 0 <= start[axis] <= self.shape[axis] - shape[axis]:
-                raise InputError(
-                    f"shape[{axis}] = {shape[axis]} points from {start[axis]} is outside "
-                    f"the map; allowed: within 0..{self.shape[axis]}"
-                )
+                said = f" = {shape[axis]} points from {start[axis]} is outside the map"
+                raise InputError(said, f"shape[{axis}]", f"within 0..{self.shape[axis]}")
         cut = tuple(slice(s, s + n) for s, n in zip(start, shape))
-        along_x, along_y = (bool(p and n == m) for p, n, m in zip(self.periodic_axes, self.shape, shape))
-        return replace(
-            self,
-            heights=self.heights[cut],
-            mask=None if self.mask is None else self.mask[cut],
-            periodic_axes=(along_x, along_y),
-            notes=(*self.notes, f"cropped to {shape} from {start}"),
-        )
+        mask = None if self.mask is None else self.mask[cut]
+        closed = tuple(p and n == m for p, n, m in zip(self.periodic_axes, self.shape, shape))
+        return self._with(self.heights[cut], f"cropped to {shape} from {start}", mask=mask, periodic_axes=closed)
 
     def resampled(self, *, shape=None, spacing=None) -> Surface:
         """The same area on another grid; give ``shape`` (extent kept) or ``spacing`` [m] (a rest of
         less than one cell is cut off). Periodic axes by Fourier series (exact for a band-limited
-        map), others as averages over the new cells; see `prepare.resample_axis`."""
+        map), others as averages over the new cells; see `regrid.resample_axis`."""
         if (shape is None) == (spacing is None):
             raise InputError("resampled needs exactly one of shape (points) and spacing (m)")
         new = self._filled("resampled")
-        shape = (None, None) if shape is None else prepare.pair("shape", shape)
+        shape = (None, None) if shape is None else regrid.pair("shape", shape)
         spacing = (None, None) if spacing is None else validate.spacing("spacing", spacing)
         for axis in range(2):
             new = regrid.resampled(new, axis, shape[axis], spacing[axis])
@@ -220,7 +216,7 @@ class Surface(FrozenArrays, Shown):
         Axes that are periodic are repeated as often as needed; others must be long enough. ``edge``
         per axis: "mirror" or "window" makes the patch periodic along it, None leaves it cut.
         """
-        shape, new = prepare.pair("shape", shape), self._filled("patch")
+        shape, new = regrid.pair("shape", shape), self._filled("patch")
         edge = (edge, edge) if edge is None or isinstance(edge, str) else tuple(edge)
         if spacing is not None:
             new = new.resampled(spacing=spacing)
@@ -228,21 +224,19 @@ class Surface(FrozenArrays, Shown):
             new = regrid.fitted(new, axis, shape[axis], edge[axis])
         return new
 
-    def _with(self, heights, note) -> Surface:
-        return replace(self, heights=heights, notes=(*self.notes, note))
+    def _with(self, heights, note: str, **changed) -> Surface:
+        return replace(self, heights=heights, notes=(*self.notes, note), **changed)
 
     def _filled(self, purpose) -> Surface:
         if not np.isfinite(self.heights).all():
-            raise InputError(
-                f"{100 * self.missing_fraction:.3g} % of the heights are unmeasured (NaN); "
-                f"{purpose} takes none: call level() and fill() first"
-            )
+            said = f"{100 * self.missing_fraction:.3g} % of the heights are unmeasured (NaN)"
+            raise InputError(f"{said}; {purpose} takes none: call level() and fill() first")
         return self
 
     def combined(self, other: Surface) -> Surface:
-        """The sum of this map and that of the body that faces it (`lubfric.surface.pair`)."""
+        """The sum of this map and that of the body that faces it; see `regrid.combined`."""
         validate.instance("other", other, Surface, "a Surface")
-        return pair.combined(self, other)
+        return regrid.combined(self, other)
 
     def continued(self, length: float) -> Surface:
         """The map, made at least ``length`` [m] long along x. A shorter one is followed by its mirror image, and so on,
@@ -251,7 +245,7 @@ class Surface(FrozenArrays, Shown):
             return self
         new = self.periodic("mirror", axes=(True, False))
         count = new.shape[0] * math.ceil(length / new.size[0] * (1 - 1e-9))
-        checks.points("continued", (count, new.shape[1]))
+        regrid.points("continued", (count, new.shape[1]))
         return regrid.fitted(new, 0, count, None)
 
     # statistics of the measured points, by the functions of lubfric.surface.statistics
@@ -259,3 +253,25 @@ class Surface(FrozenArrays, Shown):
     sa = property(statistics.sa)
     ssk = property(statistics.ssk)
     sku = property(statistics.sku)
+
+
+def _mask(given: Any, heights: Any, shape: tuple[int, ...]) -> np.ndarray | None:
+    """A copy of the mask ``given``, without the points that a masked array masks. None where every point is
+    measured."""
+    found = np.ones(shape, bool) if given is None else np.array(given)
+    if found.dtype.kind != "b" or found.shape != shape:
+        said = f" has shape {found.shape} and type {found.dtype}"
+        raise InputError(said, "mask", f"true (measured) and false in shape {shape}")
+    if np.ma.is_masked(heights):
+        found &= ~np.ma.getmaskarray(heights)
+    if found.size and not found.any():
+        raise InputError(f"mask has 0 measured points of {found.size}; allowed: at least 1")
+    return None if found.all() else found
+
+
+def _two_booleans(name: str, value: Any) -> tuple[bool, bool]:
+    """A pair of true and false, for x and y."""
+    several = isinstance(value, (tuple, list)) or isinstance(value, np.ndarray) and value.ndim == 1
+    if not several or len(value) != 2:
+        raise InputError(f" = {validate.shown(value)}", name, "a pair of true and false, for x and y")
+    return validate.boolean(f"{name}[0]", value[0]), validate.boolean(f"{name}[1]", value[1])

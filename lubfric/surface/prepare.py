@@ -1,26 +1,23 @@
-"""Levelling, filling, closing and resampling of height maps: plain functions on arrays."""
+"""What is done to a measured map before it is used: form taken off, gaps filled, outliers found, waves filtered."""
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
-from .._base import validate
 from ..errors import InputError
 
 FORMS = ("plane", "quadratic")
-EDGES = ("mirror", "window")
-BLEND = 0.1  # share of a map's length that the window blends
 MOST_MISSING = 0.5
 FLAT = 1e-13  # of the largest height: what a fitted form leaves of a map that has it exactly
 DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest
-
-
-def pair(name, value) -> tuple[int, int]:
-    """Two whole numbers >= 1."""
-    if np.ndim(value) != 1 or len(value) != 2:
-        raise InputError(f"{name} = {value!r} must be a pair (nx, ny) of whole numbers >= 1")
-    nx, ny = (validate.integer(f"{name}[{i}]", n, minimum=1) for i, n in enumerate(value))
-    return nx, ny
+LIMIT = 6.0  # robust deviations beyond which a point that stands alone is an outlier
+WINDOW = 5
+CHUNK = 2**18  # points whose windows are held at once
+GAUSSIAN = 1.4826  # standard deviation over median deviation
+ALPHA = math.sqrt(math.log(2) / math.pi)
+REACH = 6.0  # standard deviations of the weights of a filter that are summed
 
 
 def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, float], tuple[float, float]]:
@@ -31,22 +28,17 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
     no curvature. Slopes are those at the middle of the map. If only rounding is left (`FLAT` of the largest height),
     the form is the map itself. Raises `InputError` when the points do not determine the form.
     """
-    order = 1 + FORMS.index(form)
+    order, (nx, ny) = 1 + FORMS.index(form), heights.shape
     valid = np.ones(heights.shape, bool) if mask is None else mask
-    powers = [
-        (p, q) for p in range(order + 1) for q in range(order + 1 - p) if p < heights.shape[0] and q < heights.shape[1]
-    ]
-    along = [
-        ((np.arange(n) - 0.5 * (n - 1)) / n)[:, None] ** np.arange(2 * order + 1) for n in heights.shape
-    ]  # columns: powers of the place
+    powers = [(p, q) for p in range(order + 1) for q in range(order + 1 - p) if p < nx and q < ny]
+    places = [(np.arange(n) - 0.5 * (n - 1)) / n for n in heights.shape]
+    along = [place[:, None] ** np.arange(2 * order + 1) for place in places]
     z = np.where(valid, heights, 0.0)
     terms = _normal_solution(z, valid.astype(float), along, powers)
     if terms is None:
         curve = "line" if order == 1 else "line or conic"
-        raise InputError(
-            f"{np.count_nonzero(valid)} measured points lie on one {curve}; allowed: points that fix the "
-            f"{len(powers)} terms of the form {form!r}"
-        )
+        said = f"{np.count_nonzero(valid)} measured points lie on one {curve}"
+        raise InputError(said, allowed=f"points that fix the {len(powers)} terms of the form {form!r}")
     fitted = _polynomial(terms, along)
     if np.abs(z - fitted, where=valid, out=np.zeros(z.shape)).max() <= FLAT * np.abs(z).max():
         fitted = np.where(valid, heights, fitted)
@@ -91,27 +83,23 @@ def harmonic_fill(heights, mask, spacing) -> np.ndarray:
     missing = ~mask
     if not missing.any():
         return heights
-    if np.count_nonzero(missing) > MOST_MISSING * mask.size:
-        raise InputError(
-            f"missing fraction = {np.count_nonzero(missing) / mask.size:.3g} is out of range; "
-            f"allowed: [0, {MOST_MISSING}] (-)"
-        )
-    number = np.cumsum(missing.ravel()).reshape(mask.shape) - 1
     count = int(np.count_nonzero(missing))
-    diagonal, right, rows, columns, entries = np.zeros(count), np.zeros(count), [], [], []
+    if count > MOST_MISSING * mask.size:
+        said = f" = {count / mask.size:.3g} is out of range"
+        raise InputError(said, "missing fraction", f"[0, {MOST_MISSING}] (-)")
+    number = np.cumsum(missing.ravel()).reshape(mask.shape) - 1
+    right, rows, columns, entries = np.zeros(count), [], [], []
     for axis in range(2):
         weight = 1 / spacing[axis] ** 2
         for here, there in _neighbours(axis):
             from_missing = missing[here]
             row, other = number[here][from_missing], missing[there][from_missing]
-            np.add.at(diagonal, row, weight)
             np.add.at(right, row[~other], weight * heights[there][from_missing][~other])
-            rows.append(row[other])
-            columns.append(number[there][from_missing][other])
-            entries.append(np.full(np.count_nonzero(other), -weight))
-    index = np.arange(count)
-    where = np.concatenate([index, *rows]), np.concatenate([index, *columns])
-    matrix = coo_matrix((np.concatenate([diagonal, *entries]), where), shape=(count, count))
+            rows += [row, row[other]]
+            columns += [row, number[there][from_missing][other]]
+            entries += [np.full(row.size, weight), np.full(np.count_nonzero(other), -weight)]
+    where = np.concatenate(rows), np.concatenate(columns)  # entries of one place are added
+    matrix = coo_matrix((np.concatenate(entries), where), shape=(count, count))
     filled = heights.copy()
     filled[missing] = spsolve(matrix.tocsc(), right)
     return filled
@@ -124,77 +112,75 @@ def _neighbours(axis):
     return (tuple(first), tuple(last)), (tuple(last), tuple(first))
 
 
-def points_to_close(count: int, edge: str) -> int:
-    """How many points of an open map make ``count`` points of a closed one."""
-    return (count + 1) // 2 if edge == "mirror" else count + _blend_width(count)
+def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool, bool]) -> np.ndarray:
+    """Deviations (nx, ny) by which each outlier of a filled, levelled map stands off its neighbours, negative below
+    them; 0 elsewhere. Outliers of a measured map are points that stand alone, far from all their neighbours.
 
+    The rule: a measured point is an outlier when it lies more than ``LIMIT`` robust standard deviations both from the
+    median of the whole map and from the median of the ``WINDOW`` x ``WINDOW`` points around it, on the same side. The
+    robust deviation is 1.4826 times the median of |z - median(z)|. For a Gaussian map that is the standard deviation,
+    and the outliers themselves hardly change it. Where it is zero (most of the map has one height) Sq is taken.
 
-def _blend_width(count: int) -> int:
-    return max(1, round(BLEND * count / (1 - BLEND)))
+    `Surface.without_outliers` fills the outliers and searches the map again, until there are none. Ridges and grooves
+    at least three points wide stay, however high. So do summits that are wide against the window. Dust, noise beside
+    unmeasured points and the flares of optical instruments at steep edges go.
 
-
-def close_axis(heights, axis, edge, count=None) -> np.ndarray:
-    """Make an open array periodic along ``axis``; ``count`` points come out (default: see below).
-
-    "mirror": n points followed by their mirror image, 2 n points (2 n - 1 when ``count`` is odd).
-    "window": the last w points are laid over the first w with weights cos and sin of an angle
-    rising from 0 to pi/2 (their squares add to 1), n - w points with w one tenth of n.
+    heights : (nx, ny) [m], finite; unmeasured points (False in ``mask``) stand in the windows as they are: fill them
+        first.
     """
-    z = np.moveaxis(heights, axis, 0)
-    if edge == "mirror":
-        closed = np.concatenate([z, z[::-1]])
-        closed = closed if count is None else closed[:count]
-    else:
-        width = max(1, round(BLEND * len(z))) if count is None else len(z) - count
-        if 2 * width > len(z):
-            raise InputError(f"{len(z)} points along axis {axis} are too few to blend; allowed: at least 2")
-        angle = (0.5 * np.pi / width * np.arange(width))[:, None]
-        mean, closed = z.mean(), z[:-width].copy()
-        closed[:width] = mean + np.sin(angle) * (z[:width] - mean) + np.cos(angle) * (z[-width:] - mean)
-    return np.moveaxis(closed, 0, axis)
+    measured = heights if mask is None else heights[mask]
+    middle = float(np.median(measured))
+    deviation = GAUSSIAN * float(np.median(np.abs(measured - middle))) or float(measured.std())
+    found = np.zeros(heights.shape)
+    if deviation == 0:
+        return found
+    far = np.abs(heights - middle) > LIMIT * deviation
+    where = np.nonzero(far if mask is None else far & mask)
+    parts = [tuple(at[i : i + CHUNK] for at in where) for i in range(0, where[0].size, CHUNK)]
+    around = [_median_around(heights, part, periodic) for part in parts]
+    off = (heights[where] - np.concatenate([np.empty(0), *around])) / deviation
+    same_side = np.sign(off) == np.sign(heights[where] - middle)
+    found[where] = np.where((np.abs(off) > LIMIT) & same_side, off, 0.0)
+    return found
 
 
-def close_mask(mask, axis, edge, count=None) -> np.ndarray:
-    """The measured points of a closed map. A blended point counts where both of its heights were measured."""
-    m = np.moveaxis(mask, axis, 0)
-    if edge == "mirror":
-        closed = np.concatenate([m, m[::-1]])[:count]
-    else:
-        width = max(1, round(BLEND * len(m))) if count is None else len(m) - count
-        closed = m[:-width].copy()
-        closed[:width] &= m[-width:]
-    return np.moveaxis(closed, 0, axis)
+def _median_around(heights: np.ndarray, where: tuple[np.ndarray, ...], periodic: tuple[bool, bool]) -> np.ndarray:
+    """Median of the window around each of the points ``where``; mirrored at open ends."""
+    reach = np.arange(WINDOW) - WINDOW // 2
+    rows, columns = (_inside(at[:, None] + reach, n, closed) for at, n, closed in zip(where, heights.shape, periodic))
+    return np.median(heights[rows[:, :, None], columns[:, None, :]], axis=(1, 2))
 
 
-def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
-    """``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map.
-
-    Periodic: the Fourier series at the new cell centres. Open: heights are taken as cell averages;
-    a cubic spline through their running integral gives the averages over the new cells, coarser or
-    finer. It conserves the integral and changes nothing at ratio 1.
-    """
-    z = np.moveaxis(heights, axis, 0)
+def _inside(index: np.ndarray, count: int, periodic: bool) -> np.ndarray:
     if periodic:
-        new = _fourier(z, count)
-    else:
-        from scipy.interpolate import CubicSpline
-
-        integral = np.concatenate([np.zeros((1, z.shape[1])), np.cumsum(z, axis=0)])
-        edges = np.minimum(ratio * np.arange(count + 1), len(z))
-        new = np.diff(CubicSpline(np.arange(len(z) + 1), integral)(edges), axis=0) / ratio
-    return np.moveaxis(new, 0, axis)
+        return index % count
+    folded = index % (2 * count)
+    return np.where(folded < count, folded, 2 * count - 1 - folded)
 
 
-def _fourier(z, count) -> np.ndarray:
-    """Fourier series of n cell centres evaluated at ``count`` cell centres of the same period."""
-    from scipy import fft
+def gaussian_mean(
+    heights: np.ndarray,
+    mask: np.ndarray | None,
+    spacing: tuple[float, float],
+    periodic: tuple[bool, bool],
+    index: float,
+) -> np.ndarray:
+    """The waviness (nx, ny) [m]: the weighted mean around each point, of the measured points (True in ``mask``) only.
 
-    n, keep = len(z), min(len(z), count) // 2 + 1
-    spectrum = np.zeros((count // 2 + 1, z.shape[1]), complex)
-    spectrum[:keep] = fft.rfft(z, axis=0)[:keep]
-    shift = 0.5 * (n / count - 1) / n  # from old to new cell centres, in periods
-    spectrum *= np.exp(2j * np.pi * shift * np.arange(len(spectrum)))[:, None]
-    even = min(n, count)
-    if even % 2 == 0 and n != count:  # the highest mode is shared by +k and -k
-        spectrum[even // 2] *= 2.0 if count < n else 0.5
-    return fft.irfft(spectrum, count, axis=0) * (count / n)
+    The areal Gaussian filter of ISO 16610-61: the weights are exp(-pi (r/(a L))^2) with a = sqrt(ln 2/pi), so that a
+    wave as long as the nesting index L keeps half of its height. The filter is isotropic, so it works on one axis after
+    the other. At open ends and beside unmeasured points the remaining weights are scaled to sum to one (regression of
+    order zero). A periodic axis wraps around.
+
+    ``index`` [m]: nesting index (cutoff). A point that has no measured one in reach keeps its height.
+    """
+    from scipy.ndimage import gaussian_filter1d
+
+    weight = np.ones(heights.shape) if mask is None else mask.astype(float)
+    total = np.where(weight > 0, heights, 0.0)
+    for axis in range(2):
+        deviation = ALPHA * index / spacing[axis] / math.sqrt(2 * math.pi)
+        along = {"axis": axis, "mode": "wrap" if periodic[axis] else "constant", "truncate": REACH}
+        total, weight = (gaussian_filter1d(a, deviation, **along) for a in (total, weight))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.where(weight > np.finfo(float).tiny, total / weight, heights)

@@ -10,12 +10,12 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from . import checks, instrument
+from . import instrument
 from .height_map import Surface
+from .instrument import UNITS
 from .prepare import FORMS
-from .table import DECIMALS
-from .text import read_matrix, read_points
-from .units import UNITS
+from .regrid import points
+from .text import DECIMALS, read_matrix, read_points
 from .x3p import read_x3p
 
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz")
@@ -69,19 +69,16 @@ def read_surface(
     if decimal is not None:
         validate.choice("decimal", decimal, DECIMALS)
     suffix = path.suffix.lower()
-    if suffix in TEXT and _binary(path) or suffix not in SUFFIXES and suffix in instrument.SUFFIXES:
+    by_instrument = suffix in TEXT and _binary(path) or suffix not in SUFFIXES and suffix in instrument.SUFFIXES
+    if by_instrument or suffix == ".x3p":
         _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)
-        surface = instrument.read_instrument(path, 0, None)
-    elif suffix not in SUFFIXES:
-        raise InputError(
-            f"path = {str(path)!r} has the unknown suffix {suffix!r}; allowed: {', '.join(SUFFIXES)}, and with "
-            f"SurfaceTopography ({instrument.HINT}) {', '.join(instrument.SUFFIXES)}"
-        )
-    elif suffix == ".x3p":
-        _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)
-        surface = read_x3p(path)
-    else:
+        surface = instrument.read_instrument(path, 0, None) if by_instrument else read_x3p(path)
+    elif suffix in SUFFIXES:
         surface = _plain(path, suffix, spacing, unit, decimal, missing_value)
+    else:
+        others = f"with SurfaceTopography ({instrument.HINT}) {', '.join(instrument.SUFFIXES)}"
+        said = f"path = {str(path)!r} has the unknown suffix {suffix!r}"
+        raise InputError(said, allowed=f"{', '.join(SUFFIXES)}, and {others}")
     return _prepared(replace(surface, source=path.name), level, fill, form)
 
 
@@ -113,8 +110,6 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
     scale = UNITS[validate.choice("unit", "m" if unit is None else unit, UNITS)]
     if missing_value is not None:
         missing_value = validate.number("missing_value", missing_value, "(unit of the file)")
-    notes: tuple[str, ...] = ()
-    own: tuple[float, float] | None
     if path.stat().st_size > MOST_BYTES:
         raise InputError(f"path = {str(path)!r} has {path.stat().st_size:.3g} bytes; allowed: up to {MOST_BYTES:.3g}")
     if suffix == ".xyz":
@@ -123,7 +118,7 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
         return _masked(heights, scale, missing_value, (dx * scale, dy * scale), notes)
     if suffix == ".npy":
         _refuse(suffix, decimal=decimal)
-        heights, own = _read_npy(path), None
+        heights, own, notes = _read_npy(path), None, ()
         with np.errstate(over="ignore"):
             if heights.dtype.kind == "f" and missing_value is not None:
                 missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
@@ -133,19 +128,16 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
     if own is not None:
         _refuse(suffix, spacing=spacing)
     elif spacing is None:
-        raise InputError(
-            f"spacing of {path.name} is missing: the file does not carry it; allowed: one length or (dx, dy) in m "
-            "(of a scene: surface.spacing)"
-        )
+        said = f"spacing of {path.name} is missing: the file does not carry it"
+        raise InputError(said, allowed="one length or (dx, dy) in m (of a scene: surface.spacing)")
     return _masked(heights, scale, missing_value, spacing if own is None else own, notes)
 
 
 def _refuse(suffix, **given) -> None:
     for name, value in given.items():
         if value is not None:
-            raise InputError(
-                f"{name} = {value!r} is given, and this {suffix} file carries its own or has none; leave it out"
-            )
+            said = f" = {value!r} is given, and this {suffix} file carries its own or has none"
+            raise InputError(said, name, way_out="leave it out")
 
 
 def _masked(heights, scale, missing_value, spacing, notes) -> Surface:
@@ -173,20 +165,17 @@ def _prepared(surface, level, fill, form) -> Surface:
 
 def _read_npy(path) -> np.ndarray:
     """Read a .npy file. It is memory-mapped first, so that its header cannot ask for more than the file holds."""
+    name = f"path = {str(path)!r}"
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             data = np.load(path, mmap_mode="r", allow_pickle=False)
     except Exception as problem:  # the header is Python text: any error of its parser, or of the map made from it
-        raise InputError(
-            f"path = {str(path)!r} is not a readable .npy array ({validate.shown(str(problem))})"
-        ) from None
+        raise InputError(f"{name} is not a readable .npy array ({validate.shown(str(problem))})") from None
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 2 or data.size == 0:
-        raise InputError(
-            f"path = {str(path)!r} holds {getattr(data, 'dtype', type(data))} of shape "
-            f"{getattr(data, 'shape', None)}; allowed: real numbers with 2 axes [m]"
-        )
-    checks.points(f"path = {str(path)!r}: shape", data.shape)
+        said = f" holds {getattr(data, 'dtype', type(data))} of shape {getattr(data, 'shape', None)}"
+        raise InputError(said, name, "real numbers with 2 axes [m]")
+    points(f"{name}: shape", data.shape)
     return np.array(data)
 
 

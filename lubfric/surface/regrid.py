@@ -1,42 +1,59 @@
-"""One axis of a `lubfric.Surface` on other points: made periodic, resampled, cut or repeated. Every function returns a
-new map."""
+"""A map on other points: made periodic, resampled, cut or repeated, one axis at a time; the sum of two maps.
+
+Functions of a `lubfric.Surface` return a new one.
+"""
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from . import checks, prepare
+
+EDGES = ("mirror", "window")
+BLEND = 0.1  # share of a map's length that the window blends
+MOST_POINTS = 2**26  # of any map, 512 MiB of heights
+SAME = 1e-9  # relative difference of lengths that are equal
+
+
+def pair(name, value) -> tuple[int, int]:
+    """Two whole numbers >= 1."""
+    if np.ndim(value) != 1 or len(value) != 2:
+        raise InputError(f"{name} = {value!r} must be a pair (nx, ny) of whole numbers >= 1")
+    nx, ny = (validate.integer(f"{name}[{i}]", n, minimum=1) for i, n in enumerate(value))
+    return nx, ny
+
+
+def points(name: str, shape: tuple[int, ...]) -> None:
+    """Check that a grid of that many points fits into memory."""
+    if math.prod(shape) > MOST_POINTS:
+        said = f" = {validate.shown(shape)} has {float(math.prod(shape)):.3g} points"
+        raise InputError(said, name, f"up to {MOST_POINTS:.3g}")
 
 
 def changed(surface, axis, heights, note, *, step=None, closed=None, mask=None):
     """A copy with new heights along one axis, and whatever else changes with them."""
-    spacing, periodic = list(surface.spacing), list(surface.periodic_axes)
+    spacing, periodic, notes = list(surface.spacing), list(surface.periodic_axes), (*surface.notes, note)
     spacing[axis] = spacing[axis] if step is None else step
     periodic[axis] = periodic[axis] if closed is None else closed
     return replace(
-        surface,
-        heights=heights,
-        spacing=tuple(spacing),
-        mask=mask,
-        periodic_axes=tuple(periodic),
-        notes=(*surface.notes, note),
+        surface, heights=heights, spacing=tuple(spacing), mask=mask, periodic_axes=tuple(periodic), notes=notes
     )
 
 
 def closed(surface, axis: int, edge: str, count: int | None = None):
-    """``surface`` made periodic along ``axis``; see `prepare.close_axis`."""
-    heights = prepare.close_axis(surface.heights, axis, edge, count)
-    mask = None if surface.mask is None else prepare.close_mask(surface.mask, axis, edge, count)
+    """``surface`` made periodic along ``axis``; see `close_axis`."""
+    heights = close_axis(surface.heights, axis, edge, count)
+    mask = None if surface.mask is None else close_axis(surface.mask, axis, edge, count)
     note = f"made periodic along {'xy'[axis]}: {edge}"
     return changed(surface, axis, heights, note, closed=True, mask=mask)
 
 
 def resampled(surface, axis: int, count: int | None, step: float | None):
-    """``surface`` on ``count`` points along ``axis``, or on points ``step`` [m] apart; see `prepare.resample_axis`."""
+    """``surface`` on ``count`` points along ``axis``, or on points ``step`` [m] apart; see `resample_axis`."""
     n, old = surface.shape[axis], surface.spacing[axis]
     closed = surface.periodic_axes[axis]
     if count is None:
@@ -47,10 +64,10 @@ def resampled(surface, axis: int, count: int | None, step: float | None):
         step = n * old / count
     if count < 1:
         raise InputError(f"spacing[{axis}] = {step:g} m is longer than the map; allowed: up to {n * old:g} m")
-    checks.points(f"points along {'xy'[axis]} and the other axis", (count, surface.shape[1 - axis]))
+    points(f"points along {'xy'[axis]} and the other axis", (count, surface.shape[1 - axis]))
     if count == n and abs(step / old - 1) < 1e-9:
         return surface
-    heights = prepare.resample_axis(surface.heights, axis, count, step / old, closed)
+    heights = resample_axis(surface.heights, axis, count, step / old, closed)
     note = f"resampled along {'xy'[axis]} from {n} points at {old:.4e} m to {count} at {step:.4e} m"
     if surface.mask is not None:
         note += f" (mask dropped, {100 * surface.missing_fraction:.3g} % was unmeasured)"
@@ -60,29 +77,124 @@ def resampled(surface, axis: int, count: int | None, step: float | None):
 def fitted(surface, axis: int, count: int, edge: str | None):
     """``surface`` on exactly ``count`` points of its own spacing along ``axis``: repeated where periodic, else cut."""
     if edge is not None:
-        validate.choice("edge", edge, prepare.EDGES)
+        validate.choice("edge", edge, EDGES)
     n = surface.shape[axis]
     if count == n and (edge is None or surface.periodic_axes[axis]):
         return surface
     if surface.periodic_axes[axis] and (edge is None or count % n == 0):
         pick = np.arange(count) % n
         mask = None if surface.mask is None else np.take(surface.mask, pick, axis)
-        return changed(
-            surface,
-            axis,
-            np.take(surface.heights, pick, axis),
-            closed=count % n == 0,
-            mask=mask,
-            note=f"{'repeated' if count > n else 'cut'} along {'xy'[axis]} from {n} to {count} points",
-        )
-    need = count if edge is None else prepare.points_to_close(count, edge)
+        note = f"{'repeated' if count > n else 'cut'} along {'xy'[axis]} from {n} to {count} points"
+        return changed(surface, axis, np.take(surface.heights, pick, axis), note, closed=count % n == 0, mask=mask)
+    need = count if edge is None else points_to_close(count, edge)
     if need > n:
-        raise InputError(
-            f"patch of {count} points along {'xy'[axis]} needs {need} points of the map "
-            f"({need * surface.spacing[axis]:g} m); allowed: up to {n} "
-            f"({surface.size[axis]:g} m), or a periodic map"
-        )
+        said = f"patch of {count} points along {'xy'[axis]} needs {need} points of the map"
+        length = f"({need * surface.spacing[axis]:g} m)"
+        raise InputError(f"{said} {length}", allowed=f"up to {n} ({surface.size[axis]:g} m), or a periodic map")
     shape = list(surface.shape)
     shape[axis] = need
     cut = surface.cropped(shape)
     return cut if edge is None else closed(cut, axis, edge, count)
+
+
+def combined(first, second):
+    """Two rough surfaces that face each other, as one map.
+
+    It is z1(x, y) + z2(x, -y), on the finer of both spacings along each axis, over the length that both have.
+
+    The gap between them is h - z1 - z2 with both heights measured outwards, so that one rigid smooth body against the
+    sum is the same contact (half-spaces: E' already holds both bodies). The second body is turned over about x, the
+    direction of motion: its x stays and its y runs backwards.
+
+    If both are periodic along an axis with the same length, the sum is periodic too. Otherwise the shorter length
+    counts, cut around the middle, and the sum is open. (A periodic map is repeated to reach the length of an open one.)
+    The heights are taken about their means. Raises `InputError` for maps with unmeasured points: level and fill first.
+    """
+    for name, surface in (("first", first), ("second", second)):
+        if not np.isfinite(surface.heights).all():
+            raise InputError(f"{name} surface has unmeasured points (NaN); call level() and fill() first")
+    second = replace(
+        second, heights=second.heights[:, ::-1], mask=None if second.mask is None else second.mask[:, ::-1]
+    )
+    spacing = tuple(min(a, b) for a, b in zip(first.spacing, second.spacing))
+    parts = [surface.resampled(spacing=spacing) for surface in (first, second)]
+    shape, closed = zip(*(_common(axis, *parts) for axis in range(2)))
+    parts = [part.patch(shape) for part in parts]
+    heights = sum(part.heights - part.heights.mean() for part in parts)
+    mask = np.logical_and(*(np.ones(shape, bool) if part.mask is None else part.mask for part in parts))
+    source = " and ".join(surface.source or "a map" for surface in (first, second))
+    notes = [f"{name}: {note}" for name, part in zip(("first", "second"), parts) for note in part.notes]
+    notes.append(f"combined: Sq {first.sq:.4e} m and {second.sq:.4e} m, the second turned over about x")
+    return replace(parts[0], heights=heights, mask=mask, periodic_axes=closed, source=source, notes=tuple(notes))
+
+
+def _common(axis: int, first, second) -> tuple[int, bool]:
+    """(points, whether periodic) of the sum along ``axis``; both maps have the same spacing here."""
+    lengths, closed = [s.size[axis] for s in (first, second)], [s.periodic_axes[axis] for s in (first, second)]
+    same = abs(lengths[0] / lengths[1] - 1) < SAME
+    if all(closed) and same:
+        return first.shape[axis], True
+    open_lengths = [length for length, periodic in zip(lengths, closed) if not periodic]
+    return int(min(open_lengths or lengths) / first.spacing[axis] * (1 + SAME)), False
+
+
+def points_to_close(count: int, edge: str) -> int:
+    """How many points of an open map make ``count`` points of a closed one."""
+    return (count + 1) // 2 if edge == "mirror" else count + max(1, round(BLEND * count / (1 - BLEND)))
+
+
+def close_axis(values, axis, edge, count=None) -> np.ndarray:
+    """Make an open array, of heights or a mask, periodic along ``axis``; ``count`` points come out (default: below).
+
+    "mirror": n points followed by their mirror image, 2 n points (2 n - 1 when ``count`` is odd).
+    "window": the last w points are laid over the first w with weights cos and sin of an angle
+    rising from 0 to pi/2 (their squares add to 1), n - w points with w one tenth of n. A blended point counts as
+    measured where both of its heights were.
+    """
+    z = np.moveaxis(values, axis, 0)
+    if edge == "mirror":
+        return np.moveaxis(np.concatenate([z, z[::-1]])[:count], 0, axis)
+    width = max(1, round(BLEND * len(z))) if count is None else len(z) - count
+    if 2 * width > len(z):
+        raise InputError(f"{len(z)} points along axis {axis} are too few to blend; allowed: at least 2")
+    closed = z[:-width].copy()
+    if z.dtype == bool:
+        closed[:width] &= z[-width:]
+    else:
+        angle, mean = (0.5 * np.pi / width * np.arange(width))[:, None], z.mean()
+        closed[:width] = mean + np.sin(angle) * (z[:width] - mean) + np.cos(angle) * (z[-width:] - mean)
+    return np.moveaxis(closed, 0, axis)
+
+
+def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
+    """``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map.
+
+    Periodic: the Fourier series at the new cell centres. Open: heights are taken as cell averages;
+    a cubic spline through their running integral gives the averages over the new cells, coarser or
+    finer. It conserves the integral and changes nothing at ratio 1.
+    """
+    z = np.moveaxis(heights, axis, 0)
+    if periodic:
+        new = _fourier(z, count)
+    else:
+        from scipy.interpolate import CubicSpline
+
+        integral = np.concatenate([np.zeros((1, z.shape[1])), np.cumsum(z, axis=0)])
+        edges = np.minimum(ratio * np.arange(count + 1), len(z))
+        new = np.diff(CubicSpline(np.arange(len(z) + 1), integral)(edges), axis=0) / ratio
+    return np.moveaxis(new, 0, axis)
+
+
+def _fourier(z, count) -> np.ndarray:
+    """Fourier series of n cell centres evaluated at ``count`` cell centres of the same period."""
+    from scipy import fft
+
+    n, keep = len(z), min(len(z), count) // 2 + 1
+    spectrum = np.zeros((count // 2 + 1, z.shape[1]), complex)
+    spectrum[:keep] = fft.rfft(z, axis=0)[:keep]
+    shift = 0.5 * (n / count - 1) / n  # from old to new cell centres, in periods
+    spectrum *= np.exp(2j * np.pi * shift * np.arange(len(spectrum)))[:, None]
+    even = min(n, count)
+    if even % 2 == 0 and n != count:  # the highest mode is shared by +k and -k
+        spectrum[even // 2] *= 2.0 if count < n else 0.5
+    return fft.irfft(spectrum, count, axis=0) * (count / n)

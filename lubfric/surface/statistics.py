@@ -55,40 +55,29 @@ def rms_slope(surface, method: str = "difference") -> tuple[float, float, float]
     of the Fourier series, for maps periodic along both axes without unmeasured points.
     """
     validate.choice("method", method, ("difference", "spectral"))
-    slopes = [
-        _difference_slope(surface, axis) if method == "difference" else _spectral_slope(surface, axis)
-        for axis in range(2)
-    ]
-    return slopes[0], slopes[1], math.hypot(*slopes)
+    slope = _difference_slope if method == "difference" else _spectral_slope
+    along_x, along_y = slope(surface, 0), slope(surface, 1)
+    return along_x, along_y, math.hypot(along_x, along_y)
 
 
 def _difference_slope(surface, axis) -> float:
-    z, n = surface.heights, surface.shape[axis]
-    mask = np.isfinite(z) if surface.mask is None else surface.mask
-    step = np.roll(z, -1, axis) - z
-    both = np.roll(mask, -1, axis) & mask
-    if not surface.periodic_axes[axis]:
-        keep = np.arange(n - 1)
-        step, both = np.take(step, keep, axis), np.take(both, keep, axis)
-    if not both.any():
-        return 0.0
-    return float(np.sqrt(np.mean(step[both] ** 2)) / surface.spacing[axis])
+    z = np.moveaxis(surface.heights, axis, 0)
+    mask = np.isfinite(z) if surface.mask is None else np.moveaxis(surface.mask, axis, 0)
+    steps = len(z) if surface.periodic_axes[axis] else len(z) - 1
+    step, both = (np.roll(z, -1, 0) - z)[:steps], (np.roll(mask, -1, 0) & mask)[:steps]
+    return float(np.sqrt(np.mean(step[both] ** 2)) / surface.spacing[axis]) if both.any() else 0.0
 
 
 def _spectral_slope(surface, axis) -> float:
     from scipy import fft
 
     if not all(surface.periodic_axes) or surface.mask is not None:
-        raise InputError(
-            "method = 'spectral' needs a map that is periodic along both axes and fully "
-            "measured; allowed here: 'difference'"
-        )
-    n = surface.shape[axis]
-    k = 2 * np.pi * fft.fftfreq(n, surface.spacing[axis])
-    power = np.abs(fft.fft(surface.heights, axis=axis)) ** 2
-    shape = [1, 1]
-    shape[axis] = n
-    return float(np.sqrt((power * k.reshape(shape) ** 2).mean() / n))
+        said = " = 'spectral' needs a map that is periodic along both axes and fully measured"
+        raise InputError(said, "method", "here 'difference'")
+    z = np.moveaxis(surface.heights, axis, 0)
+    k = 2 * np.pi * fft.fftfreq(len(z), surface.spacing[axis])
+    power = np.abs(fft.fft(z, axis=0)) ** 2
+    return float(np.sqrt((power * k[:, None] ** 2).mean() / len(z)))
 
 
 def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
@@ -126,8 +115,7 @@ def correlation_length(surface, axis: int = 0, decay_level: float = INVERSE_E) -
     are in use too. Between two lags the logarithm of the correlation is linear. Raises `InputError`
     when it stays above the level up to half the map.
     """
-    lags, acf = autocorrelation(surface, axis)
-    return first_crossing(lags, acf, decay_level)
+    return first_crossing(*autocorrelation(surface, axis), decay_level)
 
 
 def first_crossing(lags, acf, decay_level) -> float:
@@ -135,10 +123,8 @@ def first_crossing(lags, acf, decay_level) -> float:
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
     below = np.flatnonzero(acf <= level)
     if below.size == 0:
-        raise InputError(
-            f"the autocorrelation stays above decay_level = {level:g} up to {lags[-1]:g} m; "
-            "allowed: a map at least twice as long as its correlation length"
-        )
+        said = f"the autocorrelation stays above decay_level = {level:g} up to {lags[-1]:g} m"
+        raise InputError(said, allowed="a map at least twice as long as its correlation length")
     i = below[0]
     high, low = acf[i - 1], acf[i]
     share = math.log(high / level) / math.log(high / low) if low > 0 else (high - level) / (high - low)

@@ -1,4 +1,4 @@
-"""Height maps as text: a matrix of heights, or a list of points x y z."""
+"""Height maps as text: a matrix of heights, or a list of points x y z; their separators and decimal marks."""
 
 from __future__ import annotations
 
@@ -8,11 +8,24 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from .table import read_table
 
 NEXT_LINE = 0.1  # of the largest gap between coordinates: a larger one leads to the next grid line
 FARTHEST = 1e15  # in the unit of the file
 UNEVEN = 0.02  # of the spacing: the most a coordinate may be off its grid line
+DECIMALS = (".", ",")
+UNIT_WORDS = {"mm": "mm", "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "nm": "nm"}
+MISSING_WORDS = {"na", "n/a", "null", "none", "bad", "missing"}
+
+_NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
+_VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
+_EMPTY = re.compile(r"\t\s*\t")  # a value left out between tabs
+_BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")  # '1,5 2,5'
+_PAIR = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
+_BOTH_WAYS = re.compile(rf"{_PAIR}(?:,\s*{_PAIR})*")  # '1,5' or '1,5,2,5'
+
+_COMMA_BLANK = re.compile(rf"{_VALUE}(?:,\s+{_VALUE})*")  # '1,5, 2' or '1, 2'
+
+Lines = list[tuple[int, str]]  # (line number in the file, text without blanks around it)
 
 
 def _lines(path) -> tuple[list[str], list[tuple[int, str]]]:
@@ -39,9 +52,8 @@ def read_matrix(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float,
         try:
             pair = [float(word) for word in words or ("none",)]
         except ValueError:  # no match, no numbers
-            raise InputError(
-                f"spacing in {path.name}: {validate.shown(line)}; allowed: '# spacing = dx dy' in m"
-            ) from None
+            said = f"spacing in {path.name}: {validate.shown(line)}"
+            raise InputError(said, allowed="'# spacing = dx dy' in m") from None
         spacing = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
     heights, notes = read_table(path, lines, decimal, unit)
     return heights, spacing, notes
@@ -50,24 +62,20 @@ def read_matrix(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float,
 def read_points(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float, float], tuple[str, ...]]:
     """heights[ix, iy], NaN where no point is, and (dx, dy), all in the unit of the file; notes."""
     table, notes = read_table(path, _lines(path)[1], decimal, unit)
+    name = f"path = {str(path)!r}"
     if table.shape[1] != 3:
-        raise InputError(f"path = {str(path)!r} has {table.shape[1]} columns; allowed: exactly 3 (x y z)")
+        raise InputError(f" has {table.shape[1]} columns", name, "exactly 3 (x y z)")
     if not (np.abs(table[:, :2]) <= FARTHEST).all():
-        raise InputError(
-            f"path = {str(path)!r}: x or y is NaN, infinite or beyond {FARTHEST:g}; allowed: finite coordinates"
-        )
+        raise InputError(f": x or y is NaN, infinite or beyond {FARTHEST:g}", name, "finite coordinates")
     (i, nx, dx), (j, ny, dy) = (_grid_lines(name, table[:, column]) for column, name in enumerate("xy"))
     if nx * ny > 4 * len(table):
-        raise InputError(
-            f"path = {str(path)!r}: {len(table)} points on a grid of {nx} x {ny}; allowed: "
-            "a uniform grid with most of its points"
-        )
+        said = f": {len(table)} points on a grid of {nx} x {ny}"
+        raise InputError(said, name, "a uniform grid with most of its points")
     heights, count = np.full((nx, ny), np.nan), np.zeros((nx, ny), int)
     np.add.at(count, (i, j), 1)
     if count.max() > 1:
-        raise InputError(
-            f"path = {str(path)!r}: {np.count_nonzero(count > 1)} grid points are given more than once; give each once"
-        )
+        said = f": {np.count_nonzero(count > 1)} grid points are given more than once"
+        raise InputError(said, name, way_out="give each once")
     heights[i, j] = table[:, 2]
     return heights, (dx, dy), notes
 
@@ -87,8 +95,102 @@ def _grid_lines(name, coordinate) -> tuple[np.ndarray, int, float]:
     index = np.rint(position).astype(int)
     off = np.abs(position - index).max()
     if off > UNEVEN:
-        raise InputError(
-            f"spacing along {name} is not uniform: a point is {off:.2g} steps off its grid "
-            f"line; allowed: at most {UNEVEN:g} of the step {step:g}"
-        )
+        said = f"spacing along {name} is not uniform: a point is {off:.2g} steps off its grid line"
+        raise InputError(said, allowed=f"at most {UNEVEN:g} of the step {step:g}")
     return index, count, float(step)
+
+
+def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray, tuple[str, ...]]:
+    """(rows, columns) of the numbers, and notes of the titles skipped and of a decimal comma.
+
+    A point is always a decimal mark. A comma separates values, or it is the decimal mark. It is read where the lines
+    admit only one of the two, and is an error where they admit both.
+
+    lines : without comments. decimal : ".", "," or None to find out. unit : what the caller takes the lengths for;
+    None makes a title that names another unit than metres an error. Raises `InputError` naming the line.
+    """
+    titles, lines = _split_titles(path, lines)
+    if unit is None:
+        _check_units(path, titles)
+    notes = tuple(f"line {number} skipped as a title: {text[:60]!r}" for number, text in titles)
+    separator, comma = _marks(path, lines, decimal)
+    if separator is not None and all(text.endswith(separator) for _, text in lines):
+        lines = [(number, text[:-1].rstrip()) for number, text in lines]  # a separator behind every line
+    if comma:
+        _refuse_points(path, lines)
+        lines = [(number, re.sub(r",(?=\s)", " ", text).replace(",", ".")) for number, text in lines]
+        notes += ("decimal comma",)
+    try:
+        return np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None), notes
+    except ValueError as problem:
+        said = f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}"
+        raise InputError(said, allowed="lines of equally many numbers, 'nan' where unmeasured") from None
+
+
+def _wrong(path, number, text, words) -> InputError:
+    return InputError(f"path = {str(path)!r}: line {number} {text[:60]!r} {words}")
+
+
+def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
+    """Leading lines without any number are titles; a leading line with words and numbers is an error."""
+    for index, (number, text) in enumerate(lines):
+        words = [w for w in re.split(r"[\s;,]+", text) if w]
+        numbers = sum(_NUMBER.fullmatch(w) is not None for w in words)
+        if numbers and numbers == len(words):
+            return lines[:index], lines[index:]
+        unmeasured = words and all(w.lower() in MISSING_WORDS for w in words)
+        if numbers or unmeasured or not any(c.isalpha() for c in text):
+            allowed = "allowed: 'nan' where unmeasured, '#' before a line to be skipped"
+            raise _wrong(path, number, text, f"is neither numbers nor a title without numbers; {allowed}")
+    raise InputError(f"path = {str(path)!r} holds no numbers")
+
+
+def _check_units(path, titles: Lines) -> None:
+    for number, text in titles:
+        named = sorted({UNIT_WORDS[w] for w in re.findall(r"[a-zµμ]+", text.lower()) if w in UNIT_WORDS})
+        if named:
+            allowed = f"allowed: unit = {named[0]!r}, or 'm' if it is m after all"
+            said = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
+            raise _wrong(path, number, text, f"{said}; {allowed}")
+
+
+def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
+    """(separator or None for blanks, whether the comma is the decimal mark)."""
+    commas = [(number, text) for number, text in lines if "," in text]
+    semicolon, tab = (any(mark in text for _, text in lines) for mark in ";\t")
+    separator = ";" if semicolon else "\t" if any(_EMPTY.search(text) for _, text in lines) else None
+    if decimal == "," or not commas or semicolon or tab:
+        if commas and decimal == ".":
+            raise _wrong(path, *commas[0], "has a comma inside a number and decimal = '.'; give decimal = ','")
+        return separator, bool(commas) or decimal == ","
+    if decimal == ".":
+        return ",", False
+    if any(len(text.split()) > 1 for _, text in lines) and all(_BLANKS_BETWEEN.fullmatch(text) for _, text in lines):
+        return None, True
+    inside = any(re.search(r",\S", text) for _, text in lines)
+    ways = (all(way.fullmatch(text.removesuffix(",")) for _, text in lines) for way in (_BOTH_WAYS, _COMMA_BLANK))
+    if inside and any(ways):
+        ways_out = "decimal = '.' (all separate) or ',' (decimal marks, unless a blank follows), or another separator"
+        said = "and all others have commas that can separate values or be decimal marks"
+        raise _wrong(path, *commas[0], f"{said}; give {ways_out}")
+    return ",", False
+
+
+def _refuse_points(path, lines: Lines) -> None:
+    for number, text in lines:
+        if "." in text:
+            allowed = "allowed: one decimal mark in the file, no mark for thousands"
+            raise _wrong(path, number, text, f"has a point where commas are the decimal mark; {allowed}")
+
+
+def _fault(lines: Lines, separator) -> str:
+    """The first line that is not numbers or not as long as the first, in words."""
+    width = len(lines[0][1].split(separator))
+    for number, text in lines:
+        fields = [f.strip() for f in text.split(separator)]
+        bad = [f for f in fields if _NUMBER.fullmatch(f) is None or "," in f]
+        if bad:
+            return f"line {number} has {bad[0][:40]!r}"
+        if len(fields) != width:
+            return f"line {number} has {len(fields)} values, the first one {width}"
+    return ""

@@ -47,27 +47,20 @@ def _read(archive, path) -> Surface:
     notes = _check_document(archive, root, document)
     if _text(root, "Record1/FeatureType") != "SUR":
         raise _bad("Record1/FeatureType", _text(root, "Record1/FeatureType"), "SUR (a surface)")
-    shape = tuple(_count(root, f"Record3/MatrixDimension/Size{a}") for a in "XYZ")
-    if shape[2] != 1:
-        raise _bad("SizeZ", shape[2], "1 (one layer)")
-    if shape[0] * shape[1] > MOST_POINTS:
-        raise _bad("SizeX x SizeY", f"{shape[0]} x {shape[1]}", f"at most {MOST_POINTS} points")
+    nx, ny, layers = (_count(root, f"Record3/MatrixDimension/Size{a}") for a in "XYZ")
+    if layers != 1:
+        raise _bad("SizeZ", layers, "1 (one layer)")
+    if nx * ny > MOST_POINTS:
+        raise _bad("SizeX x SizeY", f"{nx} x {ny}", f"at most {MOST_POINTS} points")
     spacing = _increment(root, "CX"), _increment(root, "CY")
-    raw = _linked(
-        archive,
-        root,
-        "PointDataLink",
-        "MD5ChecksumPointData",
-        shape[0] * shape[1] * np.dtype(_height_type(root)).itemsize,
-        notes,
-    )
-    heights = _heights(root, raw).reshape(shape[1], shape[0]).T
+    kind = _height_type(root)
+    raw = _linked(archive, root, "PointData", nx * ny * np.dtype(kind).itemsize, notes)
+    heights = _heights(root, np.frombuffer(raw, kind)).reshape(ny, nx).T
     mask = ~np.isnan(heights)
     if _text(root, "Record3/DataLink/ValidPointsLink", required=False):
-        count = shape[0] * shape[1]
-        bits = _linked(archive, root, "ValidPointsLink", "MD5ChecksumValidPoints", (count + 7) // 8, notes)
-        valid = np.unpackbits(np.frombuffer(bits, np.uint8), bitorder="little", count=count)
-        mask &= valid.reshape(shape[1], shape[0]).T.astype(bool)
+        bits = _linked(archive, root, "ValidPoints", (nx * ny + 7) // 8, notes)
+        valid = np.unpackbits(np.frombuffer(bits, np.uint8), bitorder="little", count=nx * ny)
+        mask &= valid.reshape(ny, nx).T.astype(bool)
     if not mask.any():
         raise _bad("measured points", 0, "at least 1")
     return Surface(np.where(mask, heights, np.nan), spacing, mask=mask, source=str(path), notes=tuple(notes))
@@ -116,12 +109,13 @@ def _check_document(archive, root, document) -> list[str]:
     return []
 
 
-def _linked(archive, root, link, checksum, size, notes) -> bytes:
-    name = _safe(_text(root, f"Record3/DataLink/{link}"))
+def _linked(archive, root, what, size, notes) -> bytes:
+    """The bytes that a link names, of ``size``, compared with their checksum; a missing one is noted."""
+    name = _safe(_text(root, f"Record3/DataLink/{what}Link"))
     data = _member(archive, name, size)
     if len(data) != size:
         raise _bad(f"size of {name!r}", f"{len(data)} bytes", f"{size} bytes for its matrix")
-    expected = _text(root, f"Record3/DataLink/{checksum}", required=False)
+    expected = _text(root, f"Record3/DataLink/MD5Checksum{what}", required=False)
     if not expected:
         notes.append(f"X3P: {name} has no checksum")
     elif expected.lower() != _md5(data):
@@ -147,16 +141,15 @@ def _height_type(root) -> str:
     return TYPES[kind]
 
 
-def _heights(root, raw) -> np.ndarray:
-    kind = _height_type(root)
-    values = np.frombuffer(raw, kind).astype(float)
+def _heights(root, values) -> np.ndarray:
+    """The heights [m] of the ``values`` in the file."""
     offset = _number(root, "Record1/Axes/CZ/Offset", default=0.0)
-    if kind in ("<i2", "<i4"):
-        return values * _increment(root, "CZ", axis_type="A") + offset
+    if values.dtype.kind == "i":
+        return values.astype(float) * _increment(root, "CZ", axis_type="A") + offset
     step = _number(root, "Record1/Axes/CZ/Increment", default=1.0)
     if step != 1.0:
         raise _bad("CZ Increment of floating-point heights", step, "1 or absent (readers disagree on it)")
-    return values + offset
+    return values.astype(float) + offset
 
 
 def _increment(root, axis, axis_type="I") -> float:

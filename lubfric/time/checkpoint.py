@@ -1,8 +1,7 @@
-"""The state of a run on disk. It is written as a whole after every step, so that a kill loses nothing that was
-computed.
+"""The state of a run on disk, written after every step, so that a kill loses nothing that was computed.
 
 State and outputs are files with checksums, each replaced as a whole. The state carries a fingerprint of the problem and
-the number of outputs so far. A resumed run refuses damaged files.
+the number of outputs so far, which are written before it.
 """
 
 from __future__ import annotations
@@ -10,49 +9,40 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from .._base import PART, read_checked, validate, write_checked
 from ..errors import InputError
+from ..sharing import Validity
 from ..studies import classes_of, decode, encode, fingerprint
-from .bdf import Progress
+from .film_setting import FilmStep
+from .march import Progress
 from .sharing import Contact
 
-STATE, OUTPUTS = "state.bin", "outputs"
-CLASSES = classes_of(Progress, Contact)  # that a state may hold
-Output = tuple[np.ndarray, np.ndarray]  # at an output time: a row of numbers, and one of fields
+STATE, OUTPUTS = "state.bin", "output_*.bin"
+CLASSES = classes_of(Progress, FilmStep, Contact, Validity)  # that a state or an output may hold
 
 
 class Checkpoint:
     """A folder that holds the state of one run.
 
-    ``description``: a list of everything that decides the result, for `lubfric.studies.fingerprint`: the prepared scene
-    with its heights and spacing, the histories, the output times.
+    ``description``: everything that decides the result, for `lubfric.studies.fingerprint`: the prepared scene with its
+    heights and spacing, the histories, the output times.
     """
 
-    def __init__(self, folder, description):
+    def __init__(self, folder, *description):
         self.folder = validate.folder("checkpoint", folder)
         self.fingerprint = fingerprint(*description)
         self._count = 0
 
-    def __enter__(self) -> Checkpoint:
-        return self
-
-    def __exit__(self, *_) -> None:
-        """Nothing is left open."""
-
-    def load(self) -> tuple[Any, list[Output]] | None:
+    def load(self) -> tuple[Any, list[Any]] | None:
         """The state and the outputs of an interrupted run of the same problem, or None if there is none.
 
         Raises `InputError` for the state of another problem, and for files that were cut off or overwritten.
         """
-        path = self.folder / STATE
-        if not path.is_file():
+        if not (self.folder / STATE).is_file():
             return None
+        content = _content(self.folder / STATE)
         try:
-            kept = _read(path)
-        except InputError:
-            raise
+            kept = decode(content, CLASSES)
         except ValueError:  # of another version
             kept = {"fingerprint": None}
         if kept["fingerprint"] != self.fingerprint:
@@ -61,32 +51,32 @@ class Checkpoint:
                 "run the same scene, or give an empty folder"
             )
         self._count = kept["outputs"]
-        return kept["state"], [_read(self._output(number)) for number in range(self._count)]
+        return kept["state"], [decode(_content(self._output(number)), CLASSES) for number in range(self._count)]
 
-    def append(self, row: np.ndarray, field: np.ndarray) -> None:
-        """Add one output."""
-        write_checked(self._output(self._count), *encode((row, field)))
+    def append(self, output) -> None:
+        """Add one output: like the state, of dataclasses of this package, dicts, numbers and arrays."""
+        write_checked(self._output(self._count), *encode(output))
         self._count += 1
 
     def save(self, state) -> None:
-        """Replace the state, which consists of dataclasses of this package, numbers and arrays."""
+        """Replace the state."""
         kept = {"fingerprint": self.fingerprint, "outputs": self._count, "state": state}
         write_checked(self.folder / STATE, *encode(kept))
 
     def clear(self) -> None:
-        """Remove the files of a finished run, and its folders if they are empty then."""
-        for path in (self.folder / STATE, *self.folder.glob(f"{OUTPUTS}/*"), *self.folder.glob(f"{PART}*")):
-            path.unlink(missing_ok=True)
-        for folder in (self.folder / OUTPUTS, self.folder):
-            if folder.is_dir() and not any(folder.iterdir()):
-                folder.rmdir()
+        """Remove the files of a finished run, and its folder if it is empty then."""
+        for name in (STATE, OUTPUTS, f"{PART}*"):
+            for path in self.folder.glob(name):
+                path.unlink(missing_ok=True)
+        if self.folder.is_dir() and not any(self.folder.iterdir()):
+            self.folder.rmdir()
 
     def _output(self, number: int) -> Path:
-        return self.folder / OUTPUTS / f"{number}.bin"
+        return self.folder / OUTPUTS.replace("*", f"{number:07d}")
 
 
-def _read(path: Path):
+def _content(path: Path) -> bytes:
     content = read_checked(path) if path.is_file() else None
     if content is None:
         raise InputError(f"checkpoint file {path} is damaged (cut or overwritten); give an empty folder to begin again")
-    return decode(content, CLASSES)
+    return content

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,10 +11,8 @@ from ..errors import CONVERGED, ConvergenceError, InputError, Report
 from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
-from .bdf import started
-from .course import Plan, checked_times, plan_of, report_of, steps
-from .film_active_set import StepSolution
-from .film_setting import FINER, ContactHistory, Setting, discretisation, make_setting, parabola, steady_start
+from .film_setting import FINER, ContactHistory, FilmStep, Setting, discretisation, make_setting, steady_start
+from .march import Plan, checked_times, marched, plan_of, report_of
 
 TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step
 
@@ -72,17 +69,17 @@ def solve_transient_ehl(
     tolerance, time_tolerance : relative error of the film by the grid, 1e-5 to 0.1, and in a step (None: 1 % of it)
     first_step : [s] after the start and every jump (None: 1e-3 of a passage of the contact)
 
-    ``report.residuals`` are the largest accepted local error ("step") and the error of the grid at the steady start
+    ``report.residuals``: the largest accepted local error ("step") and the error of the grid at the steady start
     ("grid"), each over its tolerance. Raises `InputError` before any work, and `ConvergenceError` with the films so far
-    when the shortest step fails or there is no accurate steady start. Equations of a step: `squeeze`, `active_set`.
+    when the shortest step fails or there is no accurate steady start. Equations: `lubfric.time.film_equations`.
     """
     times = checked_times(times)
     tolerance = validate.number("tolerance", tolerance, "(-)", minimum=1e-5, maximum=0.1)
-    if time_tolerance is None:
-        time_tolerance = TIME_SHARE * tolerance
+    time_tolerance = TIME_SHARE * tolerance if time_tolerance is None else time_tolerance
     validate.number("time_tolerance", time_tolerance, "(-)", minimum=1e-10, maximum=0.1)
-    if first_step is not None:
-        validate.positive("first_step", first_step, "s")
+    for name, given, unit in (("first_step", first_step, "s"), ("initial_film", initial_film, "m")):
+        if given is not None:
+            validate.positive(name, given, unit)
     duration = float(times[-1])
     eta = checked_history("viscosity", viscosity, "Pa s", duration)
     contact = ContactHistory(
@@ -95,60 +92,46 @@ def solve_transient_ehl(
         duration,
         initial_film,
     )
-    _check_start(contact)
-    setting, start, grid_error = _start(contact, tolerance)
-    plan = plan_of(times, setting.histories, first_step or setting.first_step, time_tolerance)
-    result = _march(setting, start, plan, {} if math.isnan(grid_error) else {"grid": grid_error / tolerance})
+    setting, start, residuals = _start(contact, tolerance)
+    changing = contact.speed, contact.load, contact.radius, contact.viscosity
+    plan = plan_of(times, changing, first_step or setting.first_step, time_tolerance)
+    result = _run(setting, start, plan, residuals)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
 
 
-def _check_start(contact: ContactHistory) -> None:
+def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, FilmStep, dict[str, float]]:
+    """Setting, state at t = 0 and residual of its grid. The grid is refined until a steady start is as accurate as
+    asked."""
     if contact.initial_film is not None:
-        validate.positive("initial_film", contact.initial_film, "m")
-    elif contact.speed.before(0.0) == 0.0:
+        setting = make_setting(contact, tolerance)
+        return setting, setting.undeformed(contact.initial_film), {}
+    if contact.speed.before(0.0) == 0.0:
         raise InputError(
             "entrainment_speed = 0 m/s before t = 0 carries no steady film; give initial_film > 0 m, or a speed"
         )
-
-
-def _march(setting: Setting, start: StepSolution, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
-    now = started(start, plan.first_step)
-    outputs = [(0.0, start)] if plan.times[0] == 0.0 else []
-    for now in steps(setting, plan, now):
-        if now.at_output:
-            outputs.append((now.time, now.solution))
-    report = report_of("transient line-contact EHL, BDF2", plan, now, f"{setting.grid.n} cells", residuals)
-    return _collect(setting, outputs, report)
-
-
-def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, StepSolution, float]:
-    """(setting, state at t = 0, grid error). The grid is refined until a steady start is as accurate as asked."""
-    if contact.initial_film is not None:
-        setting = make_setting(contact, tolerance)
-        return setting, setting.at_rest(parabola(setting, contact.initial_film)), math.nan
     for finer in FINER:
         setting = make_setting(contact, tolerance, finer=finer)
         start = steady_start(setting)
         if start.status == CONVERGED:
             error = discretisation(setting, start)
             if error <= tolerance or finer == FINER[-1]:
-                return setting, start, error
+                return setting, start, {"grid": error / tolerance}
     raise ConvergenceError("transient: no steady film on the grid of the run to start from")
 
 
-def _collect(setting: Setting, outputs: list[tuple[float, StepSolution]], report: Report) -> TransientFilm:
+def _run(setting: Setting, start: FilmStep, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
+    now, times, films = marched(setting, plan, start)
     p, x = setting.problem, setting.grid.x
-    H = np.array([s.terms.H for _, s in outputs]).reshape(-1, x.size)
-    P = np.array([s.terms.P for _, s in outputs]).reshape(-1, x.size)
+    H, P = (np.array(found).reshape(-1, x.size) for found in ([s.terms.H for s in films], [s.terms.P for s in films]))
     return TransientFilm(
-        np.array([t for t, _ in outputs]),
-        x * p.length_unit,
-        P * p.pressure_unit,
-        H * p.film_unit,
-        np.array([smallest(x, h) for h in H]) * p.film_unit,
-        H[:, x.size // 2] * p.film_unit,
-        np.array([s.terms.carried for _, s in outputs]) * p.contact.e_prime * p.film_unit,
-        report,
+        time=np.array(times),
+        x=x * p.length_unit,
+        pressure=P * p.pressure_unit,
+        film_thickness=H * p.film_unit,
+        min_film=np.array([smallest(x, h) for h in H]) * p.film_unit,
+        central_film=H[:, x.size // 2] * p.film_unit,
+        load=np.array([s.terms.carried for s in films]) * setting.load_unit,
+        report=report_of("transient line-contact EHL, BDF2", plan, now, f"{setting.grid.n} cells", residuals),
     )

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import permutations
 
 import numpy as np
 
@@ -70,15 +71,8 @@ def make_fixed_grid(x: np.ndarray) -> FixedGrid:
     """The grid and its operators on increasing nodes ``x``."""
     cells = np.diff(x)
     kernel = hat_kernel(x, x)
-    return FixedGrid(
-        x,
-        cells,
-        trapezoidal(cells),
-        kernel,
-        _faces(x, kernel, (-1, 0, 1)),
-        _faces(x, kernel, (0, 1, 2)),
-        _faces(x, kernel, (-1, 0, 1, 2)),
-    )
+    faces = (_faces(x, kernel, stencil) for stencil in ((-1, 0, 1), (0, 1, 2), (-1, 0, 1, 2)))
+    return FixedGrid(x, cells, trapezoidal(cells), kernel, *faces)
 
 
 def _faces(x: np.ndarray, kernel: np.ndarray, stencil: tuple[int, ...]) -> Faces:
@@ -88,10 +82,8 @@ def _faces(x: np.ndarray, kernel: np.ndarray, stencil: tuple[int, ...]) -> Faces
     face = 0.5 * (x[1:] + x[:-1])
     nodes = x[columns]
     values = np.ones_like(nodes)
-    for k in range(len(stencil)):
-        for m in range(len(stencil)):
-            if m != k:
-                values[:, k] *= (face - nodes[:, m]) / (nodes[:, k] - nodes[:, m])
+    for k, m in permutations(range(len(stencil)), 2):
+        values[:, k] *= (face - nodes[:, m]) / (nodes[:, k] - nodes[:, m])
     return Faces(columns, values, np.einsum("fk,fkj->fj", values, kernel[columns]))
 
 

@@ -1,4 +1,4 @@
-"""A line contact in time: its histories, its units, its grid and its first state."""
+"""A line contact in time: its histories, its units and grid, Newton's method for one step, and its steady start."""
 
 from __future__ import annotations
 
@@ -7,14 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..errors import CONVERGED
-from ..film import Effort, LineContact, Problem, solve_line_contact
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..film import Effort, LineContact, Problem, solve_line_contact, step_length
 from ..oil import Lubricant
 from ..scene import History
-from .bdf import Memory
-from .film_active_set import StepSolution, solve_step
+from .film_equations import Conditions, Spring, StepEquations, StepTerms
 from .film_grid import FixedGrid, make_fixed_grid, symmetric_nodes
-from .film_squeeze import Conditions, Spring
+from .march import Memory, Step
 
 FINER = (1.0, 1.5, 2.25, 3.4)  # factors of the number of nodes, tried until the steady start is accurate enough
 RESOLUTION = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
@@ -22,6 +21,7 @@ SLOWEST = 0.03  # of the largest speed: slower passages are not resolved finer, 
 WET = 1e-3  # of the largest pressure: where the error of the film counts
 FIRST_STEP = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
 LIGHTEST = 0.3  # share of the load that the film is taken to carry at least, when it shares it
+SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
 
 
 @dataclass(frozen=True)
@@ -46,21 +46,12 @@ class ContactHistory:
     initial_film: float | None = None
     width: float = 1.0
 
-    def load_per_width(self, time: float) -> float:
-        """Just before ``time`` [s], in N/m."""
-        return self.load.before(time) / self.width
 
-    def load_range(self) -> tuple[float, float]:
-        """Smallest and largest load [N/m]."""
-        low, high = self.load.range(self.duration)
-        return low / self.width, high / self.width
+@dataclass(frozen=True, kw_only=True)
+class FilmStep(Step):
+    """A step of the film, with its terms at z. It remembers rho H."""
 
-    def steady(self, load: float | None = None) -> LineContact:
-        """The steady contact just before t = 0 (with entrainment), or the same with another load [N/m]."""
-        oil = replace(self.lubricant, viscosity=self.viscosity.before(0.0))
-        return LineContact(
-            load or self.load_per_width(0.0), self.radius.before(0.0), self.e_prime, self.speed.before(0.0), oil
-        )
+    terms: StepTerms
 
 
 @dataclass(frozen=True)
@@ -72,40 +63,42 @@ class Setting:
     grid: FixedGrid
 
     @property
-    def time_unit(self) -> float:
-        """The unit of time [s]: the unit of x over the reference speed."""
-        return self.problem.length_unit / self.problem.contact.entrainment_speed
+    def load_unit(self) -> float:
+        """The unit of the load [N]."""
+        return self.problem.contact.e_prime * self.problem.film_unit * self.contact.width
 
     def conditions(self, time: float) -> Conditions:
         """Speed, load, curvature and viscosity just before ``time`` [s]."""
-        c, p = self.contact, self.problem
+        c, reference = self.contact, self.problem.contact
         return Conditions(
-            c.speed.before(time) / p.contact.entrainment_speed,
-            c.load_per_width(time) / (p.contact.e_prime * p.film_unit),
-            p.contact.radius / c.radius.before(time),
-            c.viscosity.before(time) / p.contact.lubricant.viscosity,
+            c.speed.before(time) / reference.entrainment_speed,
+            c.load.before(time) / self.load_unit,
+            reference.radius / c.radius.before(time),
+            c.viscosity.before(time) / reference.lubricant.viscosity,
         )
 
-    def solve(self, time: float, memory: Memory, z: np.ndarray, spring: Spring | None = None) -> StepSolution:
-        """The step that ends at ``time`` [s] (`lubfric.time.bdf.Solver`). ``spring``: a spring that carries the rest
-        of the load."""
-        memory = Memory(memory.rate * self.time_unit, memory.film)
-        return solve_step(self.grid, self.problem, self.conditions(time), memory, z, spring=spring)
+    def equations(self, time: float, memory: Memory | None = None, spring: Spring | None = None) -> StepEquations:
+        """Those of the step that ends at ``time`` [s], with a ``memory`` in SI units (None: of a steady state)."""
+        memory = memory or Memory(0.0, np.zeros(self.grid.n + 1))
+        time_unit = self.problem.length_unit / self.problem.contact.entrainment_speed
+        memory = Memory(memory.rate * time_unit, memory.film)
+        return StepEquations(self.grid, self.problem, self.conditions(time), memory, spring)
 
-    def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
+    def solve(self, time: float, memory: Memory | None, z: np.ndarray, spring: Spring | None = None) -> FilmStep:
+        """The step that ends at ``time`` [s] (`lubfric.time.march.Solver`). ``spring``: carries the rest of the
+        load."""
+        return solve_step(self.equations(time, memory, spring), z)
+
+    def error_of(self, solution: FilmStep, difference: np.ndarray) -> float:
         """Root mean square of a difference of films over the pressurised film, relative to the film."""
         P = solution.terms.P
         weights = self.grid.weights * (P > WET * P.max())
         return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
 
-    def at_rest(self, z: np.ndarray) -> StepSolution:
-        """The state at t = 0 with the unknowns ``z``: evaluated, not solved."""
-        return solve_step(self.grid, self.problem, self.conditions(0.0), steady(self.grid), z, max_steps=0)
-
-    @property
-    def histories(self) -> tuple[History, ...]:
-        """All histories that change in time."""
-        return self.contact.speed, self.contact.load, self.contact.radius, self.contact.viscosity
+    def undeformed(self, film: float) -> FilmStep:
+        """The state at t = 0 without pressure: a parabola with the smallest film [m]."""
+        z = np.append(np.zeros(self.grid.n + 1), film / self.problem.film_unit)
+        return solve_step(self.equations(0.0), z, max_steps=0)
 
     @property
     def first_step(self) -> float:
@@ -116,51 +109,45 @@ class Setting:
         return FIRST_STEP * (min(width / fastest, contact.duration) if fastest else contact.duration)
 
 
-def steady(grid: FixedGrid) -> Memory:
-    """The memory with which a step gives a steady state."""
-    return Memory(0.0, np.zeros(grid.n + 1))
-
-
 def make_setting(
-    contact: ContactHistory,
-    tolerance: float,
-    *,
-    shared: bool = False,
-    reach: float = 0.0,
-    film_range: tuple[float, float] = (math.inf, 0.0),
-    finer: float = 1.0,
+    contact: ContactHistory, tolerance: float, *, sq: float = 0.0, reach: float = 0.0, finer: float = 1.0
 ) -> Setting:
     """Units and grid that suit the whole range of the histories.
 
-    ``shared``: the film carries only part of the load. The grid extends to ``reach`` [m] at least. ``film_range`` [m]:
-    films to resolve in addition to those of Moes' formula. ``finer``: factor on the number of nodes.
+    ``sq`` [m]: roughness of surfaces that carry part of the load (0: smooth); films of that size are resolved too. The
+    grid extends to ``reach`` [m] at least. ``finer``: factor on the number of nodes.
     """
-    problem, films = _reference(contact, film_range)
-    load = contact.load_range()
-    radius = contact.radius.range(contact.duration)
-    share = LIGHTEST if shared else 1.0
+    problem, films = _reference(contact, sq)
+    share = LIGHTEST if sq > 0.0 else 1.0
+    load, radius = (history.range(contact.duration) for history in (contact.load, contact.radius))
 
-    def edge(w: float, r: float) -> float:
-        return math.sqrt(8.0 * w * r / (math.pi * contact.e_prime)) / problem.length_unit
+    def edge(load: float, radius: float) -> float:
+        return math.sqrt(8.0 * load / contact.width * radius / (math.pi * contact.e_prime)) / problem.length_unit
 
     edges = edge(share * load[0], radius[0]), edge(load[1], radius[1])
     x = symmetric_nodes(finer * RESOLUTION * math.sqrt(3e-3 / tolerance), edges, films, reach / problem.length_unit)
     return Setting(contact, problem, make_fixed_grid(x))
 
 
-def _reference(contact: ContactHistory, film_range) -> tuple[Problem, tuple[float, float]]:
+def _reference(contact: ContactHistory, sq: float) -> tuple[Problem, tuple[float, float]]:
+    """The problem that gives the units, and the smallest and the largest film in them."""
     c, T = contact, contact.duration
-    load, radius, eta = c.load_range(), c.radius.range(T), c.viscosity.range(T)
-    fastest = max(abs(u) for u in c.speed.range(T))
+    radius, eta, (low, high) = c.radius.range(T), c.viscosity.range(T), c.speed.range(T)
+    load = [end / c.width for end in c.load.range(T)]
+    fastest = max(abs(low), abs(high))
     lubricant = replace(c.lubricant, viscosity=c.viscosity.at(0.0))
-    films = [f for f in (*film_range, c.initial_film or 0.0) if 0.0 < f < math.inf]
+    films = [f for f in (sq, 2.0 * sq, c.initial_film or 0.0) if f > 0.0]
     reference = LineContact(load[1], c.radius.at(0.0), c.e_prime, fastest or 1.0, lubricant)
+
+    def moes(load: float, radius: float, viscosity: float, speed: float) -> float:
+        oil = replace(lubricant, viscosity=viscosity)
+        return LineContact(load, radius, c.e_prime, speed, oil).moes_film
+
     if fastest:
-        low, high = c.speed.range(T)
         slowest = 0.0 if low < 0.0 < high else min(abs(low), abs(high))
         films += [
-            _moes(reference, load[0], radius[1], eta[1], fastest),
-            _moes(reference, load[1], radius[0], eta[0], max(slowest, SLOWEST * fastest)),
+            moes(load[0], radius[1], eta[1], fastest),
+            moes(load[1], radius[0], eta[0], max(slowest, SLOWEST * fastest)),
         ]
     else:
         scale = math.sqrt(c.radius.at(0.0) * films[0])
@@ -171,52 +158,100 @@ def _reference(contact: ContactHistory, film_range) -> tuple[Problem, tuple[floa
     return Problem(reference), (min(films) / reference.film_unit, max(films) / reference.film_unit)
 
 
-def _moes(reference: LineContact, load: float, radius: float, viscosity: float, speed: float) -> float:
-    oil = replace(reference.lubricant, viscosity=viscosity)
-    return LineContact(load, radius, reference.e_prime, speed, oil).moes_film
-
-
-def parabola(setting: Setting, film: float) -> np.ndarray:
-    """Unknowns of the undeformed gap without pressure, with the smallest film [m]."""
-    return np.append(np.zeros(setting.grid.n + 1), film / setting.problem.film_unit)
-
-
-def steady_start(setting: Setting, load: float | None = None) -> StepSolution:
-    """The steady state of the conditions just before t = 0, with ``load`` [N/m] instead of the history's if it is
+def steady_start(setting: Setting, load: float | None = None) -> FilmStep:
+    """The steady state of the conditions just before t = 0, with ``load`` [N] instead of the history's if it is
     given."""
-    c, p, grid = setting.contact, setting.problem, setting.grid
-    now = setting.conditions(0.0)
-    found = solve_line_contact(c.steady(load), Effort(tolerance=0.01))
+    c, p, grid, equations = setting.contact, setting.problem, setting.grid, setting.equations(0.0)
+    load = load or c.load.before(0.0)
+    oil = replace(c.lubricant, viscosity=c.viscosity.before(0.0))
+    line = LineContact(load / c.width, c.radius.before(0.0), c.e_prime, c.speed.before(0.0), oil)
+    found = solve_line_contact(line, Effort(tolerance=0.01))
     x, P = found.x / p.length_unit, found.pressure / p.pressure_unit
-    side = math.copysign(1.0, found.entrainment_speed)
+    forwards = found.entrainment_speed > 0
     guess = np.interp(grid.x, x, P, left=0.0, right=0.0)
-    inlet = x[0] if side > 0 else x[-1]
-    beyond = grid.x * side < inlet * side
-    guess[beyond] = (P[0] if side > 0 else P[-1]) * (inlet / grid.x[beyond]) ** 3
+    inlet, pressure = (x[0], P[0]) if forwards else (x[-1], P[-1])
+    beyond = grid.x < inlet if forwards else grid.x > inlet
+    guess[beyond] = pressure * (inlet / grid.x[beyond]) ** 3
     centre = grid.n // 2
     z = np.append(guess, found.central_film / p.film_unit - grid.kernel[centre] @ guess)
-    now = now if load is None else replace(now, load=load / (p.contact.e_prime * p.film_unit))
-    return solve_step(grid, p, now, steady(grid), z, max_steps=40)
+    now = replace(equations.now, load=load / setting.load_unit)
+    return solve_step(replace(equations, now=now), z, max_steps=40)
 
 
-def discretisation(setting: Setting, solution: StepSolution) -> float:
+def discretisation(setting: Setting, solution: FilmStep) -> float:
     """Relative error of minimum and central film of a steady solution, from the grid of every other node."""
     coarse = replace(setting, grid=make_fixed_grid(setting.grid.x[::2]))
+    equations, fine = coarse.equations(0.0), solution.terms.H
+    equations = replace(equations, now=replace(equations.now, load=solution.terms.carried))
+    centre, middle = setting.grid.n // 2, coarse.grid.n // 2
     z = np.append(solution.z[:-1:2], solution.z[-1])
-    z[-1] += solution.terms.H[setting.grid.n // 2] - (coarse.grid.kernel[coarse.grid.n // 2] @ z[:-1] + z[-1])
-    other = solve_step(
-        coarse.grid,
-        coarse.problem,
-        replace(setting.conditions(0.0), load=solution.terms.carried),
-        steady(coarse.grid),
-        z,
-        max_steps=40,
-    )
+    z[-1] += fine[centre] - (coarse.grid.kernel[middle] @ z[:-1] + z[-1])
+    other = solve_step(equations, z, max_steps=40)
     if other.status != CONVERGED:
         return math.inf
-    fine = solution.terms.H
-    changes = (
-        other.terms.H[coarse.grid.n // 2] / fine[setting.grid.n // 2] - 1.0,
-        other.terms.H.min() / fine.min() - 1.0,
-    )
-    return float(max(abs(c) for c in changes)) / 3.0
+    H = other.terms.H
+    return float(max(abs(H[middle] / fine[centre] - 1.0), abs(H.min() / fine.min() - 1.0))) / 3.0
+
+
+def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e-7, max_steps: int = 25) -> FilmStep:
+    """Solve the complementarity equations from z until ``equations.residual`` <= tolerance.
+
+    A node counts as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is negative. This
+    primal-dual active set is a semismooth Newton method. If it fails, the load is changed in stages from the load of z
+    to the one asked for. (With a spring that is not needed.)
+    """
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        found = _iterated(equations, z, tolerance, max_steps)
+        first = float(equations.grid.weights @ z[:-1])
+        if found.status == CONVERGED or equations.spring is not None or not first > 0.0:
+            return found
+        done, stage = 0.0, 0.25
+        while done < 1.0 and stage >= SMALLEST_STAGE:
+            goal = min(1.0, done + stage)
+            now = replace(equations.now, load=first * (equations.now.load / first) ** goal)
+            found = _iterated(replace(equations, now=now), z, tolerance, max_steps)
+            if found.status == CONVERGED:
+                done, stage, z = goal, 1.5 * stage, found.z
+            else:
+                stage *= 0.4
+    return found
+
+
+def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_steps: int) -> FilmStep:
+    for step in range(max_steps + 1):
+        t = equations.evaluate(z)
+        residual, status = equations.residual(t), ITERATION_LIMIT
+        if residual <= tolerance:
+            status = CONVERGED
+        elif not np.isfinite(residual):
+            status = DIVERGED
+        if status != ITERATION_LIMIT or step == max_steps:
+            break
+        J = equations.jacobian(t)
+        cavitated = t.P - t.r / np.diagonal(J)[:-1] < 0.0
+        delta = _newton(J, t, cavitated)
+        if delta is None:
+            status = DIVERGED
+            break
+        loss = float(np.max(-(equations.grid.kernel @ delta[:-1] + delta[-1]) / t.H))
+        z = z + step_length(delta[:-1] * t.log_slope, loss) * delta
+        z[:-1][cavitated & (z[:-1] < 1e-14 * t.P.max())] = 0.0
+    return FilmStep(status=status, film=t.rho[0] * t.H, z=z, terms=t)
+
+
+def _newton(J: np.ndarray, t: StepTerms, cavitated: np.ndarray) -> np.ndarray | None:
+    """Newton's step with P = 0 at the cavitated nodes; None: the matrix is singular."""
+    from scipy.linalg.lapack import dgesv
+
+    delta = np.zeros(t.P.size + 1)
+    delta[:-1][cavitated] = -t.P[cavitated]
+    free = np.append(np.flatnonzero(~cavitated), t.P.size)
+    right = -np.append(t.r, t.balance)[free]
+    moved = cavitated & (t.P != 0.0)
+    if moved.any():
+        right -= J[np.ix_(free, np.flatnonzero(moved))] @ delta[:-1][moved]
+    _, _, solution, info = dgesv(np.asfortranarray(J[np.ix_(free, free)]), right, overwrite_a=1, overwrite_b=1)
+    if info != 0:
+        return None
+    delta[free] = solution
+    return delta

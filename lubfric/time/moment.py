@@ -1,158 +1,118 @@
-"""The numbers of one moment: film, friction with both parts, mass balance."""
+"""The numbers of one moment: film, contact, friction with both parts and its heat, mass balance, validity."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 
-from ..film import smallest
-from ..sampling import moment_error
+from ..film import ShearForce, rolling_error, smallest, spike_error
+from ..oil import carried_stress, shear_stress
 from ..scene import Scene
-from ..sharing import inlet_at
-from .at_a_time import scene_at, sliding_at
-from .bdf import Progress
-from .film_active_set import StepSolution
-from .film_setting import WET
-from .film_shear import film_shear
-from .sharing import Contact, Sharing
+from ..sharing import Heat, Validity, inlet_at, of_deflection, of_ends, of_film, of_motion, point_heat
+from .film_equations import outside_shear
+from .film_setting import WET, FilmStep
+from .march import Progress
+from .scene_now import scene_at, sliding_at
+from .sharing import Sharing
+from .steady import friction_error
 
-AT_REST, LOAD_STEP = 1e-6, 0.05  # m/s; of ln F_H
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
-UNITS = {
-    "time": "s",
-    "entrainment_speed": "m/s",
-    "sliding_speed": "m/s",
-    "load": "N",
-    "contact_load": "N",
-    "film_load": "N",
-    "coefficient": "-",
-    "friction_force": "N",
-    "boundary_force": "N",
-    "couette_force": "N",
-    "rolling_force": "N",
-    "min_film": "m",
-    "central_film": "m",
-    "mean_film": "m",
-    "mean_gap": "m",
-    "max_pressure": "Pa",
-    "wet_from": "m",
-    "wet_to": "m",
-    "real_contact_area_fraction": "-",
-    "plastic_area_fraction": "-",
-    "load_residual": "-",
-    "volume_residual": "-",
-    "edge_load": "-",
-    "net_inflow": "m2/s",
-    "stored": "m2/s",
-    "mass_residual": "-",
-    "cavity_growth": "m2/s",
-    "sampling_error": "-",
-    "inlet_film_factor": "-",
-    "flash_temperature_rise": "K",
-    "film_temperature_rise": "K",
-    "heat_change": "-",
-    "peclet": "-",
-    "shear_excess": "N",
-    "shear_stress_ratio": "-",
-    "shear_error": "-",
-    "time_error": "-",
-    "steps": "-",
+STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"
+NAMES = {  # of the numbers of a moment, by their units
+    "s": "time",
+    "m/s": "entrainment_speed sliding_speed",
+    "N": "load contact_load film_load friction_force boundary_force couette_force rolling_force",
+    "-": "coefficient sampling_error shear_error time_error inlet_film_factor heat_change real_contact_area_fraction "
+    "plastic_area_fraction edge_load load_residual volume_residual mass_residual steps",
+    "m": "min_film central_film mean_film mean_gap wet_from wet_to",
+    "Pa": "max_pressure",
+    "K": "flash_temperature_rise film_temperature_rise",
+    "m2/s": "net_inflow stored cavity_growth",
 }
+UNITS = {name: unit for unit, names in NAMES.items() for name in names.split()}
 
 
-def moment(sharing: Sharing, now: Progress) -> dict[str, float]:
-    """One row of the result from the last step, by name in the order of ``UNITS``."""
-    solution = now.solution
-    time, in_time = now.time, sharing.prepared.scene
-    scene, sliding = scene_at(in_time, time), sliding_at(in_time, time)
-    setting, t, contact = sharing.setting, solution.terms, solution.payload
-    p, grid, total = setting.problem, setting.grid, sharing.total(time)
-    wet = np.flatnonzero(t.P > 0.0)
-    film_load = t.carried * sharing.unit
+def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
+    """The numbers after the last step, by name, and the assumptions that do not hold then."""
+    solution, time, setting, strip = now.solution, now.time, sharing.setting, sharing.strip
+    scene, sliding = scene_at(sharing.scene, time), sliding_at(sharing.scene, time)
+    t, p, contact, state = solution.terms, setting.problem, solution.payload, solution.payload.state
+    total, film_load, speed = scene.bodies.load, t.carried * setting.load_unit, scene.motion.entrainment_speed
     shear, heat = film_shear(sharing, scene, time, sliding, solution)
     boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
-    force = boundary + shear.total
-    sense = np.sign(sliding) or np.sign(setting.contact.speed.before(time)) or 1.0
-    state = contact.state
-    balance = state.volume_residual if contact.load > 0.0 else 0.0
-    return {
+    loads, parts, force = (contact.load, film_load), (boundary, shear.total), boundary + shear.total
+    sense = np.sign(sliding) or np.sign(speed) or 1.0
+    inlet, _ = inlet_at(scene, speed)
+    heated_inlet = setting.contact.viscosity.before(time) != scene.lubricant.viscosity
+    film_factor = inlet.factor if inlet is not None and heated_inlet else 1.0
+    touches, wet = contact.load > 0.0, setting.grid.x[t.P > 0.0] * p.length_unit
+    row = {
         "time": time,
-        "entrainment_speed": setting.contact.speed.before(time),
+        "entrainment_speed": speed,
         "sliding_speed": sliding,
         "load": total,
         "contact_load": contact.load,
         "film_load": film_load,
-        "coefficient": force * sense / total,
         "friction_force": force,
         "boundary_force": boundary,
         "couette_force": shear.couette,
         "rolling_force": shear.rolling,
-        "min_film": smallest(grid.x, t.H) * p.film_unit,
-        "central_film": t.H[grid.n // 2] * p.film_unit,
-        "mean_film": state.mean_film,
-        "mean_gap": state.mean_gap if contact.load > 0.0 else state.mean_film,
-        "max_pressure": float(t.P.max()) * p.pressure_unit,
-        "wet_from": grid.x[wet[0]] * p.length_unit if wet.size else math.nan,
-        "wet_to": grid.x[wet[-1]] * p.length_unit if wet.size else math.nan,
-        **_areas(sharing, contact),
-        "load_residual": (film_load + contact.load) / total - 1.0,
-        "volume_residual": balance,
-        "edge_load": sharing.prepared.contact.on_the_ends(state) if contact.load > 0.0 else 0.0,
-        **_mass(sharing, solution),
-        "sampling_error": moment_error(
-            sharing.prepared.contact,
-            state,
-            (contact.load, film_load),
-            contact.softness,
-            sharing.width,
-            sharing.correlation_length,
-            (boundary, shear.total),
-            _thinning(scene, film_load),
-        ),
-        "inlet_film_factor": _inlet_factor(sharing, scene, time),
+        "coefficient": force * sense / total,
+        "sampling_error": friction_error(strip, scene, state, loads, contact.softness, parts),
+        "shear_error": shear.quadrature / abs(force) if force else 0.0,
+        "time_error": now.error,
+        "inlet_film_factor": film_factor,
         "flash_temperature_rise": heat.flash,
         "film_temperature_rise": heat.film,
         "heat_change": heat.change,
-        "peclet": heat.peclet if heat.heated else math.nan,
-        "shear_excess": shear.excess,
-        "shear_stress_ratio": shear.stress_ratio,
-        "shear_error": shear.quadrature / abs(force) if force else 0.0,
-        "time_error": now.error,
+        "min_film": smallest(setting.grid.x, t.H) * p.film_unit,
+        "central_film": t.H[setting.grid.n // 2] * p.film_unit,
+        "mean_film": state.mean_film,
+        "mean_gap": state.mean_gap if touches else state.mean_film,
+        "max_pressure": t.P.max() * p.pressure_unit,
+        "wet_from": wet[0] if wet.size else math.nan,
+        "wet_to": wet[-1] if wet.size else math.nan,
+        "real_contact_area_fraction": state.real_contact_area_fraction * strip.area if touches else 0.0,
+        "plastic_area_fraction": state.plastic_area_fraction and state.plastic_area_fraction * strip.plastic,
+        "edge_load": sharing.patch.on_the_ends(state) if touches else 0.0,
+        "load_residual": (film_load + contact.load) / total - 1.0,
+        "volume_residual": state.volume_residual if touches else 0.0,
+        **_mass(sharing, solution),
         "steps": now.steps,
     }
+    peclet = heat.peclet if heat.heated else math.inf
+    heat = replace(heat, inlet=inlet, used=film_factor < 1.0, heated=None, peclet=peclet)
+    return row, tuple(_violated(sharing, scene, row, shear, heat))
 
 
-def _areas(sharing: Sharing, contact: Contact) -> dict[str, float]:
-    """Contact areas on the scene's own cells."""
-    touching, plastic = contact.state.real_contact_area_fraction, contact.state.plastic_area_fraction
-    return {
-        "real_contact_area_fraction": touching * sharing.cells.area if contact.load > 0.0 else 0.0,
-        "plastic_area_fraction": plastic * sharing.cells.plastic if plastic else 0.0,
-    }
+def _violated(
+    sharing: Sharing, scene: Scene, row: dict[str, float], shear: ShearForce, heat: Heat
+) -> Iterator[Validity]:
+    """The assumptions of the steady model and of a run that do not hold at one moment."""
+    speed, film, force = row["entrainment_speed"], row["central_film"], abs(row["friction_force"])
+    prepared = sharing.strip.prepared
+    yield from prepared.known
+    yield from of_ends(row["edge_load"], prepared.surface.size[0])
+    yield from of_motion(scene, speed, film)
+    yield from of_film(scene, film, row["max_pressure"], shear, row["film_load"], force, heat)
+    if row["shear_error"] > scene.numerics.tolerance:
+        yield Validity(
+            "estimated error of f by the sum of the film's shear stress",
+            row["shear_error"],
+            scene.numerics.tolerance,
+            "",
+            "the grid of a run in time does not hold the pressure spike, or the film is ruptured where it shears most",
+            "a tighter numerics.film_tolerance; the steady f at the same speed (lubfric.friction) resolves the spike",
+        )
+    if row["contact_load"] > 0:
+        yield from of_deflection(scene, row["mean_gap"], STEADY_ONLY)
 
 
-def _thinning(scene: Scene, film_load: float) -> float:
-    """-d ln h/d ln F_H [-] of Moes' film that carries ``film_load`` [N]. At rest, that of a film that was drawn in
-    slowly; 1 without load."""
-    if film_load <= 0.0:
-        return 1.0
-    line, more = scene.line_contact(scene.motion.entrainment_speed or AT_REST), math.exp(LOAD_STEP)
-    line = replace(line, load_per_width=film_load / scene.bodies.width)
-    heavier = replace(line, load_per_width=more * line.load_per_width)
-    return math.log(line.moes_film / heavier.moes_film) / LOAD_STEP
-
-
-def _inlet_factor(sharing: Sharing, scene: Scene, time: float) -> float:
-    """The factor on the film by the heat of the inlet with which it is solved."""
-    if sharing.setting.contact.viscosity.before(time) == scene.lubricant.viscosity:
-        return 1.0
-    inlet, _ = inlet_at(scene, scene.motion.entrainment_speed)
-    return 1.0 if inlet is None else inlet.factor
-
-
-def _mass(sharing: Sharing, solution: StepSolution) -> dict[str, float]:
+def _mass(sharing: Sharing, solution: FilmStep) -> dict[str, float]:
     """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET`` of
     the largest): flow into it, lubricant stored there; and the growth of the gap in the cavitated zone that nothing
     fills. mass_residual: what is missing in the balance, over the larger of the flow and ``NO_FLOW``."""
@@ -164,10 +124,122 @@ def _mass(sharing: Sharing, solution: StepSolution) -> dict[str, float]:
     inside = np.abs(t.flux)[1:-1][film[1:] & film[:-1]]
     through = float(np.median(inside)) if inside.size else 0.0
     through = max(through, abs(stored), NO_FLOW * t.H[t.H.size // 2])
-    dry = t.P[1:-1] <= 0.0
     return {
         "net_inflow": inflow * unit,
         "stored": stored * unit,
         "mass_residual": abs(stored - inflow) / through,
-        "cavity_growth": float(np.sum(t.r[1:-1][dry])) * unit,
+        "cavity_growth": float(np.sum(t.r[1:-1][t.P[1:-1] <= 0.0])) * unit,
     }
+
+
+def film_shear(
+    sharing: Sharing, scene: Scene, time: float, sliding: float, solution: FilmStep
+) -> tuple[ShearForce, Heat]:
+    """Forces [N] along +x on the upper surface, and the heat.
+
+    They act where the film is pressurised and not touched, and include the inlet tails. ``scene``: that of the moment.
+    Film and surfaces are taken to be as hot as in steady motion at the speeds of the moment.
+    """
+    lubricant, film, contact = scene.lubricant, _film_now(sharing, scene, solution), solution.payload
+
+    def cold(x, pressure, thickness):
+        return shear_stress(lubricant, pressure, sliding / thickness)
+
+    isothermal = _summed(sharing, time, solution, cold, lubricant.viscosity * sliding)
+    if film is None:
+        return isothermal, Heat()
+    boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
+    heat, warm = point_heat(scene, film, contact.state, contact.load, abs(boundary + isothermal.total), isothermal)
+    if warm is None or warm.stress is None:
+        return isothermal, heat
+    along, heated = math.copysign(1.0, film.entrainment_speed), warm.stress
+
+    def hot(x, pressure, thickness):
+        return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))
+
+    return _summed(sharing, time, solution, hot), heat
+
+
+def _film_now(sharing: Sharing, scene: Scene, solution: FilmStep) -> SimpleNamespace | None:
+    """The pressurised film at its nodes, with all that `lubfric.sharing.point_heat` needs. None where nothing is
+    entrained, or hardly a node has pressure."""
+    t, p, speed = solution.terms, sharing.setting.problem, scene.motion.entrainment_speed
+    wet = np.flatnonzero(t.P > 0.0)
+    if wet.size < 3 or speed == 0.0:
+        return None
+    inside = slice(wet[0], wet[-1] + 1)
+    x = sharing.setting.grid.x[inside] * p.length_unit
+    return SimpleNamespace(
+        x=x,
+        pressure=t.P[inside] * p.pressure_unit,
+        film_thickness=t.H[inside] * p.film_unit,
+        entrainment_speed=speed,
+        rupture=float(x[-1] if speed > 0 else x[0]),
+    )
+
+
+def _summed(
+    sharing: Sharing, time: float, solution: FilmStep, stress: Callable, drag: float | None = None
+) -> ShearForce:
+    """`ShearForce` by trapezes of ``stress(x, pressure, film)`` [Pa]. ``drag``: that times the film [N/m] beyond the
+    ends of the grid; None: as at the last node, because at any film its own heat thins it by the same factor."""
+    t, p, grid = solution.terms, sharing.setting.problem, sharing.setting.grid
+    x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit
+    free = 1.0 - solution.payload.state.touching(x)
+    full = free * np.diff(x) * full_part(x, pressure)
+    with np.errstate(over="ignore"):
+        tau = stress(x, pressure, h)
+        middle = stress(*(_halfway(a) for a in (x, pressure, h)))
+    carried = carried_stress(pressure)
+    above = np.maximum(np.abs(tau) - carried, 0.0)
+    rolls = 0.5 * _halfway(h) * np.diff(pressure) * free
+    wet = np.flatnonzero(pressure > 0.0)
+    off = 2 / 3 * abs(float(np.sum((middle - _halfway(tau)) * full)))
+    if wet.size > 4:
+        inside = slice(wet[0], wet[-1] + 1)
+        off = max(off, spike_error(x[inside], tau[inside])) + rolling_error(pressure[inside], h[inside], 1.0)
+    drags = tau[[0, -1]] * h[[0, -1]] if drag is None else np.full(2, drag)
+    more, rolling = _tails(sharing, time, drags, solution)
+    width = sharing.setting.contact.width
+    return ShearForce(
+        couette=width * (float(np.sum(_halfway(tau) * full)) + more),
+        rolling=width * (float(np.sum(rolls)) + rolling),
+        quadrature=width * off,
+        rolling_parts=width * max(float(np.sum(rolls[rolls > 0])), -float(np.sum(rolls[rolls < 0]))),
+        excess=width * float(np.sum(_halfway(above) * full)),
+        stress_ratio=float(np.max(np.where(pressure > 0.0, np.abs(tau) / carried, 0.0))),
+    )
+
+
+def _halfway(nodal: np.ndarray) -> np.ndarray:
+    return 0.5 * (nodal[1:] + nodal[:-1])
+
+
+def _tails(sharing: Sharing, time: float, drags: np.ndarray, solution: FilmStep) -> tuple[float, float]:
+    """Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid. ``drags``: shear stress times
+    film [N/m] at both ends."""
+    setting, t = sharing.setting, solution.terms
+    p, grid, now = setting.problem, setting.grid, setting.conditions(time)
+    couette = rolling = 0.0
+    for end, sign, drag in ((0, 1.0, drags[0]), (-1, -1.0, drags[1])):
+        if t.P[end] > 0.0:
+            a, flow, rate = abs(grid.x[end]), sign * t.flux[end] + t.stored[end], t.stored[end] / grid.weights[end]
+            reach, tail = outside_shear(a, t.H[end], now.curvature, now.viscosity, sign * now.speed, flow, rate)
+            couette += float(drag) * reach * p.length_unit / p.film_unit
+            rolling -= sign * tail * p.film_unit * p.pressure_unit
+    return couette, rolling
+
+
+def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
+    """Part of each cell between neighbouring ``x`` that the pressurised film fills. In the cell where it ruptures, the
+    pressure falls to zero like a square (p = dp/dx = 0 there); the two nodes before determine where."""
+    wet = pressure > 0.0
+    root = np.sqrt(np.maximum(pressure, 0.0))
+    part = (wet[1:] & wet[:-1]).astype(float)
+    for i in np.flatnonzero(wet[1:] != wet[:-1]):
+        last, step = (i, 1) if wet[i] else (i + 1, -1)
+        before = last - step
+        if 0 <= before < x.size and root[before] > root[last]:
+            reach = root[last] * (x[last] - x[before]) / (root[before] - root[last])
+            part[i] = min(abs(reach / (x[i + 1] - x[i])), 1.0)
+    return part

@@ -9,16 +9,16 @@ import numpy as np
 
 from .._base import Shown, history_axes, loop_axes, validate
 from ..errors import Report
-from ..sampling import UncertaintyCurve, percent, student
-from ..sharing import Prepared, Validity, gathered
-from .bdf import Progress
-from .checkpoint import Output
-from .course import Plan, report_of
-from .judge import judged_outputs
+from ..sampling import UncertaintyCurve
+from ..sharing import Validity, gathered
+from .march import Plan, Progress, report_of
 from .moment import UNITS
 from .sharing import Sharing
+from .steady import strip_facts, uncertainty_in_time, worst_in_words
 
-MANY = 30  # blocks less one: of a line
+# at an output time: numbers by name, assumptions that do not hold, pressures and films in the units of the setting
+Output = tuple[dict[str, float], tuple[Validity, ...], np.ndarray, np.ndarray]
+MASS = 1e-3  # largest residual of a step's mass
 
 
 @dataclass(frozen=True)
@@ -93,17 +93,7 @@ class TransientResult(Shown):
     @property
     def uncertainty(self) -> UncertaintyCurve:
         """Standard error and 95 % interval of f at every time, from the finite surface alone."""
-        unknown = np.full(self.time.size, np.nan)
-        half = student(MANY) * self.sampling_error * np.abs(self.coefficient)
-        both = np.stack([self.coefficient - half, self.coefficient + half], axis=1)
-        told = tuple(f"surface {percent(error)}" for error in self.sampling_error)
-        known = ("sampling", "interval", "text", "line_scatter", "length")
-        scatter = self.sampling_error * math.sqrt(self.line_length / self.width)
-        length = np.full(self.time.size, self.line_length)
-        others = {name: unknown for name in UncertaintyCurve.__dataclass_fields__ if name not in known}
-        return UncertaintyCurve(
-            sampling=self.sampling_error, interval=both, text=told, line_scatter=scatter, length=length, **others
-        )
+        return uncertainty_in_time(self.coefficient, self.sampling_error, self.line_length, self.width)
 
     def plot(self, ax=None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
@@ -114,12 +104,9 @@ class TransientResult(Shown):
         return loop_axes(self, ax)
 
     def _facts(self) -> dict[str, str]:
-        facts = {"": f"{self.time.size} times"}
-        if self.time.size:
-            facts |= {
-                "t": f"{self.time[0]:.4g} to {self.time[-1]:.4g} s",
-                "f": f"{self.coefficient.min():.4g} to {self.coefficient.max():.4g}",
-            }
+        facts, t, f = {"": f"{self.time.size} times"}, self.time, self.coefficient
+        if t.size:
+            facts |= {"t": f"{t[0]:.4g} to {t[-1]:.4g} s", "f": f"{f.min():.4g} to {f.max():.4g}"}
         return facts | {"status": self.report.status}
 
     def __getattr__(self, name):
@@ -131,34 +118,22 @@ class TransientResult(Shown):
 
 def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
     """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
-    prepared, setting = sharing.prepared, sharing.setting
-    p, n = setting.problem, setting.grid.n + 1
-    table = np.array([row for row, _ in outputs]).reshape(len(outputs), len(UNITS))
-    columns = dict(zip(UNITS, table.T))
-    surface = float(np.max(columns["sampling_error"], initial=0.0))
-    told = "not known" if np.isnan(surface) else f"standard error of f at most {percent(surface)}"
-    fields = np.array([field for _, field in outputs]).reshape(len(outputs), 2 * n)
+    p, x = sharing.setting.problem, sharing.setting.grid.x
+    columns = {name: np.array([row[name] for row, *_ in outputs], float) for name in UNITS}
+    P, H = (np.array([output[k] for output in outputs]).reshape(-1, x.size) for k in (2, 3))
     worst = {
-        "mass": float(np.max(columns["mass_residual"], initial=0.0)) / 1e-3,
+        "mass": float(np.max(columns["mass_residual"], initial=0.0)) / MASS,
         "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / sharing.tolerance,
     }
-    if not np.isnan(grid_error):
-        worst["grid"] = grid_error / prepared.scene.numerics.tolerances.film
+    if not math.isnan(grid_error):
+        worst["grid"] = grid_error / sharing.scene.numerics.tolerances.film
+    cells = f"{x.size - 1} cells; surface: {worst_in_words(columns['sampling_error'])}"
     return TransientResult(
-        columns,
-        setting.grid.x * p.length_unit,
-        fields[:, :n] * p.pressure_unit,
-        fields[:, n:] * p.film_unit,
-        report_of("transient, BDF2", plan, now, f"{setting.grid.n} cells; surface: {told}", worst),
-        judged_outputs(prepared, columns),
-        **_of_the_line(prepared),
+        columns=columns,
+        x=x * p.length_unit,
+        pressure=P * p.pressure_unit,
+        film_thickness=H * p.film_unit,
+        report=report_of("transient, BDF2", plan, now, cells, worst),
+        entries=tuple(entries for _, entries, _, _ in outputs),
+        **strip_facts(sharing.strip.prepared),
     )
-
-
-def _of_the_line(prepared: Prepared) -> dict[str, float]:
-    """Length, width and renewal [m]. The renewal is the Hertz strip and a correlation length along the motion."""
-    bodies = prepared.scene.bodies
-    known = {"line_length": prepared.surface.size[1], "width": bodies.width}
-    if prepared.lines is not None:
-        known["renewal"] = 2 * bodies.half_width + math.sqrt(math.pi) * prepared.lines.lengths[0]
-    return known

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
 from dataclasses import replace
 
 import numpy as np
@@ -10,15 +9,14 @@ import numpy as np
 from ..errors import InputError
 from ..scene import Scene, Transient
 from ..sharing import Prepared, Validity, refused, scene_of
-from .at_a_time import changes
-from .bdf import Progress, started
-from .checkpoint import Checkpoint, Output
-from .course import Plan, checked_times, plan_of, steps
+from .begin import begin
+from .checkpoint import Checkpoint
 from .film import TIME_SHARE
-from .film_active_set import StepSolution
-from .moment import UNITS, moment
-from .result import TransientResult, collect
-from .setup import begin
+from .film_setting import FilmStep
+from .march import Plan, Progress, begun, checked_times, plan_of, steps
+from .moment import moment
+from .result import Output, TransientResult, collect
+from .scene_now import changes
 from .sharing import Sharing
 
 
@@ -27,7 +25,7 @@ def transient(
 ) -> TransientResult:
     """Film, load sharing and friction of a scene while speed, load, radius or viscosity change in time.
 
-    The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_squeeze`: Swift-Stieber complementarity, either
+    The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_equations`: Swift-Stieber complementarity, either
     side may rupture, no entrainment needed). It is integrated in time by variable-step BDF2 with error control
     (`lubfric.time`). At every step film and rough contact share the load of that moment, and close the volume of Eq.
     (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
@@ -57,7 +55,7 @@ def transient(
     -----
     Film and surfaces are as hot as in steady motion at the speeds of the moment (``numerics.heat``).
 
-    A step is solved when max(residuals of `lubfric.time.film_active_set.measure`) <= 1e-7 and |gap - film|/(gap +
+    A step is solved when the largest residual of `lubfric.time.film_equations` is <= 1e-7 and |gap - film|/(gap +
     film) <= the volume tolerance. It is accepted when the root mean square of the local error over the pressurised
     film, relative to the film, is <= transient.tolerance. The residuals of the report are:
 
@@ -67,49 +65,41 @@ def transient(
     """
     scene, times = _with_plan(scene, times)
     sharing, start, grid_error = begin(scene)
-    prepared = sharing.prepared
-    store = None if checkpoint is None else Checkpoint(checkpoint, [prepared, changes(prepared.scene), times])
-    plan = _plan(sharing, times)
-    now, outputs = _marched(sharing, start, plan, store, on_step)
-    result = collect(sharing, grid_error, plan, now, outputs)
+    scene = sharing.scene
+    plan, prepared = changes(scene), sharing.strip.prepared
+    store = None if checkpoint is None else Checkpoint(checkpoint, prepared, plan, times)
+    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
+    course = plan_of(times, plan.histories, sharing.setting.first_step, tolerance)
+    now, outputs = _marched(sharing, start, course, store, on_step)
+    result = collect(sharing, grid_error, course, now, outputs)
     if raise_on_failure:
         result.report.raise_if_failed(result)
-        refused(_severe(result), prepared.scene.numerics.accept, result)
+        refused(_severe(result), scene.numerics.accept, result)
     if store is not None and result.report.converged:
         store.clear()
     return result
 
 
-def _plan(sharing: Sharing, times: np.ndarray) -> Plan:
-    """The plan of the run, with outputs at ``times`` [s]."""
-    scene = sharing.prepared.scene
-    changing = changes(scene)
-    tolerance = changing.tolerance or TIME_SHARE * scene.numerics.tolerances.film
-    return plan_of(times, changing.histories, sharing.setting.first_step, tolerance)
+def _marched(
+    sharing: Sharing, start: FilmStep, plan: Plan, store: Checkpoint | None, on_step
+) -> tuple[Progress, list[Output]]:
+    def put_out(now: Progress) -> None:
+        terms = now.solution.terms
+        outputs.append((*moment(sharing, now), terms.P, terms.H))
+        if store is not None:
+            store.append(outputs[-1])
 
-
-def _marched(sharing: Sharing, start: StepSolution, plan: Plan, store, on_step) -> tuple[Progress, list[Output]]:
-    with store or nullcontext():
-        now, outputs = (store and store.load()) or (started(start, plan.first_step), [])
-        if not outputs and plan.times[0] == 0.0:
-            _add(sharing, outputs, store, replace(now, solution=start))
-        for now in steps(sharing, plan, now):
-            if now.at_output:
-                _add(sharing, outputs, store, now)
-            if store:
-                store.save(_state(now))
-            if on_step:
-                on_step(now.time, plan.end, dict(zip(UNITS, outputs[-1][0])) if now.at_output else None)
+    now, outputs = (store and store.load()) or (begun(start, plan), [])
+    if not outputs and plan.times[0] == 0.0:
+        put_out(now)
+    for now in steps(sharing, plan, now):
+        if now.at_output:
+            put_out(now)
+        if store is not None:
+            store.save(_state(now))
+        if on_step is not None:
+            on_step(now.time, plan.end, outputs[-1][0] if now.at_output else None)
     return now, outputs
-
-
-def _add(sharing: Sharing, outputs: list[Output], store, now: Progress) -> None:
-    """Add the output at the time of ``now``: its row, and its pressures and films."""
-    terms = now.solution.terms
-    row = np.array(list(moment(sharing, now).values()), dtype=float)
-    outputs.append((row, np.concatenate([terms.P, terms.H])))
-    if store:
-        store.append(*outputs[-1])
 
 
 def _state(now: Progress) -> Progress:

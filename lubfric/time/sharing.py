@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
-from ..contact import ContactState
+from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
 from ..film import cubic
-from ..sampling import correlation_along_y
-from ..sharing import Prepared
-from .bdf import Memory
-from .film_active_set import StepSolution
-from .film_setting import Setting
-from .film_squeeze import Spring
+from ..scene import Scene
+from .film_equations import Spring
+from .film_setting import FilmStep, Setting
+from .march import Memory
+from .steady import Strip
 
 FIRST_TOUCH = 1e-3  # of the load: tried when the film has just come too thin for separated surfaces
 LAST_TOUCH = 1e-5  # of the load: below it, ask whether the film clears the surface
@@ -34,78 +32,57 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class OnOwnCells:
-    """Factors by which contact ``area`` and ``plastic`` area on the cells of a line are those on the scene's own (NaN:
-    not known)."""
-
-    area: float = 1.0
-    plastic: float = 1.0
-
-
-@dataclass(frozen=True)
 class Sharing:
-    """One implicit step of film and rough contact, which share the load of the moment (a `lubfric.time.bdf.Solver`).
+    """One implicit step of film and rough contact, which share the load of the moment (a `lubfric.time.march.Solver`).
 
-    ``setting``: of the film; ``to_patch`` gives the film [m] at the points of the patch from H, and its ``mean_row``
-    the mean film over A; ``tolerance``: of the volume; ``cells``: by which its areas are those on the scene's
-    own cells.
+    ``setting``: of the film; ``to_patch`` gives the film [m] at the points of the contact's patch from H, and its
+    ``mean_row`` the mean film over A; ``tolerance``: of the volume.
     """
 
-    prepared: Prepared
+    strip: Strip
     setting: Setting
     to_patch: np.ndarray
     mean_row: np.ndarray
     tolerance: float
-    cells: OnOwnCells
 
     @property
-    def unit(self) -> float:
-        """Load [N] per unit of film load."""
-        p = self.setting.problem
-        return p.contact.e_prime * p.film_unit * self.width
+    def scene(self) -> Scene:
+        """With all that changes in time."""
+        return self.strip.prepared.scene
 
     @property
-    def width(self) -> float:
-        """Of the contact [m]."""
-        return self.prepared.scene.bodies.width
+    def patch(self) -> RoughContact:
+        """The rough contact."""
+        return self.strip.prepared.contact
 
-    @cached_property
-    def correlation_length(self) -> float:
-        """Of the heights along y [m]."""
-        return correlation_along_y(self.prepared)
-
-    def total(self, time: float) -> float:
-        """F_T just before ``time`` [N]."""
-        return self.setting.contact.load_per_width(time) * self.width
-
-    def error_of(self, solution: StepSolution, difference: np.ndarray) -> float:
+    def error_of(self, solution: FilmStep, difference: np.ndarray) -> float:
         """Error of the film."""
         return self.setting.error_of(solution, difference)
 
-    def solve(self, time: float, memory: Memory, z: np.ndarray, past: Contact) -> StepSolution:
+    def solve(self, time: float, memory: Memory | None, z: np.ndarray, past: Contact) -> FilmStep:
         """Film and contact at ``time`` [s]; the `Contact` is the payload of the solution.
 
         A `Spring` stands for the contact in the film's load balance. Then the contact is solved at the load of the
         spring, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film) <= tolerance.
         """
         touch, softness, seen = past.load, past.softness, None
-        total = self.total(time)
+        total = self.setting.contact.load.before(time)
         state, mean = past.state, past.state.mean_gap
-        solution: StepSolution
+        solution: FilmStep
         for _ in range(MOST_TRIALS):
             spring = None
             if touch > 0.0:
-                spring = Spring(self.mean_row, mean, touch / self.unit, softness)
+                spring = Spring(self.mean_row, mean, touch / self.setting.load_unit, softness)
             solution = self.setting.solve(time, memory, z, spring)
             if solution.status != CONVERGED:
                 return solution
-            load = solution.terms.spring[0] * self.unit
+            load = solution.terms.spring[0] * self.setting.load_unit
             if spring is not None and load < LAST_TOUCH * total:
                 load = 0.0
             film = self.to_patch @ solution.terms.H
             found = self._close(film, load, state)
             if found is None:
-                return replace(solution, status=ITERATION_LIMIT)
+                break
             if load == 0.0:
                 if found.volume_residual <= 0.0:
                     if spring is None:
@@ -116,7 +93,7 @@ class Sharing:
                 touching = found.mean_gap
                 found = self._close(film, load, state)
                 if found is None:
-                    return replace(solution, status=ITERATION_LIMIT)
+                    break
                 softness = max(touching - found.mean_gap, 1e-3 * touching)
             elif abs(found.volume_residual) <= self.tolerance:
                 return replace(solution, payload=Contact(load, found, _softness(softness, seen, load, found)))
@@ -129,21 +106,19 @@ class Sharing:
         if film.min() <= 0.0 and load == 0.0:
             return None
         try:
-            return self.prepared.contact.close(film, load, start)
+            return self.patch.close(film, load, start)
         except ConvergenceError:
             return None
 
 
-def make_sharing(prepared: Prepared, setting: Setting, cells: OnOwnCells) -> Sharing:
-    """The `Sharing` of a scene, with the operators between the film's grid and the patch. ``cells``: those of
-    `Sharing`."""
-    p, patch = setting.problem, prepared.contact
+def make_sharing(strip: Strip, setting: Setting) -> Sharing:
+    """The `Sharing` on ``strip``, with the operators between the film's grid and the patch."""
+    p, patch = setting.problem, strip.prepared.contact
     x = patch.x / p.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit
-    weight = patch.weight
-    tolerance = min(prepared.scene.numerics.tolerances.balance, LOOSEST)
-    return Sharing(prepared, setting, to_patch, weight @ to_patch / weight.sum(), tolerance, cells)
+    tolerance = min(strip.prepared.scene.numerics.tolerances.balance, LOOSEST)
+    return Sharing(strip, setting, to_patch, patch.weight @ to_patch / patch.weight.sum(), tolerance)
 
 
 def _softness(old: float, seen, load: float, found: ContactState) -> float:

@@ -63,6 +63,7 @@ def test_every_boundary_and_law(boundary, hardness):
     cap=st.one_of(st.none(), st.floats(0.01, 10)),
     seed=st.integers(0, 9),
 )
+@example(shape=(15, 28), boundary=BOUNDARIES[2], spacing=(1.0, 1.0), exponent=-1.5, cap=0.75, seed=4)
 @example(shape=(3, 10), boundary=BOUNDARIES[0], spacing=(1.0, 1.0), exponent=-7.0, cap=0.2, seed=0)
 def test_any_problem_is_solved_or_said_not_to_be(shape, boundary, spacing, exponent, cap, seed):
     """All are solved but one kind: a load of which a whole number of cells bears exactly its capacity, and nothing is
@@ -146,7 +147,7 @@ def test_refinement_converges():
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 @pytest.mark.parametrize("hardness", [None, 4e9])
-@pytest.mark.parametrize("pressure", [1e6, 5e8, 2.5e9])
+@pytest.mark.parametrize("pressure", [1e6, 2.5e9])
 def test_gap_control_returns_the_load(boundary, hardness, pressure):
     gap0 = rough((40, 32), seed=5)
     options = {"hardness": hardness, "boundary": boundary}
@@ -160,27 +161,22 @@ def test_gap_control_returns_the_load(boundary, hardness, pressure):
 def test_gap_control_from_first_touch_to_almost_full():
     gap0 = rough((64, 64), seed=6)
     touching = gap0.mean() - gap0.min()
-    pressures = [
-        solve_contact(gap0, DX, E_PRIME, mean_gap=share * touching).mean_pressure
-        for share in (0.999, 0.9, 0.5, 0.1, 1e-2, 1e-3, 1e-4)
-    ]
+    shares = (0.999, 0.9, 0.5, 0.1, 1e-2, 1e-3, 1e-4)
+    pressures = [solve_contact(gap0, DX, E_PRIME, mean_gap=share * touching).mean_pressure for share in shares]
     assert np.all(np.diff(pressures) > 0)
 
 
-@pytest.mark.parametrize("factor", [1.0, 1.5])
-def test_separated_bodies_carry_nothing(factor):
+def test_separated_bodies_carry_nothing_and_touch_without_load():
     gap0 = rough((20, 20))
-    wanted = factor * (gap0.mean() - gap0.min())
-    result = solve_contact(gap0, DX, E_PRIME, mean_gap=wanted)
-    assert not result.pressure.any() and result.mean_pressure == 0 and result.contact_area_fraction == 0
-    assert result.gap.mean() == pytest.approx(wanted) and result.mean_gap == pytest.approx(wanted)
-    assert result.report.converged and result.gap.min() >= -1e-20
-
-
-def test_no_load_just_touches():
-    gap0 = rough((20, 20))
+    for factor in (1.0, 1.5):
+        wanted = factor * (gap0.mean() - gap0.min())
+        result = solve_contact(gap0, DX, E_PRIME, mean_gap=wanted)
+        assert not result.pressure.any() and result.mean_pressure == 0 and result.contact_area_fraction == 0
+        assert result.gap.mean() == pytest.approx(wanted) and result.mean_gap == pytest.approx(wanted)
+        assert result.report.converged and result.gap.min() >= -1e-20
     result = solve_contact(gap0, DX, E_PRIME, mean_pressure=0.0)
     assert result.gap.min() == 0 and not result.pressure.any() and result.approach == gap0.min()
+    assert result.report.converged and result.report.residuals["load"] == 0
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
@@ -199,7 +195,7 @@ def test_warm_start_gives_the_same_answer_sooner(boundary, hardness):
     assert np.array_equal(near.pressure, before)
 
 
-@pytest.mark.parametrize("start", [0.0, 1.0, 1e12, 1e17])
+@pytest.mark.parametrize("start", [0.0, 1.0, 1e17])
 def test_any_start_will_do(start):
     gap0 = rough((32, 32), seed=8)
     for control in ({"mean_pressure": 5e8}, {"mean_gap": 2e-7}, {"mean_pressure": 5e8, "hardness": 3e9}):
@@ -218,16 +214,7 @@ def test_more_load_more_area_less_gap():
 
 
 @pytest.mark.parametrize(
-    "shape, spacing",
-    [
-        ((1, 64), DX),
-        ((64, 1), DX),
-        ((1, 1), DX),
-        ((2, 2), DX),
-        ((31, 37), DX),
-        ((8, 400), DX),
-        ((4, 200), (DX, 20 * DX)),
-    ],
+    "shape, spacing", [((1, 64), DX), ((64, 1), DX), ((1, 1), DX), ((31, 37), DX), ((4, 200), (DX, 20 * DX))]
 )
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_odd_thin_and_stretched_grids(shape, spacing, boundary):
@@ -255,7 +242,7 @@ def test_one_high_cell_carries_what_it_can():
     assert np.count_nonzero(heavy.pressure) > 1000 and heavy.report.converged
 
 
-@pytest.mark.parametrize("share", [0.3, 0.9, 0.999, 1.0])
+@pytest.mark.parametrize("share", [0.3, 0.999, 1.0])
 @pytest.mark.parametrize("boundary", [("periodic", "periodic"), ("free", "periodic")])
 def test_yielding_up_to_the_whole_area(share, boundary):
     gap0 = rough((40, 40), seed=11)
@@ -278,31 +265,25 @@ def test_iteration_limit_raises_with_everything():
 
 def test_certification_does_not_believe_the_iteration(monkeypatch):
     """A search that claims success with a wrong field is found out."""
-    from lubfric.contact.descent import Descent
+    from lubfric.contact.search import Search
 
-    honest = Descent.found
-    monkeypatch.setattr(Descent, "found", lambda self, pressure: np.roll(honest(self, pressure), 1, axis=0))
+    honest = Search.found
+    monkeypatch.setattr(Search, "found", lambda *given: np.roll(honest(*given), 1, axis=0))
     with pytest.raises(ConvergenceError) as caught:
         solve_contact(rough((32, 32)), DX, E_PRIME, mean_pressure=5e8)
     assert caught.value.report.residuals["penetration"] > 1e-3
 
 
-@pytest.mark.parametrize(
-    "fault, residual",
-    [
-        (lambda p, g: (p * 1.1, g), "load"),
-        (lambda p, g: (p, g - 1e-8), "penetration"),
-        (lambda p, g: (p, g + 1e-8), "complementarity"),
-        (lambda p, g: (np.zeros_like(p), g - 1e-8), "penetration"),
-    ],
-)
-def test_each_residual_sees_its_fault(fault, residual):
+def test_each_residual_sees_its_fault():
     gap0 = rough((32, 32), seed=13)
     good = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8)
-    pressure, gap = fault(good.pressure, good.gap)
-    scale = length_scale(good.pressure, good.displacement, gap0, half_space((32, 32), DX, E_PRIME))
-    assert contact_residuals(good.pressure, good.gap, scale, np.inf, 5e8)[residual] < 1e-6
-    assert contact_residuals(pressure, gap, scale, np.inf, 5e8)[residual] > 1e-3
+    p, g = good.pressure, good.gap
+    scale = length_scale(p, good.displacement, gap0, half_space((32, 32), DX, E_PRIME))
+    assert max(contact_residuals(p, g, scale, np.inf, 5e8).values()) < 1e-6
+    assert contact_residuals(1.1 * p, g, scale, np.inf, 5e8)["load"] > 1e-3
+    assert contact_residuals(p, g - 1e-8, scale, np.inf, 5e8)["penetration"] > 1e-3
+    assert contact_residuals(p, g + 1e-8, scale, np.inf, 5e8)["complementarity"] > 1e-3
+    assert contact_residuals(0 * p, g - 1e-8, scale, np.inf, 5e8)["penetration"] > 1e-3
 
 
 GOOD = {"gap0": np.zeros((4, 4)), "spacing": 1.0, "e_prime": 1.0, "mean_pressure": 1.0}

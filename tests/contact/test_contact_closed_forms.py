@@ -77,7 +77,7 @@ def test_touching_sphere_indents_like_one_cell():
     assert result.gap.min() >= 0 and result.gap[10, 10] == 0
 
 
-@pytest.mark.parametrize("share", [0.02, 0.2, 0.5, 0.8, 0.97])
+@pytest.mark.parametrize("share", [0.02, 0.5, 0.97])
 def test_westergaard(share):
     n, length, height = 400, 1e-4, 1e-7
     x = (np.arange(n) + 0.5) * length / n

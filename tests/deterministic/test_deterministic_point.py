@@ -8,17 +8,18 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.deterministic import Start, dry_contact, estimate, lay_out, solve_point, solve_refined, state_on
+from lubfric.deterministic import Start, dry_contact, estimate, solve_refined, state_on
+from lubfric.deterministic.domain import lay_out
 from lubfric.deterministic.forces import forces
 from lubfric.deterministic.march import march
 from lubfric.deterministic.newton import newton
-from lubfric.deterministic.solve import Work
+from lubfric.deterministic.solve import Work, solve_point
 from lubfric.deterministic.start import dry_start
 from lubfric.deterministic.state import FLUID, RUPTURED, look, residuals
 from lubfric.deterministic.transfer import refined_start
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
-from lubfric.surface import Surface
+from lubfric.surface.height_map import Surface
 
 E_PRIME, WIDTH, RADIUS = 231e9, 6e-3, 2e-3
 NEWTONIAN = Lubricant(0.36, 25e-9)

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from lubfric.sampling.model_form import LEAST, MOST, load_sharing_error, one_way_error
 
 import lubfric
-from lubfric.sampling.model_form import LEAST, MOST, load_sharing_error, one_way_error
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 90e-6 / 48}, numerics={"sampling": "patch"}

@@ -5,14 +5,17 @@ import pytest
 from scipy.integrate import quad
 
 from lubfric.contact import half_space
-from lubfric.deterministic import Problem, inlet, lay_out, solve_point
+from lubfric.deterministic import inlet
+from lubfric.deterministic.domain import lay_out
+from lubfric.deterministic.problem import Problem
 from lubfric.deterministic.reynolds import balance, derivatives
 from lubfric.deterministic.rheology import mean_fluidity, thinning
+from lubfric.deterministic.solve import solve_point
 from lubfric.deterministic.state import _opened
 from lubfric.film import LineContact
 from lubfric.film import rigid_cylinder as rigid
 from lubfric.oil import Lubricant, shear_stress
-from lubfric.surface import Surface
+from lubfric.surface.height_map import Surface
 
 RADIUS, SPEED = 2e-3, 0.1
 LAWS = {

@@ -14,10 +14,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lubfric.deterministic import Start, lay_out, solve_point
+from lubfric.deterministic import Start
+from lubfric.deterministic.domain import lay_out
+from lubfric.deterministic.solve import solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant, viscosity
-from lubfric.surface import Surface
+from lubfric.surface.height_map import Surface
 from verification.studies.waviness import STEEL, compared
 
 E_PRIME, SPEED, CELLS = 2e9, 0.5, 1024

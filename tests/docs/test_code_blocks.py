@@ -14,7 +14,7 @@ from pages import PAGES, ROOT, blocks
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.command_line import _parser as parser
+from lubfric.output.command_line import parser
 from verification.__main__ import main as verification
 
 PYTHON = [page for page in PAGES if any(b.language == "python" for b in blocks(page))]

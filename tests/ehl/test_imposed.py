@@ -1,21 +1,14 @@
-"""A line pressure imposed on a film, and load sharing with the film deflected by the total pressure."""
+"""A line pressure imposed on a film."""
 
 import math
-from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.integrate import quad
 
-import lubfric
 from lubfric import ConvergenceError, InputError, solve_ehl
-from lubfric.film import LineContact, grid, hat_kernel, hertz, kernel, problem, reynolds, start
-from lubfric.film import ehl as solve
-from lubfric.film.imposed import LinePressure, find_seats, line_deflection
-from lubfric.oil import Lubricant
-from lubfric.sharing import total_pressure
-from lubfric.sharing.total_pressure import mismatch, spread_of
+from lubfric.film import hat_kernel, hertz
+from lubfric.film.deflection import line_deflection
 
 E, R = 231e9, 10e-3
 OIL = {"radius": R, "e_prime": E, "viscosity": 0.1, "pressure_viscosity_coefficient": 2e-8}
@@ -31,11 +24,6 @@ def semi_ellipse(load, width=None, centre=0.0, count=65):
     return x, p * (load / np.trapezoid(p, x))
 
 
-def make_problem(load, speed, imposed, law="roelands"):
-    found = problem.Problem(LineContact(load, R, E, speed, Lubricant(0.1, 2e-8, law)), imposed=LinePressure(*imposed))
-    return replace(found, seat=find_seats(found)[0])
-
-
 # ------------------------------------------------------------------ the deflection
 
 
@@ -47,26 +35,9 @@ def test_deflection_and_its_slope_are_exact():
         breaks = [b for b in (*nodes[1:-1], x) if -1 < b < 0.9]
         integral, _ = quad(lambda s, x=x: np.interp(s, nodes, values) * math.log(abs(x - s)), -1.0, 0.9, points=breaks)
         assert u == pytest.approx(-4 / math.pi * integral, abs=1e-7)
-    np.testing.assert_allclose(found, kernel.hat_kernel(points, nodes) @ values, rtol=1e-12)
+    np.testing.assert_allclose(found, hat_kernel(points, nodes) @ values, rtol=1e-12)
     both = [line_deflection(points + d, nodes, values)[0] for d in (1e-5, -1e-5)]
     np.testing.assert_allclose(slope, (both[0] - both[1]) / 2e-5, rtol=1e-4, atol=1e-4)
-
-
-def test_jacobian_matches_differences_as_the_rupture_moves_through_the_deflection():
-    p = make_problem(2e4, 0.1, semi_ellipse(5e4, centre=2e-5))
-    g = grid.make_grid(solve.problem_nodes(p, 24, start.rupture_guess(p)))
-    z, _ = start.cold_start(g, p)
-    _, terms = reynolds.residual(g, p, z, reynolds.elastic_film(g, p, z)[0])
-    J, _ = reynolds.linearise(g, p, terms)
-    for k in range(z.size):
-        step = 1e-6 * max(abs(z[k]), 1e-3)
-        sides = []
-        for sign in (1, -1):
-            moved = z.copy()
-            moved[k] += sign * step
-            sides.append(reynolds.residual(g, p, moved, reynolds.elastic_film(g, p, moved)[0])[0])
-        difference = (sides[0] - sides[1]) / (2 * step)
-        assert np.max(np.abs(difference - J[:, k])) < 1e-4 * max(1.0, np.max(np.abs(J[:, k])))
 
 
 # ------------------------------------------------------------------ limits
@@ -149,13 +120,11 @@ def test_more_of_the_pressure_imposed_never_thins_the_film():
 # ------------------------------------------------------------------ numerics
 
 
-@pytest.mark.parametrize("load, imposed", [(2e4, 2e4), (2e3, 6e4)])
-def test_second_order(load, imposed):
-    p = make_problem(load, 0.05, semi_ellipse(imposed, count=513))
-    state, _ = solve._first_state(p, 96, 60)
-    flow = np.array([level.terms.q for level in solve._ascend(p, solve.Effort(1e-5), state, 96, 5)])[:5]
+def test_second_order():
+    case = OIL | {"load_per_width": 2e4, "entrainment_speed": 0.05, "imposed_pressure": semi_ellipse(2e4, count=513)}
+    flow = [solve_ehl(**case, least_cells=n).flow_film for n in (192, 384, 768)]
     changes = np.abs(np.diff(flow))
-    assert changes[-1] < 2e-4 * flow[-1] and np.log2(changes[-2] / changes[-1]) > 1.5
+    assert changes[-1] < 1e-3 * flow[-1] and np.log2(changes[-2] / changes[-1]) > 1.5
 
 
 def test_reversal_mirrors():
@@ -175,7 +144,7 @@ def test_film_at_any_position():
     b = r.half_width
     middles = r.x[:-1] + 0.37 * np.diff(r.x)
     x = np.concatenate([np.linspace(-25, 25, 101) * b, middles])
-    own = kernel.hat_kernel(x / b, r.x / b) @ r.pressure * b / E
+    own = hat_kernel(x / b, r.x / b) @ r.pressure * b / E
     exact = r.approach + x**2 / (2 * R) + own + r.imposed_deflection(x)
     np.testing.assert_allclose(r.film_at(x), exact, rtol=4e-3)
     np.testing.assert_allclose(r.film_at(r.x), r.film_thickness, rtol=1e-9)
@@ -212,10 +181,9 @@ def test_converges_for_other_widths_and_off_the_centre(width, shift, share):
 def test_a_gap_with_two_bottoms_has_no_film_that_ruptures_once_and_says_so():
     imposed = semi_ellipse(9e4, 0.9 * hertz.line_half_width(1e5, R, E))
     case = OIL | {"load_per_width": 1e4, "entrainment_speed": 1e-3, "imposed_pressure": imposed}
-    with pytest.raises(ConvergenceError, match="line-contact EHL"):
+    with pytest.raises(ConvergenceError, match="line-contact EHL") as caught:
         solve_ehl(**case)
-    found = solve_ehl(**case, raise_on_failure=False)
-    assert not found.report.converged and found.report.residual > found.report.tolerance
+    assert caught.value.report.residual > caught.value.report.tolerance
 
 
 @pytest.mark.parametrize(
@@ -232,127 +200,3 @@ def test_a_gap_with_two_bottoms_has_no_film_that_ruptures_once_and_says_so():
 def test_bad_input(bad):
     with pytest.raises(InputError, match="imposed_pressure"):
         solve_ehl(**OIL, load_per_width=1e4, entrainment_speed=0.1, imposed_pressure=bad)
-
-
-# ------------------------------------------------------------------ load sharing
-
-PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
-HEAVY = PAPER.with_(
-    bodies={"load": 550.0, "hardness": None},
-    contact={"spacing": 1.5e-6, "shape": (256, 96)},
-    surface={"sq": 2e-7, "correlation_length": 8e-6},
-    lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05},
-)
-
-
-def deflected(scene, name, **numerics):
-    return scene.with_(numerics={"film_deflection": name} | numerics)
-
-
-def test_semi_ellipse_of_a_contact():
-    """Of Hertz pressures narrower and wider than the strip, on and off its centre: themselves."""
-    b = PAPER.bodies.half_width
-    x = np.linspace(-6, 6, 2400) * b
-    for width, centre in ((0.5, 0.3), (0.9, 0.0), (1.0, 0.0), (1.02, 0.01), (1.4, 0.05), (2.0, -0.1)):
-        pressure = np.sqrt(np.maximum(1 - ((x / b - centre) / width) ** 2, 0.0))[:, None]
-        closure = SimpleNamespace(x=x, pressure=pressure)
-        found = spread_of(PAPER, closure, 1.0)
-        assert found.half_width == pytest.approx(width * b, rel=3e-3 if abs(centre) < 0.2 and width < 1.9 else 2e-2)
-        assert found.centre == pytest.approx(centre * b, rel=2e-2, abs=1e-6 * b)
-        assert np.trapezoid(found.nodes[1], found.nodes[0]) == pytest.approx(1.0)
-
-
-def test_the_film_is_deflected_by_what_the_contact_presses_and_the_contact_by_itself_once():
-    scene = deflected(PAPER, "total")
-    point = lubfric.friction(scene, 1e-2, fields=True)
-    film, closure, b = point.balance.film, point.balance.contact, scene.bodies
-    assert film.imposed.load == pytest.approx(point.contact_load / b.width, rel=1e-9)
-    assert point.report.residuals["deflection"] < 1e-3 and mismatch(scene, film, closure) < 1e-3
-    patch = lubfric.prepare(scene).contact
-    shape = film.film_at(patch.x) - film.imposed_deflection(patch.x)
-    own = hat_kernel(patch.x / film.half_width, film.x / film.half_width) @ film.pressure * film.half_width / b.e_prime
-    assert np.ptp(shape - patch.x**2 / (2 * b.radius) - own) < 0.02 * point.mean_gap
-    again = patch.close(film.film_at(patch.x), point.contact_load, None, shape)
-    assert again.mean_gap == pytest.approx(point.mean_gap, rel=1e-3)
-    assert any("asperities bend" in note for note in point.report.notes)
-
-
-def test_all_deflections_agree_where_one_pressure_is_all_there_is():
-    for speed in (0.0, 1.0):
-        f = [
-            lubfric.friction(deflected(PAPER, name), speed, model="full").coefficient
-            for name in ("hydrodynamic", "scaled", "total")
-        ]
-        assert np.ptp(f) < 1e-6 * f[0]
-
-
-def test_at_a_heavy_load_friction_tends_to_that_of_the_boundary():
-    speeds = [1e-5, 1e-4, 1e-3]
-    total, own = (lubfric.stribeck(deflected(HEAVY, name), speeds) for name in ("total", "hydrodynamic"))
-    assert np.all(np.diff(total.film_load) > 0)
-    assert total.coefficient[0] == pytest.approx(0.09, rel=2e-3) and own.coefficient[0] < 0.09 * 0.97
-    assert np.all(own.film_load > total.film_load)
-
-
-def test_reversal_and_a_warm_start_change_nothing():
-    scene = deflected(PAPER, "total", tolerance=2e-3)
-    model = lubfric.prepare(scene)
-    cold = lubfric.friction(model, 0.02)
-    warm = lubfric.friction(model, 0.02, start=lubfric.friction(model, 0.03))
-    assert warm.coefficient == pytest.approx(cold.coefficient, rel=2e-3)
-    mirrored = lubfric.prepare(scene, replace(model.surface, heights=model.surface.heights[::-1].copy()))
-    assert lubfric.friction(mirrored, -0.02).coefficient == pytest.approx(cold.coefficient, rel=2e-3)
-
-
-def test_a_flat_contact_takes_the_semi_ellipse_of_the_strip():
-    scene = deflected(lubfric.load_scene("flat"), "total").with_(contact={"shape": (128, 128), "spacing": 8e-6})
-    point = lubfric.friction(scene, 1e-2)
-    imposed = point.balance.film.imposed
-    assert imposed.x[-1] == pytest.approx(scene.bodies.half_width) and imposed.x[0] == -imposed.x[-1]
-    assert 0 < point.film_load < scene.bodies.load and point.report.converged
-
-
-def test_fixed_point_that_does_not_close_is_an_error(monkeypatch):
-    monkeypatch.setattr(total_pressure, "MOST", 1)
-    with pytest.raises(ConvergenceError, match="under each other's pressure") as caught:
-        lubfric.friction(deflected(PAPER, "total"), 0.03)
-    assert caught.value.report.residuals["deflection"] > caught.value.report.tolerance
-
-
-@pytest.mark.parametrize(
-    "numerics, name", [({"closure": "separation"}, "closure"), ({"film_level": "isoviscous"}, "film_level")]
-)
-def test_what_does_not_go_with_the_total_pressure(numerics, name):
-    with pytest.raises(InputError, match=f"numerics.{name}.*allowed"):
-        deflected(PAPER, "total", **numerics)
-    with pytest.raises(InputError, match="half-space"):
-        lubfric.prepare(deflected(PAPER, "total").with_(contact={"model": "summits"}))
-
-
-def test_a_transient_takes_the_own_pressure_only():
-    run = lubfric.Transient(duration=1e-3)
-    with pytest.raises(InputError, match="'total'.*hydrodynamic"):
-        lubfric.transient(deflected(PAPER, "total").with_(transient=run))
-
-
-@pytest.mark.parametrize("speed", [0.0079, 0.032])
-def test_a_rough_exponential_surface_solves_at_both_models(speed):
-    rough = PAPER.with_(surface={"acf": "exponential", "correlation_length": 8e-6, "seed": 1})
-    found = [lubfric.friction(rough, speed, model=model) for model in ("auto", "full")]
-    assert all(point.report.converged for point in found)
-    assert found[0].coefficient == pytest.approx(found[1].coefficient, rel=1e-2)
-
-
-def test_film_and_contact_that_bend_each_other_much_are_found_together(monkeypatch):
-    """At 380 MPa with half the load on the spots one pass is not enough; what is found obeys the film's equation."""
-    used, mixed = [], total_pressure._mixed
-    monkeypatch.setattr(total_pressure, "_mixed", lambda steps: used.append(len(steps)) or mixed(steps))
-    scene = lubfric.load_scene("paper").with_(bodies={"load": 76.0, "hardness": None})
-    cell = 2.8 * scene.bodies.half_width / 64
-    scene = scene.with_(
-        numerics={"sampling": "patch", "film_deflection": "total", "accept": True, "tolerance": 1e-3},
-        contact={"shape": (64, 64), "spacing": cell},
-        surface={"correlation_length": 6 * cell, "sq": 4.8e-8, "seed": 36},
-    )
-    found = lubfric.friction(scene, 0.0062).balance
-    assert max(used) > 1 and mismatch(scene, found.film, found.contact) < 2e-3

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.film import rigid_cylinder as rigid
-from lubfric.film.levels import Elastohydrodynamic
+from lubfric.film import shear_force
 from lubfric.oil import Lubricant
 
 RADIUS, MODULUS, VISCOSITY, SPEED = 0.01, 2.2e11, 0.03, 1.0
@@ -54,15 +53,10 @@ def test_few_cells_know_it_where_their_sum_does_not():
 
 def force(found, share=0.0):
     """[N/m] of spots that have ``share`` of the width everywhere."""
-    level, oil = Elastohydrodynamic(), Lubricant(VISCOSITY, 1e-8)
-    evenly = lambda x: np.full(x.size - 1, share)  # noqa: E731
-    return level.shear(found, oil, slide_roll_ratio=0.0, width=1.0, contact_fraction=evenly, cavitated="none")
-
-
-def test_a_rigid_cylinder_in_closed_form():
-    found = film(0.01, 0, 1e-3)
-    exact = rigid.rolling_friction(found.min_film, radius=RADIUS, entrainment_speed=SPEED, viscosity=VISCOSITY)
-    assert force(found).rolling == pytest.approx(exact, rel=3e-3)
+    oil = Lubricant(VISCOSITY, 1e-8)
+    return shear_force(
+        found, oil, slide_roll_ratio=0.0, width=1.0, contact_fraction=lambda x: np.full(x.size - 1, share)
+    )
 
 
 @pytest.mark.parametrize("speed", [SPEED, -SPEED])

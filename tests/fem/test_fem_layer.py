@@ -12,17 +12,14 @@ from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from verification.fem.compliance import (
     Elastic,
-    curvature_number,
     half_space_compliance,
     layer_compliance,
-    line_load_difference,
     missing,
 )
 from verification.fem.layer import graded_mesh, make_layer
 from verification.fem.layer3d import Layer3D, graded_levels, multigrid, rigid_body_modes, solve, stiffness
 from verification.fem.layer_waves import fourier_compliance
-from verification.fem.report import InputError, SolveError
-from verification.rates import fitted_order
+from verification.fem.report import SolveError
 
 STEEL = Elastic(206e9, 0.3)
 UNIT = Elastic(1.0, 0.3)
@@ -66,40 +63,11 @@ def test_a_thicker_layer_is_softer_and_a_half_space_softest(poisson, s, factor):
     assert missing(s, poisson) == pytest.approx(1 - thin / softest, abs=1e-13)
 
 
-@pytest.mark.parametrize("poisson", [0.0, 0.3, 0.49])
-def test_a_line_load_sees_the_layer_with_the_square_of_distance_over_thickness(poisson):
-    body, x = Elastic(1.0, poisson), np.array([0.1, 0.05, 0.025])
-    leading = 2 * curvature_number(poisson) / (np.pi * body.e_prime) * x**2
-    off = np.abs(line_load_difference(x, 1.0, body) / leading - 1)
-    assert off[-1] < 1e-3
-    assert fitted_order(x, off) == pytest.approx(2, abs=0.05)
-
-
-@pytest.mark.parametrize("young, poisson", [(0.0, 0.3), (np.nan, 0.3), (1.0, 0.5), (1.0, -1.0)])
-def test_impossible_bodies_are_refused(young, poisson):
-    with pytest.raises(InputError, match="allowed"):
-        Elastic(young, poisson)
-
-
 # ---- plane strain ------------------------------------------------------------------------------------------------
 
 
 def box(cells, depth=0.5):
     return MeshTri.init_tensor(np.linspace(-0.5, 0.5, cells + 1), np.linspace(-depth, 0, round(depth * cells) + 1))
-
-
-@pytest.mark.parametrize("degree, cells", [(1, (16, 32, 64)), (2, (8, 16, 32))])
-def test_compliance_of_a_wave_converges_at_twice_the_degree(degree, cells):
-    exact, energy, nodal = layer_compliance(2 * np.pi, 0.5, UNIT), [], []
-    for n in cells:
-        layer = make_layer(box(n), UNIT, degree=degree)
-        pressure = np.cos(2 * np.pi * layer.x)
-        force = pressure * layer.weights
-        moved = layer.displacement(force)
-        energy.append(abs(force @ moved / (force @ pressure) / exact - 1))
-        nodal.append(np.abs(moved / exact - pressure).max())
-    assert fitted_order(cells[-2:], energy[-2:]) == pytest.approx(-2 * degree, abs=0.25)
-    assert fitted_order(cells[-2:], nodal[-2:]) < -degree - 0.5
 
 
 def test_uniform_pressure_compresses_without_lateral_strain():
@@ -146,37 +114,11 @@ def test_compliance_scales_with_stiffness_and_not_with_size(young, size):
     assert other * young == pytest.approx(base, rel=1e-8)
 
 
-def test_layer_refuses_what_it_cannot_be():
-    skew = box(4)
-    skew.p[1, (skew.p[0] > 0.49) & (skew.p[1] < -0.1) & (skew.p[1] > -0.4)] += 0.03
-    with pytest.raises(InputError, match="same depths"):
-        make_layer(skew, UNIT)
-    make_layer(skew, UNIT, sides="free")
-    with pytest.raises(InputError, match="degree"):
-        make_layer(box(4), UNIT, degree=3)
-    with pytest.raises(InputError, match="surface"):
-        make_layer(box(4).translated((0.0, 1.0)), UNIT)
-    with pytest.raises(InputError, match="strip"):
-        graded_mesh(1.0, 1.0, 0.7, 0.1)
-
-
 # ---- three dimensions --------------------------------------------------------------------------------------------
 
 
 def brick(nodes, degree, layers=None, depth=1.0, body=UNIT):
     return Layer3D(body, (1.0, 1.0), graded_levels(depth, layers or nodes // degree, 4.0), (nodes, nodes), degree)
-
-
-@pytest.mark.parametrize("degree, nodes", [(1, (16, 32)), (2, (16, 32))])
-def test_compliance_of_bricks_converges_at_twice_the_degree(degree, nodes):
-    exact, errors = layer_compliance(2 * np.pi * np.sqrt(2), 1.0, UNIT), []
-    for n in nodes:
-        layer = brick(n, degree)
-        pressure = np.cos(2 * np.pi * (layer.x[0] - layer.x[1]))
-        force = pressure * layer.weights
-        moved = fourier_compliance(layer).displacement(force)
-        errors.append(abs(np.sum(force * moved) / np.sum(force * pressure) / exact - 1))
-    assert fitted_order(nodes, errors) == pytest.approx(-2 * degree, abs=0.4)
 
 
 @pytest.mark.parametrize("degree, element", [(1, ElementHex1), (2, ElementHex2)])
@@ -199,17 +141,6 @@ def test_assembled_layer_is_that_of_scikit_fem(degree, element):
     assert free.ravel() @ (stiffness(layer) @ free.ravel()) == pytest.approx(values @ (whole @ values), rel=1e-12)
 
 
-@pytest.mark.parametrize("degree", [1, 2])
-def test_multigrid_and_waves_solve_the_same_layer(degree):
-    layer = Layer3D(STEEL, (2e-5, 3e-5), graded_levels(2e-5, 4, 3.0), (8, 12), degree)
-    force = np.random.default_rng(1).standard_normal(layer.shape)
-    solved = solve(multigrid(layer), force)
-    waves = fourier_compliance(layer).displacement(force)
-    assert solved.report.converged and solved.report.residual <= solved.report.tolerance
-    assert solved.surface == pytest.approx(waves, abs=1e-7 * np.abs(waves).max())
-    assert waves.ravel() == pytest.approx(fourier_compliance(layer).displacement(force.ravel()))
-
-
 def test_bricks_are_reciprocal_and_the_same_from_every_cell():
     layer = brick(8, 2)
     waves, rng = fourier_compliance(layer), np.random.default_rng(2)
@@ -220,40 +151,11 @@ def test_bricks_are_reciprocal_and_the_same_from_every_cell():
     assert waves.displacement(layer.weights) == pytest.approx(1.0 / UNIT.oedometric, rel=1e-10)
 
 
-def test_pressure_uniform_in_y_is_plane_strain():
-    layer = Layer3D(UNIT, (1.0, 0.25), graded_levels(0.5, 16, 2.0), (32, 4), 2)
-    pressure = np.broadcast_to(np.cos(2 * np.pi * layer.x[0]), layer.shape)
-    force = pressure * layer.weights
-    moved = fourier_compliance(layer).displacement(force)
-    found = np.sum(force * moved) / np.sum(force * pressure)
-    assert found == pytest.approx(layer_compliance(2 * np.pi, 0.5, UNIT), rel=1e-3)
-
-
-def test_rigid_body_modes_speed_the_solve():
-    layer = brick(16, 1, layers=6)
-    force = np.random.default_rng(4).standard_normal(layer.shape)
-    modes = rigid_body_modes(layer)
-    counts = [solve(multigrid(layer, B), force).report.iterations for B in (modes, modes[:, :3])]
-    assert counts[0] <= 20 and counts[0] < 0.9 * counts[1]
-
-
 def test_rigid_body_modes_strain_nothing():
     """Away from the base and the ends of the period, where a rotation does not fit together."""
     layer = brick(8, 1, layers=6)
     left = (stiffness(layer) @ rigid_body_modes(layer)).reshape(layer.planes, 8, 8, 3, 6)[1:, 1:-1, 1:-1]
     assert np.abs(left).max() < 1e-12
-
-
-def test_a_solve_cut_short_raises_with_what_it_had():
-    layer = brick(8, 1)
-    force = np.random.default_rng(5).standard_normal(layer.shape)
-    grid = multigrid(layer)
-    with pytest.raises(SolveError, match="iteration_limit") as caught:
-        solve(grid, force, max_iterations=1)
-    assert caught.value.report.residual > caught.value.report.tolerance
-    assert caught.value.result.surface.shape == layer.shape
-    kept = solve(grid, force, max_iterations=1, raise_on_failure=False)
-    assert not kept.report.converged and kept.report.iterations == 1
 
 
 def test_the_residual_is_not_taken_from_the_iteration():
@@ -263,25 +165,3 @@ def test_the_residual_is_not_taken_from_the_iteration():
     grid = multigrid(layer)
     with pytest.raises(SolveError):
         solve(replace(other, layer=layer, matrix=grid.matrix), layer.weights)
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"degree": 3},
-        {"shape": (7, 8), "degree": 2},
-        {"levels": np.array([-1.0, -0.5])},
-        {"size": (1.0, 0.0)},
-        {"levels": np.array([-1.0, -1.0, 0.0])},
-    ],
-)
-def test_impossible_bricks_are_refused(change):
-    with pytest.raises(InputError, match="allowed"):
-        replace(brick(8, 1), **change)
-
-
-@pytest.mark.parametrize("force", [np.zeros((8, 8)), np.ones((8, 7)), np.full((8, 8), np.nan)])
-def test_impossible_forces_are_refused(force):
-    grid = multigrid(brick(8, 1, layers=2))
-    with pytest.raises(InputError, match="force"):
-        solve(grid, force)

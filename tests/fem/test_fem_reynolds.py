@@ -11,16 +11,9 @@ from hypothesis import strategies as st
 from verification import exact
 from verification.fem.fluid import STEP, Fluid, slope
 from verification.fem.report import InputError, SolveError
-from verification.fem.reynolds import (
-    ELEMENTS,
-    Problem,
-    prolonged,
-    solve_refined,
-    solve_reynolds,
-)
-from verification.rates import fitted_order
+from verification.fem.reynolds import ELEMENTS, Problem, prolonged, solve_refined, solve_reynolds
 from verification.studies.reynolds import parabola_mesh
-from verification.studies.reynolds_surface import LENGTH, SPEED, WIDTH, Manufactured, box
+from verification.studies.reynolds_surface import LENGTH, box
 
 OIL = Fluid(0.1)
 SLIDER = exact.Slider(0.1, 1.0, 0.01, 2e-6, 1e-6)
@@ -59,30 +52,13 @@ def test_the_exact_pad_solves_the_equation():
     assert np.isclose(out, -pad.speed * pad.decay * pad.film(x), rtol=1e-4)
 
 
-@pytest.mark.parametrize("degree", [1, 2])
-def test_slider(degree):
-    found = solve_refined(Problem(slider_mesh(10), SLIDER.film, OIL, 1.0, degree), 4)
-    assert abs(fitted_order([2.0**-i for i in range(5)], [s.error(SLIDER.pressure) for s in found]) - degree - 1) < 0.1
-    assert np.isclose(found[-1].load, SLIDER.load, rtol=(1e-3, 1e-8)[degree - 1])
-    assert np.isclose(found[-1].inflow(0.0), SLIDER.flow, rtol=(1e-4, 1e-9)[degree - 1])
-    assert np.isclose(found[-1].inflow(0.0), -found[-1].inflow(SLIDER.length), rtol=1e-8)
-    couette, rolling = found[-1].friction(2.0)
+def test_forces_and_flow_of_a_slider():
+    found = solve_refined(Problem(slider_mesh(10), SLIDER.film, OIL, 1.0, 2), 4)[-1]
+    assert np.isclose(found.inflow(0.0), -found.inflow(SLIDER.length), rtol=1e-8)
+    couette, rolling = found.friction(2.0)
     assert np.isclose(couette, 0.1 * 2.0 * 0.01 / 1e-6 * np.log(2), rtol=1e-6)
     # by parts, -integral p dh/dx / 2: the film falls by 1e-6 over the length
-    assert np.isclose(rolling, found[-1].load * 1e-6 / 0.01 / 2, rtol=1e-3)
-
-
-@pytest.mark.parametrize("kind", ["line", "triangle", "quadrilateral"])
-@pytest.mark.parametrize(("degree", "stabilisation"), [(1, "none"), (1, "supg"), (2, "none")])
-def test_manufactured_solution_has_the_order_of_the_element(kind, degree, stabilisation):
-    case = Manufactured(1 if kind == "line" else 2)
-    mesh = box(kind, 8) if kind == "line" else box(kind, 8).translated((0.0, WIDTH / 2))
-    found = solve_refined(
-        Problem(mesh, case.film, case.fluid, SPEED, degree, case.source, stabilisation=stabilisation), 2
-    )
-    errors = [s.error(case.pressure) for s in found]
-    assert abs(fitted_order([1, 0.5], errors[1:]) - degree - 1) < 0.15
-    assert found[-1].report.converged and found[-1].report.residual <= found[-1].report.tolerance
+    assert np.isclose(rolling, found.load * 1e-6 / 0.01 / 2, rtol=1e-3)
 
 
 @pytest.mark.parametrize("degree", [1, 2])
@@ -133,38 +109,6 @@ def test_a_film_mirrored_in_the_direction_of_motion_changes_the_sign_of_the_pres
     assert np.isclose(up.load, -down.load, rtol=1e-10)
 
 
-@pytest.mark.parametrize("law", ["barus", "roelands"])
-def test_piezoviscous_oil_follows_from_the_reduced_pressure(law):
-    q = PARABOLA.pressure(np.linspace(-2, 1, 4001)[None] * PARABOLA.scale).max()
-    alpha = 0.95 / q
-    fluid = Fluid(0.1, law, alpha, 0.6)
-    s = solve_refined(Problem(parabola_mesh(100, -10.0), PARABOLA.film, fluid, 1.0, 2, cavitation=True), 2)[-1]
-    at = np.linspace(0, s.problem.mesh.nvertices - 1, 31).astype(int)
-    reduced = PARABOLA.pressure(s.problem.mesh.p[:, at])
-    true = (
-        exact.reduced_to_true(reduced, alpha)
-        if law == "barus"
-        else exact.roelands_to_true(reduced, alpha * 1.96e8 / 0.6, 0.6)
-    )
-    assert np.abs(s.at_vertices[at] - true).max() < 1e-4 * true.max()
-    assert true.max() > 1.2 * q
-
-
-def test_galerkin_rings_and_the_stabilised_form_does_not():
-    gas = exact.Slider(1.8e-5, 200.0, 0.01, 4e-6, 2e-6)
-    fluid, mesh = (
-        Fluid(1.8e-5, density_law="linear", bulk_modulus=1e5),
-        skfem.MeshLine(np.linspace(0, 0.01, 21)),
-    )
-    true = exact.gas_slider(gas, 1e5, mesh.p[0])
-    peak = exact.gas_slider(gas, 1e5, np.linspace(0, 0.01, 2001)).max()
-    plain = solve_reynolds(Problem(mesh, gas.film, fluid, 200.0)).at_vertices
-    calm = solve_reynolds(Problem(mesh, gas.film, fluid, 200.0, stabilisation="supg")).at_vertices
-    assert plain.max() > 1.5 * peak and np.count_nonzero(np.diff(np.sign(np.diff(plain)))) > 10
-    assert calm.max() <= peak and np.count_nonzero(np.diff(np.sign(np.diff(calm)))) == 1
-    assert np.abs(calm - true).max() < 0.06 * peak
-
-
 def test_gas_slider_reference_is_incompressible_at_low_speed():
     slow = exact.Slider(1.8e-5, 1e-3, 0.01, 4e-6, 2e-6)
     x = np.linspace(0, 0.01, 11)
@@ -206,70 +150,12 @@ def test_prolongation_is_exact_for_linear_fields(key):
         prolonged(coarse, replace(fine, mesh=mesh.refined().scaled(2.0)))
 
 
-def test_an_unconverged_solve_raises_and_carries_what_it_had():
-    problem = Problem(parabola_mesh(200, -10.0), PARABOLA.film, OIL, 1.0, cavitation=True)
-    with pytest.raises(SolveError, match="iteration_limit after 2 iterations") as stop:
-        solve_reynolds(problem, max_iterations=2)
-    assert stop.value.report.residual > stop.value.report.tolerance and len(stop.value.report.history) == 3
-    assert stop.value.result.pressure.shape == (201,)
-    assert not solve_reynolds(problem, max_iterations=2, raise_on_failure=False).report.converged
-
-
 def test_a_runaway_oil_is_not_solved():
     """Barus above the speed where the pressure becomes infinite: no solution exists, none is returned."""
     q = PARABOLA.pressure(np.linspace(-2, 1, 4001)[None] * PARABOLA.scale).max()
     problem = Problem(parabola_mesh(100, -10.0), PARABOLA.film, Fluid(0.1, "barus", 1.2 / q), 1.0, cavitation=True)
     with pytest.raises(SolveError, match="iteration_limit|diverged"):
         solve_reynolds(problem)
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"degree": 3}, "degree = 3"),
-        ({"mesh": skfem.MeshTet()}, "MeshTet"),
-        ({"speed": -1.0}, "speed = -1.0 m/s"),
-        ({"speed": np.nan}, "speed = nan"),
-        ({"stabilisation": "more"}, "'more'"),
-        ({"stabilisation": "supg", "degree": 2}, "needs degree = 1"),
-        ({"film": lambda x: x[0] - 0.5}, "film_thickness has a minimum of -0.5 m"),
-    ],
-)
-def test_input_is_checked(change, message):
-    with pytest.raises(InputError, match=message):
-        Problem(**({"mesh": skfem.MeshLine(), "film": lambda x: 1 + 0 * x[0], "fluid": OIL, "speed": 1.0} | change))
-
-
-@pytest.mark.parametrize(
-    "change",
-    [
-        {"viscosity": 0.0},
-        {"viscosity": np.nan},
-        {"viscosity_law": "baros"},
-        {"density_law": "x"},
-        {"pressure_viscosity_coefficient": -1e-8},
-        {"bulk_modulus": 0.0},
-        {"viscosity_law": "roelands", "roelands_index": -1.0},
-    ],
-)
-def test_fluids_are_checked(change):
-    with pytest.raises(InputError):
-        Fluid(**({"viscosity": 0.1} | change))
-
-
-def test_stabilised_form_is_consistent():
-    """Away from the outlet layer it is of second order on meshes that resolve nothing of the layer.
-
-    Plain artificial diffusion, which does not vanish at the solution, is of first order there.
-    """
-    gas = exact.Slider(1.8e-5, 2000.0, 0.01, 4e-6, 2e-6)
-    fluid, errors = Fluid(1.8e-5, density_law="linear", bulk_modulus=1e5), []
-    for cells in (10, 20, 40):
-        mesh = skfem.MeshLine(np.linspace(0, 0.01, cells + 1))
-        s = solve_reynolds(Problem(mesh, gas.film, fluid, 2000.0, stabilisation="supg"))
-        off = np.abs(s.at_vertices - exact.gas_slider(gas, 1e5, mesh.p[0]))
-        errors.append(off[mesh.p[0] <= 0.0051].max())
-    assert fitted_order([1, 0.5, 0.25], errors) > 1.7, errors
 
 
 def test_laws_at_one_gigapascal():

@@ -10,9 +10,7 @@ from verification.exact_contact import Line, Sphere, Wave
 from verification.fem import ehl
 from verification.fem.compliance import Elastic
 from verification.fem.fluid import Fluid
-from verification.fem.harmonic import Strip, compliance
-from verification.fem.report import InputError, SolveError
-from verification.fem.rough import press
+from verification.fem.harmonic import Strip, compliance, press
 from verification.fem.sharing import Bodies, FlatBodies, root, rupture, share_load, shear
 
 E_PRIME, CELL = 231e9, 1e-6
@@ -61,28 +59,12 @@ def test_hardness_caps_the_pressure_and_yielded_cells_overlap(strip):
     gap0 = np.tile(x[:, None] ** 2 / 4e-3, (1, 12))
     exact = Line(E_PRIME, 2e-3, 7.3e-6)
     found = press(strip, gap0, exact.load, hardness=0.8 * exact.peak)
-    assert found.yielded.any() and found.pressure.max() == pytest.approx(0.8 * exact.peak)
+    assert found.saturated.any() and found.pressure.max() == pytest.approx(0.8 * exact.peak)
     assert (
-        found.gap[found.yielded].max() <= 1e-15
-        and np.abs(found.gap[(found.pressure > 0) & ~found.yielded]).max() < 1e-15
+        found.gap[found.saturated].max() <= 1e-15
+        and np.abs(found.gap[(found.pressure > 0) & ~found.saturated]).max() < 1e-15
     )
     assert found.pressure.sum() * CELL / 12 == pytest.approx(exact.load, rel=1e-12)
-
-
-def test_bad_input_and_a_solve_cut_short(strip):
-    gap0 = np.random.default_rng(1).random((24, 12)) * 1e-7
-    for call in (
-        lambda: press(strip, gap0[:3], 1.0),
-        lambda: press(strip, gap0, -1.0),
-        lambda: press(strip, gap0, 1e9, hardness=1e9),
-        lambda: Strip((23, 12), (CELL, CELL), BODY),
-        lambda: Strip((24, 12), (CELL, CELL), BODY, side=4),
-    ):
-        with pytest.raises(InputError):
-            call()
-    with pytest.raises(SolveError) as caught:
-        press(strip, gap0, 100.0, max_iterations=0)
-    assert not caught.value.report.converged and caught.value.result.pressure.shape == (24, 12)
 
 
 @pytest.mark.parametrize("guess", [-8.0, 0.0, 5.0])
@@ -122,9 +104,6 @@ def test_load_sharing_closes_both_balances(strip):
     assert found.coefficient == pytest.approx(
         (0.09 * found.contact_load + found.couette + found.rolling) / 5.5, rel=1e-12
     )
-    with pytest.raises(SolveError) as caught:
-        share_load(bodies, refinements=0, max_evaluations=1, guess=3.0)
-    assert not caught.value.report.converged and caught.value.result.film_load > 0
 
 
 def test_closed_forms_of_contact_agree_with_each_other():

@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
 
 import lubfric
-from lubfric.film import Surroundings, heated_film, heated_stress, hertz, inlet_heat, isothermal_heat, nahme
-from lubfric.film.flash import flash_matrix
+from lubfric.film import Surroundings, formulas, heated_film, heated_stress, hertz, inlet_heat, isothermal_heat
+from lubfric.film.heat import flash_matrix
 from lubfric.film.heated_stress import limiting_stress_at, viscosity_at
 from lubfric.oil import Lubricant, shear_stress, viscosity
 
@@ -57,24 +57,24 @@ def swept(heat, x, length):
 def test_newtonian_film_is_nahmes(log_sliding, log_film, beta):
     lubricant, sliding, film = exponential(temperature_coefficient=beta), 10**log_sliding, 10**log_film
     stress, _ = heated_stress(lubricant, np.zeros(3), np.full(3, film), -sliding, np.full(3, T0))
-    number = nahme.nahme_number(0.02, sliding, beta, lubricant.conductivity)
-    assert stress == pytest.approx(-0.02 * sliding / film * nahme.stress_ratio(number), rel=1e-10)
+    number = formulas.nahme_number(0.02, sliding, beta, lubricant.conductivity)
+    assert stress == pytest.approx(-0.02 * sliding / film * formulas.nahme_stress(number), rel=1e-10)
 
 
 def test_nahmes_formula_solves_its_own_equation():
     for number in (0.01, 1.0, 50.0):
         y = np.linspace(0, 1, 2001)
-        rise = nahme.profile(y, number, 0.04)
-        stress = nahme.stress_ratio(number)  # in units of eta_w dU/h; rate in dU/h
-        assert nahme.largest_rise(number, 0.04) == pytest.approx(rise.max(), rel=1e-9)
+        rise = formulas.nahme_rise(y, number, 0.04)
+        stress = formulas.nahme_stress(number)  # in units of eta_w dU/h; rate in dU/h
+        assert math.log1p(number / 8) / 0.04 == pytest.approx(rise.max(), rel=1e-9)
         rate = stress * np.exp(0.04 * rise)
         assert np.trapezoid(rate, y) == pytest.approx(1, rel=1e-6)
         curvature = np.diff(rise, 2) / (y[1] ** 2)
         assert curvature == pytest.approx(-number / 0.04 * (stress * rate)[1:-1], rel=1e-4)
-    assert nahme.stress_ratio(1e-6) == pytest.approx(1 - 1e-6 / 12, rel=1e-12)
+    assert formulas.nahme_stress(1e-6) == pytest.approx(1 - 1e-6 / 12, rel=1e-12)
 
 
-@pytest.mark.parametrize("sliding", [0.3, 3.0, 10.0])
+@pytest.mark.parametrize("sliding", [0.3, 10.0])
 def test_eyring_film_against_a_boundary_value_solver(sliding):
     """k T'' = -tau gamma(T), gamma = (tau_E/eta_w) exp(beta (T - T_w)) sinh(tau/tau_E), mean gamma = dU/h."""
     lubricant, film, pressure = exponential(viscosity=0.5, eyring_stress=4e6), 3e-7, 0.0
@@ -169,6 +169,7 @@ def test_half_the_nodes_change_the_force_little():
     assert forces[0] == pytest.approx(fine, rel=1e-3)
 
 
+@settings(max_examples=25)
 @given(st.floats(5e8, 1.5e9), st.floats(0.001, 2.0), st.floats(-2, 1))
 def test_heated_force_lies_between_one_pass_and_isothermal(peak, ratio, log_speed):
     x, p, h, _ = contact(peak, 65)
@@ -189,7 +190,7 @@ def test_bodies_and_films_that_carry_heat_away_stay_cool():
 
 
 def test_traction_rises_peaks_and_falls_at_1_gpa():
-    x, p, h, load = contact(1e9)
+    x, p, h, load = contact(1e9, 65)
     ratios = np.geomspace(1e-3, 2, 12)
     f = [np.trapezoid(heated_film(OIL, x, p, h, around(x, 2.0, s)).stress, x) / load for s in ratios]
     top = int(np.argmax(f))

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import lubfric
 from lubfric.scene import Constant, Harmonic, Ramp, Table, Transient, read_history
-from lubfric.scene.history_read import history
+from lubfric.scene.transient import history
 
 STEP = Table(times=(0.0, 1.0, 1.0, 3.0), values=(2.0, 2.0, 5.0, 6.0))
 
@@ -60,7 +60,7 @@ def test_a_csv_file(tmp_path):
     path.write_text("# measured\ntime [s],speed [m/s]\n0,1\n0.5,2\n1,0\n")
     table = read_history(path, "speed")
     assert table.times == (0.0, 0.5, 1.0) and table.at(0.25) == 1.5
-    same = history("speed", {"kind": "file", "file": "run.csv", "column": "speed"}, tmp_path)
+    same = history("speed", {"kind": "file", "file": "run.csv", "column": "speed"}, "m/s", tmp_path)
     assert same == table
     with pytest.raises(lubfric.InputError, match="'speed'"):
         read_history(path, "sped")

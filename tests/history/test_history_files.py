@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.scene import Harmonic, Ramp, Table, Transient, read_history
-from lubfric.scene.history_read import history
+from lubfric.scene.transient import history
 
 LINES = "time [ms],speed [mm/s]\n0,1000\n500,2000\n1000,0\n"
 EXPECTED = Table(times=(0.0, 0.5, 1.0), values=(1.0, 2.0, 0.0))
@@ -38,22 +38,21 @@ def test_every_way_to_write_the_same_table(tmp_path, text, code):
 
 
 @pytest.mark.parametrize(
-    "name, heading, value, si",
+    "name, unit, heading, si",
     [
-        ("bodies.load", "F [kN]", 2, 2000),
-        ("transient.viscosity", "F (mPa·s)", 2, 2e-3),
-        ("lubricant.viscosity", "F [Pa.s]", 2, 2),
-        ("transient.radius", "F [mm]", 2, 2e-3),
-        ("transient.sliding", "F [um/s]", 2, 2e-6),
+        ("bodies.load", "N", "F [kN]", 2000),
+        ("transient.viscosity", "Pa s", "F (mPa·s)", 2e-3),
+        ("lubricant.viscosity", "Pa s", "F [Pa.s]", 2),
+        ("transient.radius", "m", "F [mm]", 2e-3),
+        ("transient.sliding", "m/s", "F [um/s]", 2e-6),
     ],
 )
-def test_each_quantity_has_its_units(tmp_path, name, heading, value, si):
-    write(tmp_path, f"time,{heading}\n0,{value}\n1,{value}\n")
+def test_each_quantity_has_its_units(tmp_path, name, unit, heading, si):
+    write(tmp_path, f"time,{heading}\n0,2\n1,2\n")
     table = {"kind": "file", "file": "run.csv", "column": "F"}
-    assert history(name, table, tmp_path).at(0.5) == pytest.approx(si)
-    other = "bodies.load" if name != "bodies.load" else "transient.speed"
-    with pytest.raises(lubfric.InputError, match=f"{other}: .* unit .* is not known"):
-        history(other, table, tmp_path)
+    assert history(name, table, unit, tmp_path).at(0.5) == pytest.approx(si)
+    with pytest.raises(lubfric.InputError, match=f"{name}: .* unit .* is not known"):
+        history(name, table, "N" if unit != "N" else "m", tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -130,7 +129,7 @@ def test_repeat_is_a_truth_value(repeat):
 def test_bad_tables_of_a_scene_are_refused(tmp_path, table, words):
     write(tmp_path, LINES)
     with pytest.raises(lubfric.InputError, match=words):
-        history("speed", table, tmp_path)
+        history("speed", table, "m/s", tmp_path)
 
 
 def test_kinds_take_keywords_only_and_have_no_dead_fields():

@@ -4,20 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from lubfric.film.limiter import FILM_STEP, VISCOSITY_STEP
 
 from lubfric import InputError
 from lubfric.film import step_length
-from lubfric.film.limiter import FILM_STEP, VISCOSITY_STEP
-from lubfric.scene import Table, checked_history
-from lubfric.time import Level, Progress, checked_times, plan_of, report_of, steps
-
-
-@dataclass(frozen=True)
-class State:
-    status: str
-    film: np.ndarray
-    z: np.ndarray
-    payload: object = None
+from lubfric.scene import Table
+from lubfric.time import Level, Progress, Step, checked_times, plan_of, report_of, steps
 
 
 @dataclass
@@ -26,13 +18,11 @@ class Relaxation:
 
     target: Table
     fails_after: float = 1e9
-    calls: int = 0
 
     def solve(self, time, memory, z, payload):
-        self.calls += 1
         y = (memory.rate * memory.film + self.target.before(time)) / (memory.rate + 1.0)
         status = "converged" if time < self.fails_after else "diverged"
-        return State(status, y, np.append(y, -1.0), (payload or 0) + 1)
+        return Step(status=status, film=y, z=np.append(y, -1.0), payload=(payload or 0) + 1)
 
     def error_of(self, solution, difference):
         return float(np.max(np.abs(difference / solution.film)))
@@ -50,16 +40,14 @@ def outputs(solver, plan, now):
     return [now for now in steps(solver, plan, now) if now.at_output]
 
 
-@pytest.mark.parametrize("tolerance", [1e-4, 1e-6])
-def test_decay_is_followed_to_every_output(tolerance):
-    times = np.array([0.0, 0.5, 2.0, 3.0])
+def test_decay_is_followed_to_every_output():
+    times, tolerance = np.array([0.0, 0.5, 2.0, 3.0]), 1e-5
     plan = plan_of(times, (CONSTANT,), 1e-3, tolerance)
     found = outputs(Relaxation(CONSTANT), plan, begun())
     assert [now.time for now in found] == times[1:].tolist()
     for now in found:  # each step adds at most the tolerance
-        np.testing.assert_allclose(
-            now.solution.film, np.array([1.0, 2.0]) * np.exp(-now.time), rtol=now.steps * tolerance
-        )
+        exact = np.array([1.0, 2.0]) * np.exp(-now.time)
+        np.testing.assert_allclose(now.solution.film, exact, rtol=now.steps * tolerance)
     assert 0 < found[-1].worst <= 1
 
 
@@ -111,22 +99,12 @@ def test_times_that_are_refused(times):
         checked_times(times)
 
 
-def test_a_history_must_last_and_stay_positive():
-    with pytest.raises(InputError, match="ends at 9 s"):
-        checked_history("load", JUMP, "N", 10.0)
-    with pytest.raises(InputError, match="falls to 0 N"):
-        checked_history("load", JUMP, "N", 5.0)
-    assert checked_history("speed", JUMP, "m/s", 5.0, positive=False) is JUMP
-
-
 @pytest.mark.parametrize(
     "change, loss, length",
     [
         (1.0, 0.5, 1.0),
-        (2 * VISCOSITY_STEP, 0.5, 0.5),
-        (1.0, 4 * FILM_STEP, 0.25),
-        (-2 * VISCOSITY_STEP, 4 * FILM_STEP, 0.25),
         (4 * VISCOSITY_STEP, 2 * FILM_STEP, 0.25),
+        (-2 * VISCOSITY_STEP, 4 * FILM_STEP, 0.25),
         (1.0, -3.0, 1.0),
     ],
 )

@@ -8,14 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.film import LineContact, Problem, cubic, hat_kernel, smallest
+from lubfric.film import LineContact, Problem, hat_kernel
 from lubfric.film import formulas as film
 from lubfric.oil import Lubricant
-from lubfric.paper import differential as differential_solve
 from lubfric.paper import differential_newton, solve_differential_deflection
-from lubfric.paper.differential_equations import evaluate, measure
-from lubfric.paper.differential_mesh import convolve, make_mesh
-from lubfric.paper.differential_newton import Squeeze, newton
+from lubfric.paper.differential import cold_start
+from lubfric.paper.differential_equations import convolve, evaluate, make_mesh, measure
+from lubfric.paper.differential_newton import newton
 
 PAPER = {
     "load_per_width": 5.5 / 6e-3,
@@ -41,7 +40,7 @@ def moes(M, L, **options):
 
 
 def numbers(result):
-    unit = result.load / (result.e_prime * result.load_number)
+    unit = result.load / (result.e_prime * result.contact.M)
     return np.array([result.min_film, result.central_film, result.flow_film]) / unit
 
 
@@ -68,11 +67,9 @@ def test_weights_decay_like_the_inverse_square_and_sum_to_zero():
     assert mesh.weights[0] + 2 * mesh.weights[1:].sum() == pytest.approx(-rest, rel=1e-3)
 
 
-@pytest.mark.parametrize("M, L", [(2, 5), (50, 10)])
-def test_the_answer_does_not_depend_on_the_band(M, L):
-    runs = [
-        solve_differential_deflection(**moes(M, L), nodes=801, bandwidth=m, tolerance=1e-2) for m in (0, 2, 8, 40, 800)
-    ]
+def test_the_answer_does_not_depend_on_the_band():
+    kw = moes(50, 10, nodes=401, tolerance=0.1)
+    runs = [solve_differential_deflection(**kw, bandwidth=m) for m in (0, 2, 8, 40, 400)]
     films = np.array([numbers(r) for r in runs])
     assert np.max(np.abs(films / films[-1] - 1)) < 2e-5
     solves = [r.report.evaluations for r in runs]
@@ -92,8 +89,7 @@ def test_lagging_the_far_pressures_gives_the_same_answer_more_slowly(monkeypatch
 # Against others
 
 
-@pytest.mark.parametrize("M", [1e-3, 0.1, 1, 20, 300])
-@pytest.mark.parametrize("L", [0.1, 5, 15])
+@pytest.mark.parametrize("M, L", [(1e-3, 5), (0.1, 0.1), (1, 15), (20, 5), (300, 0.1), (300, 15)])
 def test_agrees_with_the_default_solver(M, L):
     ours = solve_differential_deflection(**moes(M, L))
     default = lubfric.solve_ehl(**moes(M, L), tolerance=5e-4)
@@ -110,8 +106,7 @@ def test_agrees_with_the_default_solver_to_five_digits():
 
 
 @pytest.mark.parametrize(
-    "M, L, smallest_film, flow",
-    [(5, 5, 3.105, 4.082), (20, 5, 2.572, 3.423), (100, 5, 2.061, 2.758), (10, 10, 4.153, 5.491)],
+    "M, L, smallest_film, flow", [(5, 5, 3.105, 4.082), (100, 5, 2.061, 2.758), (10, 10, 4.153, 5.491)]
 )
 def test_converged_table(M, L, smallest_film, flow):
     """An independent solver with its inlet at -6 b, which at M = 5 lies within the inlet zone."""
@@ -134,7 +129,7 @@ def test_starved_inlet():
     assert ours.flow_film < 0.9 * solve_differential_deflection(**moes(5, 5)).flow_film
 
 
-@pytest.mark.parametrize("speed", [1e-4, 1e-3, 1e-2, 0.1, 1.0])
+@pytest.mark.parametrize("speed", [1e-4, 1e-2, 1.0])
 def test_grid_of_the_paper(speed):
     """2000 points at 0.8 micrometres. At 1e-4 m/s six of them span a Hertz half-width: the film is within
     1 %, and the solver says that the grid cannot show it."""
@@ -156,7 +151,7 @@ def test_second_order():
     assert 1.7 < math.log2(change[0] / change[2]) / 2 < 2.6
 
 
-@settings(max_examples=12, derandomize=True)
+@settings(max_examples=8, derandomize=True)
 @given(st.floats(-3, 2.5), st.floats(0.1, 15), st.sampled_from(["constant", "dowson-higginson"]))
 def test_converges_from_cold(log_M, L, density):
     r = solve_differential_deflection(**moes(10**log_M, L, density_law=density), tolerance=5e-3)
@@ -195,16 +190,11 @@ def test_reversed_motion_mirrors(heavy):
     assert back.flux == -heavy.flux and back.rupture == -heavy.rupture
 
 
-def test_starts_from_a_neighbour_and_starts_the_default(heavy):
+def test_it_starts_the_default(heavy):
     near = moes(60, 9)
-    cold = solve_differential_deflection(**near, tolerance=1e-3)
-    for start in (heavy, lubfric.solve_ehl(**moes(50, 10))):
-        warm = solve_differential_deflection(**near, tolerance=1e-3, start=start)
-        assert not any("failed" in note for note in warm.report.notes)
-        np.testing.assert_allclose(numbers(warm), numbers(cold), rtol=1e-3)
     default = lubfric.solve_ehl(**near, tolerance=1e-3, start=heavy)
     assert not any("failed" in note for note in default.report.notes)
-    np.testing.assert_allclose(numbers(default), numbers(cold), rtol=2e-3)
+    np.testing.assert_allclose(numbers(default), numbers(lubfric.solve_ehl(**near, tolerance=1e-3)), rtol=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -220,7 +210,7 @@ def test_residuals_find_a_wrong_answer(name, spoil):
     kw = moes(5, 5)
     problem = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(ETA, ALPHA)))
     mesh = make_mesh(-20.0, 6.0, 401, 8, True)
-    s = newton(mesh, problem, *differential_solve._cold(mesh, problem), 1e-8, 60)
+    s = newton(mesh, problem, *cold_start(mesh, problem), 1e-8, 60)
     assert max(s.residuals.values()) <= 1e-8
     P, H = spoil(s.P, s.H)
     assert measure(evaluate(mesh, problem, P, H), P, H)[name] > 5e-4
@@ -249,7 +239,6 @@ def test_a_domain_that_ends_before_rupture_says_so():
         ({"domain": (0, 1e-3)}, "domain"),
         ({"domain": (-1e-3,)}, "domain"),
         ({"inlet_length": 1e-9}, "inlet_length"),
-        ({"start": 1}, "start"),
         ({"domain": (-1e-3, 1e-3), "inlet_length": 1e-3}, "domain"),
         ({"tolerance": 0}, "tolerance"),
         ({"load_per_width": math.nan}, "load_per_width"),
@@ -259,34 +248,3 @@ def test_a_domain_that_ends_before_rupture_says_so():
 def test_bad_input(bad, name):
     with pytest.raises(lubfric.InputError, match=name):
         solve_differential_deflection(**moes(5, 5) | bad)
-
-
-# The squeeze term
-
-
-def test_speed_halved_at_once():
-    """H(0) and smallest film in units of the first speed, T = U0 t/b, M = 20, L = 5; BDF2, constant step.
-    At T = 2 the front of the new film stands at the centre."""
-    kw = moes(20, 5)
-    oil = Lubricant(ETA, ALPHA, density_law="dowson-higginson")
-    first = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], oil))
-    later = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"] / 2, oil))
-    stretch, unit = first.length_unit / later.length_unit, later.film_unit / first.film_unit
-    b = first.half_width
-    steady = newton(
-        mesh := make_mesh(-4 * b, 1.5 * b, 601, 8, False), first, *differential_solve._cold(mesh, first), 1e-6, 60
-    )
-    mesh = make_mesh(-4 * b * stretch, 1.5 * b * stretch, 601, 8, False)
-    P, H, step = steady.P * first.pressure_unit / later.pressure_unit, steady.H / unit, 0.05
-    rate = 2 / (step * b * stretch)  # 1/(U t) of the later speed
-    stored, table = [later.density(P)[0] * H], {}
-    for k in range(1, 101):
-        past = 2 * stored[-1] - 0.5 * stored[-2] if k > 1 else stored[-1]
-        s = newton(mesh, later, P, H, 1e-6, 60, Squeeze((1.5 if k > 1 else 1.0) * rate, rate * past))
-        assert s.status == "converged"
-        P, H = s.P, s.H
-        stored.append(later.density(P)[0] * H)
-        table[k] = (unit * cubic(mesh.X, H - 0.5 * mesh.X**2, np.zeros(1))[0], unit * smallest(mesh.X, H))
-    for T, centre, least in [(0.5, 3.079, 2.301), (1, 3.076, 2.119), (3, 1.963, 1.939), (5, 1.914, 1.621)]:
-        assert table[round(T / step)] == pytest.approx((centre, least), rel=0.01)
-    assert table[40][1] == pytest.approx(1.982, rel=0.01) and 2.4 < table[40][0] < 2.6

@@ -6,7 +6,7 @@ import pytest
 
 import lubfric
 from lubfric.film import Surroundings, heated_film
-from lubfric.oil import from_grade
+from lubfric.oil.make import from_grade
 from lubfric.sharing import film_lubricant
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}

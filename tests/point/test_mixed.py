@@ -150,7 +150,7 @@ def flat():
 
 
 def test_flat_contact_follows_its_curve(flat):
-    from lubfric.contact import solve_contact
+    from lubfric.contact.solve import solve_contact
 
     point = lubfric.friction(flat, 0.05)
     pressure = point.contact_load / flat.contact.area

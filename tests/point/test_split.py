@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from lubfric.sharing.split import foretold_split
 
 import lubfric
 from lubfric.sharing import OperatingPoint, Settings, divided, solved
 from lubfric.sharing.balance import _begin, drift
-from lubfric.sharing.split import foretold_split
 
 PAPER = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 

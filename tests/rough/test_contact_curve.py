@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact import contact_curve, nested
+from lubfric.contact import contact_curve, solve
+from lubfric.contact.cells import rescaled, shifted
 from lubfric.contact.left_out import left_out
-from lubfric.contact.projection import rescaled, shifted
 
 E_PRIME, HEAVIEST = 231e9, 2e8
 
@@ -89,7 +89,7 @@ def test_a_start_shifted_to_less_load_saves_work(monkeypatch):
     heights = lubfric.generate_surface((96, 96), 2e-6, sq=1e-7, correlation_length=8e-6, seed=1).heights
     curves = []
     for begin in (shifted, rescaled):
-        monkeypatch.setattr(nested, "shifted", begin)
+        monkeypatch.setattr(solve, "shifted", begin)
         curves.append(contact_curve(heights, (2e-6, 2e-6), E_PRIME, heaviest=HEAVIEST, tolerance=1e-5))
     assert curves[0].evaluations < 0.8 * curves[1].evaluations
     share = np.array([0.5, 0.1, 1e-3])

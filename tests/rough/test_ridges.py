@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from lubfric.sharing.validity_solution import of_patches
 from scipy import ndimage
 
 import lubfric
 from lubfric.contact import ridges
-from lubfric.sharing.validity_solution import of_patches
 
 FLAT = lubfric.load_scene("flat").with_(
     contact={"shape": (64, 64), "spacing": 8e-6, "model": "patches"},

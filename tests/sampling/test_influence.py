@@ -4,9 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy import stats
-
-from lubfric.sampling import student
 from lubfric.sampling.influence import (
     BlockError,
     add_errors,
@@ -16,6 +13,9 @@ from lubfric.sampling.influence import (
     spot_loads,
     weighted_errors,
 )
+from scipy import stats
+
+from lubfric.sampling import student
 from lubfric.sampling.uncertainty import interval
 
 

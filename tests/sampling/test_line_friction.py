@@ -6,6 +6,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from lubfric.sampling.grid_pair import GridStep, gap_left, mean_error
+from lubfric.sampling.influence import BlockError
+from lubfric.sampling.response import Response, Slopes, touched_length
+from lubfric.sharing.lines_outlook import foretold
 
 import lubfric
 from lubfric import Transient
@@ -15,13 +19,9 @@ from lubfric.output import main
 from lubfric.output.describe import describe_scene
 from lubfric.sampling import line_friction, mean_of
 from lubfric.sampling import line_friction as lines_solved
-from lubfric.sampling.grid_pair import GridStep, gap_left, mean_error
-from lubfric.sampling.influence import BlockError
 from lubfric.sampling.missed import hidden_share
-from lubfric.sampling.response import Response, Slopes, touched_length
 from lubfric.sampling.sample import response_of
 from lubfric.sharing import on_halved_cells, solved
-from lubfric.sharing.lines_outlook import foretold
 from verification.hostile.soak_force import friction_force
 
 PAPER = lubfric.load_scene("paper")

@@ -4,12 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
-
-import lubfric
-from lubfric.sharing import next_length, thinned
 from lubfric.sharing.lines_cells import cells_of_a_box, choose_cells
 from lubfric.sharing.lines_generated import generated_lines, seed_of
 from lubfric.sharing.lines_windows import measured_lines, spread, stack
+
+import lubfric
+from lubfric.sharing import next_length, thinned
 
 PAPER = lubfric.load_scene("paper")
 

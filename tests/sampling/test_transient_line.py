@@ -9,8 +9,7 @@ import pytest
 import lubfric
 from lubfric.sampling import line_friction
 from lubfric.scene import Transient
-from lubfric.time.line import long_enough
-from lubfric.time.moment import _thinning
+from lubfric.time.steady import film_thinning, strip_for
 
 HELD = lubfric.load_scene("paper").with_(
     transient=Transient(2e-4, outputs=2), motion={"entrainment_speed": 0.03}, numerics={"sampling_tolerance": 0.035}
@@ -61,11 +60,11 @@ def test_a_run_in_time_takes_cells_that_do_not_move_its_friction():
         transient=Transient(1e-3, outputs=1),
     )
     coarse = lubfric.prepare(scene)
-    fine, _ = long_enough(coarse)
+    fine = strip_for(coarse).prepared
     by_cells = [line_friction(prepared, 0.1)[1].by_cells for prepared in (coarse, fine)]
     assert by_cells[0] > 0.015 and by_cells[1] <= scene.numerics.tolerance
     assert fine.surface.spacing[0] < coarse.surface.spacing[0]
-    kept, _ = long_enough(lubfric.prepare(scene.with_(numerics={"tolerance": 0.1})))
+    kept = strip_for(lubfric.prepare(scene.with_(numerics={"tolerance": 0.1}))).prepared
     assert kept.lines.cells == coarse.lines.cells
 
 
@@ -106,9 +105,9 @@ def test_a_film_that_bends_its_bodies_divides_the_load_as_softly_as_in_a_steady_
 def test_a_film_thins_with_its_load_as_a_rigid_or_an_elastic_one(load, speed, low, high):
     """h ~ 1/w (Martin) where bodies are rigid, and about w^-0.1 (Dowson) where they bend."""
     scene = HELD.with_(motion={"entrainment_speed": speed}, bodies={"load": load})
-    assert low < _thinning(scene, load) < high
-    assert _thinning(scene, 0.0) == 1.0
-    assert 0 < _thinning(scene.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}), load) <= 1.0
+    assert low < film_thinning(scene, load) < high
+    assert film_thinning(scene, 0.0) == 1.0
+    assert 0 < film_thinning(scene.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}), load) <= 1.0
 
 
 def test_areas_at_rest_are_not_known_where_the_cells_are_longer_than_those_of_the_scene():
@@ -116,5 +115,5 @@ def test_areas_at_rest_are_not_known_where_the_cells_are_longer_than_those_of_th
     rest = HELD.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}, transient=Transient(1e-3))
     prepared = lubfric.prepare(rest)
     assert max(prepared.lines.cells.factors) > 1
-    _, cells = long_enough(prepared)
-    assert math.isnan(cells.area) and math.isnan(cells.plastic)
+    strip = strip_for(prepared)
+    assert math.isnan(strip.area) and math.isnan(strip.plastic)

@@ -7,8 +7,8 @@ import pytest
 
 import lubfric
 from lubfric.contact import contact_map
-from lubfric.scene import scene_as_dict
-from lubfric.scene.file import builtin_scenes
+from lubfric.scene import builtin_scenes
+from lubfric.scene.scene import scene_as_dict
 
 PAPER = lubfric.load_scene("paper")
 
@@ -264,3 +264,29 @@ def test_the_resolved_scene_is_plain_data():
 
     record = json.loads(json.dumps(scene_as_dict(PAPER)))
     assert record["bodies"]["load"] == 5.5 and record["surface"]["seed"] == PAPER.surface.seed
+
+
+@pytest.mark.parametrize(
+    "numerics, way_out",
+    [
+        ({"closure": "one-way"}, "leave it out, or give numerics.model = 'deterministic'"),
+        ({"closure": "separation"}, "lubfric.paper"),
+        ({"closure": "load"}, "leave it out"),
+        ({"film_level": "ehl"}, "leave it out"),
+        ({"contact_level": "flat"}, "contact.geometry"),
+        ({"model": "full"}, "numerics.tolerance a smaller value"),
+        ({"film_deflection": "auto"}, "'scaled'"),
+        ({"ehl_tolerance": 1e-3}, "numerics.film_tolerance"),
+        ({"sampling": "line"}, "'strips'"),
+    ],
+)
+def test_a_key_that_there_is_no_more_says_what_to_do(tmp_path, numerics, way_out):
+    ((key, value),) = numerics.items()
+    file = write(tmp_path, toml(**{f"numerics__{key}": repr(value)}))
+    for act in (
+        lambda: lubfric.load_scene(file),
+        lambda: PAPER.with_(numerics=numerics),
+        lambda: lubfric.Numerics(**numerics),
+    ):
+        with pytest.raises(lubfric.InputError, match=f"numerics.{key} = {value!r}.*{way_out}"):
+            act()

@@ -7,7 +7,7 @@ import pytest
 import lubfric
 from lubfric import oil
 from lubfric.film import hertz
-from lubfric.scene.short_bodies import reduced_radius
+from lubfric.scene.short_forms import reduced_radius
 
 PAPER = lubfric.load_scene("paper")
 INF = math.inf
@@ -155,20 +155,18 @@ def test_a_missing_key_names_its_short_form(tmp_path, missing, words):
 def test_a_viscosity_index_beside_what_gives_it_is_refused(other):
     """It would do nothing."""
     with pytest.raises(lubfric.InputError, match="viscosity_index and .*say the same thing"):
-        lubfric.load_scene("paper").with_(lubricant={"viscosity_index": 95, "temperature": 340.0} | other)
+        PAPER.with_(lubricant={"viscosity_index": 95, "temperature": 340.0} | other)
 
 
 def test_an_index_beside_the_viscosity_at_40_degrees_is_that_of_the_oil():
     by_index = lubfric.oil.from_index(73.3e-6, lubfric.oil.viscosity_index(73.3e-6, 8.86e-6))
     assert by_index.kinematic_viscosity(373.15) == pytest.approx(8.86e-6, rel=1e-9)
-    scene = lubfric.load_scene("paper").with_(
-        lubricant={"nu40": 73.3e-6, "viscosity_index": 92.43, "temperature": 373.15}
-    )
+    scene = PAPER.with_(lubricant={"nu40": 73.3e-6, "viscosity_index": 92.43, "temperature": 373.15})
     assert scene.lubricant.viscosity == pytest.approx(8.86e-6 * scene.lubricant.oil.density_at(373.15), rel=1e-4)
 
 
 def test_an_offset_without_a_limit_is_refused():
-    scene = lubfric.load_scene("paper")
+    scene = PAPER
     with pytest.raises(lubfric.InputError, match="does nothing without limiting_stress_coefficient"):
         scene.with_(lubricant={"limiting_stress_offset": 2e6})
     limited = scene.with_(lubricant={"limiting_stress_offset": 2e6, "limiting_stress_coefficient": 0.05})
@@ -179,7 +177,7 @@ def test_an_offset_without_a_limit_is_refused():
 
 def test_a_temperature_beside_a_viscosity_that_is_a_number_is_refused():
     """A loop over temperatures gave the same f at all of them, without a word."""
-    scene = lubfric.load_scene("paper")
+    scene = PAPER
     for given in ({"temperature_celsius": 90}, {"temperature": 350.0, "temperature_coefficient": None}):
         with pytest.raises(lubfric.InputError, match="temperature moves no viscosity"):
             scene.with_(lubricant=given)
@@ -190,3 +188,44 @@ def test_a_temperature_beside_a_viscosity_that_is_a_number_is_refused():
     assert warm.with_(lubricant={"temperature": 350.0, "viscosity": 0.2}).lubricant.temperature == 350.0
     vary = {"lubricant.oil": ["mineral-100", "mineral-220"], "lubricant.temperature": [330.0, 350.0]}
     assert lubfric.plan_study(warm, vary, [0.1]).points == 4
+
+
+# --- coefficients given beside an oil ------------------------------------------------------------
+
+GIVEN_OIL = {"nu40": 68e-6, "nu100": 8.4e-6, "eyring_stress": 5e6, "temperature_celsius": 70}
+HOT = {"bodies": {"load": 200.0}, "motion": {"slide_roll_ratio": 0.5}, "numerics": {"sampling": "patch"}}
+
+
+def lubricant(**given):
+    return PAPER.with_(lubricant=GIVEN_OIL | given).lubricant
+
+
+def test_a_given_temperature_coefficient_is_kept_through_changes_of_the_oil():
+    assert lubricant().temperature_coefficient == pytest.approx(0.0345, rel=0.01)
+    scene = PAPER.with_(lubricant=GIVEN_OIL | {"temperature_coefficient": 0.02})
+    changes = ({"temperature_celsius": 60}, {"density": 900}, {"base": "pao"}, {"nu40": 60e-6, "nu100": 8e-6})
+    for changed in ({}, *changes):
+        assert scene.with_(lubricant=changed).lubricant.temperature_coefficient == 0.02
+    assert scene.with_(lubricant={"temperature_coefficient": 0.04}).lubricant.temperature_coefficient == 0.04
+
+
+def test_the_coefficient_of_the_oil_follows_its_temperature():
+    scene = PAPER.with_(lubricant=GIVEN_OIL)
+    moved = scene.with_(lubricant={"temperature_celsius": 60}).lubricant
+    assert moved.temperature_coefficient == lubricant(temperature_celsius=60).temperature_coefficient
+
+
+def test_a_given_temperature_coefficient_reaches_the_friction_of_a_hot_film():
+    base = PAPER.with_(**HOT)
+    beside = base.with_(lubricant=GIVEN_OIL | {"temperature_coefficient": 0.01})
+    keys = ("viscosity", "pressure_viscosity_coefficient", "temperature", "conductivity")
+    numbers = {key: getattr(lubricant(), key) for key in keys} | {"temperature_coefficient": 0.01, "eyring_stress": 5e6}
+    f, of_numbers = (lubfric.friction(s, 5.0).coefficient for s in (beside, base.with_(lubricant=numbers)))
+    assert f == pytest.approx(of_numbers, rel=1e-12)
+    assert f > 1.05 * lubfric.friction(base.with_(lubricant=GIVEN_OIL), 5.0).coefficient
+
+
+def test_a_conductivity_given_later_is_kept_as_well():
+    scene = PAPER.with_(lubricant=GIVEN_OIL).with_(lubricant={"conductivity": 0.2})
+    for changed in ({}, {"temperature_celsius": 60}, {"density": 900}):
+        assert scene.with_(lubricant=changed).lubricant.conductivity == 0.2

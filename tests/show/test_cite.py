@@ -18,25 +18,14 @@ def test_the_papers_are_those_of_what_was_used():
 
 
 def test_a_curve_cites_every_paper_once():
-    scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
-    curve = lubfric.stribeck(scene, [0.01, 0.03, 1.0])
-    lines = curve.cite().splitlines()
-    assert len(lines) == len(set(lines)) and set(lines) == {
-        line for point in curve.points for line in point.cite().splitlines()
-    }
-
-
-def test_johnson_is_cited_where_his_modulus_deflects_the_film():
-    heavy = lubfric.load_scene("paper").with_(
-        bodies={"load": 550.0, "hardness": None},
-        contact={"spacing": 2.4e-6, "shape": (160, 80)},
-        lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
-        numerics={"sampling": "patch", "tolerance": 0.05, "accept": True, "film_deflection": "auto"},
-    )
-    poon = "film deflected by the whole load"
-    assert poon in lubfric.friction(heavy, 0.01).cite()
-    assert poon not in lubfric.friction(heavy.with_(numerics={"film_deflection": "hydrodynamic"}), 0.01).cite()
-    assert "Martin" in lubfric.friction(lubfric.load_scene("paper"), 1.0, tolerance=0.1).cite()
+    by_speed = lubfric.stribeck(PATCH, [0.01, 0.03, 1.0])
+    by_ratio = lubfric.traction(PATCH.with_(lubricant=LAWS), [0.0, 0.5], speed=0.1)
+    for curve in (by_speed, by_ratio):
+        lines = curve.cite().splitlines()
+        assert len(lines) == len(set(lines)) and set(lines) == {
+            line for point in curve.points for line in point.cite().splitlines()
+        }
+    assert "Bair" not in by_ratio.points[0].cite() and "Bair" in by_ratio.points[1].cite()
 
 
 PATCH = lubfric.load_scene("paper").with_(
@@ -66,18 +55,11 @@ def cites(scene):
         ("Bair", PATCH.with_(lubricant={"limiting_stress_coefficient": 0.05}), PATCH),
         ("D341", PATCH.with_(lubricant=OIL), PATCH),
         ("D2270", PATCH.with_(lubricant={"grade": "VG 68", "viscosity_index": 95, "temperature": 333.15}), KNOWN),
-        ("D2270", KNOWN.with_(lubricant={"viscosity_index": 95, "temperature": 333.15}), KNOWN),
-        ("Klaus", PATCH.with_(lubricant=OIL), KNOWN),
         ("Klaus", PATCH.with_(lubricant=OIL), PATCH.with_(lubricant=OIL | {"alpha_estimate": "gold"})),
         ("Gold", PATCH.with_(lubricant=OIL | {"base": "pao"}), PATCH.with_(lubricant=OIL)),
-        ("Gupta", HOT, HOT.with_(numerics={"heat": "off"})),
-        ("Nahme", HOT, HOT.with_(numerics={"heat": "off"})),
-        ("Jaeger", HOT, HOT.with_(numerics={"heat": "off"})),
+        ("Gupta|Nahme|Jaeger", HOT, HOT.with_(numerics={"heat": "off"})),
         ("H. Eyring", HOT, HOT.with_(lubricant={"eyring_stress": None})),
         ("Houpert", HOT, HOT.with_(lubricant={"limiting_stress_coefficient": None})),
-        ("one-way", PATCH.with_(numerics={"closure": "one-way"}), PATCH),
-        ("Jakobsson", PATCH.with_(numerics={"closure": "one-way"}), PATCH),
-        ("Lubricants 8", PATCH.with_(numerics={"closure": "one-way"}), PATCH),
         ("Greenwood, J. B. P.", PATCH.with_(contact={"model": "summits"}), PATCH),
         ("Polonsky", PATCH, PATCH.with_(contact={"model": "summits"})),
         ("Johnson, J. A.", PATCH.with_(numerics={"film_deflection": "scaled"}), PATCH),
@@ -85,7 +67,8 @@ def cites(scene):
     ],
 )
 def test_an_option_is_cited_where_it_was_used(author, used, not_used):
-    assert author in cites(used) and author not in cites(not_used)
+    for name in author.split("|"):
+        assert name in cites(used) and name not in cites(not_used)
 
 
 def test_the_shear_of_the_flow_is_cited_for_an_eyring_film_in_one_gap_only():
@@ -118,11 +101,6 @@ def test_what_was_used_is_kept_with_a_stored_point(tmp_path):
     """The papers do not hang on the fields, which a store leaves out."""
     again = [lubfric.stribeck(PATCH, [0.01, 0.03], store=tmp_path).cite() for _ in range(2)]
     assert again[0] == again[1] == lubfric.stribeck(PATCH, [0.01, 0.03]).cite() and "Polonsky" in again[0]
-
-
-def test_a_traction_curve_cites_what_its_points_used():
-    found = lubfric.traction(PATCH.with_(lubricant=LAWS), [0.0, 0.5], speed=0.1)
-    assert "Bair" not in found.points[0].cite() and "Bair" in found.points[1].cite() and "Bair" in found.cite()
 
 
 def test_the_command_tells_its_version(capsys):

@@ -8,7 +8,7 @@ from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.vtk import grid_bytes, vtk_bytes
+from lubfric.output.fields import grid_bytes, vtk_bytes
 
 SCENE = (
     BODIES_AND_OIL
@@ -86,12 +86,6 @@ def test_what_a_point_has_not_is_refused():
     with pytest.raises(lubfric.InputError, match="separated"):
         vtk_bytes(model, lubfric.friction(model, 1.0, fields=True))
     assert grid_bytes(np.arange(2.0), np.arange(3.0), {}, "t").startswith(b"# vtk DataFile Version 3.0\n")
-
-
-def test_a_run_in_time_has_neither(tmp_path, capsys):
-    (tmp_path / "s.toml").write_text(SCENE + "[transient]\nduration = 0.01\n")
-    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o"), "--report"]) == 2
-    assert "this is a scene with [transient]" in capsys.readouterr().err and not (tmp_path / "o").exists()
 
 
 def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkeypatch):

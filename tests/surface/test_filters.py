@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import InputError, Surface, generate_surface
-from lubfric.surface.filters import ALPHA
+from lubfric.surface.prepare import ALPHA
 
 
 def wave(periods, shape=(240, 60), step=1e-6, axis=0):

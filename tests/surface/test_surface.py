@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import InputError, Surface, generate_surface
-from lubfric.surface import correlation_length, rms_slope
-from lubfric.surface.statistics import autocorrelation
+from lubfric.surface.statistics import autocorrelation, correlation_length, rms_slope
 
 ROUGH = {"sq": 240e-9, "correlation_length": 16e-6}
 
@@ -130,32 +129,17 @@ def test_flat_surface_is_allowed():
 # --- the data type ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    "heights",
-    [
-        np.zeros(5),
-        np.zeros((0, 3)),
-        np.array([[1.0, math.nan]]),
-        np.array([[math.inf, 0.0]]),
-        [["a", "b"]],
-        np.zeros((2, 2, 2)),
-    ],
-)
-def test_surface_refuses_bad_heights(heights):
-    with pytest.raises(InputError, match="heights"):
-        Surface(heights, 1e-6)
+BAD = {
+    "heights": (np.zeros(5), np.zeros((0, 3)), [[1.0, math.nan]], [[math.inf, 0.0]], [["a", "b"]], np.zeros((2, 2, 2))),
+    "spacing": (0, -1e-6, math.nan, (1e-6,), (1e-6, 2e-6, 3e-6), "1", None),
+    "mask": (np.ones((2, 3), bool), np.zeros((3, 3), bool)),
+}
 
 
-@pytest.mark.parametrize("spacing", [0, -1e-6, math.nan, (1e-6,), (1e-6, 2e-6, 3e-6), "1", None])
-def test_surface_refuses_bad_spacing(spacing):
-    with pytest.raises(InputError, match="spacing"):
-        Surface(np.zeros((3, 3)), spacing)
-
-
-def test_surface_refuses_bad_masks():
-    for mask in (np.ones((2, 3), bool), np.zeros((3, 3), bool)):
-        with pytest.raises(InputError, match="mask"):
-            Surface(np.zeros((3, 3)), 1e-6, mask=mask)
+@pytest.mark.parametrize("name, value", [(name, value) for name, values in BAD.items() for value in values])
+def test_surface_refuses_bad_values(name, value):
+    with pytest.raises(InputError, match=name):
+        Surface(**{"heights": np.zeros((3, 3)), "spacing": 1e-6, name: value})
     with pytest.raises(InputError, match="heights"):
         Surface(np.full((3, 3), math.inf), 1e-6, mask=np.eye(3, dtype=bool))
 

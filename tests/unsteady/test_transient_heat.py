@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -30,7 +31,7 @@ def in_time(scene, **plan):
     return lubfric.transient(scene.with_(transient=lubfric.Transient(**({"duration": 1e-4, "outputs": 1} | plan))))
 
 
-@pytest.mark.parametrize("speed, ratio", [(2.0, 0.2), (-2.0, 0.2), (2.0, -1.0)])
+@pytest.mark.parametrize("speed, ratio", [(2.0, 0.2), (-2.0, -1.0)])
 def test_steady_motion_is_as_hot_in_time_as_without(speed, ratio):
     scene = BASE.with_(motion={"entrainment_speed": speed, "slide_roll_ratio": ratio})
     steady, cold = lubfric.friction(scene), lubfric.friction(scene.with_(numerics={"heat": "off"}))
@@ -44,7 +45,7 @@ def test_steady_motion_is_as_hot_in_time_as_without(speed, ratio):
     assert off.coefficient[-1] == pytest.approx(cold.coefficient, rel=5e-3) and off.flash_temperature_rise[-1] == 0
 
 
-@pytest.mark.parametrize("speed, ratio", [(5.0, 20.0), (-20.0, 2.0), (20.0, -2.0)])
+@pytest.mark.parametrize("speed, ratio", [(5.0, 20.0), (-20.0, -2.0)])
 def test_the_film_far_before_a_hot_contact_is_as_thin_as_that_of_steady_motion(speed, ratio):
     """Cold, the film beyond the ends of the grid alone would raise f by 5 to 30 %."""
     scene = lubfric.load_scene("paper").with_(
@@ -59,7 +60,7 @@ def test_the_film_far_before_a_hot_contact_is_as_thin_as_that_of_steady_motion(s
 
 
 def test_a_slow_ramp_is_as_hot_as_every_speed_it_passes():
-    found = in_time(BASE, duration=1.0, outputs=4, speed=Ramp(start=1.0, end=3.0, until=1.0))
+    found = in_time(BASE, duration=1.0, outputs=2, tolerance=1e-3, speed=Ramp(start=1.0, end=3.0, until=1.0))
     steady = [lubfric.friction(BASE, float(u)) for u in found.entrainment_speed]
     np.testing.assert_allclose(found.coefficient, [p.coefficient for p in steady], rtol=0.01)
     np.testing.assert_allclose(found.inlet_film_factor, [p.inlet_film_factor for p in steady], rtol=1e-6)
@@ -67,13 +68,10 @@ def test_a_slow_ramp_is_as_hot_as_every_speed_it_passes():
 
 
 def test_a_viscosity_history_is_the_cold_one():
-    thin = BASE.lubricant.viscosity / 2
-    plan = {"viscosity": thin}
-    twin = BASE.with_(lubricant=lubfric.Lubricant(**{f: getattr(BASE.lubricant, f) for f in FIELDS} | plan))
-    assert in_time(BASE, **plan).coefficient[-1] == pytest.approx(lubfric.friction(twin).coefficient, rel=5e-3)
-
-
-FIELDS = [name for name in BASE.lubricant.__dataclass_fields__ if name != "oil"]
+    oil = {name: getattr(BASE.lubricant, name) for name in BASE.lubricant.__dataclass_fields__ if name != "oil"}
+    thin = {"viscosity": BASE.lubricant.viscosity / 2}
+    steady = lubfric.friction(replace(BASE, lubricant=lubfric.Lubricant(**oil | thin)))
+    assert in_time(BASE, **thin).coefficient[-1] == pytest.approx(steady.coefficient, rel=5e-3)
 
 
 def test_a_reversal_is_warm_on_both_sides_and_cold_at_rest():

@@ -33,11 +33,8 @@ def test_a_place_that_is_gone_is_an_error_and_undoes_the_others():
     from lubfric.contact import half_space
 
     original = half_space.centred_axis
-    gone = Mutant(
-        "gone",
-        "",
-        {"lubfric.contact.half_space:centred_axis": lambda f: f, "lubfric.contact.half_space:no_such": lambda f: f},
-    )
+    places = ("lubfric.contact.half_space:centred_axis", "lubfric.contact.half_space:no_such")
+    gone = Mutant("gone", "", {place: lambda f: f for place in places})
     with pytest.raises(AttributeError, match="no_such"), applied(gone):
         pass
     assert half_space.centred_axis is original

@@ -10,12 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from verification.charts.data import point
-from verification.check import RELATIVE, Check, Table
-from verification.levels import measure as levels
-from verification.levels.scenes import SEED
-from verification.tables import TABLES, folders, main
-from verification.tables.pages import BENCHMARKS, BLOCK, body, replaced
+from verification.check import Table
+from verification.tables import TABLES, main
+from verification.tables.pages import BENCHMARKS, BLOCK, CAMPAIGNS, body, replaced
 
 CELLS = (["speed", "f"], [["0.1", "0.05"]])
 TABLE = Table("one", "Friction", *CELLS)
@@ -24,8 +21,8 @@ TYPED = {("theory.md", "| checked | caution | no answer |")}  # limits, not resu
 
 def test_every_mark_in_a_page_names_a_table(root):
     marked = {m["name"] for page in (root / "docs").glob("*.md") for m in BLOCK.finditer(page.read_text())}
-    assert marked <= set(TABLES) | set(BENCHMARKS)
-    assert not set(TABLES) & set(BENCHMARKS)
+    known = [*TABLES, *BENCHMARKS, *(name for names in CAMPAIGNS.values() for name in names)]
+    assert marked <= set(known) and len(known) == len(set(known))
 
 
 def test_every_table_of_a_benchmark_is_written_by_its_script(root):
@@ -85,7 +82,7 @@ def test_the_command_measures_what_is_marked_and_reports_it(tmp_path, monkeypatc
     monkeypatch.setitem(TABLES, "times", lambda: CELLS)
     page = marked(tmp_path, "times")
     assert main(["--only", "times", "--docs", str(tmp_path), "--out", str(tmp_path)]) == 0
-    assert "| 0.1 | 0.05 |" in page.read_text() and "tables --only times`" in page.read_text()
+    assert "| 0.1 | 0.05 |" in page.read_text() and "tables --only times --docs docs`" in page.read_text()
     report = json.loads((tmp_path / "report.json").read_text())
     assert report["studies"][0]["tables"][0]["rows"] == [["0.1", "0.05"]]
     assert (tmp_path / "times.csv").read_text().splitlines() == ["speed,f", "0.1,0.05"]
@@ -94,61 +91,11 @@ def test_the_command_measures_what_is_marked_and_reports_it(tmp_path, monkeypatc
 def test_a_table_that_fails_costs_no_other_and_leaves_its_page_as_it_was(tmp_path, monkeypatch):
     monkeypatch.setitem(TABLES, "times", lambda: 1 / 0)
     monkeypatch.setitem(TABLES, "area", lambda: (["speed"], []))
-    monkeypatch.setitem(TABLES, "stability-film", lambda: CELLS)
-    page = marked(tmp_path, "times", "stability-film")
-    asked = ["--only", "times", "area", "stability-film", "--docs", str(tmp_path), "--out", str(tmp_path)]
+    monkeypatch.setitem(TABLES, "closures", lambda: CELLS)
+    page = marked(tmp_path, "times", "closures")
+    asked = ["--only", "times", "area", "closures", "--docs", str(tmp_path), "--out", str(tmp_path)]
     assert main(asked) == 1
     assert page.read_text().startswith("<!-- table: times -->\n<!-- end of table -->\n")
     assert "| 0.1 | 0.05 |" in page.read_text()
     studies = json.loads((tmp_path / "report.json").read_text())["studies"]
-    assert {s["name"]: s["passed"] for s in studies} == {"times": False, "area": False, "stability-film": True}
-
-
-def test_an_unknown_table_is_refused():
-    with pytest.raises(SystemExit) as ended:
-        main(["--only", "nothing"])
-    assert ended.value.code == 2
-
-
-def written(folder, name, points):
-    study = {"name": name, "checks": [p.as_dict() for p in points]}
-    (folder / "report.json").write_text(json.dumps({"studies": [study]}))
-
-
-def test_methods_are_compared_at_one_error(tmp_path, monkeypatch):
-    """A fast solve that is not good enough counts for no method."""
-    seconds = {"lubfric": ((1e-3, 0.01), (1e-6, 0.02)), "other": ((1e-4, 0.03), (9e-6, 0.08), (1e-9, 0.4))}
-    points = [
-        point("case", method, str(k), error, (s, s, s))
-        for method, found in seconds.items()
-        for k, (error, s) in enumerate(found)
-    ]
-    written(tmp_path, "contact", points)
-    monkeypatch.setattr(folders, "CHARTS", tmp_path)
-    assert folders.contact_methods() == (["contact", "lubfric", "other"], [["case", "20 ms", "4.0"]])
-
-
-def test_growth_tells_the_exponent_and_the_largest_memory(tmp_path, monkeypatch):
-    sizes = (10, 100, 1000, 10000)
-    at = [{"size": n, "memory": 8e3 * n, "work": 20.0} for n in sizes]
-    points = [point("sweep", "sweep", str(n), 1.0, (1e-6 * n**1.5,) * 3, **where) for n, where in zip(sizes, at)]
-    written(tmp_path, "growth", points)
-    monkeypatch.setattr(folders, "CHARTS", tmp_path)
-    _, [row] = folders.growth()
-    assert row[0] == "sweep" and row[3] == "N^1.50" and row[4] == "80 MB"
-
-
-def test_levels_count_what_is_within_and_what_is_refused(tmp_path, monkeypatch):
-    def solved(index, asked, off, refused=""):
-        at = {"index": index, "asked": asked, "prepare": 0.0, "seconds_reference": 8.0, "seconds_full": 4.0}
-        value = float("nan") if refused else 1 + off
-        return Check("f", value, 1.0, 3 * asked, "full", RELATIVE, seconds=2.0, refused=refused, at=at)
-
-    lines = [[solved(0, t, t / 2).as_dict() for t in levels.TOLERANCES]]
-    lines += [[solved(1, t, 2 * t).as_dict() for t in levels.TOLERANCES]]
-    lines += [[solved(2, t, 0.0, "no").as_dict() for t in levels.TOLERANCES]]
-    text = "".join(json.dumps(line).replace("NaN", "null") + "\n" for line in lines)
-    levels.file_of(tmp_path, SEED).write_text(text)
-    monkeypatch.setattr(folders, "LEVELS", tmp_path)
-    _, rows = folders.levels_saving()
-    assert rows[1] == ["1 %", "1 of 3", "1", "2 %", "4.0", "2.0"]
+    assert {s["name"]: s["passed"] for s in studies} == {"times": False, "area": False, "closures": True}

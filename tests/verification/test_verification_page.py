@@ -7,7 +7,7 @@ from html import unescape
 
 import pytest
 
-from verification import page, plotting
+from verification import convergence, page, plotting
 from verification.check import Check, Field, Table
 from verification.report import Report, environment
 from verification.run import Outcome
@@ -35,7 +35,8 @@ pytestmark = pytest.mark.skipif(BROWSER is None, reason="no Chromium on this mac
 def html():
     """A page with everything on it: figures, wide tables, long words, failures."""
     long = "https_like_word_without_a_break_" * 4
-    figure = plotting.convergence("c", "a caption", {"P1": ([1, 0.5], [1, 0.25], 2)}, "size", "error")
+    series = [convergence.Series("P1", [1, 0.5], [1, 0.25], 2)]
+    figure = convergence.picture("c", "a caption", series, "size", "error")
     canvas, _ = plotting.axes(width=12)
     png = plotting.finish("wide", canvas, "a wide one", "png")
     checks = (
@@ -44,45 +45,20 @@ def html():
     )
     table = Table("t", "a wide table", [f"column {i}" for i in range(12)], [[i / 7 for i in range(12)]])
     field = Field("f", "pressure", [[0.0, 0.0]], {})
+    trace, words = "Traceback\n  " + "x" * 300, "Words.\n\nMore words."
+    study, drawn = Study("s", "m:f", "A study"), (figure, png)
     outcome = Outcome(
-        Study("s", "m:f", "A study"),
-        "quick",
-        "Words.\n\nMore words.",
-        checks,
-        (table,),
-        (figure, png),
-        (field,),
-        1.0,
-        2**30,
-        "SolveError: " + long,
-        "Traceback\n  " + "x" * 300,
+        study, "quick", words, checks, (table,), drawn, (field,), 1.0, 2**30, f"SolveError: {long}", trace
     )
     return page.render(Report("quick", ("s", "later"), (outcome,), False, "2026-01-01", 1.0, environment()))
 
 
 def browse(folder, page, *options):
     """Run the browser on a page in ``folder``, cut off from any network."""
-    return subprocess.run(
-        [
-            BROWSER,
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--hide-scrollbars",
-            "--no-first-run",
-            "--disable-dev-shm-usage",
-            "--host-resolver-rules=MAP * ~NOTFOUND",
-            f"--user-data-dir={folder / 'profile'}",
-            "--enable-logging=stderr",
-            "--virtual-time-budget=5000",
-            *options,
-            (folder / page).as_uri(),
-        ],
-        capture_output=True,
-        text=True,
-        timeout=60,
-        check=True,
-    )
+    quiet = "--headless --no-sandbox --disable-gpu --hide-scrollbars --no-first-run --disable-dev-shm-usage".split()
+    quiet += ["--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr", "--virtual-time-budget=5000"]
+    line = [BROWSER, *quiet, f"--user-data-dir={folder / 'profile'}", *options, (folder / page).as_uri()]
+    return subprocess.run(line, capture_output=True, text=True, timeout=60, check=True)
 
 
 @pytest.mark.parametrize("width", [390, 1200])

@@ -1,20 +1,17 @@
 """``python -m verification charts``: error against time, and cost against size, measured on this machine.
 
-Times are processor seconds, which another job on the machine changes less than it changes the time by the clock.
+Times are processor seconds, which another job on the machine changes less than it changes the time by the clock. What
+is measured is kept in the folder: the same command draws it again.
 """
 
 from __future__ import annotations
 
 import importlib
-from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
-from dataclasses import replace
-from pathlib import Path
 
-from ..check import Item, Table
-from ..frame import Command
-from ..frame import main as run
-from ..studies import Study
+from .. import frame
+from ..check import Check, Item, Table
+from ..kept import Run
 
 CHARTS = {
     "contact": "Dry contact: error against time",
@@ -22,39 +19,28 @@ CHARTS = {
     "job": "The whole job: error against time per point",
     "growth": "Cost growth",
 }
-LEVELS = ("full", "quick")
 
 
 def main(argv: list[str]) -> int:
-    """Run the command line."""
-    studies = tuple(
-        Study(name, "verification.charts:chart", title, LEVELS, {"name": name}) for name, title in CHARTS.items()
-    )
-    return run(
-        Command("charts", __doc__, studies, "out/charts", LEVELS, 1, add_options=_options, prepared=_prepared), argv
-    )
+    """The command."""
+    parts = [(name, "charts:chart", title, {"name": name}) for name, title in CHARTS.items()]
+    return frame.main(frame.campaign("charts", __doc__, parts, ("full", "quick")), argv)
 
 
-def chart(level: str, name: str, redraw: str = "") -> Iterator[Item]:
-    """Every method at every setting, measured in turn on this machine, or drawn again from an earlier report."""
-    from .data import load, machine, measured_on
-    from .draw import growth, work_precision
+def chart(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
+    """Every method at every setting, measured in turn on this machine."""
+    from . import draw, measure
 
-    if redraw:
-        points = load(Path(redraw), name)
-    else:
-        points = list(importlib.import_module(f"verification.charts.{name}").points(level))
-    where = measured_on(Path(redraw), name) if redraw else machine()
+    module = importlib.import_module(f"verification.charts.{name}")
+    ((_, where),) = run.solved({"machine": None}, measure.machine, f"{name}-machine")
+    rows = run.solved(module.cases(level == "quick"), module.measured)
+    points = [Check.from_dict(values) for _, row in rows for values in row]
     yield from points
     yield Table(f"{name}_machine", "Where and when the points were measured", ("machine",), ((where,),))
-    yield growth(points, where) if name == "growth" else work_precision(name, points, where)
-
-
-def _options(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--redraw", metavar="DIR", default="", help="draw the report in that folder again, measure nothing"
-    )
-
-
-def _prepared(study: Study, options: Namespace) -> Study:
-    return replace(study, options=study.options | {"redraw": options.redraw})
+    if name == "growth":
+        yield draw.growth_table(points)
+        yield draw.growth(points, where)
+        return
+    if name == "contact":
+        yield draw.methods_table(points)
+    yield draw.work_precision(name, points, where)

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from .. import plotting
-from ..check import Check, Figure
+from ..check import Check, Figure, Table
 from .growth import exponent
 
 LEAST = 1e-12  # of the reference: errors below are drawn there
 NOTICED = 2e5  # bytes: less is lost in what the process already had
-ORDER = ("lubfric", "default", "default (load-controlled)", "default, cold", "default, warm")
+ORDER = ("lubfric", "default", "default, cold", "default, warm")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B", "#7F7F7F", "#882255")
+EQUAL = 1e-5  # error of the pressure at which methods are compared
 
 
 def work_precision(name: str, points: list[Check], machine: str) -> Figure:
@@ -19,29 +21,21 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
     Where a solver is off by its whole answer it has failed: such points are left out.
     """
     points = [p for p in points if p.at.get("apart") or p.measured < 1]
-    panels = list(dict.fromkeys(p.word("panel") for p in points))
-    columns = min(3, len(panels))
-    rows = -(-len(panels) // columns)
-    canvas, axes = plotting.axes(rows, columns, width=3.9 * columns + 0.4, height=3.1 * rows + 0.9, squeeze=False)
+    names = list(dict.fromkeys(p.word("panel") for p in points))
+    columns = min(3, len(names))
+    canvas, axes = plotting.panels(len(names), 3, width=3.9 * columns + 0.4, height=3.1)
     colours = palette(points)
-    for ax in axes.ravel()[len(panels) :]:
-        ax.set_axis_off()
-    for ax, label in zip(axes.ravel(), panels):
+    for ax, label in zip(axes, names):
         chosen = [p for p in points if p.word("panel") == label]
         for method in dict.fromkeys(p.word("method") for p in chosen):
             curve(ax, [p for p in chosen if p.word("method") == method], colours[method])
         apart = any(p.at.get("apart") for p in chosen)
-        ax.set(
-            xscale="log",
-            yscale="log",
-            xlabel="CPU seconds",
-            title=label,
-            ylabel="discretisation error" if apart else "solver error",
-        )
+        ylabel = "discretisation error" if apart else "solver error"
+        ax.set(xscale="log", yscale="log", xlabel="CPU seconds", ylabel=ylabel)
+        ax.set_title(label, fontsize=9)
         readable(ax)
-        ax.title.set_fontsize(9)
-    handles = [axes[0, 0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]
-    handles.append(axes[0, 0].plot([], [], "o", mfc="none", mec="k", ms=10, ls="", label="default setting")[0])
+    handles = [axes[0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]
+    handles.append(axes[0].plot([], [], "o", mfc="none", mec="k", ms=10, ls="", label="default setting")[0])
     canvas.legend(handles=handles, loc="outside lower center", ncols=3 if columns > 1 else 2, frameon=False, fontsize=8)
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
     return plotting.compact(plotting.finish(name, canvas, "Error against time", format="png"))
@@ -65,23 +59,9 @@ def readable(ax) -> None:
 
 def palette(points: list[Check]) -> dict[str, str]:
     """A colour for each method, our default first."""
-    methods = sorted(
-        dict.fromkeys(p.word("method") for p in points),
-        key=lambda m: (m not in ORDER, ORDER.index(m) if m in ORDER else 0),
-    )
-    colours = [
-        "#0072B2",
-        "#D55E00",
-        "#009E73",
-        "#CC79A7",
-        "#E69F00",
-        "#56B4E9",
-        "#000000",
-        "#8C564B",
-        "#7F7F7F",
-        "#882255",
-    ]
-    return {m: colours[i % len(colours)] for i, m in enumerate(methods)}
+    found = dict.fromkeys(p.word("method") for p in points)
+    methods = [m for m in ORDER if m in found] + [m for m in found if m not in ORDER]
+    return {m: COLOURS[i % len(COLOURS)] for i, m in enumerate(methods)}
 
 
 def curve(ax, points: list[Check], colour: str) -> None:
@@ -99,24 +79,46 @@ def growth(points: list[Check], machine: str) -> Figure:
     """Time and peak memory over size, with the exponents of the larger half."""
     panels = list(dict.fromkeys(p.word("panel") for p in points))
     canvas, axes = plotting.axes(2, len(panels), width=3.3 * len(panels), height=6, squeeze=False)
-    for column, label in enumerate(panels):
+    for (above, below), label in zip(axes.T, panels):
         chosen = [p for p in points if p.word("panel") == label]
-        sizes = [p.number("size") for p in chosen]
         unit = "points" if "sweep" in label else "cells" if label == "contact" else "nodes"
-        axes[0, column].loglog(sizes, [p.duration for p in chosen], "o-")
-        axes[0, column].set(
-            title=f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}", ylabel="CPU seconds", xlabel=unit
-        )
+        above.loglog([p.number("size") for p in chosen], [p.duration for p in chosen], "o-")
+        title = f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}"
         if label == "contact":
-            axes[0, column].set_title(
-                f"contact: time ~ N^{exponent(chosen, 'seconds'):.2f}\nconvolutions ~ N^{exponent(chosen, 'work'):.2f}"
-            )
+            title += f", convolutions ~ N^{exponent(chosen, 'work'):.2f}"
+        above.set(title=title, ylabel="CPU seconds", xlabel=unit)
         seen = [p for p in chosen if p.number("memory") > NOTICED]
-        axes[1, column].loglog(
-            [p.number("size") for p in seen], [p.number("memory") / 1e6 for p in seen], "o-", color="#D55E00"
-        )
-        axes[1, column].set(title=f"memory ~ N^{exponent(seen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit)
-        axes[1, column].set_xlim(axes[0, column].get_xlim())
-        axes[1, column].xaxis.set_minor_formatter("")
+        memory = [p.number("memory") / 1e6 for p in seen]
+        below.loglog([p.number("size") for p in seen], memory, "o-", color="#D55E00")
+        below.set(title=f"memory ~ N^{exponent(seen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit)
+        below.set_xlim(above.get_xlim())
+        below.xaxis.set_minor_formatter("")
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
     return plotting.compact(plotting.finish("growth", canvas, "Time and peak memory against size", format="png"))
+
+
+def methods_table(points: list[Check]) -> Table:
+    """Contacts solved to a measured error of `EQUAL`: time of every method over that of the library."""
+    good = [p for p in points if not p.at.get("apart") and p.measured <= EQUAL]
+    names = [name for name in dict.fromkeys(p.word("method") for p in good) if name != "lubfric"]
+    rows = []
+    for panel in dict.fromkeys(p.word("panel") for p in good):
+        best: dict[str, float] = {}
+        for p in (p for p in good if p.word("panel") == panel):
+            best[p.word("method")] = min(p.duration, best.get(p.word("method"), np.inf))
+        ours = best["lubfric"]
+        rows.append([panel, f"{1e3 * ours:.0f} ms", *(f"{best[n] / ours:.1f}" if n in best else "" for n in names)])
+    return Table("contact-methods", f"Time to an error of {EQUAL:g}", ["contact", "lubfric", *names], rows)
+
+
+def growth_table(points: list[Check]) -> Table:
+    """Cost against size."""
+    rows = []
+    for panel in dict.fromkeys(p.word("panel") for p in points):
+        own = [p for p in points if p.word("panel") == panel]
+        times = [f"{1e3 * p.duration:.3g} ms" if p.duration < 1 else f"{p.duration:.3g} s" for p in own]
+        memory = f"{max(p.number('memory') for p in own) / 1e6:.0f} MB"
+        size, work = (f"{own[0].number(what):,.0f} to {own[-1].number(what):,.0f}" for what in ("size", "work"))
+        rows.append([panel, size, ", ".join(times), f"N^{exponent(own, 'seconds'):.2f}", memory, work])
+    columns = ["job", "cells, nodes or points", "CPU time of each size", "larger half", "memory at most"]
+    return Table("growth", "Cost against size", [*columns, "convolutions, steps or points"], rows)

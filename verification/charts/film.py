@@ -12,29 +12,32 @@ from lubfric import EHLResult, solve_differential_deflection, solve_ehl
 from lubfric.film import moes_film
 
 from ..cases import case_of
-from ..check import Check
 from ..fem import ehl as fem
 from ..fem.fluid import Fluid
-from .data import interleaved, point
+from .measure import interleaved, point
 
 POINTS = ((1, 5), (10, 10), (20, 5), (100, 20), (1000, 20))
 DEFAULT = 3e-3
-SHEARED = ((20, 5),)  # below 1 GPa, where a Newtonian shear force still means something
+SHEARED = (20, 5)  # below 1 GPa, where a Newtonian shear force still means something
 
 
-def points(level: str) -> Iterator[Check]:
+def cases(quick: bool) -> dict[str, tuple]:
     """One panel for each (M, L)."""
-    quick = level == "quick"
-    for M, L in POINTS[1:2] if quick else POINTS:
-        case = case_of(M, L)
-        exact = quantities(solve_ehl(**case, tolerance=2e-5, raise_on_failure=False))
-        for name, setting, default, (films, seconds, size) in runs(case, M, L, quick):
-            off = np.abs(np.array(films) / exact[: len(films)] - 1)
-            panel = f"M = {M:g}, L = {L:g}"
-            yield point(panel, name, setting, float(np.nanmax(off[:2])), seconds, default=default, size=size)
-            if len(films) == 3 and (M, L) in SHEARED:
-                panel += ": shear force"
-                yield point(panel, name, setting, float(off[2]), seconds, default=default, size=size)
+    return {f"M = {M:g}, L = {L:g}": (M, L, quick) for M, L in (POINTS[1:2] if quick else POINTS)}
+
+
+def measured(case: tuple) -> list[dict]:
+    """Every method at every setting against a tight solution."""
+    M, L, quick = case
+    arguments, panel, found = case_of(M, L), f"M = {M:g}, L = {L:g}", []
+    exact = quantities(solve_ehl(**arguments, tolerance=2e-5, raise_on_failure=False))
+    for name, setting, films, seconds, size in runs(arguments, M, L, quick):
+        off = np.abs(np.array(films) / exact[: len(films)] - 1)
+        at = {"default": name.startswith("default") and setting == f"tolerance {DEFAULT:g}", "size": size}
+        found.append(point(panel, name, setting, float(np.nanmax(off[:2])), seconds, **at))
+        if len(films) == 3 and (M, L) == SHEARED:
+            found.append(point(f"{panel}: shear force", name, setting, float(off[2]), seconds, **at))
+    return found
 
 
 def quantities(film) -> np.ndarray:
@@ -44,52 +47,36 @@ def quantities(film) -> np.ndarray:
     return np.array([film.min_film, film.flow_film, np.trapezoid((eta / h)[wet], x[wet])])
 
 
-def runs(case: dict, M: float, L: float, quick: bool):
-    """Yield (method, setting, whether it is the default, ((quantities), quartiles, unknowns))."""
-    repeats = 2 if quick else 7
-    tolerances = (1e-2, 3e-3) if quick else (0.05, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
+def runs(case: dict, M: float, L: float, quick: bool) -> Iterator[tuple]:
+    """(method, setting, quantities, quartiles of seconds, unknowns) of every method and setting."""
     near = case | {"load_per_width": 0.97 * case["load_per_width"]}
     calls: dict[tuple[str, float], Callable[[], EHLResult]] = {}
-    for t in tolerances:
+    for t in (1e-2, 3e-3) if quick else (0.05, 1e-2, 3e-3, 1e-3, 3e-4, 1e-4):
         calls["default, cold", t] = partial(solve_ehl, **case, tolerance=t)
         calls["default, warm", t] = partial(solve_ehl, **case, tolerance=t, start=solve_ehl(**near, tolerance=t))
-    for (name, t), (film, seconds) in interleaved(calls, repeats).items():
-        yield name, f"tolerance {t:g}", t == DEFAULT, (quantities(film), seconds, film.state.pressure.size)
+    for (name, t), (film, seconds) in interleaved(calls, 2 if quick else 7).items():
+        yield name, f"tolerance {t:g}", quantities(film), seconds, film.x.size
     for nodes in (129, 257) if quick else (129, 257, 513, 1025, 2049, 4097):
         call = partial(solve_differential_deflection, **case, nodes=nodes, tolerance=0.1, raise_on_failure=False)
         film, seconds = interleaved({"": call}, 1 if quick else 3)[""]
         if film.report.status == "converged":
-            yield "differential deflection", f"{nodes} nodes", False, (quantities(film), seconds, nodes)
+            yield "differential deflection", f"{nodes} nodes", quantities(film), seconds, nodes
     if M <= 100:  # beyond, its meshes cost minutes
         yield from finite_elements(case, quick)
-    unit = case["radius"] * math.sqrt(
-        2 * case["viscosity"] * case["entrainment_speed"] / (case["e_prime"] * case["radius"])
-    )
-    formula = moes_film(M, L) * unit
-    yield (
-        "Moes formula (flow film)",
-        "",
-        False,
-        ((math.nan, formula), interleaved({"": lambda: moes_film(M, L)}, 21)[""][1], 1),
-    )
+    speed = 2 * case["viscosity"] * case["entrainment_speed"] / (case["e_prime"] * case["radius"])
+    value, seconds = interleaved({"": partial(moes_film, M, L)}, 21)[""]
+    yield "Moes formula (flow film)", "", (math.nan, value * case["radius"] * math.sqrt(speed)), seconds, 1
 
 
-def finite_elements(case: dict, quick: bool):
+def finite_elements(case: dict, quick: bool) -> Iterator[tuple]:
     """The full system by finite elements on its nested meshes. The time of each includes that of the coarser ones."""
-    fluid = Fluid(
-        case["viscosity"],
-        viscosity_law=case["viscosity_law"],
-        pressure_viscosity_coefficient=case["pressure_viscosity_coefficient"],
-    )
+    laws = {name: case[name] for name in ("viscosity_law", "pressure_viscosity_coefficient")}
+    fluid = Fluid(case["viscosity"], **laws)
     contact = fem.LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], fluid)
     for refinements in (0,) if quick else (0, 1):
         call = partial(fem.solve_ehl, contact, refinements=refinements, raise_on_failure=False)
         solutions, seconds = interleaved({"": call}, 1)[""]
-        if solutions[-1].report.converged and len(solutions) == refinements + 1:
-            last = solutions[-1]
-            yield (
-                "finite elements",
-                f"{refinements} refinements",
-                False,
-                ((last.min_film, last.flow_film), seconds, last.P.size),
-            )
+        last = solutions[-1]
+        if last.report.converged and len(solutions) == refinements + 1:
+            films = (last.min_film, last.flow_film)
+            yield "finite elements", f"{refinements} refinements", films, seconds, last.P.size

@@ -96,23 +96,6 @@ def curvature_number(poisson: float) -> float:
     Under a line load w the displacement differences of layer and half-space differ by ``(w/pi) integral (C_half-space -
     C_layer)(1 - cos k x) dk``. For x << d this is ``(2 w J/(pi E')) (x/d)^2``. So a Hertz contact of half-width b sees
     a curvature that is larger by the fraction ``J b^2/(2 d^2)``, and its peak pressure rises by half of that. (Derived
-    here, and checked by quadrature in the tests.)
+    here; the study `layer` finds it by finite elements.)
     """
     return quad(lambda s: s * missing(s, poisson), 0, FAR, epsabs=1e-12, epsrel=1e-10, limit=200)[0]
-
-
-def line_load_difference(x, thickness: float, body: Elastic):
-    """Exact ``[u(x) - u(0)]_layer - [u(x) - u(0)]_half-space``, m per N/m of a line load at 0; x in m."""
-
-    def one(at: float) -> float:
-        return quad(
-            lambda s: missing(s, body.poisson) * (1 - np.cos(s * at)) / s,
-            0,
-            FAR,
-            epsabs=1e-13,
-            epsrel=1e-10,
-            limit=2000,
-        )[0]
-
-    scaled = np.abs(np.atleast_1d(np.asarray(x, dtype=float))) / thickness
-    return 4 / (np.pi * body.e_prime) * np.array([one(at) for at in scaled])

@@ -108,7 +108,7 @@ def solve_contact(
         gap = problem.gap0 + displacement(force)
         touching = enough(problem, gap, (force > 0) & ~saturated, saturated)
         force, more = active_set(problem, force, touching, saturated, max_iterations)
-        steps = (steps[0] + more[0], steps[1] + more[1], [*steps[2], *more[2]], more[3])
+        steps = (steps[0] + more[0], [*steps[1], *more[1]], more[2])
     found = finish(problem, force, steps)
     if raise_on_failure:
         found.report.raise_if_failed(found)
@@ -133,11 +133,10 @@ def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
 
 
 def active_set(problem: Problem, force, touching, saturated, max_iterations: int):
-    """(force, (iterations, applications, history, status)). Forces may pull or exceed the limit slightly."""
-    history, applications, fewest, patience = [], 0, force.size + 1, PATIENCE
+    """(force, (iterations, history, status)). Forces may pull or exceed the limit slightly."""
+    history, fewest, patience = [], force.size + 1, PATIENCE
     for iteration in range(1, max_iterations + 1):
-        force, gap, used = equilibrium(problem, force, touching, saturated)
-        applications += used
+        force, gap = equilibrium(problem, force, touching, saturated)
         scale = max(np.ptp(gap - problem.gap0), np.finfo(float).tiny)
         pull = np.maximum(-force, 0).max() / force.max()
         above = np.maximum(force / problem.limit - 1, 0).max()
@@ -145,9 +144,9 @@ def active_set(problem: Problem, force, touching, saturated, max_iterations: int
         lifted = np.maximum(gap[saturated], 0).max(initial=0) / scale
         history.append(float(max(pull, above, inside, lifted)))
         if history[-1] <= problem.tolerance:
-            return force, (iteration, applications, history, CONVERGED)
+            return force, (iteration, history, CONVERGED)
         if not np.all(np.isfinite([*force, *gap])):
-            return force, (iteration, applications, history, DIVERGED)
+            return force, (iteration, history, DIVERGED)
         small = 0.1 * problem.tolerance * scale
         off = ~touching & ~saturated
         more = limited(problem, force, saturated & (gap <= small))
@@ -155,13 +154,13 @@ def active_set(problem: Problem, force, touching, saturated, max_iterations: int
         moved = (wanted != touching) | (more != saturated)
         count = np.count_nonzero(moved)
         if not count:
-            return force, (iteration, applications, history, STAGNATED)
+            return force, (iteration, history, STAGNATED)
         fewest, patience = (count, PATIENCE) if count < fewest else (fewest, patience - 1)
         if patience < 0:
             moved &= np.arange(moved.size) == np.flatnonzero(moved)[-1]
         touching, saturated = np.where(moved, wanted, touching), np.where(moved, more, saturated)
         touching = enough(problem, gap, touching, saturated)
-    return force, (max_iterations, applications, history, ITERATION_LIMIT)
+    return force, (max_iterations, history, ITERATION_LIMIT)
 
 
 def limited(problem: Problem, force, saturated):
@@ -192,7 +191,7 @@ def enough(problem: Problem, gap, touching, saturated):
 
 
 def equilibrium(problem: Problem, force, touching, saturated):
-    """Forces with gap zero at the touching nodes, the gap everywhere, and the number of applications of C.
+    """Forces with gap zero at the touching nodes, and the gap everywhere.
 
     The unknown is y = f/sqrt(w), so that nodes of unequal weight are alike. Steps stay orthogonal to sqrt(w), which
     keeps the load. The part of the misfit along sqrt(w) is the approach.
@@ -219,7 +218,7 @@ def equilibrium(problem: Problem, force, touching, saturated):
         residual = shift(root * misfit, root, root2)
         rho, before = residual @ residual, rho
         direction = rho / before * direction - residual
-    return force, misfit - (root**2 @ misfit) / root2, used
+    return force, misfit - (root**2 @ misfit) / root2
 
 
 def shift(vector, root, root2):
@@ -229,7 +228,7 @@ def shift(vector, root, root2):
 
 def finish(problem: Problem, force, steps) -> Contact:
     """Fields and residuals from the forces alone."""
-    iterations, applications, history, status = steps
+    iterations, history, status = steps
     force = np.clip(force, 0, problem.limit)
     displacement = problem.displacement(force)
     saturated = force >= problem.limit
@@ -245,9 +244,7 @@ def finish(problem: Problem, force, steps) -> Contact:
         "complementarity": float(force @ off / (scale * force.sum())),
         "load": float(abs(force.sum() / problem.load - 1)),
     }
-    worst = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else np.inf
-    status = CONVERGED if worst <= problem.tolerance else STAGNATED if status == CONVERGED else status
-    report = SolveReport(
-        SOLVER, status, iterations, worst, problem.tolerance, residuals, tuple(history), applications + 1
-    )
+    report = SolveReport(SOLVER, status, iterations, problem.tolerance, residuals, tuple(history))
+    status = CONVERGED if report.residual <= problem.tolerance else STAGNATED if status == CONVERGED else status
+    report = replace(report, status=status)
     return Contact(force / problem.weights, gap, displacement, approach, force > 0, saturated, report)

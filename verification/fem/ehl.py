@@ -44,12 +44,7 @@ class LineContact:
     fluid: Fluid
 
     def __post_init__(self):
-        for name, unit in (
-            ("load_per_width", "N/m"),
-            ("radius", "m"),
-            ("e_prime", "Pa"),
-            ("entrainment_speed", "m/s"),
-        ):
+        for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa"), ("entrainment_speed", "m/s")):
             if not 0 < getattr(self, name) < math.inf:
                 raise InputError(f"{name} = {getattr(self, name)} {unit}; allowed: a finite number > 0")
 
@@ -71,13 +66,8 @@ class LineContact:
     @property
     def speed_parameter(self) -> float:
         """lambda = 12 eta0 U R^2/(b^3 p_h)."""
-        return (
-            12
-            * self.fluid.viscosity
-            * self.entrainment_speed
-            * self.radius**2
-            / (self.half_width**3 * self.hertz_pressure)
-        )
+        drag = 12 * self.fluid.viscosity * self.entrainment_speed * self.radius**2
+        return drag / (self.half_width**3 * self.hertz_pressure)
 
     @property
     def load_number(self) -> float:
@@ -192,20 +182,8 @@ def solve_ehl(
             start, _, _ = newton(body, replace(film, upwind=1.0), start, ROUGH, max_iterations)
             end, flow, report = newton(body, film, start, tolerance, max_iterations)
             report = replace(report, notes=("started again from the first-order upwind solution on this mesh",))
-        solutions.append(
-            Solution(
-                contact,
-                layout,
-                body,
-                film,
-                end.u,
-                end.P,
-                film_thickness(body, end),
-                end.H0,
-                flow * contact.film_unit,
-                report,
-            )
-        )
+        fields = (end.u, end.P, film_thickness(body, end), end.H0)
+        solutions.append(Solution(contact, layout, body, film, *fields, flow * contact.film_unit, report))
         if raise_on_failure:
             report.raise_if_failed(solutions[-1])
         if not report.converged:

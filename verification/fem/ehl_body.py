@@ -16,12 +16,12 @@ from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
-import skfem
-from scipy.sparse.linalg import SuperLU, splu
+from scipy.sparse.linalg import SuperLU
 from scipy.spatial import cKDTree
 from skfem import Basis, BilinearForm, ElementLineP2, ElementTriP2, ElementVector, MeshLine, MeshTri
-from skfem.helpers import sym_grad
-from skfem.models.elasticity import lame_parameters, linear_elasticity, linear_stress
+from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+from .triangles import factorised, graded, section_stress
 
 POISSON = 0.3
 YOUNG = 2 * (1 - POISSON**2)
@@ -57,19 +57,15 @@ def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
     """
     half = layout.side / 2
     mesh = MeshTri.init_tensor(np.linspace(-half, half, 9), np.linspace(-layout.side, 0, 9))
-    while True:
-        corners = mesh.p[:, mesh.t]
-        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
+
+    def allowed(corners):
         distance = np.min([np.hypot(corners[0] - e, corners[1]).min(axis=0) for e in layout.edges], axis=0)
-        large = np.flatnonzero(longest > np.hypot(layout.fine, layout.growth * distance))
-        if not large.size:
-            break
-        mesh = mesh.refined(large)
+        return np.hypot(layout.fine, layout.growth * distance)
+
+    mesh = graded(mesh, allowed)
     x = np.sort(mesh.p[0, np.abs(mesh.p[1]) < NEAR * layout.side])
     return mesh, replace(
-        layout,
-        inlet=float(x[np.searchsorted(x, layout.inlet) - 1]),
-        outlet=float(x[np.searchsorted(x, layout.outlet)]),
+        layout, inlet=float(x[np.searchsorted(x, layout.inlet) - 1]), outlet=float(x[np.searchsorted(x, layout.outlet)])
     )
 
 
@@ -101,7 +97,7 @@ class Body:
     @cached_property
     def factors(self) -> SuperLU:
         """Factors of the stiffness alone."""
-        return splu(self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        return factorised(self.stiffness)
 
     @cached_property
     def order(self) -> np.ndarray:
@@ -120,10 +116,7 @@ class Body:
 
     def stress(self, displacement: np.ndarray) -> np.ndarray:
         """(3, vertices): sigma_xx, sigma_zz, sigma_xz, projected on continuous linear functions."""
-        field = self.basis.interpolate(self.everywhere(displacement))
-        sigma = linear_stress(*lame_parameters(YOUNG, POISSON))(sym_grad(field))
-        linear = self.basis.with_element(skfem.ElementTriP1())
-        return np.array([linear.project(sigma[i, j]) for i, j in ((0, 0), (1, 1), (0, 1))])
+        return section_stress(self.basis, self.everywhere(displacement), YOUNG, POISSON)
 
 
 def make_body(mesh: MeshTri, layout: Layout) -> Body:

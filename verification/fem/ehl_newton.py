@@ -78,31 +78,15 @@ def newton(
             break
         it = step(body, film, it, at, weights)
     steps = len(history) - 1
-    return (
-        it,
-        at.flow.inflow,
-        SolveReport(
-            "full-system finite-element EHL",
-            status,
-            steps,
-            history[-1],
-            tolerance,
-            residuals,
-            tuple(history),
-            steps,
-        ),
-    )
+    solver = "full-system finite-element EHL"
+    return it, at.flow.inflow, SolveReport(solver, status, steps, tolerance, residuals, tuple(history))
 
 
 def imbalance(body: Body, film: Film, it: Iterate, weights: np.ndarray) -> Imbalance:
     """Residuals of all equations."""
     H = film_thickness(body, it)
-    return Imbalance(
-        H,
-        body.stiffness @ it.u + body.traction @ it.P,
-        assemble(film, it.P, H),
-        float(weights @ it.P / HERTZ_LOAD - 1),
-    )
+    force = body.stiffness @ it.u + body.traction @ it.P
+    return Imbalance(H, force, assemble(film, it.P, H), float(weights @ it.P / HERTZ_LOAD - 1))
 
 
 def measure(body: Body, it: Iterate, at: Imbalance) -> dict[str, float]:
@@ -135,26 +119,25 @@ def step(body: Body, film: Film, it: Iterate, at: Imbalance, weights: np.ndarray
     dP = np.where(held, -it.P, 0.0)
     scale = 1 / abs(at.flow.inflow)
     by_P, by_H = scale * at.flow.by_P[free], scale * at.flow.by_H[free]
-    matrix = sp.bmat(
-        [
-            [body.stiffness, body.traction[:, free], None],
-            [-by_H @ body.trace, by_P[:, free], sp.csr_matrix(by_H.sum(axis=1))],
-            [None, sp.csr_matrix(weights[free] / HERTZ_LOAD), None],
-        ],
-        format="csc",
-    )
-    rhs = -np.concatenate(
-        [
-            at.force + body.traction @ dP,
-            scale * at.flow.residual[free] + by_P @ dP,
-            [at.load + weights @ dP / HERTZ_LOAD],
-        ]
-    )
-    change = solve(matrix, rhs, body.order)
+    lost, load = scale * at.flow.residual[free] + by_P @ dP, at.load + weights @ dP / HERTZ_LOAD
+    rhs = -np.concatenate([at.force + body.traction @ dP, lost, [load]])
+    change = solve(tangent(body, by_P[:, free], by_H, free, weights), rhs, body.order)
     du, dH0 = change[: it.u.size], change[-1]
     dP[free] = change[it.u.size : -1]
     share = step_length(film, it.P, dP, at.H, dH0 - body.trace @ du)
     return Iterate(it.u + share * du, it.P + share * dP, it.H0 + share * dH0, held)
+
+
+def tangent(body: Body, by_P, by_H, free: np.ndarray, weights: np.ndarray) -> sp.csc_matrix:
+    """The matrix of the whole system for changes of u, of P at the ``free`` degrees of freedom, and of H0."""
+    return sp.bmat(
+        [
+            [body.stiffness, body.traction[:, free], None],
+            [-by_H @ body.trace, by_P, sp.csr_matrix(by_H.sum(axis=1))],
+            [None, sp.csr_matrix(weights[free] / HERTZ_LOAD), None],
+        ],
+        format="csc",
+    )
 
 
 def solve(matrix: sp.csc_matrix, rhs: np.ndarray, order: np.ndarray) -> np.ndarray:
@@ -170,8 +153,5 @@ def step_length(film: Film, P, dP, H, dH) -> float:
     """The share of a step after which no viscosity has changed, and no film has shrunk, by more than the limits say."""
     growth = np.abs(film.log_viscosity(np.maximum(P + dP, 0)) - film.log_viscosity(np.maximum(P, 0))).max()
     shrinking = float(np.max(-dH[H > 0] / H[H > 0], initial=0.0))
-    return min(
-        1.0,
-        LARGEST_GROWTH / max(growth, LARGEST_GROWTH),
-        (1 - SMALLEST_SHARE) / max(shrinking, 1 - SMALLEST_SHARE),
-    )
+    most = 1 - SMALLEST_SHARE
+    return min(1.0, LARGEST_GROWTH / max(growth, LARGEST_GROWTH), most / max(shrinking, most))

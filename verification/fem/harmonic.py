@@ -12,16 +12,18 @@ symmetric. Along y cells are points of a trigonometric series, as in any contact
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 from scipy import fft
-from scipy.sparse.linalg import splu
 from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri
 
 from .compliance import Elastic
+from .contact import Contact, solve_contact
 from .report import InputError
+from .triangles import factorised, graded
 
 
 @dataclass(frozen=True)
@@ -75,10 +77,35 @@ class Compliance:
         waves = fft.rfft(pressure, axis=1)
         return fft.irfft(np.einsum("mij,jm->im", self.harmonics, waves), n=self.strip.shape[1], axis=1)
 
-    @property
-    def coefficients(self) -> np.ndarray:
-        """(ny, nx, nx): displacement of cell (i, j + n) under 1 Pa on cell (i', j), at [n, i, i']."""
-        return fft.irfft(self.harmonics, n=self.strip.shape[1], axis=0)
+
+def press(
+    compliance: Compliance,
+    gap0: np.ndarray,
+    load_per_width: float,
+    *,
+    hardness: float = math.inf,
+    raise_on_failure: bool = True,
+    **options,
+) -> Contact:
+    """`contact.solve_contact` of the strip: ``gap0`` and the fields of the result are (nx, ny), the load is in N/m."""
+    (nx, ny), (dx, dy) = compliance.strip.shape, compliance.strip.spacing
+    if gap0.shape != (nx, ny) or not 0 < load_per_width < hardness * nx * dx:
+        raise InputError(
+            f"gap0 has shape {gap0.shape}, load_per_width = {load_per_width} N/m; allowed: {(nx, ny)}, "
+            f"0 to {hardness * nx * dx:g}"
+        )
+
+    def displacement(force: np.ndarray) -> np.ndarray:
+        return compliance.apply(force.reshape(nx, ny) / (dx * dy)).ravel()
+
+    limit, cells = hardness if math.isfinite(hardness) else None, np.full(gap0.size, dx * dy)
+    asked = {"limit": limit, "raise_on_failure": False} | options
+    found = solve_contact(displacement, cells, gap0.ravel(), load_per_width * ny * dy, **asked)
+    fields = ("pressure", "gap", "displacement", "touching", "saturated")
+    result = replace(found, **{name: getattr(found, name).reshape(nx, ny) for name in fields})
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result
 
 
 def compliance(strip: Strip) -> Compliance:
@@ -96,11 +123,6 @@ def compliance(strip: Strip) -> Compliance:
     return Compliance(strip, np.array(harmonics), free.size)
 
 
-def factorised(matrix):
-    """Sparse LU of a symmetric positive definite matrix."""
-    return splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-
-
 def graded_mesh(strip: Strip) -> MeshTri:
     """Triangles, split until none is longer than ``hypot(diagonal of the finest, growth * distance from the
     patch)``."""
@@ -108,15 +130,12 @@ def graded_mesh(strip: Strip) -> MeshTri:
     side = dx * 2**strip.side
     mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))
     fine = 1.001 * np.sqrt(2) * dx / 2**strip.fineness
-    while True:
-        corners = mesh.p[:, mesh.t]
-        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
+
+    def allowed(corners):
         aside = np.maximum(np.abs(corners[0]) - strip.half, 0)
-        distance = np.hypot(aside, corners[1]).min(axis=0)
-        large = np.flatnonzero(longest > np.hypot(fine, strip.growth * distance))
-        if not large.size:
-            return mesh
-        mesh = mesh.refined(large)
+        return np.hypot(fine, strip.growth * np.hypot(aside, corners[1]).min(axis=0))
+
+    return graded(mesh, allowed)
 
 
 def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple:

@@ -11,13 +11,13 @@ from functools import cached_property
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.linalg import SuperLU, splu
+from scipy.sparse.linalg import SuperLU
 from skfem import Basis, ElementTriP1, ElementTriP2, ElementVector, LinearForm, MeshTri
-from skfem.helpers import sym_grad
-from skfem.models.elasticity import lame_parameters, linear_elasticity, linear_stress
+from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from .compliance import Elastic
 from .report import InputError
+from .triangles import factorised, graded, section_stress
 
 ELEMENTS = {1: ElementTriP1, 2: ElementTriP2}
 NEAR = 1e-9  # of the thickness: the same point
@@ -57,7 +57,7 @@ class Layer:
     @cached_property
     def factors(self) -> SuperLU:
         """Factors of the stiffness."""
-        return splu(self.stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        return factorised(self.stiffness)
 
     def response(self, force) -> np.ndarray:
         """All unknowns under nodal forces (n,) or (n, m), N per metre of depth; checked to 1e-9."""
@@ -85,10 +85,7 @@ class Layer:
 
     def stress(self, force) -> np.ndarray:
         """(3, vertices) sigma_xx, sigma_zz, sigma_xz in Pa, projected on continuous linear functions."""
-        field = self.basis.interpolate(self.spread @ self.response(force))
-        sigma = linear_stress(*lame_parameters(self.body.young, self.body.poisson))(sym_grad(field))
-        linear = self.basis.with_element(ElementTriP1())
-        return np.array([linear.project(sigma[i, j]) for i, j in ((0, 0), (1, 1), (0, 1))])
+        return section_stress(self.basis, self.spread @ self.response(force), self.body.young, self.body.poisson)
 
 
 def graded_mesh(width: float, thickness: float, strip: float, fine: float, growth: float = 0.4) -> MeshTri:
@@ -104,17 +101,15 @@ def graded_mesh(width: float, thickness: float, strip: float, fine: float, growt
         )
     cells = np.maximum(1, np.round(np.array([width / 2, thickness]) / min(width / 2, thickness))).astype(int)
     mesh = MeshTri.init_tensor(np.linspace(0, width / 2, cells[0] + 1), np.linspace(-thickness, 0, cells[1] + 1))
-    while True:
-        corners = mesh.p[:, mesh.t]
-        longest = np.max([np.hypot(*(corners[:, i] - corners[:, j])) for i, j in ((0, 1), (1, 2), (2, 0))], axis=0)
-        distance = np.hypot(np.maximum(corners[0] - strip, 0), corners[1]).min(axis=0)
-        large = np.flatnonzero(longest > fine + growth * distance)
-        if not large.size:
-            both = np.hstack([mesh.p, [[-1], [1]] * mesh.p]) + 0.0  # no -0.0, which unique would tell from 0.0
-            points, shared = np.unique(both, axis=1, return_inverse=True)
-            cells = np.hstack([mesh.t, mesh.t + mesh.p.shape[1]])
-            return MeshTri(np.ascontiguousarray(points), np.ascontiguousarray(shared[cells]))
-        mesh = mesh.refined(large)
+
+    def allowed(corners):
+        return fine + growth * np.hypot(np.maximum(corners[0] - strip, 0), corners[1]).min(axis=0)
+
+    mesh = graded(mesh, allowed)
+    both = np.hstack([mesh.p, [[-1], [1]] * mesh.p]) + 0.0  # no -0.0, which unique would tell from 0.0
+    points, shared = np.unique(both, axis=1, return_inverse=True)
+    cells = np.hstack([mesh.t, mesh.t + mesh.p.shape[1]])
+    return MeshTri(np.ascontiguousarray(points), np.ascontiguousarray(shared[cells]))
 
 
 def make_layer(
@@ -146,14 +141,7 @@ def make_layer(
     chosen = vertical[inside][np.argsort(x[inside])]
     unknowns = spread[chosen].tocsr().indices
     return Layer(
-        body,
-        right - left,
-        -bottom,
-        basis,
-        spread,
-        basis.doflocs[0, chosen],
-        (spread.T @ weights)[unknowns],
-        unknowns,
+        body, right - left, -bottom, basis, spread, basis.doflocs[0, chosen], (spread.T @ weights)[unknowns], unknowns
     )
 
 

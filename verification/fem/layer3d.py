@@ -21,10 +21,7 @@ from .compliance import Elastic
 from .report import CONVERGED, ITERATION_LIMIT, InputError, SolveReport
 
 ELEMENTS = {1: ElementHex1, 2: ElementHex2}
-RULES = {
-    1: np.array([1.0]),
-    2: np.array([1 / 3, 2 / 3]),
-}  # share of a cell's width by node, trapezoid and Simpson
+RULES = {1: np.array([1.0]), 2: np.array([1 / 3, 2 / 3])}  # share of a cell's width by node, trapezoid and Simpson
 
 
 @dataclass(frozen=True)
@@ -54,13 +51,8 @@ class Layer3D:
                 f"shape = {self.shape}, degree = {self.degree}; allowed: degree 1 or 2, "
                 "nodes a multiple of the degree, two cells at least"
             )
-        if not (
-            min(self.size) > 0
-            and levels.ndim == 1
-            and levels.size > 1
-            and np.all(np.diff(levels) > 0)
-            and levels[-1] == 0
-        ):
+        ascending = levels.ndim == 1 and levels.size > 1 and np.all(np.diff(levels) > 0) and levels[-1] == 0
+        if not (min(self.size) > 0 and ascending):
             raise InputError(f"size = {self.size}, levels = {levels}; allowed: lengths > 0, levels ascending to 0")
 
     @property
@@ -161,23 +153,11 @@ def rigid_body_modes(layer: Layer3D) -> np.ndarray:
     A rotation does not fit together across the period. But each aggregate of nodes needs it only locally.
     """
     x, y = layer.x
-    z = np.array(
-        [
-            a + (b - a) * j / layer.degree
-            for a, b in zip(layer.levels, layer.levels[1:], strict=False)
-            for j in range(1, layer.degree + 1)
-        ]
-    )
+    q = layer.degree
+    z = np.interp(np.arange(1, layer.planes + 1) / q, np.arange(layer.levels.size), layer.levels)
     x, y, z = (c - c.mean() for c in np.broadcast_arrays(x[None], y[None], z[:, None, None]))
     one, none = np.ones_like(x), np.zeros_like(x)
-    modes = [
-        (one, none, none),
-        (none, one, none),
-        (none, none, one),
-        (none, -z, y),
-        (z, none, -x),
-        (-y, x, none),
-    ]
+    modes = [(one, none, none), (none, one, none), (none, none, one), (none, -z, y), (z, none, -x), (-y, x, none)]
     B = np.array([np.stack(m, axis=-1).ravel() for m in modes]).T
     return B / np.linalg.norm(B, axis=0)
 
@@ -213,22 +193,13 @@ def multigrid(layer: Layer3D, modes: np.ndarray | None = None) -> Multigrid:
     matrix = stiffness(layer)
     B = rigid_body_modes(layer) if modes is None else modes
     hierarchy = pyamg.smoothed_aggregation_solver(
-        matrix,
-        B=B,
-        strength=("symmetric", {"theta": 0.0}),
-        smooth=("jacobi", {"omega": 4 / 3}),
-        max_coarse=50,
+        matrix, B=B, strength=("symmetric", {"theta": 0.0}), smooth=("jacobi", {"omega": 4 / 3}), max_coarse=50
     )
     return Multigrid(layer, matrix, hierarchy)
 
 
 def solve(
-    grid: Multigrid,
-    force,
-    *,
-    tolerance: float = 1e-8,
-    max_iterations: int = 100,
-    raise_on_failure: bool = True,
+    grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: int = 100, raise_on_failure: bool = True
 ) -> Solved:
     """Displacement of the assembled layer under nodal surface forces (nx, ny) in N, downwards.
 
@@ -244,21 +215,14 @@ def solve(
     surface[-1, :, :, 2] = -force
     load = surface.ravel()
     history: list[float] = []
-    found, info = grid.hierarchy.solve(
-        load, tol=0.1 * tolerance, maxiter=max_iterations, accel="cg", residuals=history, return_info=True
-    )
-    residual = float(np.linalg.norm(load - grid.matrix @ found) / np.linalg.norm(load))
+    limits = {"tol": 0.1 * tolerance, "maxiter": max_iterations}
+    found, info = grid.hierarchy.solve(load, **limits, accel="cg", residuals=history, return_info=True)
+    scale = float(np.linalg.norm(load))
+    residual = float(np.linalg.norm(load - grid.matrix @ found)) / scale
     status = CONVERGED if residual <= tolerance else ITERATION_LIMIT
-    report = SolveReport(
-        "smoothed aggregation, conjugate gradients",
-        status,
-        len(history) - 1,
-        residual,
-        tolerance,
-        {"equilibrium": residual},
-        tuple(r / float(np.linalg.norm(load)) for r in history),
-        notes=(f"pyamg info {info}", f"{layer.unknowns} unknowns"),
-    )
+    solver, past = "smoothed aggregation, conjugate gradients", tuple(r / scale for r in history)
+    notes = (f"pyamg info {info}", f"{layer.unknowns} unknowns")
+    report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past, notes)
     solved = Solved(found.reshape(layer.planes, *layer.shape, 3), report)
     if raise_on_failure:
         report.raise_if_failed(solved)

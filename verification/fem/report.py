@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+import math
+from dataclasses import dataclass
 
 CONVERGED = "converged"
 ITERATION_LIMIT = "iteration_limit"
@@ -35,22 +36,24 @@ class SolveReport:
     solver : name of the algorithm
     status : "converged", "iteration_limit", "stagnated" or "diverged"
     iterations : outer iterations taken
-    residual, tolerance : dimensionless
+    tolerance : dimensionless, as the residuals
     residuals : final value of each measured residual by name
     history : largest residual after each iteration
-    evaluations : linear solves or inner iterations
     notes : choices made on the way that a reader of the result should know
     """
 
     solver: str
     status: str
     iterations: int
-    residual: float
     tolerance: float
-    residuals: dict[str, float] = field(default_factory=dict)
+    residuals: dict[str, float]
     history: tuple[float, ...] = ()
-    evaluations: int = 0
     notes: tuple[str, ...] = ()
+
+    @property
+    def residual(self) -> float:
+        """The largest of the residuals; infinite where one is not a number."""
+        return max((r if math.isfinite(r) else math.inf) for r in self.residuals.values())
 
     @property
     def converged(self) -> bool:
@@ -69,7 +72,3 @@ class SolveReport:
         """Raise `SolveError` with this report and ``result`` unless the solve converged."""
         if not self.converged:
             raise SolveError(self.message, self, result)
-
-    def as_dict(self) -> dict:
-        """Plain types only, ready for JSON."""
-        return asdict(self) | {"converged": self.converged}

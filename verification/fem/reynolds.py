@@ -40,8 +40,8 @@ class Problem:
 
     Attributes
     ----------
-    mesh : scikit-fem mesh of lines, triangles or quadrilaterals; x (first coordinate) is the direction of
-    motion film : film thickness in m at coordinates x of shape (dim, ...)
+    mesh : scikit-fem mesh of lines, triangles or quadrilaterals; x (first coordinate) is the direction of motion
+    film : film thickness in m at coordinates x of shape (dim, ...)
     fluid : viscosity and density laws
     speed : entrainment speed U >= 0
     degree : 1 (P1, Q1) or 2 (P2, Q2)
@@ -258,16 +258,8 @@ def solve_reynolds(
         if len(history) > max_iterations:
             break
         p = p + newton_step(problem, matrix, r, p, held, cavitated)
-    report = SolveReport(
-        "Reynolds finite elements",
-        status,
-        len(history) - 1,
-        history[-1],
-        tolerance,
-        residuals,
-        tuple(history),
-        len(history) - 1,
-    )
+    steps = len(history) - 1
+    report = SolveReport("Reynolds finite elements", status, steps, tolerance, residuals, tuple(history))
     solution = Solution(problem, basis, p, r, report)
     if raise_on_failure:
         report.raise_if_failed(solution)
@@ -332,11 +324,7 @@ def boundary_dofs(problem: Problem, basis: Basis) -> np.ndarray:
 def given_fields(problem: Problem, basis: Basis) -> dict:
     """Film, its gradient and the source at the quadrature points."""
     x = basis.global_coordinates()
-    fields = {
-        "film": problem.film(np.asarray(x)),
-        "f": 0.0 * x[0],
-        "size": np.asarray(basis.mesh_parameters()),
-    }
+    fields = {"film": problem.film(np.asarray(x)), "f": 0.0 * x[0], "size": np.asarray(basis.mesh_parameters())}
     if problem.source is not None:
         fields["f"] = problem.source(np.asarray(x))
     if problem.stabilisation != "none":

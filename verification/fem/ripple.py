@@ -10,11 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 
 from .ehl import Solution
 from .ehl_film import assemble
-from .ehl_newton import HERTZ_LOAD, load_weights, solve
+from .ehl_newton import load_weights, solve, tangent
 
 
 @dataclass(frozen=True)
@@ -32,17 +31,9 @@ def ripple(at: Solution, wavelength: float) -> Ripple:
     wave = np.exp(2j * np.pi * body.x * contact.half_width / wavelength)
     flow, weights = assemble(at.film, at.P, at.H), load_weights(body)
     free = np.flatnonzero(at.P > 0)
-    by_P, by_H = flow.by_P[free], flow.by_H[free]
-    matrix = sp.bmat(
-        [
-            [body.stiffness, body.traction[:, free], None],
-            [-by_H @ body.trace, by_P[:, free], sp.csr_matrix(by_H.sum(axis=1))],
-            [None, sp.csr_matrix(weights[free] / HERTZ_LOAD), None],
-        ],
-        format="csc",
-    )
-    forced = by_H @ wave
-    right = np.concatenate([np.zeros(at.displacement.size), forced, [0.0]])
+    by_H = flow.by_H[free]
+    matrix = tangent(body, flow.by_P[free][:, free], by_H, free, weights)
+    right = np.concatenate([np.zeros(at.displacement.size), by_H @ wave, [0.0]])
     change = solve(matrix, np.stack([right.real, right.imag], axis=1), body.order) @ np.array([1.0, 1j])
     u, p, approach = change[: at.displacement.size], change[at.displacement.size : -1], change[-1]
     pressure = np.zeros(at.P.size, dtype=complex)

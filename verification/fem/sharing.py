@@ -16,9 +16,9 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from . import ehl
-from .harmonic import Compliance
+from .contact import Contact
+from .harmonic import Compliance, press
 from .report import CONVERGED, ITERATION_LIMIT, SolveReport
-from .rough import Pressed, press
 
 POINTS = 16  # of the film in a cell of the contact
 PARTS = 10  # of a cell of the film, to integrate shear on
@@ -59,11 +59,9 @@ class Bodies:
         inside = np.clip(self.edges, -self.contact.half_width, self.contact.half_width)
         return np.diff(inside) / np.diff(self.edges)
 
-    def under(self, shape: np.ndarray, load: float, start: Pressed | None) -> Under:
+    def under(self, shape: np.ndarray, load: float) -> Under:
         """The strip pressed with ``load`` (N) under the film's ``shape`` (nx,)."""
-        found = press(
-            self.compliance, shape[:, None] - self.heights, load / self.width, hardness=self.hardness, start=start
-        )
+        found = press(self.compliance, shape[:, None] - self.heights, load / self.width, hardness=self.hardness)
         return Under(np.maximum(found.gap, 0).mean(axis=1), (found.pressure > 0).mean(axis=1), found)
 
 
@@ -96,7 +94,7 @@ class FlatBodies:
         """Weights of the cells: all of them count."""
         return np.ones(self.cells)
 
-    def under(self, shape: np.ndarray, load: float, start: Pressed | None) -> Under:
+    def under(self, shape: np.ndarray, load: float) -> Under:
         """The strip pressed with ``load`` (N), whatever the shape of the film."""
         gap, touching = self.pressed(load / (2 * self.contact.half_width * self.width))
         return Under(np.full(self.cells, gap), np.full(self.cells, touching), None)
@@ -109,7 +107,7 @@ class Under:
 
     gap: np.ndarray
     touching: np.ndarray
-    pressed: Pressed | None
+    pressed: Contact | None
 
 
 @dataclass(frozen=True)
@@ -128,7 +126,7 @@ class Shared:
     mean_film: float
     area: float
     film: ehl.Solution
-    pressed: Pressed | None
+    pressed: Contact | None
     report: SolveReport
 
     @property
@@ -165,7 +163,7 @@ def share_load(
     tried: dict[float, Shared] = {}
 
     def at(split: float) -> float:
-        tried[split] = divided(bodies, split, refinements, tried)
+        tried[split] = divided(bodies, split, refinements)
         return tried[split].residual
 
     def done() -> bool:
@@ -174,16 +172,8 @@ def share_load(
     root(at, done, guess, step)
     history = tuple(abs(s.residual) for s in tried.values())
     status = CONVERGED if min(history) <= tolerance else ITERATION_LIMIT
-    report = SolveReport(
-        "load sharing by finite elements",
-        status,
-        len(history),
-        min(history),
-        tolerance,
-        {"volume": min(history)},
-        history,
-        len(history),
-    )
+    residuals = {"volume": min(history)}
+    report = SolveReport("load sharing by finite elements", status, len(history), tolerance, residuals, history)
     found = replace(best(tried), report=report)
     if raise_on_failure:
         report.raise_if_failed(found)
@@ -220,32 +210,20 @@ def root(f: Callable[[float], float], done: Callable[[], bool], guess: float, st
         b, fb = c, fc
 
 
-def divided(bodies: Bodies | FlatBodies, split: float, refinements: int, tried: dict) -> Shared:
+def divided(bodies: Bodies | FlatBodies, split: float, refinements: int) -> Shared:
     """Film, contact and friction at ln(F_H/F_C) = ``split``."""
     film_load = bodies.load / (1 + math.exp(-split))
     contact_load = bodies.load - film_load
     contact = replace(bodies.contact, load_per_width=film_load / bodies.width)
     film = ehl.solve_ehl(contact, refinements=refinements)[-1]
     shape = cell_means(film, bodies.edges)
-    near = min(tried, key=lambda s: abs(s - split), default=None)
-    under = bodies.under(shape, contact_load, None if near is None else tried[near].pressed)
+    under = bodies.under(shape, contact_load)
     weight = bodies.weight / bodies.weight.sum()
     couette, rolling = (bodies.width * f for f in shear(film, bodies.sliding, bodies.edges, 1 - under.touching))
-    sense = math.copysign(1.0, bodies.sliding)
     boundary = bodies.boundary_friction * contact_load * np.sign(bodies.sliding)
-    return Shared(
-        film_load,
-        contact_load,
-        couette,
-        rolling,
-        float(sense * (boundary + couette + rolling) / bodies.load),
-        float(weight @ under.gap),
-        float(weight @ shape),
-        float(weight @ under.touching),
-        film,
-        under.pressed,
-        film.report,
-    )
+    f = float(math.copysign(1.0, bodies.sliding) * (boundary + couette + rolling) / bodies.load)
+    means = (float(weight @ values) for values in (under.gap, shape, under.touching))
+    return Shared(film_load, contact_load, couette, rolling, f, *means, film, under.pressed, film.report)
 
 
 def cell_means(film: ehl.Solution, edges: np.ndarray) -> np.ndarray:
@@ -262,15 +240,8 @@ def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray
     """
     c, dofs = film.contact, film.body.line.doflocs[0]
     start, end = dofs.min() * c.half_width, rupture(film)
-    x = np.unique(
-        np.concatenate(
-            [
-                np.linspace(a, b, PARTS, endpoint=False)
-                for a, b in zip(*film.body.line.mesh.p[0][film.body.line.mesh.t] * c.half_width, strict=True)
-            ]
-            + [edges, [end]]
-        )
-    )
+    ends = film.body.line.mesh.p[0][film.body.line.mesh.t] * c.half_width
+    x = np.unique([*np.linspace(*ends, PARTS, endpoint=False).ravel(), *edges, end])
     x = x[(x > start) & (x <= end)]
     middle = 0.5 * (x[1:] + x[:-1])
     p, h = film.at(middle)
@@ -294,9 +265,9 @@ def rupture(film: ehl.Solution) -> float:
     c, order = film.contact, np.argsort(film.body.x)
     x, H = film.body.x[order] * c.half_width, film.H[order] * c.film_unit
     thinnest = int(H.argmin())
-    return brentq(
-        lambda at: float(film.at(np.array([at]))[1][0]) - film.flow_film,
-        x[thinnest],
-        x[thinnest + np.flatnonzero(H[thinnest:] > film.flow_film)[0]],
-        xtol=1e-6 * c.half_width,
-    )
+    beyond = thinnest + np.flatnonzero(H[thinnest:] > film.flow_film)[0]
+
+    def excess(at: float) -> float:
+        return float(film.at(np.array([at]))[1][0]) - film.flow_film
+
+    return brentq(excess, x[thinnest], x[beyond], xtol=1e-6 * c.half_width)

@@ -10,12 +10,17 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
+from scipy.optimize import brentq
 
 from lubfric.contact import ContactCurve
 from lubfric.film import shear_force, solve_ehl
-from lubfric.scene import Scene
+from lubfric.scene.scene import Scene
+
+from ..cases import case_of_scene
 
 SHARES = np.geomspace(1e-4, 1.0, 13)  # F_H/F_T of the table
 POINTS = 128
@@ -37,8 +42,6 @@ class FilmTable:
     @cached_property
     def fine(self) -> tuple[np.ndarray, np.ndarray]:
         """ln(F_H/F_T), and there ln film, ln shear and the strip's part of the shear, interpolated by cubics."""
-        from scipy.interpolate import PchipInterpolator
-
         x = np.linspace(np.log(SHARES[0]), 0.0, FINE)
         nodes = np.stack([np.log(self.film), np.log(self.shear), self.strip_shear / self.shear])
         return x, PchipInterpolator(np.log(SHARES), nodes, axis=1)(x)
@@ -101,62 +104,40 @@ def film_tables(scene: Scene, speed: float, *, scaled: bool, laws) -> list[FilmT
     x = (np.arange(POINTS) + 0.5 - POINTS / 2) * 2 * half / POINTS
     films, start = [], None
     for share in SHARES[::-1]:
-        start = solve_ehl(
-            load_per_width=b.load * share / b.width,
-            radius=b.radius,
-            e_prime=b.e_prime * (share if scaled else 1.0),
-            entrainment_speed=speed,
-            viscosity=lubricant.viscosity,
-            pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
-            viscosity_law=lubricant.viscosity_law,
-            density_law=lubricant.density_law,
-            tolerance=3e-3,
-            start=start,
-        )
+        case = case_of_scene(scene, b.load * share, speed) | {"e_prime": b.e_prime * (share if scaled else 1.0)}
+        start = solve_ehl(**case, tolerance=3e-3, start=start)
         films.append(start)
     films = films[::-1]
     thickness = np.array([film.film_at(x).mean() for film in films])
     tables = []
+
+    def none(x):
+        return 0 * x[1:]
+
+    def strip(x):
+        return np.diff(np.clip(x, -half, half)) / np.diff(x)
+
     for law in laws:
-        oil = replace(lubricant, **law)
+        keys: dict[str, Any] = {"slide_roll_ratio": scene.motion.slide_roll_ratio, "width": b.width}
         forces = [
             [
-                shear_force(
-                    film,
-                    oil,
-                    slide_roll_ratio=scene.motion.slide_roll_ratio,
-                    width=b.width,
-                    contact_fraction=fraction,
-                ).total
-                / b.load
-                for fraction in (lambda x: 0 * x[1:], lambda x: np.diff(np.clip(x, -half, half)) / np.diff(x))
+                shear_force(film, replace(lubricant, **law), contact_fraction=part, **keys).total
+                for part in (none, strip)
             ]
             for film in films
         ]
-        whole, outside = np.array(forces).T
+        whole, outside = np.array(forces).T / b.load
         tables.append(FilmTable(thickness, whole, whole - outside))
     return tables
 
 
-@dataclass(frozen=True)
-class Shared:
-    """One balanced point: friction coefficient, film share F_H/F_T and contact area fraction, NaN where the load cannot
-    be carried."""
-
-    coefficient: float
-    film_share: float
-    contact_fraction: float
-
-
-def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_friction: float) -> Shared:
-    """Balance load and volume.
+def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_friction: float) -> tuple[float, float]:
+    """(f, F_H/F_T) of the balance of load and volume, NaN where the load cannot be carried.
 
     The mean gap of the contact curve is the mean film, and the contact pressure is the total less the film's share.
     """
-    from scipy.optimize import brentq
-
     if table.film_at(1.0) >= curve.touching_gap:
-        return Shared(table.shear_at(1.0, 0.0), 1.0, 0.0)
+        return table.shear_at(1.0, 0.0), 1.0
     most = curve.most
     least_share = max(1 - most / mean_pressure, SHARES[0]) * (1 + 1e-12)
 
@@ -166,11 +147,11 @@ def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_fric
 
     low, high = math.log(least_share / (1 - least_share)), 25.0
     if surplus(low) > 0:  # the model carries too little even with the thickest film it allows
-        return Shared(math.nan, math.nan, math.nan)
+        return math.nan, math.nan
     split = brentq(surplus, low, high, xtol=1e-7)
     film_share = 1 / (1 + math.exp(-split))
     touching = curve.at(min((1 - film_share) * mean_pressure, most))[1]
-    return Shared(boundary_friction * (1 - film_share) + table.shear_at(film_share, touching), film_share, touching)
+    return boundary_friction * (1 - film_share) + table.shear_at(film_share, touching), film_share
 
 
 def deviation(asperity, half_space) -> tuple[float, int]:

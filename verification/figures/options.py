@@ -7,9 +7,9 @@ import numpy as np
 import lubfric
 
 from ..check import AT_MOST, Check
-from .draw import axes, png
+from ..kept import Run
+from ..plotting import axes
 from .page import PaperFigure
-from .spread import spread
 
 OIL = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05}
 PATCH = {"sampling": "patch"}  # the paper's own
@@ -33,18 +33,19 @@ DEFLECTIONS = {
 }
 
 
-def curve(name, deflection, speeds):
-    """(coefficient, film load share) over speed."""
+def curve(case) -> tuple[list[float], list[float]]:
+    """(coefficient, film load share) of a scene with a deflection over speed."""
+    name, deflection, speeds = case
     scene = SCENES[name].with_(numerics={"film_deflection": deflection, "accept": True})  # also beyond the oil laws
     found = lubfric.stribeck(scene, speeds)
-    return found.coefficient, found.film_load / scene.bodies.load
+    return found.coefficient.tolist(), (found.film_load / scene.bodies.load).tolist()
 
 
-def film_deflection(quick: bool) -> PaperFigure:
+def film_deflection(quick: bool, run: Run) -> PaperFigure:
     """Friction and film load with the film deformed by its own pressure or by the whole load."""
     speeds = {name: np.geomspace(*ends, 4 if quick else 13) for name, ends in SPEEDS.items()}
-    cases = [(name, deflection, speeds[name]) for name in SCENES for deflection in DEFLECTIONS]
-    found = dict(zip([c[:2] for c in cases], spread(curve, cases, quick)))
+    cases = {f"{name}, {key}": (name, key, speeds[name]) for name in SCENES for key in DEFLECTIONS}
+    found = {case[:2]: np.array(row, dtype=float) for case, row in run.solved(cases, curve)}
     canvas, grid = axes(2, 3, width=12.5, height=6.2, sharex="col")
     rows, most = [], {}
     for column, name in zip(grid.T, SCENES):
@@ -53,8 +54,9 @@ def film_deflection(quick: bool) -> PaperFigure:
             column[0].semilogx(speeds[name], f, style, ms=4, label=label)
             column[1].loglog(speeds[name], share, style, ms=4, label=label)
             rows += [(name, key, float(u), float(a), float(b)) for u, a, b in zip(speeds[name], f, share)]
-        f, share = (np.array(v) for v in zip(*(found[name, key] for key in DEFLECTIONS)))
-        most[name] = [(100 * np.max(np.abs(f[i] / f[0] - 1)), *_ends(share[i] / share[0])) for i in (1, 2)]
+        f, share = np.array([found[name, key] for key in DEFLECTIONS]).swapaxes(0, 1)
+        changes, ratios = 100 * np.abs(f[1:] / f[0] - 1).max(axis=1), share[1:] / share[0]
+        most[name] = list(zip(changes, ratios.min(axis=1), ratios.max(axis=1)))
         column[0].set(title=name, ylabel="friction coefficient (-)", ylim=(0, None))
         column[1].set(xlabel="entrainment speed U (m/s)", ylabel="$F_H/F_T$ (-)")
     grid[0, 0].legend(fontsize=8)
@@ -75,9 +77,8 @@ def film_deflection(quick: bool) -> PaperFigure:
         "not have one shape.\n\nAt a high load and a small film share, the film's own pressure cannot flatten the "
         "gap. The mean over the strip then is that of the undeformed parabola, and the friction does not tend to that "
         "of the boundary. Under both other options it does. The flat strip has no contact pressure along x of its "
-        'own. The key is `numerics.film_deflection`. `"auto"`, the default, keeps the film\'s own pressure where '
-        'that hardly changes f, and takes `"scaled"` elsewhere.',
-        png(canvas),
+        "own. The key is `numerics.film_deflection`.",
+        canvas,
         {"film": (("scene", "deflection", "speed [m/s]", "f [-]", "F_H/F_T [-]"), rows)},
         (
             Check(
@@ -90,7 +91,3 @@ def film_deflection(quick: bool) -> PaperFigure:
             ),
         ),
     )
-
-
-def _ends(values) -> tuple[float, float]:
-    return float(np.min(values)), float(np.max(values))

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import dataclass, field
+from collections.abc import Iterable
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from ..check import Check
-from ..tables.source import source
+from .. import plotting
+from ..check import Check, Figure
+from ..tables.pages import source
 
 DOCUMENT = """# The figures of the paper, computed here
 
@@ -27,7 +30,7 @@ class PaperFigure:
     ----------
     name, title : stem of its files, and its heading
     agrees, differs : what agrees with the paper; what does not, and why
-    picture : bytes of a PNG
+    canvas : the drawn figure
     tables : {stem: (headings with units, rows)}, each written as a CSV file
     checks : what has to hold whatever the paper shows
     """
@@ -36,29 +39,31 @@ class PaperFigure:
     title: str
     agrees: str
     differs: str
-    picture: bytes
-    tables: dict[str, tuple[tuple[str, ...], list[tuple]]] = field(default_factory=dict)
-    checks: tuple[Check, ...] = ()
+    canvas: Any
+    tables: dict[str, tuple[tuple[str, ...], list[tuple]]]
+    checks: tuple[Check, ...]
 
 
-def write_document(folder: Path, sections: dict[str, str], pictures: dict[str, bytes]) -> None:
-    """Write figures.md from its ``sections``, with the pictures in images/, into the documents of the project."""
-    images = folder / "images"
-    images.mkdir(parents=True, exist_ok=True)
-    for name, picture in pictures.items():
-        (images / f"{name}.png").write_bytes(picture)
-    told = source("python -m verification figures --docs docs")
-    (folder / "figures.md").write_text(DOCUMENT + "\n".join(sections.values()) + f"\n{told}\n", encoding="utf-8")
-
-
-def markdown(figure: PaperFigure, images: str = "images/") -> str:
-    """The section of one figure; ``images`` is the folder of the picture."""
+def picture(figure: PaperFigure) -> Figure:
+    """The picture, small enough for the documents, with its section of the page as caption."""
     data = ", ".join(f"`{stem}.csv`" for stem in figure.tables)
-    return (
-        f"## {figure.title}\n\n![{figure.title}]({images}{figure.name}.png)\n\n"
+    section = (
+        f"## {figure.title}\n\n![{figure.title}](images/{figure.name}.png)\n\n"
         f"{wrapped(f'**Agrees.** {figure.agrees}')}\n\n"
         f"{wrapped(f'**Differs, and why.** {figure.differs}')}\n\nData: {data}.\n"
     )
+    return plotting.compact(plotting.finish(figure.name, figure.canvas, section, "png", dpi=90), 144)
+
+
+def write(folder: Path, figures: Iterable[Figure]) -> None:
+    """Write figures.md, with the pictures in images/, into the documents of the project."""
+    (folder / "images").mkdir(parents=True, exist_ok=True)
+    sections = []
+    for figure in figures:
+        (folder / "images" / f"{figure.name}.png").write_bytes(figure.data)
+        sections.append(figure.caption)
+    last = source("python -m verification figures --docs docs")
+    (folder / "figures.md").write_text(DOCUMENT + "\n".join(sections) + f"\n{last}\n", encoding="utf-8")
 
 
 def wrapped(text: str) -> str:

@@ -6,10 +6,12 @@ import math
 
 import numpy as np
 
-from lubfric.contact import find_asperities, solve_contact
+from lubfric.contact import find_asperities
+from lubfric.contact.solve import solve_contact
 
 from ..check import AT_LEAST, AT_MOST, Check
-from .draw import axes, image, png
+from ..kept import Run
+from ..plotting import axes, image
 from .page import PaperFigure
 
 RADIUS, HEIGHT, E_PRIME = 30e-6, 500e-9, 231e9
@@ -38,9 +40,8 @@ def approaches(distance: float, loads, cell: float = CELL) -> tuple[np.ndarray, 
     heights, step = unit_cell(distance, cell)
     free, start = [], None
     for load in loads:
-        start = solve_contact(
-            HEIGHT - heights, step, E_PRIME, mean_pressure=load / distance**2, tolerance=1e-6, start=start
-        )
+        asked = {"mean_pressure": load / distance**2, "tolerance": 1e-6, "start": start}
+        start = solve_contact(HEIGHT - heights, step, E_PRIME, **asked)
         free.append(start.approach)
     return np.array(free), np.array(free) + MEAN_OF_BOX * np.asarray(loads) / distance**2 * BOX / E_PRIME
 
@@ -50,7 +51,7 @@ def hertz_load(approach):
     return 2 / 3 * E_PRIME * np.sqrt(RADIUS) * np.asarray(approach) ** 1.5
 
 
-def sphere_array(quick: bool) -> PaperFigure:
+def sphere_array(quick: bool, run: Run) -> PaperFigure:
     """Load per asperity against the approach below first touch, by both models and with both conventions."""
     loads = np.geomspace(5e-4, 2e-2, 4 if quick else 9)
     cell = 4 * CELL if quick else CELL
@@ -60,39 +61,31 @@ def sphere_array(quick: bool) -> PaperFigure:
     side = 3 * heights.shape[0] * step * 1e6
     image(canvas, sketch, np.tile(heights, (3, 3)) * 1e9, (0, side, 0, side), "z (nm)", cmap="cividis")
     sketch.set(title="Fig. 3: part of the array, 20 µm apart", xlabel="x (µm)", ylabel="y (µm)")
-    rows, ratio = [], {}
+    rows, grows, falls, worst = [], [], [], 0.0
     for distance in SPACINGS:
         free, held = approaches(distance, loads, cell)
-        heights, step = unit_cell(distance, cell)
-        found = find_asperities(heights, step, E_PRIME, definition="summits")
+        found = find_asperities(*unit_cell(distance, cell), E_PRIME, definition="summits")
         alone = np.array([found.at(HEIGHT - a).load for a in free])
-        label = f"{distance * 1e6:g} µm"
-        asperities.plot(free * 1e9, alone * 1e3, "o-", label=label)
-        left_out.plot(free * 1e9, loads * 1e3, "o-", label=label)
-        kept.plot(held * 1e9, loads * 1e3, "o-", label=label)
+        for ax, approach, load in ((asperities, free, alone), (left_out, free, loads), (kept, held, loads)):
+            ax.plot(approach * 1e9, load * 1e3, "o-", label=f"{distance * 1e6:g} µm")
         rows += [(distance, *row) for row in zip(loads.tolist(), free.tolist(), held.tolist(), alone.tolist())]
-        ratio[distance] = (
-            float(np.median(loads / hertz_load(free))),
-            float(np.median(loads / hertz_load(held))),
-            float(np.max(np.abs(alone / hertz_load(free) - 1))),
-        )
-    for ax, title in (
-        (asperities, "asperity model (any spacing)"),
-        (left_out, "half-space, mean deflection left out"),
-        (kept, "half-space, mean of the box kept"),
-    ):
+        grows.append(float(np.median(loads / hertz_load(free))))
+        falls.append(float(np.median(loads / hertz_load(held))))
+        worst = max(worst, float(np.max(np.abs(alone / hertz_load(free) - 1))))
+    titles = (
+        "asperity model (any spacing)",
+        "half-space, mean deflection left out",
+        "half-space, mean of the box kept",
+    )
+    for ax, title in zip((asperities, left_out, kept), titles):
         a = np.linspace(0, ax.get_xlim()[1] * 1e-9, 60)
         ax.plot(a * 1e9, hertz_load(a) * 1e3, "k:", lw=1, label="one sphere (Hertz)")
-        ax.set(
-            title=title,
-            xlabel="approach below first touch, 500 nm - $h_s$ (nm)",
-            ylabel="load per asperity (mN)",
-            ylim=(0, 21),
-        )
+        ax.set(title=title, xlabel="approach below first touch, 500 nm - $h_s$ (nm)", ylabel="load per asperity (mN)")
+        ax.set_ylim(0, 21)
         ax.legend(title="spacing")
-    grows = [ratio[d][0] for d in SPACINGS]
-    falls = [ratio[d][1] for d in SPACINGS]
-    worst = max(r[2] for r in ratio.values())
+    both = ("approach, mean left out [m]", "approach, mean kept [m]")
+    last = "asperity model at the approach with the mean left out [N]"
+    headings = ("spacing [m]", "load per asperity [N]", *both, last)
     return PaperFigure(
         "fig4",
         "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart",
@@ -106,19 +99,8 @@ def sphere_array(quick: bool) -> PaperFigure:
         "of the curves in Fig. 4 measures the size of the box as much as the interaction. In the friction model "
         "Eq. (8) removes the mean, and the choice cancels.\n\nOne period is solved instead of 2000 x 2000 points. "
         "None of the four spacings divides 230 µm, so the paper's array is not periodic.",
-        png(canvas),
-        {
-            "fig4": (
-                (
-                    "spacing [m]",
-                    "load per asperity [N]",
-                    "approach, mean left out [m]",
-                    "approach, mean kept [m]",
-                    "asperity model at the approach with the mean left out [N]",
-                ),
-                rows,
-            )
-        },
+        canvas,
+        {"fig4": (headings, rows)},
         (
             Check("asperity model against Hertz, any spacing", worst, 0.02, 0.0, "Hertz 1882", AT_MOST),
             Check(

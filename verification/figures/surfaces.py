@@ -2,67 +2,52 @@
 
 from __future__ import annotations
 
-import numpy as np
+import math
 
 import lubfric
-from lubfric.surface import correlation_length, rms_slope
+from lubfric.surface.statistics import correlation_length, rms_slope
 
 from ..check import AT_MOST, Check
-from .draw import axes, image, png
+from ..kept import Run
+from ..plotting import axes, image
 from .page import PaperFigure
 
 LENGTHS = (34e-6, 57e-6)
 SQ, SPACING, COUNT = 240e-9, 2e-6, 816
 
 
-def rough(
-    length: float,
-    acf: str = "exponential",
-    seed: int = 1,
-    count: int = COUNT,
-    decay_level: float = np.exp(-1),
-):
+def rough(length: float, acf: str = "exponential", seed: int = 1, count: int = COUNT, decay_level=math.exp(-1)):
     """A surface of Sec. 3.1: 816 x 816 points at 2 um, Sq 240 nm."""
-    return lubfric.generate_surface(
-        (count, count), SPACING, sq=SQ, correlation_length=length, acf=acf, decay_level=decay_level, seed=seed
-    )
+    keys = {"sq": SQ, "correlation_length": length, "acf": acf, "decay_level": decay_level, "seed": seed}
+    return lubfric.generate_surface((count, count), SPACING, **keys)
 
 
-def generated_surfaces(quick: bool) -> PaperFigure:
+def generated_surfaces(quick: bool, run: Run) -> PaperFigure:
     """Both lengths with both autocorrelation functions: what was asked of the maps, and what they have."""
     count = 400 if quick else COUNT
     canvas, grid = axes(2, 2, width=8.0, height=7.2)
     rows, shown = [], min(count, 256)
+    side = shown * SPACING * 1e6
     for row, acf in zip(grid, ("exponential", "gaussian")):
         for ax, length in zip(row, LENGTHS):
             surface = rough(length, acf, count=count)
-            slope = rms_slope(surface)[2]
             found = [correlation_length(surface, axis) for axis in (0, 1)]
-            rows.append((acf, length, surface.sq, *found, slope))
-            side = shown * SPACING * 1e6
-            image(
-                canvas,
-                ax,
-                surface.heights[:shown, :shown] * 1e9,
-                (0, side, 0, side),
-                "z (nm)",
-                vmin=-720,
-                vmax=720,
-                cmap="cividis",
-            )
+            rows.append((acf, length, surface.sq, *found, rms_slope(surface)[2]))
+            colours = {"vmin": -720, "vmax": 720, "cmap": "cividis"}
+            image(canvas, ax, surface.heights[:shown, :shown] * 1e9, (0, side, 0, side), "z (nm)", **colours)
             ax.set(title=f"{acf}, L = {length * 1e6:g} µm (1/e)", xlabel="x (µm)", ylabel="y (µm)")
     off = max(abs(r[k] / r[1] - 1) for r in rows for k in (3, 4))
+    headings = ("acf", "L asked [m]", "Sq [m]", "L along x [m]", "L along y [m]", "rms slope [-]")
     return PaperFigure(
         "fig2",
         "Fig. 2: generated surfaces, L = 34 and 57 µm",
-        f"Sq is 240 nm exactly and the measured lengths lie within {100 * off:.0f} % of those asked for "
-        "(sampling scatter of one "
-        "map). The longer length gives broader hills and smaller slopes, as the paper shows.",
+        f"Sq is 240 nm exactly and the measured lengths lie within {100 * off:.0f} % of those asked for (sampling "
+        "scatter of one map). The longer length gives broader hills and smaller slopes, as the paper shows.",
         "The paper gives neither the shape of the autocorrelation function nor the level at which L is read. Both "
         "common shapes are drawn, read at 1/e. The exponential one has fine ripples down to the grid (it has no "
         "slope). The Gaussian one is smooth. The ripples decide what an asperity is in Figs. 5 and 6.",
-        png(canvas),
-        {"fig2": (("acf", "L asked [m]", "Sq [m]", "L along x [m]", "L along y [m]", "rms slope [-]"), rows)},
+        canvas,
+        {"fig2": (headings, rows)},
         (
             Check("Sq of the last map", rows[-1][2], SQ, 1e-9, "what was asked of the generator", unit="m"),
             Check("largest error of a measured length", off, 0.25, 0.0, "scatter of one map", AT_MOST),

@@ -17,38 +17,22 @@ from .case import Case
 
 HEIGHTS = 1e-8 * np.random.default_rng(0).standard_normal((16, 12))
 ANY = ("x", b"1", 1j, float("nan"), float("inf"), object(), [[1]], datetime.date(2020, 1, 1), np.ma.masked, 10**400)
-NUMBER: tuple[object, ...] = (
-    *ANY,
-    True,
-    -1.0,
-    1e308,
-    5e-324,
-    [1.0, 2.0, 3.0],
-    np.array([1.0]),
-    np.datetime64("2020"),
-    {},
-)
+LISTS: tuple[object, ...] = ([1.0, 2.0, 3.0], np.array([1.0]), np.datetime64("2020"), {})
+NUMBER: tuple[object, ...] = (*ANY, True, -1.0, 1e308, 5e-324, *LISTS)
 SIGNED_NUMBER = tuple(v for v in NUMBER if not (isinstance(v, float) and v in (-1.0, 5e-324)))
 COUNT = (*ANY, True, -1, 1.5, "2")
 WORD: tuple[object, ...] = (*ANY, "nonsense", 3, None, True, [])
-FIELD = (
-    *(v for v in ANY if v != [[1]]),
-    [],
-    [[True, 1.0]],
-    [["1", "2"]],
-    HEIGHTS + 0j,
-    HEIGHTS > 0,
-    HEIGHTS[:, :, None],
-    HEIGHTS[0],
-    np.full((4, 4), np.nan),
-    np.full((4, 4), 1e308),
-    np.ma.masked_greater(HEIGHTS, 0),
-    HEIGHTS.astype("M8[s]"),
-    HEIGHTS.astype(str),
-    np.array([[None, 1.0]]),
-    {},
-)
+FIELD = (*(v for v in ANY if v != [[1]]), [], [[True, 1.0]], [["1", "2"]], HEIGHTS + 0j, HEIGHTS > 0, HEIGHTS[0])
+FIELD += (HEIGHTS[:, :, None], np.full((4, 4), np.nan), np.full((4, 4), 1e308), np.ma.masked_greater(HEIGHTS, 0))
+FIELD += (HEIGHTS.astype("M8[s]"), HEIGHTS.astype(str), np.array([[None, 1.0]]), {})
 GRID = (*ANY, (0, 4), (4,), (4, 4, 4), (1.5, 4), (-4, 4), (10**7, 10**7), "44", None)
+SCENES: tuple[object, ...] = (3, "paper", None, {}, HEIGHTS, object())
+SPEEDS: tuple[object, ...] = ([], "0.1", [True], ["0.1"], [1j], [None], [[0.1]], [float("nan")], [10**400], {})
+MASKS = (HEIGHTS, "no", np.zeros(HEIGHTS.shape, bool), np.ones((3, 3), bool), [[1]])
+MAP = {"shape": (32, 32), "spacing": 1e-6, "sq": 1e-7, "correlation_length": 4e-6, "seed": 1}
+CONTACT = {"gap0": HEIGHTS, "spacing": 1e-6, "e_prime": 2e11, "mean_pressure": 1e7}
+FILM = {"load_per_width": 1e4, "radius": 1e-2, "e_prime": 2e11, "entrainment_speed": 0.1, "viscosity": 0.1}
+FILM |= {"pressure_viscosity_coefficient": 2e-8}
 
 
 @dataclass(frozen=True)
@@ -70,143 +54,72 @@ def scene() -> lubfric.Scene:
 @cache
 def targets() -> tuple[Target, ...]:
     """The public functions and classes."""
-    film = {
-        "load_per_width": 1e4,
-        "radius": 1e-2,
-        "e_prime": 2e11,
-        "entrainment_speed": 0.1,
-        "viscosity": 0.1,
-        "pressure_viscosity_coefficient": 2e-8,
-    }
-    some_scene: tuple[object, ...] = (3, "paper", None, {}, HEIGHTS, object())
+    film = dict.fromkeys(FILM, NUMBER) | {"entrainment_speed": SIGNED_NUMBER}
+    moving = scene().with_(transient=lubfric.Transient(1e-3, outputs=1))
+    unmasked = tuple(v for v in FIELD if not np.ma.isMaskedArray(v) or v is np.ma.masked)
+    map_keys = dict.fromkeys(("spacing", "correlation_length", "decay_level", "cutoff"), NUMBER)
+    contact_keys = dict.fromkeys(("spacing", "mean_pressure", "tolerance", "hardness"), NUMBER)
+    in_time = dict.fromkeys(("duration", "load", "radius", "viscosity", "tolerance", "initial_film"), NUMBER)
+    section: dict[str, tuple] = {"bodies": (3, None, [], {"x": 1}, {"load": "1"}), "nonsense": ({},)}
+    section["motion"] = ({"speeds": [True]},)
+    table = {"times": (0.0, 1.0), "values": (1.0, 2.0)}
     return (
         Target(
             "generate_surface",
             lubfric.generate_surface,
-            {"shape": (32, 32), "spacing": 1e-6, "sq": 1e-7, "correlation_length": 4e-6, "seed": 1},
-            {
-                "shape": GRID,
-                "spacing": NUMBER,
-                "sq": NUMBER[:-4],
-                "correlation_length": NUMBER,
-                "seed": COUNT,
-                "acf": WORD,
-                "decay_level": NUMBER,
-                "cutoff": NUMBER,
-            },
+            MAP,
+            map_keys | {"shape": GRID, "sq": NUMBER[:-4], "seed": COUNT, "acf": WORD},
         ),
         Target(
             "Surface",
             lubfric.Surface,
             {"heights": HEIGHTS, "spacing": 1e-6},
-            {
-                "heights": tuple(v for v in FIELD if not np.ma.isMaskedArray(v) or v is np.ma.masked),
-                "spacing": NUMBER,
-                "mask": (HEIGHTS, "no", np.zeros(HEIGHTS.shape, bool), np.ones((3, 3), bool), [[1]]),
-                "periodic_axes": WORD,
-            },
+            {"heights": unmasked, "spacing": NUMBER, "mask": MASKS, "periodic_axes": WORD},
         ),
         Target(
             "solve_contact",
             lubfric.solve_contact,
-            {"gap0": HEIGHTS, "spacing": 1e-6, "e_prime": 2e11, "mean_pressure": 1e7},
-            {
-                "gap0": FIELD,
-                "spacing": NUMBER,
-                "e_prime": NUMBER[:-4],
-                "mean_pressure": NUMBER,
-                "tolerance": NUMBER,
-                "hardness": NUMBER,
-                "boundary": WORD[:-2],
-                "start": FIELD,
-            },
+            CONTACT,
+            contact_keys | {"gap0": FIELD, "e_prime": NUMBER[:-4], "boundary": WORD[:-2], "start": FIELD},
         ),
-        Target("solve_ehl", lubfric.solve_ehl, film, {**{k: NUMBER for k in film}, "entrainment_speed": SIGNED_NUMBER}),
+        Target("solve_ehl", lubfric.solve_ehl, FILM, film),
         Target(
             "friction",
             lubfric.friction,
             {"scene": scene()},
-            {
-                "scene": some_scene,
-                "speed": SIGNED_NUMBER,
-                "start": ("x", 1, object(), HEIGHTS),
-                "tolerance": NUMBER,
-                "model": tuple(v for v in WORD if v is not None),
-            },
+            {"scene": SCENES, "speed": SIGNED_NUMBER, "tolerance": NUMBER},
         ),
         Target(
             "stribeck",
             lubfric.stribeck,
             {"scene": scene(), "speeds": [0.1]},
-            {
-                "scene": some_scene,
-                "speeds": ([], "0.1", [True], ["0.1"], [1j], [None], [[0.1]], [float("nan")], [10**400], {}, object()),
-                "executor": ("process", 2, object()),
-                "tolerance": NUMBER,
-            },
+            {"scene": SCENES, "speeds": (*SPEEDS, object()), "executor": ("process", 2, object()), "tolerance": NUMBER},
         ),
         Target(
             "prepare",
             lubfric.prepare,
             {"scene": scene()},
-            {"scene": some_scene, "surface": (HEIGHTS, "x", 3), "like": ("x", 3, scene())},
+            {"scene": SCENES, "surface": (HEIGHTS, "x", 3), "like": ("x", 3, scene())},
         ),
-        Target(
-            "load_scene", lubfric.load_scene, {"source": "flat"}, {"source": (3, None, "", b"flat", "a\0b", ".", [])}
-        ),
-        Target(
-            "with_",
-            lambda **sections: scene().with_(**sections),
-            {},
-            {"bodies": (3, None, [], {"x": 1}, {"load": "1"}), "nonsense": ({},), "motion": ({"speeds": [True]},)},
-        ),
-        Target(
-            "read_surface",
-            lubfric.read_surface,
-            {"path": "nowhere.npy"},
-            {"path": (3, None, b"x", "", "a\0b", ".", object())},
-        ),
-        Target(
-            "transient",
-            lubfric.transient,
-            {"scene": scene().with_(transient=lubfric.Transient(1e-3, outputs=1))},
-            {"scene": (*some_scene, scene())},
-        ),
+        Target("load_scene", lubfric.load_scene, {}, {"source": (3, None, "", b"flat", "a\0b", ".", [])}),
+        Target("with_", lambda **sections: scene().with_(**sections), {}, section),
+        Target("read_surface", lubfric.read_surface, {}, {"path": (3, None, b"x", "", "a\0b", ".", object())}),
+        Target("transient", lubfric.transient, {"scene": moving}, {"scene": (*SCENES, scene())}),
         Target(
             "Transient",
             lubfric.Transient,
             {"duration": 1.0},
-            {
-                "duration": NUMBER,
-                "outputs": (*COUNT, 10**12),
-                "initial": WORD,
-                "speed": SIGNED_NUMBER,
-                "load": NUMBER,
-                "radius": NUMBER,
-                "viscosity": NUMBER,
-                "tolerance": NUMBER,
-                "initial_film": NUMBER,
-            },
+            in_time | {"outputs": (*COUNT, 10**12), "initial": WORD, "speed": SIGNED_NUMBER},
         ),
         Target("Constant", Constant, {"value": 1.0}, {"value": SIGNED_NUMBER}),
-        Target("Ramp", Ramp, {"end": 1.0}, {k: SIGNED_NUMBER for k in ("start", "end", "until", "begin")}),
-        Target("Harmonic", Harmonic, {"mean": 1.0}, {k: SIGNED_NUMBER for k in ("amplitude", "frequency", "phase")}),
-        Target(
-            "Table",
-            Table,
-            {"times": (0.0, 1.0), "values": (1.0, 2.0)},
-            {"times": FIELD, "values": FIELD, "repeat": ("no", 1, None)},
-        ),
+        Target("Ramp", Ramp, {"end": 1.0}, dict.fromkeys(("start", "end", "until", "begin"), SIGNED_NUMBER)),
+        Target("Harmonic", Harmonic, {"mean": 1.0}, dict.fromkeys(("amplitude", "frequency", "phase"), SIGNED_NUMBER)),
+        Target("Table", Table, table, {"times": FIELD, "values": FIELD, "repeat": ("no", 1, None)}),
     )
 
 
-MAY_BE_LARGE = {
-    ("Constant", "value"),
-    ("Ramp", "start"),
-    ("Ramp", "end"),
-    ("Harmonic", "amplitude"),
-    ("Harmonic", "phase"),
-}
+MAY_BE_LARGE = {("Constant", "value"), ("Ramp", "start"), ("Ramp", "end")}
+MAY_BE_LARGE |= {("Harmonic", "amplitude"), ("Harmonic", "phase")}
 
 
 def singles() -> list[tuple[Target, str, object]]:

@@ -15,7 +15,7 @@ import lubfric
 MOST_SECONDS, MOST_BYTES = 8.0, 2 * 2**30
 REFUSED, PASSED = "refused", "passed as it may"
 RAW, ACCEPTED, SLOW, LARGE, WORDLESS = "raw error", "accepted", "slow", "large", "says too little"
-GOOD = (REFUSED, PASSED)
+GOOD, BAD = (REFUSED, PASSED), (RAW, ACCEPTED, SLOW, LARGE, WORDLESS)
 
 
 @dataclass(frozen=True)
@@ -30,19 +30,6 @@ class Case:
     name: str
     run: Callable[[Path], object]
     may_pass: bool = False
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """How a case ended: one of the verdicts above, after how many seconds, and in which words."""
-
-    case: Case
-    verdict: str
-    seconds: float
-    words: str
-
-    def __str__(self) -> str:
-        return f"{self.case.group}: {self.case.name}: {self.verdict} after {self.seconds:.2f} s: {self.words}"
 
 
 def peak_memory() -> int:
@@ -60,8 +47,8 @@ def resident_memory() -> int:
     return pages * resource.getpagesize()
 
 
-def judge(case: Case, folder: Path) -> Outcome:
-    """Run one case. Only `lubfric.LubfricError` is a refusal, and its words must be one short paragraph."""
+def judge(case: Case, folder: Path) -> tuple[str, str]:
+    """(verdict, words) of one case. Only `lubfric.LubfricError` is a refusal, and its words must be one paragraph."""
     before, begun = peak_memory(), time.process_time()
     try:
         with warnings.catch_warnings():
@@ -80,4 +67,4 @@ def judge(case: Case, folder: Path) -> Outcome:
         verdict = SLOW
     if verdict in GOOD and after > max(before, MOST_BYTES):
         verdict = LARGE
-    return Outcome(case, verdict, seconds, words[:300])
+    return verdict, f"{case.group}: {case.name}: after {seconds:.2f} s: {words[:300]}"

@@ -13,30 +13,13 @@ import lubfric
 from lubfric.output import main
 
 from .case import Case
-from .scenes import GOOD, mutations, text_of
+from .scenes import GOOD, changed, mutations, text_of
 
-SPEEDS: tuple[str, ...] = (
-    "x",
-    "1e-3:1:0",
-    "1:1e-3:4",
-    "1e-3:1",
-    "1:2:3:4",
-    "0:1:3",
-    "nan",
-    "inf",
-    "1e-3:1:1e12",
-    "1e-3:1:999999999999",
-)
+SPEEDS: tuple[str, ...] = ("x", "1e-3:1:0", "1:1e-3:4", "1e-3:1", "1:2:3:4", "0:1:3", "nan", "inf", "1e-3:1:1e12")
+SPEEDS += ("1e-3:1:999999999999",)
 SPEEDS += ("1,,2", ",", ":", "1e-3:1:-4", "1e-3:1:2.5", "true", "1e999", "0.1;0.2", "-1:1:3", "1e-3:inf:3", "9" * 5000)
-TABLES = (
-    "",
-    "speed [m/s]\n",
-    "speed [m/s],coefficient [-]\n0.1\n",
-    "speed [m/s],coefficient [-]\n0.1,x\n",
-    "\x00\x01",
-    "a,b\n1,2\n",
-    "speed [m/s],coefficient [-]\n0.1,0.1\n",
-)
+HEAD = "speed [m/s],coefficient [-]\n"
+TABLES = ("", "speed [m/s]\n", f"{HEAD}0.1\n", f"{HEAD}0.1,x\n", "\x00\x01", "a,b\n1,2\n", f"{HEAD}0.1,0.1\n")
 RECORDS = ("", "{", "[]", "3", "{}", '{"scene": 3}', '{"scene": {"name": 3}}', '{"scene": {}}')
 
 
@@ -52,15 +35,15 @@ def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
 
 
 def _by_hand() -> Iterator[Case]:
-    lines: tuple[tuple[str, ...], ...]
-    lines = ((), ("fly",), ("run",), ("info",), ("plot",), ("run", "nowhere.toml"), ("info", "papr"), ("run", "--out"))
-    lines += (
-        ("run", "flat", "--nonsense"),
+    lines: list[tuple[str, ...]] = [(), ("fly",), ("run",), ("info",), ("plot",), ("run", "nowhere.toml")]
+    lines += [("info", "papr"), ("run", "--out"), ("run", "flat", "--nonsense"), ("plot", "nowhere"), ("oils", "x")]
+    lines += [
         ("info", "flat", "--surface", "nowhere.npy"),
-        ("plot", "nowhere"),
-        ("oils", "x"),
-    )
-    lines += (("run", "flat", "--surface", "."), ("run", "."), ("info", ""), ("run", "a\0b"), ("plot", "a\0b"))
+        ("run", "flat", "--surface", "."),
+        ("run", "."),
+        ("info", ""),
+    ]
+    lines += [("run", "a\0b"), ("plot", "a\0b")]
     for line in lines:
         yield _case(" ".join(map(repr, line)), line)
     for option in ("--speeds", "--fields"):
@@ -72,12 +55,10 @@ def _by_hand() -> Iterator[Case]:
         yield _plot_case("stribeck.csv", table, '{"scene": {"name": "a"}}')
         yield _plot_case("history.csv", table, '{"scene": {"name": "a"}}')
     for record in RECORDS:
-        yield _plot_case("stribeck.csv", "speed [m/s],coefficient [-]\n0.1,0.1\n", record)
+        yield _plot_case("stribeck.csv", f"{HEAD}0.1,0.1\n", record)
 
 
 def _scene_case(command: str, section: str, key: str, value: str | None) -> Case:
-    from .scenes import changed
-
     text = text_of(changed(GOOD, section, key, value))
     return _case(f"{command}: [{section}] {key} = {str(value)[:40]}", (command, "bad.toml"), {"bad.toml": text})
 

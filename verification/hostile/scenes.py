@@ -16,17 +16,13 @@ from .case import Case
 Tables = dict[str, dict[str, str]]
 GOOD: Tables = {  # key: its value as TOML text
     "bodies": {
-        "radius": "2e-3",
-        "width": "6e-3",
-        "load": "5.5",
-        "e_prime": "231e9",
-        "boundary_friction_coefficient": "0.09",
+        "radius": "2e-3", "width": "6e-3", "load": "5.5", "e_prime": "231e9", "boundary_friction_coefficient": "0.09",
     },
     "lubricant": {"viscosity": "0.36", "pressure_viscosity_coefficient": "25e-9"},
     "motion": {"entrainment_speed": "0.01"},
     "surface": {"sq": "1e-7", "correlation_length": "8e-6"},
     "contact": {"geometry": "'flat'", "shape": "[64, 64]", "spacing": "2e-6"},
-}
+}  # fmt: skip
 EVERY_KEY = ("1979-05-27", "{ a = 1 }", "[[1]]", "nan", "[nan, nan]", "9" * 400, "[1, 2, 3, true]", "'\\u0000'")
 NUMBERS = ("'1'", "true", "inf", "-inf", "1e400", "[]", "07:32:00", "5e-324", "1e308", "-1e308")
 NEGATIVE = ("-1.0", "-5e-9")
@@ -35,10 +31,7 @@ WHOLE = ("1.5", "-1", "99999999999999999999", "2e3")
 SIGNED = {"entrainment_speed", "slide_roll_ratio", "sliding_speed", "sliding", "speed", "speeds", "surface_speeds"}
 RIGHT = {("speeds", "[]"), ("seed", "99999999999999999999")}  # what the key takes all the same
 FREE = {"name", "file"}  # words of any kind, or a path
-SHORT = {
-    "bodies": ("young_modulus", "poisson_ratio"),
-    "motion": ("surface_speeds", "speed_range", "sliding_speed"),
-}
+SHORT = {"bodies": ("young_modulus", "poisson_ratio"), "motion": ("surface_speeds", "speed_range", "sliding_speed")}
 IMPOSSIBLE = (  # section, key, value: each alone is in range
     ("bodies", "hardness", "1e7"),
     ("motion", "speed_range", "[1e-3, 1.0, 1000000000000]"),
@@ -53,43 +46,25 @@ IMPOSSIBLE = (  # section, key, value: each alone is in range
     ("contact", "shape", "[200000, 200000]"),
     ("contact", "shape", "[40]"),
     ("numerics", "workers", "1180591620717411303424"),
-    ("numerics", "contact_level", "'semi-periodic'"),
     ("transient", "duration", "0.0"),
     ("transient", "outputs", "1000000000000"),
     ("transient", "load", "{ kind = 'ramp', start = 5.0, end = -1.0, until = 1.0 }"),
     ("transient", "speed", "{ kind = 'table', times = [0, 0.5], values = [1, 2] }"),
     ("transient", "speed", "{ kind = 'file', file = 'nowhere.csv', column = 'u' }"),
 )
-UNUSED = (  # keys that do not apply to a generated map
-    ("surface", "spacing", "1e-6"),
-    ("surface", "unit", "'um'"),
-    ("surface", "motion_axis", "'y'"),
-    ("surface", "decimal", "','"),
-    ("surface", "form", "'quadratic'"),
-    ("surface", "missing_value", "0.0"),
-    ("surface", "outliers", "'mask'"),
-    ("surface", "s_filter", "1e-5"),
-    ("surface", "l_filter", "1e-5"),
-    ("surface", "extension", "'mirror'"),
-)
+UNUSED = tuple(  # keys that do not apply to a generated map
+    ("surface", key, value)
+    for key, value in {
+        "spacing": "1e-6", "unit": "'um'", "motion_axis": "'y'", "decimal": "','", "form": "'quadratic'",
+        "missing_value": "0.0", "outliers": "'mask'", "s_filter": "1e-5", "l_filter": "1e-5", "extension": "'mirror'",
+    }.items()
+)  # fmt: skip
 BROKEN = (
-    "",
-    "[bodies",
-    "bodies = 3",
-    "[bodies]\nload = 5.5 N",
-    "[bodies]\nload = 5,5",
-    "[bodies]\nload = 5.5\nload = 6.0",
-    "[bodies]\nload = 5.5\n[bodies]",
-    "\x00",
-    "a = " + "[" * 3000 + "]" * 3000,
-    "a = " + "{b=" * 3000 + "1" + "}" * 3000,
-    "a = " + "1" * 6000,
-    ".".join("a" * 2000) + " = 1",
-    "x = '''",
-    "[bodies]\nload = 0x",
-    "[[bodies]]\nload = 5.5",
-    "\ufeff\ufeff[bodies]",
-)
+    "", "[bodies", "bodies = 3", "[bodies]\nload = 5.5 N", "[bodies]\nload = 5,5",
+    "[bodies]\nload = 5.5\nload = 6.0", "[bodies]\nload = 5.5\n[bodies]", "\x00", "a = " + "[" * 3000 + "]" * 3000,
+    "a = " + "{b=" * 3000 + "1" + "}" * 3000, "a = " + "1" * 6000, ".".join("a" * 2000) + " = 1", "x = '''",
+    "[bodies]\nload = 0x", "[[bodies]]\nload = 5.5", "\ufeff\ufeff[bodies]",
+)  # fmt: skip
 
 
 def text_of(tables: Tables) -> str:
@@ -168,24 +143,21 @@ def misspelt(rng: np.random.Generator, word: str, known: set[str]) -> str:
 
 def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
     """At least ``count`` scenes: every single mutation, misspelt keys and tables, broken TOML, then random pairs."""
-    single, known = mutations(), {key for _, key, _ in keys_of_scene()} | set(GOOD)
-    made = 0
-    for section, key, value in single:
-        made += 1
-        yield case(f"[{section}] {key} = {str(value)[:40]}", text_of(changed(GOOD, section, key, value)))
-    for section, key, _ in keys_of_scene():
-        made += 1
+    single, keys = mutations(), keys_of_scene()
+    known = {key for _, key, _ in keys} | set(GOOD)
+    made = [
+        case(f"[{section}] {key} = {str(value)[:40]}", text_of(changed(GOOD, section, key, value)))
+        for section, key, value in single
+    ]
+    for section, key, _ in keys:
         word = misspelt(rng, key, known)
-        yield case(f"[{section}] {word}", text_of(changed(GOOD, section, word, "1")))
+        made.append(case(f"[{section}] {word}", text_of(changed(GOOD, section, word, "1"))))
     for section in GOOD:
-        made += 1
         word = misspelt(rng, section, known)
-        yield case(f"[{word}]", text_of(GOOD).replace(f"[{section}]", f"[{word}]"))
-    for text in BROKEN:
-        made += 1
-        yield case(f"TOML {text[:30]!r}", text)
-    while made < count:
-        made += 1
+        made.append(case(f"[{word}]", text_of(GOOD).replace(f"[{section}]", f"[{word}]")))
+    yield from made
+    yield from (case(f"TOML {text[:30]!r}", text) for text in BROKEN)
+    for _ in range(count - len(made) - len(BROKEN)):
         (s1, k1, v1), (s2, k2, v2) = (single[i] for i in rng.integers(len(single), size=2))
         tables = changed(changed(GOOD, s1, k1, v1), s2, k2, v2)
         yield case(f"[{s1}] {k1} = {str(v1)[:30]} and [{s2}] {k2} = {str(v2)[:30]}", text_of(tables))

@@ -1,150 +1,119 @@
 """Thousands of friction calls over random scenes, each answer closed again by an independent judge.
 
-They come in chunks of scenes that depend on nothing but their number. A chunk that is done is a file in the folder
-given, and a run that was stopped goes on behind the last of them.
+They come in chunks of scenes that depend on nothing but their number. A chunk that is done is kept.
 """
 
 from __future__ import annotations
 
-import json
 import math
 import os
 from collections import Counter
 from collections.abc import Iterator
-from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict, dataclass, field
-from pathlib import Path
+from functools import partial
 
 import numpy as np
 
 import lubfric
 
-from ..parent import end_with_parent
+from ..check import AT_MOST, Check, Item, Table
+from ..kept import Run
+from . import SEED
 from .case import resident_memory
 from .soak_judge import verdict
 from .soak_scenes import random_scene
 
 CHUNK = 50  # scenes
 MOST_GROWTH = 256.0  # MiB from the first quarter of a process's chunks to its last: what the allocator keeps
-WORDS = 60  # of why a scene was refused
+ANSWERED, REFUSED, RAW = "answered", "refused", "raw error"
 
 
-@dataclass
-class Chunk:
-    """What became of a chunk of calls.
+def soak(level: str, run: Run = Run()) -> Iterator[Item]:
+    """Friction of random scenes one after the other in one process.
 
-    It has the numbers of calls, the scenes that were answered wrongly, the worst error over what is allowed, why scenes
-    were refused, which features they had, and the resident memory [MiB] of ``process`` at its end.
+    Each is answered, or refused in words. Each answer is closed again by a judge that shares neither film solver nor
+    root finder nor sums. The memory does not grow.
     """
-
-    number: int
-    answered: int = 0
-    refused: int = 0
-    judged: int = 0
-    raw: int = 0
-    wrong: list[str] = field(default_factory=list)
-    worst: float = 0.0
-    worst_case: str = ""
-    memory: float = 0.0
-    process: int = 0
-    reasons: dict[str, int] = field(default_factory=dict)
-    features: dict[str, int] = field(default_factory=dict)
+    chunks = {f"scenes from {k}": range(k, k + CHUNK) for k in range(0, 100 if level == "quick" else 10_000, CHUNK)}
+    yield from judged([row for _, row in run.solved(chunks, partial(chunk, SEED))])
 
 
-def soak(count: int, seed: int, folder: Path | None = None, workers: int = 1) -> list[Chunk]:
-    """``count`` scenes of ``seed`` in chunks; finished ones are kept in ``folder`` (None: nowhere)."""
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-    jobs = [(k, min(CHUNK, count - CHUNK * k), seed, folder) for k in range(-(-count // CHUNK))]
-    if workers == 1:
-        return [chunk(*job) for job in jobs]
-    with ProcessPoolExecutor(workers, initializer=end_with_parent) as pool:
-        return list(pool.map(chunk, *zip(*jobs)))
+def judged(chunks: list[dict]) -> Iterator[Item]:
+    """Checks and tables of the chunks."""
+    scenes = [one for row in chunks for one in row["scenes"]]
+    ended = Counter(one["ended"] for one in scenes)
+    closed = [one for one in scenes if one["ratio"] is not None]
+    none: dict = {"ratio": math.inf, "words": "nothing was judged"}
+    worst = max(closed, key=lambda one: one["ratio"], default=none)
+    wrong = [one["words"] for one in closed if not one["ratio"] <= 1]
+    raw = [one["words"] for one in scenes if one["ended"] == RAW]
+    yield Check("raw errors", len(raw), 0, 0, "none is allowed", AT_MOST, note="; ".join(raw[:3]))
+    yield Check("silently wrong", len(wrong), 0, 0, "independent balance", AT_MOST, note="; ".join(wrong[:3]))
+    yield Check("worst error / allowed", worst["ratio"], 1, 0, "independent balance", AT_MOST, note=worst["words"])
+    yield Check("growth of memory", growth(chunks), MOST_GROWTH, 0, "flat", AT_MOST, unit="MiB")
+    words = f"{len(scenes)} scenes: {ended[ANSWERED]} answered, {ended[REFUSED]} refused, {len(closed)} closed again"
+    why = Counter(one["words"] for one in scenes if one["ended"] == REFUSED)
+    yield Table("soak", words, ("why", "refused"), why.most_common(12))
+    features = Counter(feature for one in scenes for feature in one["features"])
+    yield Table("soak-features", "What the answered scenes had", ("feature", "scenes"), features.most_common())
+    rows = [(row["first"], row["process"], round(row["memory"], 1)) for row in chunks[:: max(1, len(chunks) // 12)]]
+    yield Table("soak-memory", "Resident memory of the process", ("scenes before", "process", "MiB"), rows)
 
 
-def chunk(number: int, count: int, seed: int, folder: Path | None) -> Chunk:
-    """Scenes from number ``number`` x `CHUNK` on, read from ``folder`` where they were done before."""
-    path = None if folder is None else folder / f"seed-{seed}-chunk-{number:04d}.json"
-    if path is not None and path.exists():
-        return Chunk(**json.loads(path.read_text(encoding="utf-8")))
-    found = Chunk(number, process=os.getpid())
-    for index in range(number * CHUNK, number * CHUNK + count):
-        _one(found, (seed, index))
-    found.memory = resident_memory() / 2**20
-    if path is not None:
-        part = path.with_suffix(".part")
-        part.write_text(json.dumps(asdict(found)), encoding="utf-8")
-        part.replace(path)
-    return found
+def chunk(seed: int, numbers: range) -> dict:
+    """What became of the scenes of ``numbers``, and the resident memory [MiB] of the process at their end."""
+    scenes = [scene_row(seed, number) for number in numbers]
+    return {"first": numbers[0], "scenes": scenes, "process": os.getpid(), "memory": resident_memory() / 2**20}
 
 
-def _one(found: Chunk, seeds: tuple[int, int]) -> None:
-    scene = random_scene(np.random.default_rng(seeds), any_material=seeds[1] % 2 == 1)
+def scene_row(seed: int, number: int) -> dict:
+    """How one call ended, in which words, its worst error over what is allowed (None: not judged), its features."""
+    row: dict = {"ended": REFUSED, "words": "", "ratio": None, "features": []}
+    scene = random_scene(np.random.default_rng((seed, number)), any_material=number % 2 == 1)
     try:
         prepared = lubfric.prepare(scene)
         result = lubfric.friction(prepared)
     except lubfric.LubfricError as error:
-        found.refused += 1
-        _count(found.reasons, f"{type(error).__name__}: {str(error).split('=')[0].split(':')[0][:WORDS]}")
-        return
+        return row | {"words": f"{type(error).__name__}: {str(error).split('=')[0].split(':')[0][:60]}"}
     except Exception as error:  # what must never happen
-        found.raw += 1
-        found.wrong.append(f"{seeds}: {type(error).__name__}: {error}"[:300])
-        return
-    found.answered += 1
-    for feature in _features(prepared, result):
-        _count(found.features, feature)
+        return row | {"ended": RAW, "words": f"{(seed, number)}: {type(error).__name__}: {error}"[:300]}
+    row |= {"ended": ANSWERED, "features": list(_features(prepared, result))}
     try:
         ratios = verdict(prepared, result)
     except lubfric.LubfricError as error:  # of the judge's own film or contact: it does not know
-        _count(found.reasons, f"not judged: {type(error).__name__}: {error}"[:WORDS])
-        return
-    found.judged += "friction" in ratios
-    worst = max(ratios, key=lambda name: ratios[name])
-    said = f"{seeds}: {worst} {ratios[worst]:.3g} of what is allowed, f = {result.coefficient:.4g}"
-    if not ratios[worst] <= 1 or not math.isfinite(result.coefficient):
-        found.wrong.append(said)
-    if not ratios[worst] <= found.worst:
-        found.worst, found.worst_case = ratios[worst], said
-
-
-def _count(counts: dict[str, int], word: str) -> None:
-    counts[word] = counts.get(word, 0) + 1
+        return row | {"features": [*row["features"], f"not judged: {type(error).__name__}"]}
+    worst = max(ratios, key=lambda name: ratios[name] if math.isfinite(ratios[name]) else math.inf)
+    ratio = ratios[worst] if math.isfinite(ratios[worst] + result.coefficient) else 1e300
+    words = f"{(seed, number)}: {worst} {ratio:.3g} of what is allowed, f = {result.coefficient:.4g}"
+    return row | {"ratio": ratio, "words": words}
 
 
 def _features(prepared, result) -> Iterator[str]:
     """Names of what a soak should have had some of, as far as this scene has it."""
     scene, share = prepared.scene, result.contact_load / prepared.scene.bodies.load
     yield scene.contact.geometry
-    yield "line" if prepared.lines is not None else "patch"
     yield "asperities" if scene.contact.model != "half-space" else "height map"
     yield "separated" if share == 0 else "contact below 1 %" if share < 0.01 else "contact above 1 %"
-    yield from (["plastic limit"] if scene.bodies.hardness else [])
-    yield from (["cells yielded"] if result.plastic_area_fraction > 0 else [])
-    yield from (["two rough bodies"] if scene.counterface else [])
-    yield from (["oil by grade"] if scene.lubricant.oil else [])
-    yield from (["heat of the inlet"] if result.inlet_film_factor < 1 else [])
-    yield from (["heat of film and surfaces"] if result.film_temperature_rise > 0 else [])
-    yield from (["deflected by the whole load"] if result.decision.deflected_by == "scaled" else [])
-    yield from (["pure rolling"] if scene.motion.slide_roll_ratio == 0 else [])
-    yield from (["more than one line"] if result.line is not None and result.line.used else [])
-    yield from (["finer pieces of the line"] if result.line is not None and result.line.grid else [])
+    features = {
+        "line": scene.numerics.sampling == "line",
+        "plastic limit": scene.bodies.hardness,
+        "cells yielded": result.plastic_area_fraction > 0,
+        "two rough bodies": scene.counterface,
+        "oil by grade": scene.lubricant.oil,
+        "heat of the inlet": result.inlet_film_factor < 1,
+        "heat of film and surfaces": result.film_temperature_rise > 0,
+        "pure rolling": scene.motion.slide_roll_ratio == 0,
+        "more than one line": result.line is not None and result.line.used,
+        "finer pieces of the line": result.line is not None and result.line.grid,
+    }
+    yield from (name for name, holds in features.items() if holds)
 
 
-def growth(chunks: list[Chunk]) -> float:
+def growth(chunks: list[dict]) -> float:
     """Largest rise of the memory of a process [MiB], from the mean of its second quarter to that of its last."""
     rises = [0.0]
-    for process in {c.process for c in chunks}:
-        sizes = [c.memory for c in chunks if c.process == process]
+    for process in {row["process"] for row in chunks}:
+        sizes = [row["memory"] for row in chunks if row["process"] == process]
         if len(sizes) >= 4:
             quarter = len(sizes) // 4
             rises.append(float(np.mean(sizes[-quarter:]) - np.mean(sizes[quarter : 2 * quarter])))
     return max(rises)
-
-
-def total(chunks: list[Chunk], name: str) -> Counter:
-    """Counts by word of all chunks."""
-    counted: Counter = Counter()
-    for one in chunks:
-        counted.update(getattr(one, name))
-    return counted

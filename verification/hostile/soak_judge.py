@@ -10,13 +10,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.sharing import Prepared, on_cells_of
+from lubfric.sampling.sample import PAIR
+from lubfric.sharing.prepared import Prepared, on_cells_of
 
+from ..cases import case_of_scene
 from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 
@@ -80,17 +82,9 @@ class Judge:
 
     def film(self, film_load: float, modulus: float):
         """The film by differential deflection, or by the tightest Newton solution where that does not converge."""
-        bodies, oil = self.prepared.scene.bodies, self.prepared.scene.lubricant
-        case: dict[str, Any] = {
-            "load_per_width": film_load / bodies.width,
-            "radius": bodies.radius,
-            "e_prime": bodies.e_prime * modulus,
-            "entrainment_speed": self.speed,
-            "viscosity": inlet_viscosity(self.prepared.scene, self.speed),
-            "pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient,
-            "viscosity_law": oil.viscosity_law,
-            "density_law": oil.density_law,
-        }
+        scene = self.prepared.scene
+        case = case_of_scene(scene, film_load, self.speed)
+        case |= {"e_prime": modulus * scene.bodies.e_prime, "viscosity": inlet_viscosity(scene, self.speed)}
         try:
             return solve_differential_deflection(**case, tolerance=self.film_tolerance)
         except LubfricError:
@@ -112,15 +106,9 @@ class Judge:
             mean_film = float(smooth @ weight / weight.sum())
         if load <= 1e-9 * bodies.load:
             return float((weight @ (gap0 - gap0.min()).mean(axis=1)) / weight.sum()), mean_film, np.zeros(x.size)
-        dry = solve_contact(
-            gap0,
-            strip.spacing,
-            bodies.e_prime,
-            mean_pressure=pressure,
-            hardness=bodies.hardness,
-            boundary=("periodic" if flat else "free", "periodic"),
-            tolerance=1e-6,
-        )
+        asked = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
+        boundary = ("periodic" if flat else "free", "periodic")
+        dry = solve_contact(gap0, strip.spacing, bodies.e_prime, boundary=boundary, **asked)
         gap, touching = np.maximum(dry.gap, 0), dry.pressure > 0
         columns = np.full(x.size, touching.mean()) if flat else touching.mean(axis=1)
         return float(gap.mean(axis=1) @ weight / weight.sum()), mean_film, columns
@@ -166,8 +154,6 @@ def _strip(surfaces, x) -> Strip:
 
 def _pair(lines, index: int) -> tuple[Strip, Strip]:
     """A piece on its own cells and on every so-manieth of them."""
-    from lubfric.sampling.sample import PAIR
-
     surface, (fx, fy) = lines.pair(index, PAIR * lines.lengths[1]), lines.cells.factors
     z, (dx, dy) = surface.heights, surface.spacing
     x = lines.cells.axis()[0] + (np.arange(z.shape[0]) - fx // 2) * dx
@@ -176,7 +162,7 @@ def _pair(lines, index: int) -> tuple[Strip, Strip]:
 
 
 def verdict(prepared: Prepared, result) -> dict[str, float]:
-    """Deviations of ``result`` by name, over what is allowed."""
+    """Deviations of ``result`` by name, over what is allowed. At rest the contact carries all."""
     scene, load = prepared.scene, prepared.scene.bodies.load
     share, forces = result.contact_load / load, result.boundary_force + result.shear_force
     found = {
@@ -184,7 +170,11 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
         "friction sum": abs(result.coefficient * load - forces) / max(abs(forces), 1e-300),
         "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0,
     }
-    if scene.contact.model == "half-space" and scene.surface.sq:
+    if result.speed == 0:
+        found["contact share"] = abs(share - 1) / scene.numerics.tolerance
+        expected = scene.bodies.boundary_friction_coefficient
+        found["friction"] = abs(result.coefficient / expected - 1) / scene.numerics.tolerance
+    elif scene.contact.model == "half-space" and scene.surface.sq:
         stated, of_share = max(scene.numerics.tolerance, result.uncertainty.numerical), scene.numerics.tolerance
         if result.line is not None and len(result.line.used) and share > 0:
             stated += SECOND_ORDER * result.uncertainty.sampling**2
@@ -223,7 +213,7 @@ def closed_again(judge: Judge, share: float, closely: bool = False) -> tuple[tup
 
 
 def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
-    from scipy.optimize import brentq
+    """As `closed_again`, by a root between divisions on both sides of it."""
 
     def surplus(split):
         sides = judge.sides(split)

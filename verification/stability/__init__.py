@@ -6,57 +6,46 @@ bad input was not refused in words, or when one of many random scenes was answer
 
 from __future__ import annotations
 
-import argparse
 import importlib
 from collections.abc import Iterator
-from dataclasses import replace
+from functools import partial
 
-from ..check import Item
-from ..frame import Command
-from ..frame import main as run
-from ..studies import Study
+from .. import frame
+from ..check import Check, Item
+from ..kept import Run
 
-MAPS = {
-    "film": "Smooth film",
-    "contact": "Dry contact",
-    "sharing": "Load sharing",
-    "whole": "One gap, one pressure",
-}
-LEVELS = ("full", "quick")
+MAPS = {"film": "Smooth film", "contact": "Dry contact", "sharing": "Load sharing", "whole": "One gap, one pressure"}
+PARTS = (
+    *((name, "stability:stability_map", title, {"name": name}) for name, title in MAPS.items()),
+    ("bad-inputs", "hostile:bad_inputs", "Bad input", {}),
+    ("soak", "hostile.soak:soak", "Random scenes", {}),
+)
 
 
 def main(argv: list[str]) -> int:
     """The command."""
-    studies = tuple(
-        Study(name, "verification.stability:stability_map", title, LEVELS, {"name": name})
-        for name, title in MAPS.items()
-    )
-    studies += (
-        Study("bad-inputs", "verification.hostile.study:bad_inputs", "Bad input", LEVELS),
-        Study("soak", "verification.hostile.study:soak", "Random scenes in one process", LEVELS),
-    )
-    return run(Command("stability", __doc__, studies, "out/stability", LEVELS, workers=1, prepared=_kept), argv)
+    return frame.main(frame.campaign("stability", __doc__, PARTS, ("full", "quick")), argv)
 
 
-def _kept(study: Study, options: argparse.Namespace) -> Study:
-    """The soak and the map of the whole keep what is done in the folder of the report; the soak, alone, has all the
-    processes."""
-    folder = {"folder": options.out / f"{study.name}-{options.level}"}
-    if study.name == "whole":
-        return replace(study, options=study.options | folder)
-    if study.name != "soak":
-        return study
-    workers = options.workers if options.only == ["soak"] else 1
-    return replace(study, options=folder | {"workers": workers})
-
-
-def stability_map(level: str, name: str, **kept) -> Iterator[Item]:
+def stability_map(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
     """Every cell of one map, judged without asking the solver; then their counts and their picture."""
     from .draw import draw, table
 
-    cells = []
-    for found in importlib.import_module(f"verification.stability.{name}_map").cells(level, **kept):
-        cells.append(found)
-        yield found
-    yield table(name, cells)
-    yield draw(name, cells)
+    cells = _map(name).cells(level == "quick")
+    found = []
+    for _, row in run.solved({cell.name: cell for cell in cells}, partial(judged, name)):
+        found.append(Check.from_dict(row))
+        yield found[-1]
+    yield table(name, found)
+    yield draw(name, found)
+
+
+def judged(name: str, cell) -> dict:
+    """The check of one cell of the map ``name``, in plain types."""
+    from . import cell as cells
+
+    return cells.judged(cell, _map(name).solve, _map(name).deviations).as_dict()
+
+
+def _map(name: str):
+    return importlib.import_module(f"verification.stability.{name}_map")

@@ -6,79 +6,76 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
-import lubfric
+from lubfric import LubfricError
 
 from ..check import AT_MOST, Check
 
 RIGHT, FAILED, WRONG = "right", "reported failure", "silently wrong"
 VERDICTS = (RIGHT, FAILED, WRONG)
-SOURCE = "the judge beside this map"
 
 
 @dataclass(frozen=True)
-class Condition:
-    """Where a cell lies: the map and panel that it is drawn on, and x and y on their axes.
+class Cell:
+    """The ``problem`` of a map, and where it is drawn: the map and panel, and x and y on their axes.
 
-    ``inside`` says that it lies within the range in which the method that users get unasked promises to answer.
+    Users get the ``default`` method unasked. ``inside``: the range in which it promises to answer.
     """
 
     map: str
     panel: str
     x: float
     y: float
+    problem: Any = None
+    method: str = "default"
+    default: bool = True
     inside: bool = True
 
+    @property
+    def name(self) -> str:
+        """All of it in words."""
+        return f"{self.map}; {self.panel}; x = {self.x:g}, y = {self.y:g}; {self.method}"
 
-def verdict(cell: Check) -> str:
+
+def verdict(check: Check) -> str:
     """One of `VERDICTS`."""
-    return RIGHT if cell.passed else FAILED if cell.refused else WRONG
+    return RIGHT if check.passed else FAILED if check.refused else WRONG
 
 
-def judged(condition: Condition, method: str, solve: Callable, check: Callable, default: bool = True) -> Check:
-    """Run ``solve()`` and hand a result to ``check``, which returns {name: deviation/allowed}. The worst one is
-    measured.
+def judged(cell: Cell, solve: Callable[[Cell], Any], deviations: Callable[[Cell, Any], dict[str, float]]) -> Check:
+    """Solve the cell, and set the worst of the ``deviations`` of its result against 1: each is over what is allowed.
 
-    `lubfric.ConvergenceError` and `lubfric.InputError` are reported failures, and so is the analogue of another package
-    (an exception whose class is named like it). Any other exception is a defect and ends the map. A ratio that is above
-    1, or not a number, makes the cell silently wrong. What decides are the cells of the ``default`` method, which users
-    get unasked: none may be silently wrong, and none inside its promise may fail.
+    A `lubfric.LubfricError` is a reported failure, and so is the analogue of the finite elements (an exception of that
+    name). Any other exception is a defect and ends the map. A deviation above 1, or that is no number, makes the cell
+    silently wrong. The cells of default methods decide: none may be silently wrong, and none inside its promise fail.
     """
-    begun = time.perf_counter()
+    begun, ratio, refused = time.perf_counter(), math.nan, ""
     try:
-        result = solve()
+        result = solve(cell)
     except Exception as failure:
-        if not (isinstance(failure, lubfric.LubfricError) or type(failure).__name__ in ("SolveError", "InputError")):
+        if not (isinstance(failure, LubfricError) or type(failure).__name__ in ("SolveError", "InputError")):
             raise
-        refused = f"{type(failure).__name__}: {failure}"[:300]
-        return _cell(condition, method, math.nan, refused, refused, time.perf_counter() - begun, default)
-    seconds = time.perf_counter() - begun
-    ratios = check(result)
-    worst = max(ratios, key=lambda name: ratios[name] if math.isfinite(ratios[name]) else math.inf)
-    return _cell(condition, method, ratios[worst], worst, "", seconds, default)
-
-
-def _cell(c: Condition, method, ratio, note, refused, seconds, default) -> Check:
-    inside = bool(c.inside)
+        note = refused = f"{type(failure).__name__}: {failure}"[:300]
+        seconds = time.perf_counter() - begun
+    else:
+        seconds = time.perf_counter() - begun
+        ratios = deviations(cell, result)
+        note = max(ratios, key=lambda name: ratios[name] if math.isfinite(ratios[name]) else math.inf)
+        ratio = ratios[note]
+    at: dict[str, str | float] = {"map": cell.map, "panel": cell.panel, "method": cell.method}
+    at |= {"x": float(cell.x), "y": float(cell.y), "default": cell.default, "inside": cell.inside}
     return Check(
-        f"{c.map}; {c.panel}; x = {c.x:g}, y = {c.y:g}; {method}",
+        cell.name,
         ratio,
         1.0,
         0.0,
-        SOURCE,
+        "the judge beside this map",
         AT_MOST,
-        unit="of what is allowed",
-        note=note,
-        seconds=seconds,
-        decisive=default and (inside or not refused),
+        "of what is allowed",
+        note,
+        seconds,
+        decisive=cell.default and (cell.inside or not refused),
         refused=refused,
-        at={
-            "map": c.map,
-            "panel": c.panel,
-            "method": method,
-            "x": float(c.x),
-            "y": float(c.y),
-            "default": default,
-            "inside": inside,
-        },
+        at=at,
     )

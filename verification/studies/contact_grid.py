@@ -6,10 +6,9 @@ import numpy as np
 
 import lubfric
 
-from .. import plotting
-from ..check import AT_LEAST, AT_MOST, Check, Table
+from ..check import AT_LEAST, Table, bound, compared
+from ..convergence import Series, convergence
 from ..exact_contact import Line, Sphere, Wave
-from ..rates import fitted_order
 
 E_PRIME, RADIUS, SIZE = 231e9, 2e-3, 4.5e-6  # Pa, m, m: modulus, radius, contact size of the paper
 TOLERANCE = 1e-8
@@ -21,6 +20,16 @@ REASONS = {
     1: "cells are wholly in contact or not, pressure rises like a root at the edge",
     2: "means are of second order",
 }
+# bound on the error with 32 cells in the half-width or a quarter of the wave, 16 in the radius, and its order
+LINE = {"peak pressure": (2e-4, 2), "contact size": (4e-4, 2), "contact area": (2e-2, 1), "mean gap": (4e-4, 2)}
+BALL = {
+    "peak pressure": (1.5e-3, 2),
+    "contact size": (7e-4, 2),
+    "contact area": (2.5e-2, 1),
+    "mean gap": (8e-4, 2),
+    "approach": (3e-4, 2),
+}
+WAVE = {"peak pressure": (5e-4, 2), "contact area": (2e-2, 1), "mean gap": (3e-4, 2), "pressure, L2": (1.2e-2, 1)}
 
 
 def contact_grid(level: str):
@@ -32,82 +41,37 @@ def contact_grid(level: str):
     six places. Contact is all or nothing in a cell, so area is of first order. Pressure and gap are smoother. The
     contact size is taken from the second moment of the pressure.
     """
-    yield from family(
-        "cylinder",
-        cylinder,
-        CELLS[level],
-        "cells in a half-width",
-        32,
-        {
-            "peak pressure": (2e-4, 2),
-            "contact size": (4e-4, 2),
-            "contact area": (2e-2, 1),
-            "mean gap": (4e-4, 2),
-        },
-    )
-    yield from family(
-        "sphere",
-        sphere,
-        SPHERE_CELLS[level],
-        "cells in a radius",
-        16,
-        {
-            "peak pressure": (1.5e-3, 2),
-            "contact size": (7e-4, 2),
-            "contact area": (2.5e-2, 1),
-            "mean gap": (8e-4, 2),
-            "approach": (3e-4, 2),
-        },
-    )
-    yield from family(
-        "wave",
-        wave,
-        CELLS[level],
-        "cells in a quarter of the wave",
-        32,
-        {
-            "peak pressure": (5e-4, 2),
-            "contact area": (2e-2, 1),
-            "mean gap": (3e-4, 2),
-            "pressure, L2": (1.2e-2, 1),
-        },
-    )
+    yield from family(cylinder, CELLS[level], "cells in a half-width", 32, LINE, HERTZ)
+    yield from family(sphere, SPHERE_CELLS[level], "cells in a radius", 16, BALL, HERTZ)
+    source = "closed form, Westergaard 1939"
+    yield from family(wave, CELLS[level], "cells in a quarter of the wave", 32, WAVE, source)
     yield from row_of_spheres(16)
 
 
-def family(name: str, solve, cells: tuple[int, ...], size: str, at: int, allowed: dict[str, tuple[float, int]]):
+def family(solve, cells: tuple[int, ...], size: str, at: int, allowed: dict[str, tuple[float, int]], source: str):
     """Errors of one shape on all grids.
 
     ``allowed`` is the bound with ``at`` cells, and the order by which it falls.
     """
+    name = solve.__name__
     errors = np.array(
         [np.sqrt(np.mean([np.square(solve(n, place / PLACES)) for place in range(PLACES)], axis=0)) for n in cells]
     )
-    sizes = [1 / n for n in cells]
-    for (quantity, (bound, order)), column in zip(allowed.items(), errors.T, strict=True):
-        yield Check(
-            f"{name}: {quantity}, relative error",
-            column[-1],
-            0.0,
-            bound * (at / cells[-1]) ** order,
-            HERTZ if name != "wave" else "closed form, Westergaard 1939",
-            AT_MOST,
-            note=f"{cells[-1]} {size}",
-        )
-        yield Check(f"{name}: {quantity}, order", fitted_order(sizes, column), order, 0.3, REASONS[order], AT_LEAST)
-    yield Table(
-        f"contact_{name}",
-        f"Relative errors of a {name}, root mean squares over {PLACES} places of the edge.",
-        (size, *allowed),
-        tuple((n, *(float(e) for e in row)) for n, row in zip(cells, errors, strict=True)),
-    )
-    yield plotting.convergence(
-        f"contact_{name}",
-        f"Errors of a {name} by lubfric.solve_contact against the closed form. Dotted: the expected order.",
-        {q: (sizes, column, allowed[q][1]) for q, column in zip(allowed, errors.T, strict=True)},
-        f"1 / {size}",
-        "relative error",
-    )
+    sizes, series = 1 / np.array(cells), []
+    for (quantity, (most, order)), column in zip(allowed.items(), errors.T, strict=True):
+        limit, note = most * (at / cells[-1]) ** order, f"{cells[-1]} {size}"
+        yield bound(f"{name}: {quantity}, relative error", column[-1], limit, source, note)
+        check = f"{name}: {quantity}, order"
+        series.append(Series(quantity, sizes, column, order, check, 0.3, REASONS[order], AT_LEAST))
+    caption = f"Relative errors of a {name}, root mean squares over {PLACES} places of the edge."
+    yield Table(f"contact_{name}", caption, (size, *allowed), [(n, *row) for n, row in zip(cells, errors.tolist())])
+    caption = f"Errors of a {name} by lubfric.solve_contact against the closed form. Dotted: the expected order."
+    yield from convergence(f"contact_{name}", caption, series, f"1 / {size}", "relative error")
+
+
+def centred(count: int, step: float) -> np.ndarray:
+    """Centres of ``count`` cells about 0."""
+    return (np.arange(count) - (count - 1) / 2) * step
 
 
 def cylinder(cells: int, place: float) -> tuple[float, ...]:
@@ -115,20 +79,14 @@ def cylinder(cells: int, place: float) -> tuple[float, ...]:
     across = cells + place
     exact, dx = Line(E_PRIME, RADIUS, SIZE), SIZE / across
     n = 2 * int(2 * across)
-    x = (np.arange(n) - (n - 1) / 2) * dx
-    c = lubfric.solve_contact(
-        np.tile(x[:, None] ** 2 / (2 * RADIUS), (1, 4)),
-        dx,
-        E_PRIME,
-        boundary=("free", "periodic"),
-        mean_pressure=exact.load / (n * dx),
-        tolerance=TOLERANCE,
-    )
+    x = centred(n, dx)
+    gap0 = np.tile(x[:, None] ** 2 / (2 * RADIUS), (1, 4))
+    options = {"boundary": ("free", "periodic"), "tolerance": TOLERANCE}
+    c = lubfric.solve_contact(gap0, dx, E_PRIME, mean_pressure=exact.load / (n * dx), **options)
     p = c.pressure[:, 0]
-    width = 2 * np.sqrt(p @ x**2 / p.sum())
     return (
         p.max() / exact.peak - 1,
-        width / SIZE - 1,
+        2 * np.sqrt(p @ x**2 / p.sum()) / SIZE - 1,
         np.count_nonzero(p) * dx / (2 * SIZE) - 1,
         c.gap.mean() / exact.mean_gap(n * dx / 2) - 1,
     )
@@ -139,24 +97,17 @@ def sphere(cells: int, place: float) -> tuple[float, ...]:
     across = cells + place
     exact, dx = Sphere(E_PRIME, RADIUS, SIZE), SIZE / across
     n = 2 * int(2 * across)
-    x = (np.arange(n) - (n - 1) / 2) * dx
+    x = centred(n, dx)
     square = x[:, None] ** 2 + x**2
-    c = lubfric.solve_contact(
-        square / (2 * RADIUS),
-        dx,
-        E_PRIME,
-        boundary=("free", "free"),
-        mean_pressure=exact.load / (n * dx) ** 2,
-        tolerance=TOLERANCE,
-    )
+    options = {"boundary": ("free", "free"), "tolerance": TOLERANCE}
+    mean = exact.load / (n * dx) ** 2
+    c = lubfric.solve_contact(square / (2 * RADIUS), dx, E_PRIME, mean_pressure=mean, **options)
     p, near = c.pressure, square < (2 * SIZE) ** 2
-    radius = np.sqrt(2.5 * np.sum(p * square) / p.sum())
-    fine = (np.arange(8 * n) - (8 * n - 1) / 2) * dx / 8
-    r = np.hypot(fine[:, None], fine)
-    gap = exact.gap(r).reshape(n, 8, n, 8).mean(axis=(1, 3))[near].mean()
+    fine = centred(8 * n, dx / 8)
+    gap = exact.gap(np.hypot(fine[:, None], fine)).reshape(n, 8, n, 8).mean(axis=(1, 3))[near].mean()
     return (
         p.max() / exact.peak - 1,
-        radius / SIZE - 1,
+        np.sqrt(2.5 * np.sum(p * square) / p.sum()) / SIZE - 1,
         np.count_nonzero(p) * dx**2 / (np.pi * SIZE**2) - 1,
         c.gap[near].mean() / gap - 1,
         c.approach / exact.approach - 1,
@@ -168,14 +119,9 @@ def wave(cells: int, place: float) -> tuple[float, ...]:
     n = 4 * cells
     exact = Wave(E_PRIME, 100e-9, 45e-6, 0.2 + 0.3 * place)
     x = (np.arange(n) + 0.5 + place) * exact.length / n
-    gap0 = -exact.amplitude * np.cos(2 * np.pi * x / exact.length)
-    c = lubfric.solve_contact(
-        np.tile(gap0[:, None], (1, 4)),
-        exact.length / n,
-        E_PRIME,
-        mean_pressure=exact.mean_pressure,
-        tolerance=TOLERANCE,
-    )
+    gap0 = np.tile(-exact.amplitude * np.cos(2 * np.pi * x / exact.length)[:, None], (1, 4))
+    options = {"mean_pressure": exact.mean_pressure, "tolerance": TOLERANCE}
+    c = lubfric.solve_contact(gap0, exact.length / n, E_PRIME, **options)
     p, true = c.pressure[:, 0], exact.pressure(x)
     return (
         p.max() / exact.pressure(0) - 1,
@@ -191,29 +137,13 @@ def row_of_spheres(cells: int):
     The others press it down by ``(2/(pi E')) F sum 2/(n s)``, which is a constant and a curvature. The curvature widens
     the contact by less than 1e-4 at this distance.
     """
-    exact, dx = Sphere(E_PRIME, RADIUS, SIZE), SIZE / cells
-    nx, ny = 4 * cells, 24 * cells
-    x, y = ((np.arange(n) - (n - 1) / 2) * dx for n in (nx, ny))
-    square = x[:, None] ** 2 + y**2
-    c = lubfric.solve_contact(
-        square / (2 * RADIUS),
-        dx,
-        E_PRIME,
-        boundary=("free", "periodic"),
-        mean_pressure=exact.load / (nx * ny * dx**2),
-        tolerance=1e-6,
-    )
-    p = c.pressure
-    found = (
-        ("peak pressure", p.max(), exact.peak, "Pa"),
-        ("contact radius", np.sqrt(2.5 * np.sum(p * square) / p.sum()), SIZE, "m"),
-    )
-    for name, measured, expected, unit in found:
-        yield Check(
-            f"row of spheres: {name}",
-            measured,
-            expected,
-            5e-3,
-            f"{HERTZ}; neighbours 24 radii away",
-            unit=unit,
-        )
+    exact, dx, (nx, ny) = Sphere(E_PRIME, RADIUS, SIZE), SIZE / cells, (4 * cells, 24 * cells)
+    square = centred(nx, dx)[:, None] ** 2 + centred(ny, dx) ** 2
+    options = {"boundary": ("free", "periodic"), "tolerance": 1e-6}
+    mean = exact.load / (nx * ny * dx**2)
+    p = lubfric.solve_contact(square / (2 * RADIUS), dx, E_PRIME, mean_pressure=mean, **options).pressure
+    rows = [
+        ("peak pressure", "Pa", p.max(), exact.peak, 5e-3),
+        ("contact radius", "m", np.sqrt(2.5 * np.sum(p * square) / p.sum()), SIZE, 5e-3),
+    ]
+    yield from compared("row of spheres", rows, f"{HERTZ}; neighbours 24 radii away")

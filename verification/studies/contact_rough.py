@@ -5,18 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from skfem import MeshQuad
 
 import lubfric
 
 from .. import plotting
-from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check, Table
+from ..check import AT_LEAST, Table, bound, compared
+from ..convergence import Series
 from ..fem.compliance import Elastic, missing
 from ..fem.contact import solve_contact
 from ..fem.layer3d import Layer3D, graded_levels, multigrid, solve
 from ..fem.layer_waves import fourier_compliance
-from ..meshes import mesh_field
-from ..rates import fitted_order
 
 E_PRIME = 231e9
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
@@ -109,10 +107,7 @@ def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
         limit=limit,
     )
     return Patch(
-        found.pressure.reshape(grid.shape),
-        found.gap.reshape(grid.shape),
-        weights,
-        np.inf if limit is None else limit,
+        found.pressure.reshape(grid.shape), found.gap.reshape(grid.shape), weights, np.inf if limit is None else limit
     )
 
 
@@ -137,98 +132,62 @@ def rough(level: str):
         best = half_space_patch(REFERENCE[level], limit)
         patches = [press_patch(layer_of(n, 2), limit) for n in NODES[level]]
         off = [patch_difference(p, best) for p in patches]
-        rows += [patch_row(f"{name}, finite elements", p, o) for p, o in zip(patches, off, strict=True)]
-        rows.append(patch_row(f"{name}, lubfric", best, 0.0))
+        for by, p, o in (*(("finite elements", *each) for each in zip(patches, off)), ("lubfric", best, 0.0)):
+            rows.append((f"{name}, {by}", f"{p.gap.shape[0]}²", p.area, p.plastic_area, p.mean_gap / SQ, o))
         yield from patch_checks(name, patches, best, off)
         if limit is None:
             yield patch_figure(patches[-1], best)
-            yield patch_field(patches[-1], best)
-    yield Table(
-        "contact_rough",
-        f"Rough patch, Sq = {SQ * 1e9:g} nm, box {BOX * 1e6:g} µm, mean pressure "
-        f"{MEAN_PRESSURE / 1e6:g} MPa, cap {CAP / 1e9:g} GPa; triquadratic bricks",
-        ("solver", "nodes", "contact area", "area at the cap", "mean gap / Sq", "pressure difference"),
-        rows,
-    )
+    caption = f"Rough patch, Sq = {SQ * 1e9:g} nm, box {BOX * 1e6:g} µm, mean pressure {MEAN_PRESSURE / 1e6:g} MPa, "
+    caption += f"cap {CAP / 1e9:g} GPa; triquadratic bricks"
+    columns = ("solver", "nodes", "contact area", "area at the cap", "mean gap / Sq", "pressure difference")
+    yield Table("contact_rough", caption, columns, rows)
+
+
+def at_nodes(values, nodes: int) -> np.ndarray:
+    """The values on a finer grid at the nodes of a coarser one."""
+    every = values.shape[0] // nodes
+    return values[::every, ::every]
 
 
 def patch_difference(p: Patch, best: Patch) -> float:
     """Relative L2 difference of the pressures at the nodes of the coarser grid."""
-    every = best.pressure.shape[0] // p.pressure.shape[0]
-    other = best.pressure[::every, ::every]
+    other = at_nodes(best.pressure, p.pressure.shape[0])
     return float(np.sqrt(np.sum(p.weights * (p.pressure - other) ** 2) / np.sum(p.weights * other**2)))
-
-
-def patch_row(name: str, p: Patch, off: float) -> tuple:
-    """A line of the table."""
-    return (name, f"{p.gap.shape[0]}²", p.area, p.plastic_area, p.mean_gap / SQ, off)
 
 
 def patch_checks(name: str, patches, best: Patch, off):
     """Area, mean gap and pressure beside `lubfric`."""
     finest, nodes = patches[-1], patches[-1].gap.shape[0]
     label, other = f"rough patch, {name}, {nodes}²", f"{DRY}, {best.gap.shape[0]}²"
-    yield Check(f"{label}: contact area", finest.area, best.area, 0.02, other)
-    yield Check(f"{label}: mean gap", finest.mean_gap, best.mean_gap, 5e-3, other, unit="m")
-    if np.isfinite(finest.limit):
-        yield Check(f"{label}: area at the cap", finest.plastic_area, best.plastic_area, 4 / nodes, other)
-    yield Check(
-        f"{label}: order of the pressure difference",
-        fitted_order([1 / p.gap.shape[0] for p in patches], off),
-        1,
-        0.4,
-        "edges like a square root, at places the grid does not know",
-        AT_LEAST,
-    )
-    yield Check(f"{label}: pressure difference", off[-1], 0, 2 / nodes, other, AT_MOST, note="L2")
+    rows = [
+        ("contact area", "1", finest.area, best.area, 0.02),
+        ("mean gap", "m", finest.mean_gap, best.mean_gap, 5e-3),
+        ("area at the cap", "1", finest.plastic_area, best.plastic_area, 4 / nodes),
+    ]
+    yield from compared(label, rows if np.isfinite(finest.limit) else rows[:2], other)
+    sizes, source = [1 / p.gap.shape[0] for p in patches], "edges like a square root, at places the grid does not know"
+    yield Series("", sizes, off, 1, f"{label}: order of the pressure difference", 0.4, source, AT_LEAST).judged()
+    yield bound(f"{label}: pressure difference", off[-1], 2 / nodes, other, "L2")
 
 
 def patch_figure(p: Patch, best: Patch):
     """Pressures of both and their difference."""
-    every = best.pressure.shape[0] // p.pressure.shape[0]
-    other, top = best.pressure[::every, ::every] / 1e9, best.pressure.max() / 1e9
+    own, other = p.pressure / 1e9, at_nodes(best.pressure, p.pressure.shape[0]) / 1e9
     canvas, axes = plotting.axes(1, 3, width=9.0, height=3.1, sharey=True)
-    ends = (0, BOX * 1e6, 0, BOX * 1e6)
+    most, top = np.abs(own - other).max(), best.pressure.max() / 1e9
     maps = (
-        (p.pressure / 1e9, "finite elements"),
-        (other, "lubfric"),
-        (p.pressure / 1e9 - other, "difference"),
+        (own, "finite elements", {"vmin": 0, "vmax": top, "cmap": "viridis"}),
+        (other, "lubfric", {"vmin": 0, "vmax": top, "cmap": "viridis"}),
+        (own - other, "difference", {"vmin": -most, "vmax": most, "cmap": "RdBu_r"}),
     )
-    for ax, (values, title) in zip(axes, maps, strict=True):
-        reach = (0, top) if title != "difference" else np.array([-1, 1]) * np.abs(values).max()
-        image = ax.imshow(
-            values.T,
-            origin="lower",
-            extent=ends,
-            vmin=reach[0],
-            vmax=reach[1],
-            cmap="RdBu_r" if title == "difference" else "viridis",
-        )
+    for ax, (values, title, colours) in zip(axes, maps, strict=True):
+        image = ax.imshow(values.T, origin="lower", extent=(0, BOX * 1e6, 0, BOX * 1e6), **colours)
         ax.grid(False)
         ax.set(title=title, xlabel="x (µm)")
         canvas.colorbar(image, ax=ax, shrink=0.75, label="GPa")
     axes[0].set(ylabel="y (µm)")
-    return plotting.finish(
-        "contact_rough",
-        canvas,
-        f"Rough patch, {p.gap.shape[0]}² nodes: pressure of both solvers at the nodes. What "
-        "differs sits on the edges of the contact spots.",
-        "png",
-    )
-
-
-def patch_field(p: Patch, best: Patch):
-    """Pressure and gap of both on the surface, and the differences."""
-    n = p.gap.shape[0]
-    every = best.pressure.shape[0] // n
-    x = np.arange(n) * BOX / n
-    mesh = MeshQuad.init_tensor(x, x)
-    at = tuple(np.round(mesh.p / BOX * n).astype(int))
-    values = {"pressure_fem": p.pressure, "pressure_lubfric": best.pressure[::every, ::every]}
-    values |= {"gap_fem": p.gap, "gap_lubfric": best.gap[::every, ::every]}
-    values |= {f"{q}_difference": values[f"{q}_fem"] - values[f"{q}_lubfric"] for q in ("pressure", "gap")}
-    data = {name: v[at] for name, v in values.items()}
-    return mesh_field("contact_rough_patch", "Rough patch: pressure in Pa, gap in m, both solvers", mesh, data)
+    caption = f"Rough patch, {p.gap.shape[0]}² nodes: pressure of both solvers. They differ on the edges of the spots."
+    return plotting.finish("contact_rough", canvas, caption, "png")
 
 
 def thickness(level: str):
@@ -244,64 +203,28 @@ def thickness(level: str):
     gaps, thick = np.array([gap(d) for d in depths]), gap(reach[-1] / BOX)
     off = np.abs(gaps / thick - 1)
     stiff = np.array([missing(2 * np.pi * d, BODY.poisson) for d in depths])
-    yield Table(
-        "contact_rough_thickness",
-        f"Mean gap of the rough patch on layers of different thickness, {nodes}² nodes, over that on "
-        f"{reach[-1] / BOX:.3g} boxes",
-        ("thickness / box", "mean gap / Sq", "relative change", "missing compliance of the longest wave"),
-        list(zip(depths, gaps / SQ, off, stiff, strict=True)),
-    )
+    caption = f"Mean gap of the rough patch on layers, {nodes}² nodes, over that on {reach[-1] / BOX:.3g} boxes"
+    columns = ("thickness / box", "mean gap / Sq", "relative change", "missing compliance of the longest wave")
+    yield Table("contact_rough_thickness", caption, columns, list(zip(depths, gaps / SQ, off, stiff, strict=True)))
     chosen = np.argmin(np.abs(depths - THICKNESS))
-    yield Check(
-        f"rough patch: change of the mean gap beyond {depths[chosen]:.3g} boxes",
-        off[chosen],
-        0,
-        1e-4,
-        "thickness study",
-        AT_MOST,
-    )
+    name = f"rough patch: change of the mean gap beyond {depths[chosen]:.3g} boxes"
+    yield bound(name, off[chosen], 1e-4, "thickness study")
     near = (off > 1e-5) & (stiff < 0.1)
-    yield Check(
-        "rough patch: change of the mean gap follows the missing compliance, exponent",
-        np.polyfit(np.log(stiff[near]), np.log(off[near]), 1)[0],
-        1,
-        0.15,
-        "first order in what the layer lacks",
-        ABSOLUTE,
-    )
-    canvas, ax = plotting.axes(height=3.4)
-    ax.semilogy(depths, off, "o-", label="change of the mean gap")
-    ax.semilogy(depths, stiff, "k--", linewidth=1, label="missing compliance of the longest wave")
-    ax.axvline(THICKNESS, color="0.6", linewidth=0.8, linestyle=":")
-    ax.set(xlabel="thickness / box", ylabel="relative")
-    ax.legend()
-    yield plotting.finish(
-        "contact_rough_thickness",
-        canvas,
-        "Rough patch: the mean gap nears that on the half-space exponentially. "
-        "Dotted: the thickness of the other figures.",
-    )
+    name = "rough patch: change of the mean gap follows the missing compliance, exponent"
+    yield Series("", stiff[near], off[near], 1, name, 0.15, "first order in what the layer lacks").judged()
 
 
 def certified(level: str):
     """The contact that was solved wave by wave, as a load on the assembled layer: does it hold there as well?"""
     nodes = 32 if level == "quick" else 64
-    degree = 2 if level == "full" else 1
-    grid = layer_of(nodes, degree, layers=nodes // 4)
+    grid = layer_of(nodes, 2 if level == "full" else 1, layers=nodes // 4)
     p = press_patch(grid)
-    solved = solve(multigrid(grid), p.pressure * p.weights, tolerance=1e-9)
+    force = p.pressure * p.weights
+    solved = solve(multigrid(grid), force, tolerance=1e-9)
     misfit = solved.surface - roughness(*grid.x)
-    gap = misfit - np.average(misfit, weights=p.pressure * p.weights)
+    gap = misfit - np.average(misfit, weights=force)
     scale, note = np.ptp(solved.surface), f"{grid.unknowns} unknowns, {solved.report.iterations} iterations"
     source = "conjugate gradients with smoothed aggregation on the assembled layer"
-    yield Check(
-        f"rough patch, {nodes}², multigrid: penetration",
-        -gap.min() / scale,
-        0,
-        1e-7,
-        source,
-        AT_MOST,
-        note=note,
-    )
-    opening = np.sum(p.pressure * p.weights * np.abs(gap)) / (scale * np.sum(p.pressure * p.weights))
-    yield Check(f"rough patch, {nodes}², multigrid: complementarity", opening, 0, 1e-7, source, AT_MOST)
+    yield bound(f"rough patch, {nodes}², multigrid: penetration", -gap.min() / scale, 1e-7, source, note)
+    opening = np.average(np.abs(gap), weights=force) / scale
+    yield bound(f"rough patch, {nodes}², multigrid: complementarity", opening, 1e-7, source)

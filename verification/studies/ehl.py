@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
+import time
+from dataclasses import dataclass
+
 import numpy as np
 
-from .. import plotting
-from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check
-from ..fem.ehl import solve_ehl
-from ..fem.ehl_film import PENALTY
-from ..rates import fitted_order
-from .ehl_pair import COMPRESSIBLE, CONSTANT, Pair, make_contact, solved
-from .ehl_show import fields, profiles, summary
+import lubfric
 
+from .. import plotting
+from ..cases import case_of
+from ..check import AT_LEAST, Check, bound, compared
+from ..convergence import Series, convergence, picture
+from ..fem.ehl import LineContact, Solution, solve_ehl
+from ..fem.ehl_film import PENALTY
+from ..fem.fluid import Fluid
+
+CONSTANT, COMPRESSIBLE = "constant", "dowson-higginson"
 POINTS = (
-    (0.05, 5, CONSTANT),
-    (0.5, 5, CONSTANT),
-    (2, 5, CONSTANT),
-    (5, 5, CONSTANT),
-    (20, 5, CONSTANT),
-    (100, 5, CONSTANT),
-    (10, 10, CONSTANT),
-    (50, 10, CONSTANT),
-    (70, 10, CONSTANT),
+    *((M, 5, CONSTANT) for M in (0.05, 0.5, 2, 5, 20, 100)),
+    *((M, 10, CONSTANT) for M in (10, 50, 70)),
     (20, 5, COMPRESSIBLE),
 )
 QUICK = ((2, 5, CONSTANT), (50, 10, CONSTANT))
@@ -49,12 +48,14 @@ def ehl(level: str):
     times the Hertz width in the inlet) to 1.5 GPa. Differences of the films shrink as the finite-element mesh is
     refined, down to where the finite body (1e-5) and the tolerance of `lubfric` (3e-5) begin to show.
     """
+    from .ehl_show import fields, profiles, summary
+
     pairs = []
     for point in QUICK if level == "quick" else POINTS:
         pairs.append(solved(point, REFINEMENTS[level]))
         yield from point_checks(pairs[-1], level)
     yield summary(pairs)
-    yield from convergence(pairs, level)
+    yield from differences(pairs, level)
     yield profiles(pairs)
     yield from ringing()
     if level != "quick":
@@ -62,57 +63,95 @@ def ehl(level: str):
     yield from fields(next(p for p in pairs if p.point == (50, 10, CONSTANT)))
 
 
+@dataclass(frozen=True)
+class Pair:
+    """One contact solved both ways: on all finite-element meshes, coarsest first, and by `lubfric`."""
+
+    point: tuple[float, float, str]
+    solutions: list[Solution]
+    line: lubfric.EHLResult
+    seconds: float
+
+    @property
+    def finest(self) -> Solution:
+        """The solution on the finest mesh."""
+        return self.solutions[-1]
+
+    @property
+    def label(self) -> str:
+        """M, L, and the density law if it matters, in words."""
+        M, L, density = self.point
+        return f"M = {M:g}, L = {L:g}" + ("" if density == CONSTANT else ", compressible")
+
+    def differences(self, s: Solution) -> tuple[float, float, float]:
+        """Relative differences of flow film and smallest film, and the root mean square of that of the film over the
+        contact, in flow films.
+
+        The contact reaches here to 1.2 times the place where the film is expected to rupture.
+        """
+        width = 1.2 * s.layout.edges[1] * s.contact.half_width
+        x = np.linspace(-width, width, 2001)
+        off = float(np.sqrt(np.mean((s.at(x)[1] - self.line.film_at(x)) ** 2))) / self.line.flow_film
+        return s.flow_film / self.line.flow_film - 1, s.min_film / self.line.min_film - 1, off
+
+
+def make_contact(M: float, L: float, density_law: str = CONSTANT) -> LineContact:
+    """A steel contact with Moes' numbers M and L > 0, Roelands oil."""
+    c = case_of(M, L)
+    alpha = c["pressure_viscosity_coefficient"]
+    fluid = Fluid(c["viscosity"], "roelands", alpha, density_law=density_law.replace("-", "_"))
+    return LineContact(c["load_per_width"], c["radius"], c["e_prime"], c["entrainment_speed"], fluid)
+
+
+def solved(point: tuple[float, float, str], refinements: int) -> Pair:
+    """Both solvers on one contact."""
+    M, L, density = point
+    start = time.perf_counter()
+    solutions = solve_ehl(make_contact(*point), refinements=refinements)
+    seconds = time.perf_counter() - start
+    return Pair(point, solutions, lubfric.solve_ehl(**case_of(M, L, density=density), tolerance=3e-5), seconds)
+
+
 def point_checks(pair: Pair, level: str):
     """Flow film and smallest film against `lubfric` and the table."""
     s, k = pair.finest, pair.finest.contact.moes_film
-    tolerance = 1e-2 if level == "quick" else 5e-3
+    allowed = 1e-2 if level == "quick" else 5e-3
     note = f"p_h = {s.contact.hertz_pressure / 1e9:.3f} GPa, {s.body.stiffness.shape[0]} degrees of freedom"
-    yield Check(f"{pair.label}: flow film", s.flow_film / k, pair.line.flow_film / k, tolerance, SOLVER, note=note)
-    yield Check(f"{pair.label}: smallest film", s.min_film / k, pair.line.min_film / k, tolerance, SOLVER, note=note)
+    rows = [
+        ("flow film", "1", s.flow_film / k, pair.line.flow_film / k, allowed),
+        ("smallest film", "1", s.min_film / k, pair.line.min_film / k, allowed),
+    ]
+    yield from compared(pair.label, rows, SOLVER, note)
     if pair.point in TABLE:
         smallest, flow = TABLE[pair.point]
-        yield Check(f"{pair.label}: flow film, table", s.flow_film / k, flow, tolerance, TABLE_SOURCE)
-        yield Check(f"{pair.label}: smallest film, table", s.min_film / k, smallest, tolerance, TABLE_SOURCE)
+        rows = [
+            ("flow film, table", "1", s.flow_film / k, flow, allowed),
+            ("smallest film, table", "1", s.min_film / k, smallest, allowed),
+        ]
+        yield from compared(pair.label, rows, TABLE_SOURCE)
 
 
-def convergence(pairs: list[Pair], level: str):
+def differences(pairs: list[Pair], level: str):
     """The film's difference from `lubfric` shrinks with the mesh."""
-    series = {}
+    series: dict[int, list[Series]] = {5: [], 10: []}
     for pair in pairs:
         sizes = [s.cell_length / s.contact.half_width for s in pair.solutions]
-        series[pair.label] = (sizes, [pair.differences(s)[2] for s in pair.solutions], None)
-        yield Check(
-            f"{pair.label}: film difference, finest over coarsest",
-            series[pair.label][1][-1] / series[pair.label][1][0],
-            0.0,
-            0.6 if level == "quick" else 0.35,
-            SOLVER,
-            AT_MOST,
-        )
-    if level != "quick":
-        for L, order, source in (
-            (5, 2.0, "rupture is found at a node of the mesh, where pressure is O(h²): order 2"),
-            (10, 1.0, "the film has a kink under the pressure spike, which no mesh here resolves"),
-        ):
-            errors = [e for pair, (_, e, _) in zip(pairs, series.values(), strict=True) if pair.point[1] == L]
-            mean = np.sqrt(np.mean(np.square(errors), axis=0))
-            yield Check(
-                f"order of the film difference, L = {L}, root mean square over contacts",
-                fitted_order(0.5 ** np.arange(mean.size), mean),
-                order,
-                0.2,
-                source,
-                AT_LEAST,
-            )
-    for L in (5, 10):
-        yield plotting.convergence(
-            f"ehl_convergence_L{L}",
-            f"Film of the full-system finite elements against lubfric at L = {L}, root mean square over the "
-            "contact in flow films, against the smallest cell.",
-            {pair.label: series[pair.label] for pair in pairs if pair.point[1] == L},
-            "smallest cell / Hertz half-width",
-            "film difference / flow film",
-        )
+        errors = [pair.differences(s)[2] for s in pair.solutions]
+        series[pair.point[1]].append(Series(pair.label, sizes, errors))
+        name = f"{pair.label}: film difference, finest over coarsest"
+        yield bound(name, errors[-1] / errors[0], 0.6 if level == "quick" else 0.35, SOLVER)
+    for L, order, source in (
+        (5, 2.0, "rupture is found at a node of the mesh, where pressure is O(h²): order 2"),
+        (10, 1.0, "the film has a kink under the pressure spike, which no mesh here resolves"),
+    ):
+        if level != "quick":
+            mean = np.sqrt(np.mean(np.square([s.errors for s in series[L]]), axis=0))
+            name = f"order of the film difference, L = {L}, root mean square over contacts"
+            yield Series("", 0.5 ** np.arange(mean.size), mean, order, name, 0.2, source, AT_LEAST).judged()
+        caption = f"Film of the full-system finite elements against lubfric at L = {L}, root mean square over the "
+        caption += "contact in flow films, against the smallest cell."
+        words = "smallest cell / Hertz half-width", "film difference / flow film"
+        yield picture(f"ehl_convergence_L{L}", caption, series[L], *words)
 
 
 def ringing():
@@ -127,53 +166,27 @@ def ringing():
         variation[label] = np.abs(np.diff(s.P[order])).sum() / 2
     ax.set(xlim=(-1.6, 1.3), xlabel="x / b", ylabel="p / p_h", title=f"M = 200, L = 10 on {s.body.line.N} points")
     ax.legend()
-    for label, kind, bound in (("Galerkin", AT_LEAST, 2.0), ("slope penalty", AT_MOST, 1.6)):
-        yield Check(
-            f"half the total variation of pressure, {label}",
-            variation[label],
-            bound,
-            0.0,
-            "1 for one hump of height p_h, spike on top",
-            kind,
-            note="rings, as it must where nothing is added" if kind == AT_LEAST else "does not ring",
-        )
-    yield plotting.finish(
-        "ehl_ringing",
-        canvas,
-        "Pressure on a coarse mesh: where viscosity leaves nothing but d(ρh)/dx, plain "
-        "Galerkin rings; slope penalty does not.",
-    )
+    name, source = "half the total variation of pressure", "1 for one hump of height p_h, spike on top"
+    note = "rings, as it must where nothing is added"
+    yield Check(f"{name}, Galerkin", variation["Galerkin"], 2.0, 0.0, source, AT_LEAST, note=note)
+    yield bound(f"{name}, slope penalty", variation["slope penalty"], 1.6, source, "does not ring")
+    caption = "Pressure on a coarse mesh: where viscosity leaves nothing but d(ρh)/dx, plain Galerkin rings; slope "
+    yield plotting.finish("ehl_ringing", canvas, caption + "penalty does not.")
 
 
 def finite_body():
     """What a body of side D costs against a half-space: the same mesh near the contact, with D doubled."""
     sides = np.array([60.0, 120.0, 240.0, 480.0])
-    contact = make_contact(20, 5)
-    films = np.array(
-        [[s.flow_film, s.min_film] for s in (solve_ehl(contact, refinements=1, side=side)[-1] for side in sides)]
-    )
-    limit = films[-1] + (films[-1] - films[-2]) / 3
-    errors = np.abs(films / limit - 1)
+    found = [solve_ehl(make_contact(20, 5), refinements=1, side=side)[-1] for side in sides]
+    films = np.array([[s.flow_film, s.min_film] for s in found])
+    errors = np.abs(films / (films[-1] + (films[-1] - films[-2]) / 3) - 1)
+    series = []
     for name, error in zip(("flow film", "smallest film"), errors.T, strict=True):
-        yield Check(
-            f"finite body: order of the {name}'s error in b/D",
-            fitted_order(1 / sides[:3], error[:3]),
-            2.0,
-            0.2,
-            "curvature of the surface under the image of the load, O((b/D)²)",
-            ABSOLUTE,
-        )
-        yield Check(f"finite body: {name}'s error with D = 60 b", error[0], 5e-4, 0.0, "small against 0.5 %", AT_MOST)
-        yield Check(f"finite body: {name}'s error with D = 240 b, used here", error[2], 3e-5, 0.0, "likewise", AT_MOST)
-    series = {
-        name: (1 / sides[:3], error[:3], 2)
-        for name, error in zip(("flow film", "smallest film"), errors.T, strict=True)
-    }
-    yield plotting.convergence(
-        "ehl_body",
-        "Error of the film from a square body of side D in place of a half-space, M = 20, "
-        "L = 5, against the value extrapolated to an infinite body.",
-        series,
-        "b / D",
-        "relative error of the film",
-    )
+        check = f"finite body: order of the {name}'s error in b/D"
+        source = "curvature of the surface under the image of the load, O((b/D)²)"
+        series.append(Series(name, 1 / sides[:3], error[:3], 2.0, check, 0.2, source))
+        yield bound(f"finite body: {name}'s error with D = 60 b", error[0], 5e-4, "small against 0.5 %")
+        yield bound(f"finite body: {name}'s error with D = 240 b, used here", error[2], 3e-5, "likewise")
+    caption = "Error of the film from a square body of side D in place of a half-space, M = 20, L = 5, against the "
+    caption += "value extrapolated to an infinite body."
+    yield from convergence("ehl_body", caption, series, "b / D", "relative error of the film")

@@ -8,13 +8,11 @@ import numpy as np
 
 import lubfric
 
-from .. import plotting
-from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check, Table
+from ..cases import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of
+from ..check import AT_LEAST, Table, bound, compared
+from ..convergence import Series, convergence
 from ..exact import Parabola
-from ..rates import fitted_order
 
-ALPHA, INDEX, E_PRIME, RADIUS = 2.2e-8, 0.68, 2.2e11, 0.01
-VISCOSITY = math.exp(ALPHA * 1.96e8 / INDEX - 9.67)
 # (M, L): smallest film and flow film in Moes' units, constant density
 TABLE = {
     (5, 5): (3.105, 4.082),
@@ -31,7 +29,7 @@ TOLERANCES = {
 }
 CELLS = {"quick": (96, 192, 384), "default": (96, 192, 384, 768), "full": (96, 192, 384, 768, 1536)}
 RIGID_LOAD = 1e-3  # M at which elastic deflection is 5e-7 of the film
-INLETS = (1.5, 3.0, 6.0, 12.0, 24.0)
+SECOND = (0.3, "fluxes through faces, second order", AT_LEAST)
 
 
 def ehl_grid(level: str):
@@ -50,18 +48,7 @@ def ehl_grid(level: str):
 
 def film(M: float, L: float, tolerance: float, law: str = "roelands", **options) -> lubfric.EHLResult:
     """A film with Moes' numbers M and L. L sets the speed also where the law is "constant"."""
-    number = (L / (ALPHA * E_PRIME)) ** 4
-    return lubfric.solve_ehl(
-        load_per_width=M * math.sqrt(number) * E_PRIME * RADIUS,
-        radius=RADIUS,
-        e_prime=E_PRIME,
-        entrainment_speed=number * E_PRIME * RADIUS / (2 * VISCOSITY),
-        viscosity=VISCOSITY,
-        pressure_viscosity_coefficient=ALPHA,
-        viscosity_law=law,
-        tolerance=tolerance,
-        **options,
-    )
+    return lubfric.solve_ehl(**case_of(M, L, law), tolerance=tolerance, **options)
 
 
 def unit(f: lubfric.EHLResult) -> float:
@@ -74,8 +61,11 @@ def table():
     for (M, L), (smallest, flow) in TABLE.items():
         half_width = RADIUS * (L / (ALPHA * E_PRIME)) * math.sqrt(8 * M / math.pi)
         f = film(M, L, 1e-4, inlet_length=6 * half_width)
-        yield Check(f"M = {M}, L = {L}: smallest film", f.min_film / unit(f), smallest, 1e-3, TABLE_SOURCE)
-        yield Check(f"M = {M}, L = {L}: flow film", f.flow_film / unit(f), flow, 1e-3, TABLE_SOURCE)
+        rows = [
+            ("smallest film", "1", f.min_film / unit(f), smallest, 1e-3),
+            ("flow film", "1", f.flow_film / unit(f), flow, 1e-3),
+        ]
+        yield from compared(f"M = {M}, L = {L}", rows, TABLE_SOURCE)
 
 
 def rigid(level: str):
@@ -84,53 +74,26 @@ def rigid(level: str):
     What is left on fine grids is the finite inlet, which is estimated apart. So the order is that of the changes from
     grid to grid.
     """
-    cells, errors, estimates, films = CELLS[level], [], [], []
+    cells, errors, estimates, films = np.array(CELLS[level]), [], [], []
     for n in cells:
-        f = film(RIGID_LOAD, 5.0, 0.1, "constant", least_cells=n)
+        f = film(RIGID_LOAD, 5.0, 0.1, "constant", least_cells=int(n))
+        scale = RIGID_LOAD / unit(f)
         films.append(f.min_film)
-        errors.append(
-            max(
-                abs(f.min_film / unit(f) * RIGID_LOAD / 2.447484 - 1),
-                abs(f.flow_film / unit(f) * RIGID_LOAD / 3 - 1),
-            )
-        )
+        errors.append(max(abs(f.min_film * scale / 2.447484 - 1), abs(f.flow_film * scale / 3 - 1)))
         estimates.append(f.report.residuals["discretisation"] + f.report.residuals["domain"])
-    yield Check(
-        "rigid limit: film error on the finest grid",
-        errors[-1],
-        0.0,
-        1e-4 if level == "quick" else 2e-5,
-        "closed form, Martin 1916",
-        AT_MOST,
-    )
-    yield Check(
-        "rigid limit: order in the cells",
-        fitted_order(1 / np.array(cells[1:]), np.abs(np.diff(films))),
-        2.0,
-        0.3,
-        "fluxes through faces, second order",
-        AT_LEAST,
-    )
-    yield Check(
-        "rigid limit: error per estimated error",
-        float(np.max(np.array(errors) / estimates)),
-        1.0,
-        0.0,
-        "the estimate has to cover the error",
-        AT_MOST,
-    )
-    yield plotting.convergence(
-        "ehl_rigid",
-        "lubfric.solve_ehl at M = 0.001: film error against the closed form, and the error it states.",
-        {"error": (1 / np.array(cells), errors, 2), "stated": (1 / np.array(cells), estimates, None)},
-        "1 / cells",
-        "relative film error",
-    )
+    allowed = 1e-4 if level == "quick" else 2e-5
+    yield bound("rigid limit: film error on the finest grid", errors[-1], allowed, "closed form, Martin 1916")
+    yield Series("", 1 / cells[1:], np.abs(np.diff(films)), 2.0, "rigid limit: order in the cells", *SECOND).judged()
+    worst = float(np.max(np.array(errors) / estimates))
+    yield bound("rigid limit: error per estimated error", worst, 1.0, "the estimate has to cover the error")
+    caption = "lubfric.solve_ehl at M = 0.001: film error against the closed form, and the error it states."
+    series = [Series("error", 1 / cells, errors, 2), Series("stated", 1 / cells, estimates)]
+    yield from convergence("ehl_rigid", caption, series, "1 / cells", "relative film error")
 
 
 def elastic(level: str):
     """Elastic, piezoviscous films against the solution on a grid of its own at the finest tolerance."""
-    series, rows = {}, []
+    series, rows = [], []
     for M, L in ((20, 5),) if level == "quick" else ((0.5, 5), (20, 5), (50, 10)):
         finest = film(M, L, 1e-5)
         cells, errors = [], []
@@ -141,66 +104,29 @@ def elastic(level: str):
             cells.append(f.state.pressure.size)
             errors.append(max(abs(f.min_film / finest.min_film - 1), abs(f.flow_film / finest.flow_film - 1)))
             rows.append((M, L, cells[-1], tolerance, f.report.residuals["discretisation"], errors[-1]))
-        series[f"M {M:g}, L {L:g}"] = (1 / np.array(cells), errors, 2)
-        yield Check(
-            f"M = {M:g}, L = {L:g}: order in the cells",
-            fitted_order(1 / np.array(cells), errors),
-            2.0,
-            0.5,
-            "fluxes through faces, second order",
-            AT_LEAST,
-        )
-    yield Table(
-        "ehl_grid",
-        "Tolerance asked, error stated and error found.",
-        ("M", "L", "cells", "asked", "stated", "found"),
-        tuple(rows),
-    )
-    yield plotting.convergence(
-        "ehl_grid",
-        "lubfric.solve_ehl: largest error of smallest film and flow film against its finest "
-        "grid. Dotted: second order.",
-        series,
-        "1 / cells",
-        "relative film error",
-    )
+        name = f"M = {M:g}, L = {L:g}"
+        why, kind = SECOND[1:]
+        series.append(Series(name, 1 / np.array(cells), errors, 2.0, f"{name}: order in the cells", 0.5, why, kind))
+    columns = ("M", "L", "cells", "asked", "stated", "found")
+    yield Table("ehl_grid", "Tolerance asked, error stated and error found.", columns, rows)
+    caption = "lubfric.solve_ehl: largest error of smallest film and flow film against its finest grid."
+    yield from convergence("ehl_grid", caption, series, "1 / cells", "relative film error")
 
 
 def starved():
     """A starved inlet at light load: the load of the closed form with the same inlet."""
-    distances, losses = [], []
+    losses, inlets = [], np.array([1.5, 3.0, 6.0, 12.0, 24.0])
     flooded = film(RIGID_LOAD, 5.0, 1e-4, "constant")
-    for inlet in INLETS:
+    for inlet in inlets:
         f = film(RIGID_LOAD, 5.0, 1e-4, "constant", inlet_length=inlet * math.sqrt(2 * RADIUS * flooded.min_film))
-        exact = Parabola(VISCOSITY, f.entrainment_speed, RADIUS, f.min_film, -f_inlet(f, inlet, flooded))
-        yield Check(
-            f"starved inlet at {inlet:g} √(2 R h): load",
-            f.load,
-            exact.load,
-            1e-3,
-            "closed form with the same inlet, Martin 1916",
-            unit="N/m",
-        )
-        distances.append(1 / inlet)
+        own = inlet * math.sqrt(flooded.min_film / f.min_film)  # in units of sqrt(2 R h) of this film
+        load = Parabola(VISCOSITY, f.entrainment_speed, RADIUS, f.min_film, -own).load
+        rows = [("load", "N/m", f.load, load, 1e-3)]
+        source = "closed form with the same inlet, Martin 1916"
+        yield from compared(f"starved inlet at {inlet:g} √(2 R h)", rows, source)
         losses.append(1 - f.flow_film / flooded.flow_film)
-    yield Check(
-        "starved inlet: order of the loss of film",
-        fitted_order(distances[-3:], losses[-3:]),
-        2.0,
-        0.2,
-        "pressure falls like |x|^-3, so what is lost of its integral like |x|^-2",
-        ABSOLUTE,
-    )
-    yield plotting.convergence(
-        "ehl_inlet",
-        "Loss of film by an inlet that is not flooded, rigid cylinder. lubfric's flooded inlet "
-        "follows the parabolic gap to infinity.",
-        {"flow film": (distances, losses, 2)},
-        "√(2 R h) / inlet distance",
-        "1 − film / flooded film",
-    )
-
-
-def f_inlet(f: lubfric.EHLResult, inlet: float, flooded: lubfric.EHLResult) -> float:
-    """The inlet in units of sqrt(2 R h) of this film."""
-    return inlet * math.sqrt(flooded.min_film / f.min_film)
+    name, source = "starved inlet: order of the loss of film", "pressure falls like |x|^-3, its integral like |x|^-2"
+    series = [Series("flow film", 1 / inlets, losses, 2.0, name, 0.2, source, finest=3)]
+    caption = "Loss of film by an inlet that is not flooded, rigid cylinder. lubfric's flooded inlet follows the "
+    caption += "parabolic gap to infinity."
+    yield from convergence("ehl_inlet", caption, series, "√(2 R h) / inlet distance", "1 − film / flooded film")

@@ -13,9 +13,9 @@ import lubfric
 from lubfric.sharing import Prepared, prepare
 
 from .. import plotting
-from ..check import AT_LEAST, AT_MOST, Check, Table
+from ..check import AT_LEAST, AT_MOST, Check, Table, bound, compared
+from ..convergence import Series, picture
 from ..exact import Parabola
-from ..rates import fitted_order
 
 SPEEDS = (0.003, 0.01, 0.03)  # m/s, mixed lubrication
 PATCH = 90e-6  # m, the paper's
@@ -24,11 +24,11 @@ FINEST = {"quick": 128, "default": 256, "full": 512}
 WIDTHS = (45e-6, 60e-6, 90e-6, 120e-6, 180e-6)
 TOLERANCES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
 TIGHT = {
-    "tolerance": 1e-3,
+    "tolerance": 1e-4,
     "film_tolerance": 1e-4,
     "balance_tolerance": 1e-6,
     "contact_tolerance": 1e-6,
-    "model": "full",
+    "sampling": "patch",
 }
 
 
@@ -37,13 +37,12 @@ def friction(level: str):
     µm at 1/e).
 
     Full film has a closed form for its friction. Running backwards over the mirrored surface must change nothing: a
-    film or a strip off by half a cell would. A sweep starts each speed from its neighbour, and has to give what each
-    speed gives alone. Then come the numerical choices: the tolerance of the whole job, the cells per correlation
-    length, and the area A of the volume balance, Eq. (8), in a box ever wider.
+    film or a strip off by half a cell would. Then come the numerical choices: the cells per correlation length, the
+    tolerance of the whole job, the area A of the volume balance, Eq. (8), in a box ever wider, and the length of the
+    patch.
     """
     yield from full_film()
     yield from mirrored()
-    yield from sweep()
     yield from contact_cells(FINEST[level])
     if level != "quick":
         yield from tolerance_of_the_job()
@@ -51,19 +50,16 @@ def friction(level: str):
         yield from patch_size()
 
 
-def scene(region: str, **numerics) -> lubfric.Scene:
-    """The paper's cylinder, everything modelled tightly on the grid given, unless ``numerics`` say otherwise."""
-    return lubfric.load_scene("paper").with_(contact={"region": region}, numerics=TIGHT | numerics)
-
-
-def surface(shape: tuple[int, int], spacing: float, seed: int = 1, acf: str = "gaussian") -> np.ndarray:
+def surface(shape: tuple[int, int], spacing: float, seed: int = 1) -> np.ndarray:
     """Heights with the roughness of the scene, m."""
-    return lubfric.generate_surface(shape, spacing, sq=100e-9, correlation_length=LENGTH, acf=acf, seed=seed).heights
+    made = {"sq": 100e-9, "correlation_length": LENGTH, "acf": "gaussian", "seed": seed}
+    return lubfric.generate_surface(shape, spacing, **made).heights
 
 
 def model(heights: np.ndarray, spacing: float, region: str = "hertz", **numerics) -> Prepared:
-    """The scene made ready for given heights."""
-    return prepare(scene(region, **numerics), lubfric.Surface(heights, (spacing, spacing)))
+    """The paper's cylinder made ready for given heights, tightly solved unless ``numerics`` say otherwise."""
+    scene = lubfric.load_scene("paper").with_(contact={"region": region}, numerics=TIGHT | numerics)
+    return prepare(scene, lubfric.Surface(heights, (spacing, spacing)))
 
 
 def blocks(heights: np.ndarray, cells: int) -> np.ndarray:
@@ -76,20 +72,15 @@ def full_film():
     """Constant viscosity at high speed: a rigid isoviscous film, whose friction has a closed form."""
     made = model(np.zeros((16, 16)), 1e-6)
     made = replace(made, scene=made.scene.with_(lubricant={"viscosity_law": "constant"}))
-    point = lubfric.friction(made, 20.0, fields=True)
+    point = lubfric.friction(made, 20.0)
     b = made.scene.bodies
     exact = Parabola(made.scene.lubricant.viscosity, 20.0, b.radius, point.min_film, -1e6)
-    source = "closed form, Martin 1916"
-    yield Check("full film: F_H", point.film_load, exact.load * b.width, 2e-3, source, unit="N")
-    yield Check(
-        "full film: Couette force",
-        point.couette_force,
-        exact.couette * 40.0 * b.width,
-        2e-3,
-        source,
-        unit="N",
-    )
-    yield Check("full film: rolling force", point.rolling_force, exact.rolling * b.width, 2e-3, source, unit="N")
+    rows = [
+        ("F_H", "N", point.film_load, exact.load * b.width, 2e-3),
+        ("Couette force", "N", point.couette_force, exact.couette * 40.0 * b.width, 2e-3),
+        ("rolling force", "N", point.rolling_force, exact.rolling * b.width, 2e-3),
+    ]
+    yield from compared("full film", rows, "closed form, Martin 1916")
 
 
 def mirrored():
@@ -97,127 +88,56 @@ def mirrored():
     heights = blocks(surface((64, 64), PATCH / 64), 32)
     there = lubfric.friction(model(heights, PATCH / 32), 0.01)
     back = lubfric.friction(model(heights[::-1], PATCH / 32), -0.01)
-    for name in ("film_load", "coefficient"):
-        yield Check(
-            f"backwards over the mirrored surface: {name.replace('_', ' ')}",
-            getattr(back, name),
-            getattr(there, name),
-            1e-4,
-            "mirror symmetry of the problem",
-            unit="N" if name == "film_load" else "1",
-        )
-
-
-def sweep():
-    """A Stribeck curve against its points solved one by one."""
-    made = model(blocks(surface((64, 64), PATCH / 64), 32), PATCH / 32)
-    curve = lubfric.stribeck(made, SPEEDS)
-    for speed, f, load in zip(SPEEDS, curve.coefficient, curve.film_load, strict=True):
-        alone = lubfric.friction(made, speed)
-        yield Check(
-            f"sweep at {speed:g} m/s: F_H",
-            load,
-            alone.film_load,
-            1e-3,
-            "the same speed alone, from a cold start",
-            unit="N",
-        )
-        yield Check(
-            f"sweep at {speed:g} m/s: coefficient",
-            f,
-            alone.coefficient,
-            1e-3,
-            "the same speed alone",
-            unit="1",
-        )
+    rows = [
+        ("film load", "N", back.film_load, there.film_load, 1e-4),
+        ("coefficient", "1", back.coefficient, there.coefficient, 1e-4),
+    ]
+    yield from compared("backwards over the mirrored surface", rows, "mirror symmetry of the problem")
 
 
 def contact_cells(finest: int):
     """One surface averaged in ever larger blocks: errors against the finest grid, by cells per correlation length."""
     heights = surface((finest, finest), PATCH / finest)
     grids = [n for n in (32, 64, 128, 256) if n < finest]
-    reference = [lubfric.friction(model(heights, PATCH / finest), speed) for speed in SPEEDS]
-    names = ("coefficient", "film_load", "mean_gap", "real_contact_area")
-    errors, rows = [], []
-    for n in grids:
+    labels = {"film_load": "F_H", "mean_gap": "mean gap", "real_contact_area": "contact area"}
+    labels = {"coefficient": "f"} | labels
+
+    def solved(n: int) -> np.ndarray:
         made = model(blocks(heights, n), PATCH / n)
         points = [lubfric.friction(made, speed) for speed in SPEEDS]
-        errors.append(
-            [
-                max(abs(getattr(p, name) / getattr(r, name) - 1) for p, r in zip(points, reference, strict=True))
-                for name in names
-            ]
-        )
-        rows.append((n, LENGTH / PATCH * n, *errors[-1]))
-    columns = np.array(errors).T
-    cells = [LENGTH / PATCH * n for n in grids]
-    labels = ("f", "F_H", "mean gap", "contact area")
+        return np.array([[getattr(p, name) for name in labels] for p in points])
+
+    reference = solved(finest)
+    errors = np.array([np.abs(solved(n) / reference - 1).max(axis=0) for n in grids])
+    cells = np.array([LENGTH / PATCH * n for n in grids])
     bounds = {128: (1.5e-2, 2e-2, 2e-2, 0.3)}.get(finest, (3e-3, 4e-3, 4e-3, 0.15))
-    for label, column, bound in zip(labels, columns, bounds, strict=True):
-        yield Check(
-            f"contact grid: {label}, {cells[-1]:.1f} cells per correlation length",
-            column[-1],
-            0.0,
-            bound,
-            f"{finest} x {finest} cells of the same surface",
-            AT_MOST,
-        )
+    source = f"{finest} x {finest} cells of the same surface"
+    for label, error, allowed in zip(labels.values(), errors[-1], bounds, strict=True):
+        yield bound(f"contact grid: {label}, {cells[-1]:.1f} cells per correlation length", error, allowed, source)
+    series = [Series(label, 1 / cells, column) for label, column in zip(labels.values(), errors.T)]
     if len(grids) > 2:
-        yield Check(
-            "contact grid: order of f",
-            fitted_order([1 / c for c in cells], columns[0]),
-            1.0,
-            0.2,
-            "area of contact spots, first order",
-            AT_LEAST,
-        )
-    yield Table(
-        "contact_cells",
-        f"Errors against {finest} x {finest} cells, largest over {SPEEDS} m/s.",
-        ("cells", "per correlation length", *labels),
-        tuple(rows),
-    )
-    yield plotting.convergence(
-        "contact_cells",
-        "The whole job on ever finer contact grids, the same Gaussian surface averaged in "
-        "blocks; largest error over three speeds.",
-        {label: ([1 / c for c in cells], column, None) for label, column in zip(labels, columns, strict=True)},
-        "1 / cells per correlation length",
-        "relative error",
-    )
+        why = "area of contact spots, first order"
+        order = replace(series[0], order=1.0, check="contact grid: order of f", tolerance=0.2, source=why)
+        yield replace(order, kind=AT_LEAST).judged()
+    caption = f"Errors against {finest} x {finest} cells, largest over {SPEEDS} m/s."
+    rows = [(n, c, *row) for n, c, row in zip(grids, cells.tolist(), errors.tolist())]
+    yield Table("contact_cells", caption, ("cells", "per correlation length", *labels.values()), rows)
+    caption = "The whole job on ever finer contact grids, the same Gaussian surface averaged in blocks; largest error "
+    caption += "over three speeds."
+    yield picture("contact_cells", caption, series, "1 / cells per correlation length", "relative error")
 
 
 def tolerance_of_the_job():
-    """Error of f against the tolerance asked, when `lubfric` chooses levels, grids and inner tolerances by it."""
+    """Error of f against the tolerance asked, when `lubfric` chooses grids and inner tolerances by it."""
     heights, spacing = surface((256, 256), PATCH / 256), PATCH / 256
     reference = [lubfric.friction(model(heights, spacing), speed).coefficient for speed in SPEEDS]
     free: dict[str, Any] = dict.fromkeys(("film_tolerance", "balance_tolerance", "contact_tolerance"))
-    errors, seconds = [], []
     for tolerance in TOLERANCES:
-        made = model(heights, spacing, **free | {"tolerance": tolerance, "model": "auto"})
+        made = model(heights, spacing, **free | {"tolerance": tolerance})
         points = [lubfric.friction(made, speed) for speed in SPEEDS]
-        errors.append(max(abs(p.coefficient / r - 1) for p, r in zip(points, reference, strict=True)))
-        seconds.append(sum(p.seconds for p in points))
-        yield Check(
-            f"tolerance {tolerance:g}: error of f",
-            errors[-1],
-            0.0,
-            tolerance,
-            "everything modelled on the whole grid, tight tolerances",
-            AT_MOST,
-        )
-    canvas, ax = plotting.axes(height=3.6)
-    ax.loglog(TOLERANCES, errors, "o-", label="found")
-    ax.loglog(TOLERANCES, TOLERANCES, "k:", label="asked")
-    ax.set(xlabel="tolerance asked", ylabel="relative error of f")
-    ax.legend()
-    yield plotting.finish(
-        "job_tolerance",
-        canvas,
-        "Error of the coefficient of friction (largest over three speeds) when lubfric models no more than the "
-        f"tolerance needs; three speeds take {seconds[0]:.2f} s at {TOLERANCES[0]:g}, {seconds[-1]:.2f} s at "
-        f"{TOLERANCES[-1]:g}.",
-    )
+        error = max(abs(p.coefficient / r - 1) for p, r in zip(points, reference, strict=True))
+        source = "the whole grid, tight tolerances"
+        yield bound(f"tolerance {tolerance:g}: error of f", error, tolerance, source)
 
 
 def area_of_the_balance():
@@ -225,47 +145,28 @@ def area_of_the_balance():
     spacing, cells = 0.9375e-6, 192
     heights = surface((cells, cells), spacing)[:, :96]
     heights = lubfric.Surface(heights, (spacing, spacing)).periodic("mirror", axes=(False, True)).heights
-    loads: dict[str, list[float]] = {"hertz": [], "box": []}
-    for region, found in loads.items():
-        for width in WIDTHS:
-            n = round(width / spacing)
-            cut = heights[(cells - n) // 2 : (cells + n) // 2]
-            found.append(lubfric.friction(model(cut, spacing, region), 0.001).film_load)
-    strip, box = (np.array(loads[k]) for k in ("hertz", "box"))
+
+    def film_load(region: str, width: float) -> float:
+        n = round(width / spacing)
+        cut = heights[(cells - n) // 2 : (cells + n) // 2]
+        return lubfric.friction(model(cut, spacing, region), 0.001).film_load
+
+    strip, box = (np.array([film_load(region, width) for width in WIDTHS]) for region in ("hertz", "box"))
     source = "the mean of a deflection that grows like ln|x| depends on the box, not over a fixed strip"
-    yield Check(
-        "area A = strip: change of F_H from 45 to 180 µm",
-        float(np.ptp(strip) / strip[-1]),
-        0.0,
-        1e-6,
-        source,
-        AT_MOST,
-    )
-    yield Check(
-        "area A = box: change of F_H from 45 to 180 µm",
-        float(np.ptp(box) / box[-1]),
-        0.02,
-        0.0,
-        source,
-        AT_LEAST,
-    )
-    yield Table(
-        "area",
-        "F_H in N at 0.001 m/s.",
-        ("width (µm)", "strip |x| <= b", "whole box"),
-        tuple((w * 1e6, s, x) for w, s, x in zip(WIDTHS, strip, box, strict=True)),
-    )
+    name = "change of F_H from 45 to 180 µm"
+    yield bound(f"area A = strip: {name}", float(np.ptp(strip) / strip[-1]), 1e-6, source)
+    yield Check(f"area A = box: {name}", float(np.ptp(box) / box[-1]), 0.02, 0.0, source, AT_LEAST)
+    widths = np.array(WIDTHS) * 1e6
+    columns, rows = ("width (µm)", "strip |x| <= b", "whole box"), zip(widths.tolist(), strip.tolist(), box.tolist())
+    yield Table("area", "F_H in N at 0.001 m/s.", columns, tuple(rows))
     canvas, ax = plotting.axes(height=3.4)
     for line, label in ((strip, "A: Hertz strip of the total load"), (box, "A: the whole box")):
-        ax.plot(np.array(WIDTHS) * 1e6, line, "o-", label=label)
+        ax.plot(widths, line, "o-", label=label)
     ax.set(xlabel="width of the patch (µm)", ylabel="$F_H$ (N)", ylim=(0, 1.2 * max(*strip, *box)))
     ax.legend(loc="lower right")
-    yield plotting.finish(
-        "area",
-        canvas,
-        "Film load at 0.001 m/s against the width of the patch, for the two readings of the area "
-        "A in Eq. (8): over the Hertz strip it does not depend on how wide a box was drawn.",
-    )
+    caption = "Film load at 0.001 m/s against the width of the patch, for the two readings of the area A in Eq. (8): "
+    caption += "over the Hertz strip it does not depend on how wide a box was drawn."
+    yield plotting.finish("area", canvas, caption)
 
 
 def patch_size():
@@ -274,24 +175,12 @@ def patch_size():
     found = []
     for seed in range(12):
         heights = surface((384, 384), spacing, seed)[:96]
-        found.append(
-            [
-                lubfric.friction(model(heights[:, : round(length / spacing)], spacing), 0.01).coefficient
-                for length in lengths
-            ]
-        )
+        cut = [model(heights[:, : round(length / spacing)], spacing) for length in lengths]
+        found.append([lubfric.friction(made, 0.01).coefficient for made in cut])
     mean, scatter = np.mean(found, axis=0), np.std(found, axis=0, ddof=1)
-    yield Check(
-        "patch along the line: scatter of f at 360 µm over that at 45 µm",
-        scatter[-1] / scatter[0],
-        8**-0.5,
-        0.45,
-        "independent stretches average out, one over the root of their number; 12 surfaces",
-        AT_MOST,
-    )
-    yield Table(
-        "patch_size",
-        "Coefficient at 0.01 m/s over 12 surfaces, patch 90 µm along the motion, one period long.",
-        ("along the line (µm)", "mean f", "standard deviation"),
-        tuple((length * 1e6, float(m), float(s)) for length, m, s in zip(lengths, mean, scatter, strict=True)),
-    )
+    name = "patch along the line: scatter of f at 360 µm over that at 45 µm"
+    source = "independent stretches average out, one over the root of their number; 12 surfaces"
+    yield Check(name, scatter[-1] / scatter[0], 8**-0.5, 0.45, source, AT_MOST)
+    caption = "Coefficient at 0.01 m/s over 12 surfaces, patch 90 µm along the motion, one period long."
+    rows = [(length * 1e6, float(m), float(s)) for length, m, s in zip(lengths, mean, scatter, strict=True)]
+    yield Table("patch_size", caption, ("along the line (µm)", "mean f", "standard deviation"), rows)

@@ -2,7 +2,7 @@
 
 Where fluid keeps the bodies apart its pressure is handed over as a load on an elastic body of finite elements. What is
 left of the load is carried where they touch, at the floor of the deterministic film: which cells those are, and under
-what pressure, is found anew, with another compliance, another active set and dense algebra. As it is unique, both must
+what pressure, is found anew, with another compliance and another active set. As it is unique, both must
 agree. The half-space of lubfric is averaged over its cells first (`load_sharing.cell_mean`), as the finite elements
 are; what is left falls with their size.
 """
@@ -15,13 +15,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import DeterministicResult, Problem, lay_out, reach, solve_point
+from lubfric.deterministic import reach
+from lubfric.deterministic.domain import lay_out
+from lubfric.deterministic.problem import Problem
+from lubfric.deterministic.result import DeterministicResult
+from lubfric.deterministic.solve import solve_point
 from lubfric.film import LineContact
 
 from ..check import ABSOLUTE, Check
 from ..fem.compliance import Elastic
-from ..fem.harmonic import Compliance, Strip, compliance
-from ..fem.rough import Pressed, press
+from ..fem.contact import Contact
+from ..fem.harmonic import Compliance, Strip, compliance, press
 from .load_sharing import cell_mean
 
 SOURCE = "finite-element contact given the fluid"
@@ -73,14 +77,8 @@ def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Check]:
 
 def laid(case: Case, contact: LineContact) -> Problem:
     """The paper's roughness under ``contact`` at the case's speed, on an even number of cells along x."""
-    fine = lubfric.generate_surface(
-        (FINE, FINE * case.across // case.cells),
-        WIDTH / FINE,
-        sq=100e-9,
-        correlation_length=LENGTH,
-        acf="gaussian",
-        seed=1,
-    )
+    shape, rough = (FINE, FINE * case.across // case.cells), {"sq": 100e-9, "acf": "gaussian", "seed": 1}
+    fine = lubfric.generate_surface(shape, WIDTH / FINE, correlation_length=LENGTH, **rough)
     surface, line = fine.resampled(shape=(case.cells, case.across)), replace(contact, entrainment_speed=case.speed)
     upstream, downstream = reach(line, surface.sq)
 
@@ -117,7 +115,7 @@ def compared(case: Case, problem: Problem, found: DeterministicResult, body: Com
     yield Check(f"{case.name}: mean gap of the film under the same load", gap, 1.0, GAP, SOURCE, note="relative")
 
 
-def judged(problem: Problem, found: DeterministicResult, body: Compliance) -> tuple[Pressed, float]:
+def judged(problem: Problem, found: DeterministicResult, body: Compliance) -> tuple[Contact, float]:
     """The contact under what the fluid leaves of the load; and the load that it carries, over that, when its mean gap
     is that of ``found``."""
     fluid = np.where(found.touching, 0.0, found.pressure)

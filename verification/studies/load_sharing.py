@@ -8,17 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.contact import HalfSpace, _even_transform, semiperiodic_coefficients
+from lubfric.contact import HalfSpace, even_transform, semiperiodic_coefficients
 from lubfric.sharing import Prepared, prepare
 
 from .. import parts, plotting
-from ..check import AT_LEAST, Check, Field, Table
+from ..check import AT_LEAST, Field, Table, compared
+from ..convergence import Series, convergence
 from ..fem.compliance import Elastic
 from ..fem.ehl import LineContact
 from ..fem.fluid import Fluid
 from ..fem.harmonic import Compliance, Strip, compliance
 from ..fem.sharing import Bodies, Shared, share_load
-from ..rates import fitted_order
 
 LENGTH = 44.8e-6  # of the patch, both ways
 CORRELATION = 4e-6  # m, where the autocorrelation of the heights falls to 1/e
@@ -26,40 +26,24 @@ SPEEDS = (0.001, 0.01, 0.03)  # m/s
 TIGHT = {  # the model of the finite elements: no more and no less
     "film_tolerance": 1e-4,
     "balance_tolerance": 1e-6,
-    "model": "full",
     "film_deflection": "hydrodynamic",
     "heat": "off",
+    "sampling": "patch",
     "accept": True,
 }
 PARTS = 9  # of a cell, to take the mean displacement on
 SOURCE = "film and contact by finite elements, own root finder"
 
 
-@dataclass(frozen=True)
-class Level:
-    """What a level takes.
-
-    Attributes
-    ----------
-    grids : cells along a side
-    refinements : of the film's mesh
-    fineness : facets per cell as a power of 2
-    speeds : [m/s]
-    """
-
-    grids: tuple[int, ...]
-    refinements: int
-    fineness: int
-    speeds: tuple[float, ...]
-
-
+# cells along a side, refinements of the film's mesh, facets per cell as a power of 2, speeds [m/s]
 LEVELS = {
-    "quick": Level((16, 32), 0, 1, (0.01,)),
-    "default": Level((16, 32, 64), 1, 1, SPEEDS),
-    "full": Level((16, 32, 64, 128), 2, 0, SPEEDS),
+    "quick": ((16, 32), 0, 1, (0.01,)),
+    "default": ((16, 32, 64), 1, 1, SPEEDS),
+    "full": ((16, 32, 64, 128), 2, 0, SPEEDS),
 }
 # of coefficient, F_H, mean gap on the finest grid; the measured differences fall with the cell (below)
 TOLERANCE = {"quick": (3e-3, 1.2e-2, 5e-3), "default": (3e-3, 5e-3, 3e-3), "full": (3e-3, 5e-3, 3e-3)}
+COLUMNS = ("U (m/s)", "cells", "by", "f", "F_C (N)", "F_H (N)", "mean gap (nm)", "area", "Couette (N)", "rolling (N)")
 
 
 def load_sharing(level: str):
@@ -68,23 +52,25 @@ def load_sharing(level: str):
     It is Tables 1 and 2 of the paper on a patch of 45 x 45 µm (Gaussian roughness of 100 nm, correlation length 4 µm),
     coarse enough for finite elements. *Film*: full-system finite elements (elastic body of 240 half-widths, Reynolds on
     its surface) against lubfric's half-space and Newton's method. *Contact*: P2 elements in the section with waves
-    along the line, active set and dense algebra, against lubfric's Bessel kernel and conjugate gradient. *Balance and
+    along the line and an active set, against lubfric's Bessel kernel and conjugate gradient. *Balance and
     friction*: another root finder and other integrals. Both sides get the same heights on the same cells and the same
     meaning of a displacement, its mean over a cell. lubfric's own is at cell centres, and is averaged over parts of the
     cells by its own kernel (`cell_mean`). What is left is the error of the finite elements.
     """
-    options, points = LEVELS[level], []
-    for cells in options.grids:
-        heights = rough(options.grids[-1], cells)
-        body = compliance(Strip((cells, cells), (LENGTH / cells,) * 2, elastic(), fineness=options.fineness))
-        points += [both(speed, heights, body, options.refinements) for speed in options.speeds]
-        if cells == options.grids[-1]:
-            yield from checks(points[-len(options.speeds) :], TOLERANCE[level])
+    (grids, refinements, fineness, speeds), points = LEVELS[level], []
+    for cells in grids:
+        heights = rough(grids[-1], cells)
+        body = compliance(Strip((cells, cells), (LENGTH / cells,) * 2, elastic(), fineness=fineness))
+        points += [both(speed, heights, body, refinements) for speed in speeds]
+    finest = points[-len(speeds) :]
+    for p in finest:
+        note = f"{p.cells} x {p.cells} cells of {LENGTH / p.cells * 1e6:.2f} µm"
+        yield from compared(f"{p.speed:g} m/s", rows_of(p.main, p.fem, TOLERANCE[level]), SOURCE, note)
     yield side_by_side(points)
-    yield from approach(points, options)
-    finest = next(p for p in points if p.cells == options.grids[-1] and p.speed == 0.01)
-    yield pressure_field(finest)
-    yield pressure_figure(finest)
+    yield from approach(points, grids)
+    shown = next(p for p in finest if p.speed == 0.01)
+    yield pressure_field(shown)
+    yield pressure_figure(shown)
 
 
 @dataclass(frozen=True)
@@ -96,14 +82,9 @@ class Point:
     fem: Shared
     main: lubfric.FrictionResult
 
-    def differences(self) -> tuple[float, float, float]:
-        """Relative differences of coefficient, F_H and mean gap."""
-        main, fem = self.main, self.fem
-        return (
-            abs(main.coefficient / fem.coefficient - 1),
-            abs(main.film_load / fem.film_load - 1),
-            abs(main.mean_gap / fem.mean_gap - 1),
-        )
+    def difference(self, name: str) -> float:
+        """Relative difference of a number that both have."""
+        return abs(getattr(self.main, name) / getattr(self.fem, name) - 1)
 
 
 def scene() -> lubfric.Scene:
@@ -119,32 +100,18 @@ def elastic() -> Elastic:
 def rough(finest: int, cells: int) -> np.ndarray:
     """One surface of ``finest`` squared cells, averaged in blocks."""
     asked, block = scene().surface, finest // cells
-    surface = lubfric.generate_surface(
-        (finest, finest),
-        LENGTH / finest,
-        sq=asked.sq,
-        acf=asked.acf,
-        correlation_length=CORRELATION,
-        seed=asked.seed,
-    )
+    made = {"sq": asked.sq, "acf": asked.acf, "correlation_length": CORRELATION, "seed": asked.seed}
+    surface = lubfric.generate_surface((finest, finest), LENGTH / finest, **made)
     return surface.heights.reshape(cells, block, cells, block).mean(axis=(1, 3))
 
 
 def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) -> Point:
     """One speed by both methods. The finite-element root starts from no knowledge of the other's."""
     s, cell = scene(), LENGTH / heights.shape[0]
-    b, oil = s.bodies, s.lubricant
+    b, oil, sliding = s.bodies, s.lubricant, s.motion.slide_roll_ratio * speed
     fluid = Fluid(oil.viscosity, oil.viscosity_law, oil.pressure_viscosity_coefficient)
     line = LineContact(b.load / b.width, b.radius, b.e_prime, speed, fluid)
-    bodies = Bodies(
-        line,
-        b.width,
-        body,
-        heights,
-        b.hardness or math.inf,
-        b.boundary_friction_coefficient,
-        s.motion.slide_roll_ratio * speed,
-    )
+    bodies = Bodies(line, b.width, body, heights, b.hardness or math.inf, b.boundary_friction_coefficient, sliding)
     found = share_load(bodies, refinements=min(refinements, 1))
     if refinements > 1:
         found = share_load(bodies, refinements=refinements, guess=found.split, step=0.01)
@@ -170,35 +137,18 @@ def cell_mean(operator: HalfSpace) -> HalfSpace:
     often = PARTS - np.abs(np.arange(1 - PARTS, PARTS))  # pairs of parts at that distance
     known = np.abs(away) < nx * PARTS
     kernel = np.where(known[..., None], parts[np.minimum(np.abs(away), nx * PARTS - 1)], 0.0)
-    symbol = _even_transform(np.einsum("d,ndk->nk", often / PARTS, kernel), operator.padded[0], axis=0)
+    symbol = even_transform(np.einsum("d,ndk->nk", often / PARTS, kernel), operator.padded[0], axis=0)
     return replace(operator, symbol=symbol)
 
 
-def checks(points: list[Point], tolerance: tuple[float, float, float]):
-    """Both programs side by side on the finest grid."""
-    for p in points:
-        for name, unit, measured, expected, allowed in (
-            ("coefficient", "1", p.main.coefficient, p.fem.coefficient, tolerance[0]),
-            (
-                "F_C",
-                "N",
-                p.main.contact_load,
-                p.fem.contact_load,
-                max(tolerance[1] * p.fem.film_load / p.fem.contact_load, 1e-4),
-            ),
-            ("F_H", "N", p.main.film_load, p.fem.film_load, tolerance[1]),
-            ("mean gap", "m", p.main.mean_gap, p.fem.mean_gap, tolerance[2]),
-            ("shear force", "N", p.main.shear_force, p.fem.couette + p.fem.rolling, tolerance[1]),
-        ):
-            yield Check(
-                f"{p.speed:g} m/s: {name}",
-                measured,
-                expected,
-                allowed,
-                SOURCE,
-                unit=unit,
-                note=f"{p.cells} x {p.cells} cells of {LENGTH / p.cells * 1e6:.2f} µm",
-            )
+def rows_of(main: lubfric.FrictionResult, fem: Shared, allowed: tuple[float, float, float]) -> list[tuple]:
+    """Both programs side by side. The load of the contact is the rest of the whole."""
+    return [
+        ("coefficient", "1", main.coefficient, fem.coefficient, allowed[0]),
+        ("F_H", "N", main.film_load, fem.film_load, allowed[1]),
+        ("mean gap", "m", main.mean_gap, fem.mean_gap, allowed[2]),
+        ("shear force", "N", main.shear_force, fem.shear, allowed[1]),
+    ]
 
 
 def side_by_side(points: list[Point]) -> Table:
@@ -206,96 +156,40 @@ def side_by_side(points: list[Point]) -> Table:
     rows = []
     for p in points:
         f, m = p.fem, p.main
-        rows += [
-            (
-                p.speed,
-                p.cells,
-                "finite elements",
-                f.coefficient,
-                f.contact_load,
-                f.film_load,
-                f.mean_gap * 1e9,
-                f.area,
-                f.couette,
-                f.rolling,
-            ),
-            (
-                p.speed,
-                p.cells,
-                "lubfric",
-                m.coefficient,
-                m.contact_load,
-                m.film_load,
-                m.mean_gap * 1e9,
-                m.real_contact_area_fraction,
-                m.couette_force,
-                m.rolling_force,
-            ),
-        ]
-    return Table(
-        "load_sharing",
-        "Load sharing side by side; the area is the share of the Hertz strip in contact.",
-        (
-            "U (m/s)",
-            "cells",
-            "by",
-            "f",
-            "F_C (N)",
-            "F_H (N)",
-            "mean gap (nm)",
-            "area",
-            "Couette (N)",
-            "rolling (N)",
-        ),
-        tuple(rows),
-    )
+        own = (f.coefficient, f.contact_load, f.film_load, f.mean_gap * 1e9, f.area, f.couette, f.rolling)
+        loads, forces = (m.coefficient, m.contact_load, m.film_load), (m.couette_force, m.rolling_force)
+        rows.append((p.speed, p.cells, "finite elements", *own))
+        rows.append((p.speed, p.cells, "lubfric", *loads, m.mean_gap * 1e9, m.real_contact_area_fraction, *forces))
+    caption = "Load sharing side by side; the area is the share of the Hertz strip in contact."
+    return Table("load_sharing", caption, COLUMNS, rows)
 
 
-def approach(points: list[Point], options: Level):
+def approach(points: list[Point], grids: tuple[int, ...]):
     """Differences against cell size, with their orders."""
-    sizes, series = [1e6 * LENGTH / n for n in options.grids], {}  # µm
-    for k, name in enumerate(("coefficient", "F_H", "mean gap")):
-        errors = [max(p.differences()[k] for p in points if p.cells == n) for n in options.grids]
-        series[name] = (sizes, errors, None)
-    yield Check(
-        "difference in mean gap: order in the cell size",
-        fitted_order(*series["mean gap"][:2]),
-        1.0,
-        0.3,
-        "finite elements as fine as the cells: at least first order at the edges of contact spots",
-        AT_LEAST,
-    )
-    yield plotting.convergence(
-        "load_sharing_convergence",
-        "Differences between lubfric and the finite-element model (largest "
-        "over the speeds) against the cell of the contact grid.",
-        series,
-        "cell (µm)",
-        "relative difference",
-    )
+    sizes, series = [1e6 * LENGTH / n for n in grids], []  # µm
+    for label, name in (("coefficient", "coefficient"), ("F_H", "film_load"), ("mean gap", "mean_gap")):
+        errors = [max(p.difference(name) for p in points if p.cells == n) for n in grids]
+        series.append(Series(label, sizes, errors))
+    why = "finite elements as fine as the cells: at least first order at the edges of contact spots"
+    name = "difference in mean gap: order in the cell size"
+    yield replace(series[-1], order=1.0, check=name, tolerance=0.3, source=why, kind=AT_LEAST).judged()
+    caption = "Differences between lubfric and the finite-element model (largest over the speeds) against the cell of "
+    caption += "the contact grid."
+    yield from convergence("load_sharing_convergence", caption, series, "cell (µm)", "relative difference")
 
 
 def pressure_field(p: Point) -> Field:
-    """Contact pressure and gap of both, and the differences."""
+    """Contact pressure and gap of both."""
     edges = np.linspace(-LENGTH / 2, LENGTH / 2, p.cells + 1)
     x, y = np.meshgrid(edges, edges, indexing="ij")
     corner = np.arange((p.cells + 1) ** 2).reshape(p.cells + 1, -1)
     quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
     contact, pressed = parts.contact_fields(p.main), parts.the(p.fem.pressed, "dry contact")
-    values = {
-        "pressure": pressed.pressure,
-        "pressure_lubfric": contact.pressure,
-        "gap": pressed.gap,
-        "gap_lubfric": contact.gap,
-    }
-    values |= {f"{name}_difference": values[f"{name}_lubfric"] - values[name] for name in ("pressure", "gap")}
-    return Field(
-        "load_sharing",
-        f"Contact pressure (Pa) and gap (m) at {p.speed:g} m/s by finite elements and lubfric, and the differences",
-        np.column_stack([x.ravel(), y.ravel()]),
-        {"quad": quads},
-        cell_data={name: [v.ravel()] for name, v in values.items()},
-    )
+    values = {"pressure": pressed.pressure, "pressure_lubfric": contact.pressure}
+    values |= {"gap": pressed.gap, "gap_lubfric": contact.gap}
+    caption = f"Contact pressure (Pa) and gap (m) at {p.speed:g} m/s by finite elements and lubfric"
+    data = {name: [v.ravel()] for name, v in values.items()}
+    return Field("load_sharing", caption, np.column_stack([x.ravel(), y.ravel()]), {"quad": quads}, cell_data=data)
 
 
 def pressure_figure(p: Point):
@@ -303,19 +197,9 @@ def pressure_figure(p: Point):
     canvas, (left, middle, right) = plotting.axes(1, 3, width=9.6, height=3.4)
     half, contact = LENGTH / 2 * 1e6, parts.contact_fields(p.main)
     own = parts.the(p.fem.pressed, "dry contact").pressure
-    largest = own.max() / 1e9
-    for ax, pressure, title in (
-        (left, own, "finite elements"),
-        (middle, contact.pressure, "lubfric"),
-    ):
-        image = ax.imshow(
-            pressure.T / 1e9,
-            origin="lower",
-            extent=(-half, half, -half, half),
-            cmap="magma_r",
-            vmin=0,
-            vmax=largest,
-        )
+    shown = {"origin": "lower", "extent": (-half, half, -half, half), "cmap": "magma_r", "vmin": 0}
+    for ax, pressure, title in ((left, own, "finite elements"), (middle, contact.pressure, "lubfric")):
+        image = ax.imshow(pressure.T / 1e9, vmax=own.max() / 1e9, **shown)
         ax.set(title=title, xlabel="x (µm)", xlim=(-half / 2, half / 2))
         ax.grid(False)
     left.set_ylabel("y (µm)")
@@ -326,9 +210,5 @@ def pressure_figure(p: Point):
     right.plot(line.x * 1e6, line.pressure / 1e6, "--", label="lubfric")
     right.set(xlim=(-60, 40), xlabel="x (µm)", ylabel="film pressure (MPa)", title="film")
     right.legend()
-    return plotting.finish(
-        "load_sharing_pressure",
-        canvas,
-        f"{p.speed:g} m/s: contact pressure (middle half of the patch) and film pressure by the two methods.",
-        "png",
-    )
+    caption = f"{p.speed:g} m/s: contact pressure (middle half of the patch) and film pressure by the two methods."
+    return plotting.finish("load_sharing_pressure", canvas, caption, "png")

@@ -12,7 +12,7 @@ from lubfric.scene import Table as History
 from lubfric.sharing import prepare
 
 from .. import plotting
-from ..check import AT_LEAST, AT_MOST, Check
+from ..check import AT_LEAST, AT_MOST, Check, bound
 from ..pace import paced
 
 LARGEST = 0.05  # m/s
@@ -31,11 +31,8 @@ def transient_mixed(level: str):
     steps.
     """
     n = CELLS[level]
-    scene = lubfric.load_scene("paper").with_(
-        contact={"shape": (n, n), "spacing": 90e-6 / n},
-        motion={"entrainment_speed": LARGEST},
-        numerics={"sampling": "patch"},
-    )
+    contact, motion = {"shape": (n, n), "spacing": 90e-6 / n}, {"entrainment_speed": LARGEST}
+    scene = lubfric.load_scene("paper").with_(contact=contact, motion=motion, numerics={"sampling": "patch"})
     model = prepare(scene)
     yield from steady(model)
     yield from loops(model)
@@ -50,103 +47,56 @@ def run(model, plan: Transient, times=None, **numerics):
     return lubfric.transient(replace(model, scene=scene.with_(numerics=numerics) if numerics else scene), times)
 
 
+def wave(amplitude: float, frequency: float, mean: float = 0.0) -> Harmonic:
+    """A speed that swings about ``mean`` from its largest value [m/s, Hz]."""
+    return Harmonic(mean=mean, amplitude=amplitude, frequency=frequency, phase=np.pi / 2)
+
+
 def steady(model):
     """The scene held, and ramped slowly through lift-off."""
     fine = replace(model, scene=model.scene.with_(numerics={"tolerance": 2e-3}))
     held = run(fine, Transient(1.0), [0.0, 0.1, 1.0])
     point = lubfric.friction(fine)
     yield Check("held in time: friction", held.coefficient[-1], point.coefficient, 2e-3, STEADY)
-    yield Check(
-        "held in time: drift",
-        np.ptp(held.coefficient) / point.coefficient,
-        0.0,
-        5e-4,
-        "a steady state",
-        AT_MOST,
-    )
+    yield bound("held in time: drift", np.ptp(held.coefficient) / point.coefficient, 5e-4, "a steady state")
     ramp = Ramp(start=0.005, end=0.15, until=4.0)
     slow = run(model, Transient(4.0, speed=ramp), np.linspace(0, 4, 13))
     curve = lubfric.stribeck(model, slow.entrainment_speed)
-    yield Check(
-        "slow ramp: largest departure from the Stribeck curve",
-        np.max(np.abs(slow.coefficient / curve.coefficient - 1)),
-        0.0,
-        0.01,
-        STEADY,
-        AT_MOST,
-    )
-    yield Check(
-        "mass of the pressurised film: largest residual",
-        np.max(slow.mass_residual),
-        0.0,
-        1e-3,
-        "balance over the step",
-        AT_MOST,
-    )
+    off = np.max(np.abs(slow.coefficient / curve.coefficient - 1))
+    yield bound("slow ramp: largest departure from the Stribeck curve", off, 0.01, STEADY)
+    lost = np.max(slow.mass_residual)
+    yield bound("mass of the pressurised film: largest residual", lost, 1e-3, "balance over the step")
 
 
 def loops(model):
     """Friction loops at three frequencies of a speed that pulsates without reversing, and of one that reverses."""
     canvas, (left, right) = plotting.axes(1, 2, width=8.4, height=3.6)
     speeds = np.linspace(0.06, 1.94, 24) * LARGEST
-    curve = lubfric.stribeck(model, speeds)
-    left.plot(speeds, curve.coefficient, "k:", label="steady")
+    left.plot(speeds, lubfric.stribeck(model, speeds).coefficient, "k:", label="steady")
     opening = []
     for period in PERIODS:
-        wave = Harmonic(mean=LARGEST, amplitude=0.94 * LARGEST, frequency=1 / period, phase=np.pi / 2)
-        found = run(model, Transient(2 * period, speed=wave), period * np.linspace(0, 2, 81))
+        plan = Transient(2 * period, speed=wave(0.94 * LARGEST, 1 / period, LARGEST))
+        found = run(model, plan, period * np.linspace(0, 2, 81))
         left.plot(found.entrainment_speed[40:], found.coefficient[40:], label=f"period {1e3 * period:g} ms")
         opening.append(found.coefficient[70] - found.coefficient[50])  # up minus down at the mean speed
     left.set(xlabel="entrainment speed (m/s)", ylabel="friction coefficient (-)")
     left.legend()
-    yield Check(
-        "hysteresis: f speeding up above f slowing down (shortest period)",
-        opening[0],
-        1e-3,
-        0.0,
-        "the film lags behind the speed",
-        AT_LEAST,
-    )
-    yield Check(
-        "hysteresis: longest period against shortest",
-        abs(opening[-1] / opening[0]),
-        0.0,
-        0.1,
-        "slow loops close on the Stribeck curve",
-        AT_MOST,
-    )
+    name, source = "hysteresis: f speeding up above f slowing down (shortest period)", "the film lags behind the speed"
+    yield Check(name, opening[0], 1e-3, 0.0, source, AT_LEAST)
+    name, closed = "hysteresis: longest period against shortest", abs(opening[-1] / opening[0])
+    yield bound(name, closed, 0.1, "slow loops close on the Stribeck curve")
     period = PERIODS[1]
-    wave = Harmonic(amplitude=LARGEST, frequency=1 / period, phase=np.pi / 2)
-    found = run(model, Transient(2.5 * period, speed=wave), period * np.linspace(0, 2.5, 101))
-    f = found.coefficient
-    yield Check(
-        "reciprocating: third cycle against the second",
-        np.max(np.abs(f[60:101] / f[20:61] - 1)),
-        0.0,
-        5e-3,
-        "a periodic run becomes periodic",
-        AT_MOST,
-    )
-    yield Check(
-        "reciprocating: lubricant held at U = 0 carries load",
-        found.film_load[90] / found.load[90],
-        0.05,
-        0.0,
-        "squeeze",
-        AT_LEAST,
-    )
+    plan = Transient(2.5 * period, speed=wave(LARGEST, 1 / period))
+    found = run(model, plan, period * np.linspace(0, 2.5, 101))
+    change = np.max(np.abs(found.coefficient[60:101] / found.coefficient[20:61] - 1))
+    yield bound("reciprocating: third cycle against the second", change, 5e-3, "a periodic run becomes periodic")
+    share = found.film_load[90] / found.load[90]
+    yield Check("reciprocating: lubricant held at U = 0 carries load", share, 0.05, 0.0, "squeeze", AT_LEAST)
     right.plot(found.entrainment_speed[40:], found.friction_force[40:] / found.load[40:])
-    right.set(
-        xlabel="entrainment speed (m/s)",
-        ylabel="friction force/load (-)",
-        title=f"reversing, {1e3 * period:g} ms",
-    )
-    yield plotting.finish(
-        "loops",
-        canvas,
-        "Left: friction loops of a pulsating speed; the faster it changes the wider they open about "
-        "the steady curve. Right: a reversing contact.",
-    )
+    title = f"reversing, {1e3 * period:g} ms"
+    right.set(xlabel="entrainment speed (m/s)", ylabel="friction force/load (-)", title=title)
+    caption = "Left: friction loops of a pulsating speed; the faster it changes the wider they open about the steady "
+    yield plotting.finish("loops", canvas, caption + "curve. Right: a reversing contact.")
 
 
 def stop_and_start(model):
@@ -158,89 +108,51 @@ def stop_and_start(model):
     left.plot(found.time * 1e3, found.central_film * 1e9, label="central film")
     left.plot(found.time * 1e3, found.mean_gap * 1e9, "--", label="mean gap")
     left.set(xlabel="time (ms)", ylabel="nm", ylim=(0, None))
-    left.legend()
     for name, part in (("shut-down", down), ("start-up", up)):
         moving = part & (found.sliding_speed > 0)
         right.plot(found.entrainment_speed[moving], found.coefficient[moving], label=name)
     right.set(xlabel="entrainment speed (m/s)", ylabel="friction coefficient (-)")
+    left.legend()
     right.legend()
-    yield plotting.finish(
-        "stop_and_start",
-        canvas,
-        "Shut-down and start-up within 5 ms each. While the contact stands still the film "
-        "is squeezed out until the surfaces carry the load; starting up it has to be built again.",
-    )
-    at = 0.04
-    low = np.interp(at, found.entrainment_speed[down][::-1], found.coefficient[down][::-1])
-    high = np.interp(at, found.entrainment_speed[up], found.coefficient[up])
-    yield Check(
-        "start-up friction over shut-down friction at 0.04 m/s",
-        high / low,
-        1.1,
-        0.0,
-        "the film lags",
-        AT_LEAST,
-    )
+    caption = "Shut-down and start-up within 5 ms each. While the contact stands still the film is squeezed out until "
+    caption += "the surfaces carry the load; starting up it has to be built again."
+    yield plotting.finish("stop_and_start", canvas, caption)
+    low = np.interp(0.04, found.entrainment_speed[down][::-1], found.coefficient[down][::-1])
+    high = np.interp(0.04, found.entrainment_speed[up], found.coefficient[up])
+    name = "start-up friction over shut-down friction at 0.04 m/s"
+    yield Check(name, high / low, 1.1, 0.0, "the film lags", AT_LEAST)
     rest = found.film_load[(found.time > 9e-3) & (found.time <= 1e-2)][-1] / found.load[0]
-    yield Check(
-        "after 5 ms of rest the contact carries the load: share left to the film",
-        rest,
-        0.0,
-        5e-3,
-        "squeeze decays against the contact",
-        AT_MOST,
-    )
+    name = "after 5 ms of rest the contact carries the load: share left to the film"
+    yield bound(name, rest, 5e-3, "squeeze decays against the contact")
 
 
 def errors(model):
     """Error of friction against time for the time tolerance and the grid."""
-    wave = Harmonic(amplitude=LARGEST, frequency=100.0, phase=np.pi / 2)
-    times = np.linspace(0, 0.01, 26)
+    times, speed = np.linspace(0, 0.01, 26), wave(LARGEST, 100.0)
     tight = {"balance_tolerance": 1e-5, "contact_tolerance": 1e-5}
 
-    def friction(film, step):
-        found = run(model, Transient(0.01, speed=wave, tolerance=step), times, film_tolerance=film, **tight)
-        return found.coefficient, found.report.iterations, int(found.report.notes[0].split()[0])
+    def solved(film: float, step: float):
+        return run(model, Transient(0.01, speed=speed, tolerance=step), times, film_tolerance=film, **tight)
 
-    best = friction(1e-3, 1e-6)[0]
-    steps = [friction(1e-3, t) for t in (1e-3, 1e-4, 1e-5)]
-    grids = [friction(t, 1e-6) for t in (2e-2, 1e-2, 3e-3)]
+    best = solved(1e-3, 1e-6).coefficient
+    steps = [solved(1e-3, t) for t in (1e-5, 1e-4, 1e-3)]
+    grids = [solved(t, 1e-6) for t in (3e-3, 1e-2, 2e-2)]
+    in_time, in_space = ([np.max(np.abs(s.coefficient - best)) for s in found] for found in (steps, grids))
     canvas, (left, right) = plotting.axes(1, 2, width=8.0, height=3.4, sharey=True)
-    in_time = [np.max(np.abs(f - best)) for f, *_ in steps]
-    in_space = [np.max(np.abs(f - best)) for f, *_ in grids]
-    left.loglog([count for _, count, _ in steps], in_time, "o-")
+    left.loglog([s.report.iterations for s in steps], in_time, "o-")
     left.set(xlabel="time steps in a cycle", ylabel="largest error of f (-)")
-    right.loglog([cells for *_, cells in grids], in_space, "o-")
+    right.loglog([int(s.report.notes[0].split()[0]) for s in grids], in_space, "o-")
     right.set(xlabel="cells of the film's grid")
-    yield plotting.finish(
-        "errors",
-        canvas,
-        "Largest error of the friction coefficient over a reciprocating cycle of 10 ms against the "
-        "finest step and grid (outputs force at least 26 steps).",
-    )
-    yield Check(
-        "default step tolerance (3e-5): error of f",
-        np.interp(np.log(3e-5), np.log([1e-5, 1e-4, 1e-3]), in_time[::-1]),
-        0.0,
-        1e-3,
-        "tolerance 1e-6",
-        AT_MOST,
-    )
-    yield Check("default film tolerance (3e-3): error of f", in_space[2], 0.0, 1e-3, "film tolerance 1e-3", AT_MOST)
+    caption = "Largest error of the friction coefficient over a reciprocating cycle of 10 ms against the finest step "
+    yield plotting.finish("errors", canvas, caption + "and grid (outputs force at least 26 steps).")
+    default = np.interp(np.log(3e-5), np.log([1e-5, 1e-4, 1e-3]), in_time)
+    yield bound("default step tolerance (3e-5): error of f", default, 1e-3, "tolerance 1e-6")
+    yield bound("default film tolerance (3e-3): error of f", in_space[0], 1e-3, "film tolerance 1e-3")
 
 
 def cost():
     """The paper's own grid, in 300 steps of a reciprocating cycle."""
-    scene = lubfric.load_scene("paper").with_(
-        transient=Transient(0.1, outputs=300, speed=Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2))
-    )
+    scene = lubfric.load_scene("paper").with_(transient=Transient(0.1, outputs=300, speed=wave(0.03, 10.0)))
     found, seconds = paced(lambda: lubfric.transient(scene))
-    yield Check(
-        f"paper scene, {found.report.iterations} steps of a cycle: processor time on the stated core",
-        seconds,
-        30.0,
-        0.0,
-        "asked for",
-        AT_MOST,
-        unit="s",
-    )
+    name = f"paper scene, {found.report.iterations} steps of a cycle: processor time on the stated core"
+    yield Check(name, seconds, 30.0, 0.0, "asked for", AT_MOST, unit="s")

@@ -14,10 +14,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric.deterministic import Start, lay_out, solve_point
+from lubfric.deterministic import Start
+from lubfric.deterministic.domain import lay_out
+from lubfric.deterministic.solve import solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant, viscosity
-from lubfric.surface import Surface
+from lubfric.surface.height_map import Surface
 
 from ..check import ABSOLUTE, Check, Item, Table
 from ..fem import ehl
@@ -45,23 +47,20 @@ class Case:
     coefficient: float | None
 
     @property
+    def law(self) -> str:
+        """The law of its viscosity."""
+        return "constant" if self.coefficient is None else "roelands"
+
+    @property
     def line(self) -> LineContact:
         """For lubfric."""
-        oil = (
-            Lubricant(self.viscosity, viscosity_law="constant")
-            if self.coefficient is None
-            else Lubricant(self.viscosity, self.coefficient)
-        )
+        oil = Lubricant(self.viscosity, self.coefficient or 0.0, self.law)
         return LineContact(self.load, self.radius, self.e_prime, self.speed, oil)
 
     @property
     def elements(self) -> ehl.LineContact:
         """For the finite elements."""
-        fluid = (
-            Fluid(self.viscosity, "constant")
-            if self.coefficient is None
-            else Fluid(self.viscosity, "roelands", self.coefficient)
-        )
+        fluid = Fluid(self.viscosity, self.law, self.coefficient or 0.0)
         return ehl.LineContact(self.load, self.radius, self.e_prime, self.speed, fluid)
 
 

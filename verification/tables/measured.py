@@ -12,6 +12,8 @@ import lubfric
 from lubfric.contact import half_space
 from lubfric.film import hertz
 
+from ..cases import case_of_scene
+
 Cells = tuple[Sequence[str], Sequence[Sequence[str]]]  # titles of the columns, rows of text
 
 
@@ -33,9 +35,8 @@ def film_load_of_patches() -> Cells:
     for length in (4e-6, 8e-6, 16e-6):
         loads = []
         for seed in range(1, 13):
-            scene = lubfric.load_scene("paper").with_(
-                surface={"correlation_length": length, "seed": seed}, numerics={"model": "full", "sampling": "patch"}
-            )
+            rough = {"correlation_length": length, "seed": seed}
+            scene = lubfric.load_scene("paper").with_(surface=rough, numerics={"grid": "given", "sampling": "patch"})
             loads.append(lubfric.friction(scene, 0.001).film_load)
         mean, spread = np.mean(loads), np.std(loads, ddof=1)
         rows.append([f"{1e6 * length:g} µm", f"{mean:.3f} ± {spread:.3f} N", f"{min(loads):.3f} to {max(loads):.3f} N"])
@@ -52,14 +53,8 @@ def hertz_line() -> Cells:
         step = 2 * half_width / across
         x = (np.arange(2 * across) - across + 0.5) * step
         gap = np.repeat((x**2 / (2 * radius))[:, None], 4, axis=1)
-        solved = lubfric.solve_contact(
-            gap,
-            (step, step),
-            e_prime,
-            mean_pressure=load / (2 * across * step),
-            boundary=("free", "periodic"),
-            tolerance=1e-8,
-        )
+        asked = {"mean_pressure": load / (2 * across * step), "boundary": ("free", "periodic"), "tolerance": 1e-8}
+        solved = lubfric.solve_contact(gap, step, e_prime, **asked)
         exact = peak * np.sqrt(np.maximum(1 - (x / half_width) ** 2, 0))
         error = np.sqrt(np.mean((solved.pressure[:, 0] - exact) ** 2) / np.mean(exact**2))
         rows.append([str(across), f"{solved.pressure.max() / peak - 1:+.1e}", f"{error:.1e}"])
@@ -72,7 +67,7 @@ def times() -> Cells:
     speeds = np.geomspace(1e-4, 1.0, 20)
     one_patch = paper.with_(numerics={"sampling": "patch"})
     jobs: dict[str, Callable[[], object]] = {
-        "one film": lambda: _film(paper),
+        "one film": lambda: lubfric.solve_ehl(**case_of_scene(paper, paper.bodies.load, 0.01)),
         "the paper's scene, one speed": lambda: lubfric.friction(paper, 0.01),
         "the paper's scene, 20 speeds": lambda: lubfric.stribeck(paper, speeds),
         "the same on the paper's one patch": lambda: lubfric.stribeck(one_patch, speeds),
@@ -80,23 +75,10 @@ def times() -> Cells:
     return ["job", "CPU time"], [[name, f"{_seconds(job):.3g} s"] for name, job in jobs.items()]
 
 
-def _film(scene: lubfric.Scene) -> lubfric.EHLResult:
-    bodies, oil = scene.bodies, scene.lubricant
-    return lubfric.solve_ehl(
-        load_per_width=bodies.load / bodies.width,
-        radius=bodies.radius,
-        e_prime=bodies.e_prime,
-        entrainment_speed=0.01,
-        viscosity=oil.viscosity,
-        pressure_viscosity_coefficient=oil.pressure_viscosity_coefficient,
-    )
-
-
 def contact_transforms() -> Cells:
     """What a rough contact of 816 x 816 cells costs, in bare pairs of single-precision transforms; CPU seconds."""
-    heights = lubfric.generate_surface(
-        (816, 816), 2e-6, sq=240e-9, correlation_length=34e-6, acf="exponential", seed=1
-    ).heights
+    keys = {"sq": 240e-9, "correlation_length": 34e-6, "acf": "exponential", "seed": 1}
+    heights = lubfric.generate_surface((816, 816), 2e-6, **keys).heights
     operator = half_space(heights.shape, 2e-6, 231e9)
     field = heights.astype(np.float32)
     rows = []
@@ -106,15 +88,11 @@ def contact_transforms() -> Cells:
             options = {"mean_pressure": pressure, "tolerance": 1e-5, "operator": operator}
             return lubfric.solve_contact(heights.max() - heights, 2e-6, 231e9, **options)
 
-        used = solve().report.evaluations
-        whole, pairs = _seconds(solve), used * _seconds(lambda: [_pair(field) for _ in range(10)]) / 10
-        told = [f"{whole:.2f} s", f"{used:.0f}", f"{pairs:.2f} s", f"{whole / pairs:.1f}"]
-        rows.append([f"{pressure / 1e6:g} MPa", *told])
+        used, whole = solve().report.evaluations, _seconds(solve)
+        pairs = used * _seconds(lambda: [fft.irfft2(fft.rfft2(field), s=field.shape) for _ in range(10)]) / 10
+        times = [f"{whole:.2f} s", f"{used:.0f}", f"{pairs:.2f} s", f"{whole / pairs:.1f}"]
+        rows.append([f"{pressure / 1e6:g} MPa", *times])
     return ["mean pressure", "whole solve", "convolutions", "that many bare float32 pairs", "multiple"], rows
-
-
-def _pair(field: np.ndarray) -> np.ndarray:
-    return fft.irfft2(fft.rfft2(field), s=field.shape)
 
 
 def _seconds(job: Callable[[], object]) -> float:

@@ -1,17 +1,19 @@
 """The marks in a page between which a table stands, and how a new table is put there.
 
 A page says where a table stands by two comments, ``<!-- table: NAME -->`` and ``<!-- end of table -->``. What stands
-between them is replaced as a whole. The scripts of the folder ``benchmarks`` put theirs there too (`BENCHMARKS`).
+between them is replaced as a whole. Tables come from `verification.tables`, from campaigns (`CAMPAIGNS`) and from the
+scripts of the folder ``benchmarks`` (`BENCHMARKS`).
 """
 
 from __future__ import annotations
 
+import platform
 import re
+import time
 from pathlib import Path
 
 from ..check import Table
 from ..wording import markdown
-from .source import source
 
 BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of table -->", re.DOTALL)
 BENCHMARKS = {
@@ -21,6 +23,12 @@ BENCHMARKS = {
     "contact-constants": "contact_constants.py",
     "film-times": "ehl_times.py",
     "study-points": "study.py",
+}
+CAMPAIGNS = {  # command: its tables
+    "charts": ("contact-methods", "growth"),
+    "model": ("model-error", "model-cost", "measured-map", "held-out", "refinement", "heavy-loads"),
+    "sampling": ("sampling-coverage", "sampling-numbers"),
+    "stability": ("stability-film", "stability-contact", "stability-sharing", "stability-whole"),
 }
 
 
@@ -45,3 +53,11 @@ def replaced(text: str, name: str, new: str) -> str:
 def body(table: Table, command: str) -> str:
     """A table as Markdown, and the line beneath that says where it comes from."""
     return f"\n{markdown(table.columns, table.rows)}\n\n{source(command)}\n\n"
+
+
+def source(command: str) -> str:
+    """One line in italics: the command as it is typed, the day, the version and the machine."""
+    from lubfric._base.version import __version__
+
+    day, machine, python = time.strftime("%Y-%m-%d"), platform.machine(), platform.python_version()
+    return f"*`{command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"

@@ -5,7 +5,6 @@ A study runs once in a process, however many tables are made of it.
 
 from __future__ import annotations
 
-import importlib
 import re
 from collections.abc import Callable
 from functools import cache
@@ -13,7 +12,6 @@ from functools import cache
 from .. import wording
 from ..check import Check
 from ..run import Outcome, quiet, run_one
-from ..stability.cell import VERDICTS
 from ..studies import STUDIES
 from .measured import Cells
 
@@ -90,9 +88,8 @@ def tolerance_asked() -> Cells:
 def transient() -> Cells:
     """What runs in time were held against: the worst check of every kind. Times are left out."""
     worst: dict[str, tuple[float, Check]] = {}
-    for check in (
-        c for name in ("transient", "transient_mixed") for c in ran(name).checks if c.decisive and c.unit != "s"
-    ):
+    checks = ran("transient").checks + ran("transient_mixed").checks
+    for check in (c for c in checks if c.decisive and c.unit != "s"):
         kind = re.split(r" at T = |: (?=smallest|central)", check.name)[0]
         used = check.deviation / check.tolerance if check.tolerance else check.deviation
         if kind not in worst or used > worst[kind][0]:
@@ -122,26 +119,6 @@ def closures() -> Cells:
     return ["U (m/s)", "closure", "f", "F_H (N)", "trials of the root"], rows
 
 
-def stability(kind: str) -> Callable[[], Cells]:
-    """The table of the maps of one kind."""
-
-    def make() -> Cells:
-        from ..stability.draw import counts
-
-        rows, total = [], [0] * len(VERDICTS)
-        cells = list(importlib.import_module(f"verification.stability.{kind}_map").cells("full"))
-        for (name, _, default), found in counts(cells).items():
-            if default:
-                verdicts = [found[v] for v in VERDICTS]
-                total = [a + b for a, b in zip(total, verdicts)]
-                rows.append([name, *map(str, (sum(verdicts), *verdicts))])
-        rows.append(["all", *map(str, (sum(total), *total))])
-        return ["map (default methods)", "cells", *VERDICTS], rows
-
-    make.__doc__ = f"Verdicts on every {kind} cell of the maps of the default methods (up to half an hour)."
-    return make
-
-
 TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
     "orders": orders,
@@ -153,5 +130,4 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "transient": transient,
     "formulations": formulations,
     "closures": closures,
-    **{f"stability-{kind}": stability(kind) for kind in ("film", "contact", "sharing")},
 }

@@ -10,11 +10,11 @@ import numpy as np
 import lubfric
 
 from .. import parts
-from ..check import Check
+from ..check import Check, compared
 
 OTHER = "differential deflection, called by itself"
 OWN = "own integral over the film that was found"
-FIXED = {"model": "full", "film_deflection": "hydrodynamic", "heat": "off", "accept": True, "tolerance": 1e-3}
+FIXED = {"film_deflection": "hydrodynamic", "heat": "off", "accept": True, "tolerance": 1e-3, "sampling": "patch"}
 LAWS: dict[str, dict[str, Any]] = {
     "Roelands": {},
     "Barus": {"viscosity_law": "barus"},
@@ -42,13 +42,13 @@ def wiring_film(level: str) -> Iterator[Check]:
         yield from shear(name, oil, motion)
 
 
-def smooth(oil: dict) -> lubfric.Scene:
-    """The paper's cylinder at 300 N without contact, which is a Hertz pressure of 960 MPa."""
+def smooth(oil: dict, load: float = 300.0, shape: tuple[int, int] = (160, 12)) -> lubfric.Scene:
+    """The paper's cylinder nearly without contact; 300 N is a Hertz pressure of 960 MPa."""
     return lubfric.load_scene("paper").with_(
-        bodies={"load": 300.0, "hardness": None},
+        bodies={"load": load, "hardness": None},
         lubricant=oil,
         surface={"sq": 1e-9, "correlation_length": 4e-6, "acf": "gaussian"},
-        contact={"shape": (160, 12), "spacing": 1.6e-6},
+        contact={"shape": shape, "spacing": 1.6e-6},
         numerics=FIXED,
     )
 
@@ -58,19 +58,15 @@ def film(name: str, oil: dict) -> Iterator[Check]:
     s = smooth(oil)
     b = s.bodies
     found = lubfric.friction(s, 0.3)
-    other = lubfric.solve_differential_deflection(
-        load_per_width=300.0 / b.width,
-        radius=b.radius,
-        e_prime=b.e_prime,
-        entrainment_speed=0.3,
-        viscosity=0.36,
-        pressure_viscosity_coefficient=oil.get("pressure_viscosity_coefficient", 25e-9),
-        viscosity_law=oil.get("viscosity_law", "roelands"),
-        density_law=oil.get("density_law", "constant"),
-        tolerance=3e-3,
-    )
-    yield Check(f"{name}: flow film", parts.balance(found).film.flow_film, other.flow_film, 5e-3, OTHER, unit="m")
-    yield Check(f"{name}: smallest film", found.min_film, other.min_film, 6e-3, OTHER, unit="m")
+    laws = {"pressure_viscosity_coefficient": 25e-9, "viscosity_law": "roelands", "density_law": "constant"} | oil
+    body = {"load_per_width": 300.0 / b.width, "radius": b.radius, "e_prime": b.e_prime}
+    motion = {"entrainment_speed": 0.3, "viscosity": 0.36}
+    other = lubfric.solve_differential_deflection(**body, **motion, **laws, tolerance=3e-3)
+    rows = [
+        ("flow film", "m", parts.balance(found).film.flow_film, other.flow_film, 5e-3),
+        ("smallest film", "m", found.min_film, other.min_film, 6e-3),
+    ]
+    yield from compared(name, rows, OTHER)
 
 
 def mixed(oil: dict, motion: dict) -> lubfric.Scene:
@@ -102,10 +98,13 @@ def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
     wet = 1 - np.where(inside, pressed[np.clip(column, 0, contact.x.size - 1)], 0.0)
     couette = s.bodies.width * float(np.sum(stress(oil, p, rate) * wet * dx))
     couette += s.bodies.width * 0.36 * s.motion.slide_roll_ratio * speed * upstream(line, s.bodies.radius)
-    yield Check(f"{name}: Couette force", found.couette_force, couette, 4e-3, OWN, unit="N")
     boundary = 0.09 * fields.pressure.mean() * fields.pressure.shape[0] * 1.4e-6 * s.bodies.width
     f = (boundary + couette + found.rolling_force) / 20.0
-    yield Check(f"{name}: coefficient", found.coefficient, f, 2e-3, OWN)
+    rows = [
+        ("Couette force", "N", found.couette_force, couette, 4e-3),
+        ("coefficient", "1", found.coefficient, f, 2e-3),
+    ]
+    yield from compared(name, rows, OWN)
 
 
 def stress(oil: dict, p: np.ndarray, rate: np.ndarray) -> np.ndarray:

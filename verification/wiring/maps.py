@@ -12,7 +12,7 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import HalfSpaceContact
-from lubfric.scene import Roughness
+from lubfric.scene.roughness import Roughness
 from lubfric.sharing import prepare
 
 from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check
@@ -102,9 +102,8 @@ def generated() -> Iterator[Check]:
     for axis, (name, length) in enumerate((("x", 3e-6), ("y", 6e-6))):
         cells = round(length / 0.5e-6)
         value = float(np.mean(z * np.roll(z, cells, axis)) / np.mean(z * z))
-        yield Check(
-            f"generated map: autocorrelation at the length along {name}", value, 0.2, 0.06, "asked for", ABSOLUTE
-        )
+        words = f"generated map: autocorrelation at the length along {name}"
+        yield Check(words, value, 0.2, 0.06, "asked for", ABSOLUTE)
     far = float(np.mean(z * np.roll(z, 24, 0)) / np.mean(z * z))
     yield Check("generated map: autocorrelation at four lengths", abs(far), 0.0, 0.12, "Gaussian: none left", AT_MOST)
     apart = float(np.sqrt(np.mean((maps[1] - maps[2]) ** 2)) / 80e-9)

@@ -6,12 +6,25 @@ from collections.abc import Iterator
 from typing import Any
 
 import lubfric
-from lubfric.scene import Ramp, Scene
+from lubfric.scene import Ramp
 
-from ..check import Check
-from .film import FIXED, mixed
+from ..check import Check, compared
+from .film import mixed, smooth
 
-STEADY = "lubfric.friction, steady"
+UNCHANGED = {  # unit and relative tolerance
+    "coefficient": ("1", 5e-3),
+    "couette_force": ("N", 1e-2),
+    "film_load": ("N", 1e-2),
+    "contact_load": ("N", 1e-2),
+    "mean_gap": ("m", 5e-3),
+    "min_film": ("m", 5e-3),
+}
+RAMPED = {
+    "coefficient": ("1", 2e-2),
+    "couette_force": ("N", 2e-2),
+    "min_film": ("m", 1e-2),
+    "central_film": ("m", 1e-2),
+}
 OILS: dict[str, dict[str, Any]] = {
     "Newtonian": {},
     "Eyring": {"eyring_stress": 2e5},
@@ -35,32 +48,18 @@ def wiring_time(level: str) -> Iterator[Check]:
 
 def unchanged(name: str, oil: dict) -> Iterator[Check]:
     """Mixed lubrication at 0.1 m/s, a slide-roll ratio of 0.5, for a fifth of a passage of the contact."""
-    s = mixed(oil, {"slide_roll_ratio": 0.5}).with_(numerics=TIGHT)
-    steady = lubfric.friction(s.with_(motion={"entrainment_speed": 0.1}))
-    run = lubfric.transient(s.with_(motion={"entrainment_speed": 0.1}), [1e-5])
-    for what, unit, tolerance in (
-        ("coefficient", "1", 5e-3),
-        ("couette_force", "N", 1e-2),
-        ("film_load", "N", 1e-2),
-        ("contact_load", "N", 1e-2),
-        ("mean_gap", "m", 5e-3),
-        ("min_film", "m", 5e-3),
-    ):
-        words = f"{name}, nothing changes: {what.replace('_', ' ')}"
-        yield Check(words, float(getattr(run, what)[-1]), getattr(steady, what), tolerance, STEADY, unit=unit)
+    s = mixed(oil, {"slide_roll_ratio": 0.5, "entrainment_speed": 0.1}).with_(numerics=TIGHT)
+    steady, run = lubfric.friction(s), lubfric.transient(s, [1e-5])
+    yield from ended(f"{name}, nothing changes", run, steady, UNCHANGED)
 
 
-def full_film(**changed) -> Scene:
-    """A nearly smooth contact at 300 MPa."""
-    bodies = {"load": 30.0, "hardness": None} | changed.get("bodies", {})
-    return lubfric.load_scene("paper").with_(
-        bodies=bodies,
-        lubricant={"eyring_stress": 2e6} | changed.get("lubricant", {}),
-        motion={"slide_roll_ratio": 0.5} | changed.get("motion", {}),
-        surface={"sq": 1e-9, "correlation_length": 4e-6, "acf": "gaussian"},
-        contact={"shape": (64, 12), "spacing": 1.6e-6},
-        numerics=FIXED | TIGHT,
-    )
+def ended(label: str, run, steady, tolerances: dict[str, tuple[str, float]]) -> Iterator[Check]:
+    """The last values of a transient beside the steady ones."""
+    rows = [
+        (what.replace("_", " "), unit, float(getattr(run, what)[-1]), getattr(steady, what), tolerance)
+        for what, (unit, tolerance) in tolerances.items()
+    ]
+    yield from compared(label, rows, "lubfric.friction, steady")
 
 
 def ramped() -> Iterator[Check]:
@@ -70,24 +69,11 @@ def ramped() -> Iterator[Check]:
     def ramp(first: float, last: float) -> Ramp:
         return Ramp(start=first, end=last, begin=0.0, until=1e-4)
 
-    plan = lubfric.Transient(
-        duration=end,
-        outputs=1,
-        speed=ramp(0.2, 0.3),
-        sliding=ramp(0.1, 0.06),
-        load=ramp(30.0, 22.0),
-        radius=ramp(2e-3, 1.5e-3),
-        viscosity=ramp(0.36, 0.25),
-    )
-    run = lubfric.transient(full_film().with_(transient=plan))
-    later = full_film(
-        bodies={"load": 22.0, "radius": 1.5e-3},
-        lubricant={"viscosity": 0.25},
-        motion={"entrainment_speed": 0.3, "slide_roll_ratio": 0.2},
-    )
-    steady = lubfric.friction(later)
-    for what in ("coefficient", "couette_force", "min_film", "central_film"):
-        tolerance = 1e-2 if what.endswith("film") else 2e-2
-        yield Check(
-            f"ramps: {what.replace('_', ' ')}", float(getattr(run, what)[-1]), getattr(steady, what), tolerance, STEADY
-        )
+    motion = {"speed": ramp(0.2, 0.3), "sliding": ramp(0.1, 0.06)}
+    bodies = {"load": ramp(30.0, 22.0), "radius": ramp(2e-3, 1.5e-3), "viscosity": ramp(0.36, 0.25)}
+    plan = lubfric.Transient(duration=end, outputs=1, **motion, **bodies)
+    scene = smooth({"eyring_stress": 2e6}, 30.0, (64, 12)).with_(motion={"slide_roll_ratio": 0.5}, numerics=TIGHT)
+    run = lubfric.transient(scene.with_(transient=plan))
+    oil, motion = {"viscosity": 0.25}, {"entrainment_speed": 0.3, "slide_roll_ratio": 0.2}
+    later = scene.with_(bodies={"load": 22.0, "radius": 1.5e-3}, lubricant=oil, motion=motion)
+    yield from ended("ramps", run, lubfric.friction(later), RAMPED)

@@ -1,0 +1,68 @@
+"""How dataclasses of results and scenes behave: arrays stay read-only, derived values are not pickled, and they print
+as one line, as a table in notebooks, or as the call that makes them."""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, Field, fields
+from html import escape
+from typing import Any
+
+import numpy as np
+
+
+class FrozenArrays:
+    """Base of frozen dataclasses: every array field is read-only, after copying and unpickling too."""
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self.freeze()
+
+    def freeze(self) -> None:
+        """Make the array fields read-only (call it in ``__post_init__``, on arrays of one's own)."""
+        for value in self.__dict__.values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+
+
+class FieldsOnly:
+    """Base of frozen dataclasses with cached properties: derived values are not pickled."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {f.name: getattr(self, f.name) for f in fields(self)}  # type: ignore[arg-type]
+
+
+class Shown:
+    """Prints as one line of its ``_facts``, a dict of words by name; as a table in notebooks."""
+
+    def _facts(self) -> dict[str, str]:
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {', '.join(f'{k} {v}' if k else v for k, v in self._facts().items())}>"
+
+    def _repr_html_(self) -> str:
+        return table(self._facts(), type(self).__name__)
+
+
+def table(facts: dict[str, str], title: str) -> str:
+    """A two-column HTML table."""
+    rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in facts.items())
+    return f"<table><caption>{escape(title)}</caption><tbody>{rows}</tbody></table>"
+
+
+class Brief:
+    """A dataclass that prints as the call that makes it, without its defaults."""
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name}={value!r}" for name, value in changed(self).items())
+        return f"{type(self).__name__}({told})"
+
+
+def changed(part: Any) -> dict[str, Any]:
+    """The fields of a dataclass that differ from their defaults, by name."""
+    values = {f.name: (getattr(part, f.name), _default(f)) for f in fields(part)}
+    return {name: value for name, (value, default) in values.items() if default is MISSING or value != default}
+
+
+def _default(field: Field) -> Any:
+    return field.default if field.default_factory is MISSING else field.default_factory()

@@ -1,0 +1,213 @@
+"""Tables as text: those of results, written and read back, and columns of numbers in files from elsewhere (headings
+with units, any usual separator and decimal mark). Results in JSON types."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from .validate import nearest, shown
+
+IN_WORDS = ("validity", "uncertainty")  # columns of a result
+MOST_BYTES = 2**27
+UNITS = {  # dimension: {unit: in SI}
+    "s": {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
+    "m/s": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "cm/s": 1e-2, "km/h": 1 / 3.6, "m/min": 1 / 60},
+    "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3, "MN": 1e6},
+    "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3, "kN/mm": 1e6},
+    "m": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "nm": 1e-9},
+    "-": {"": 1.0, "-": 1.0, "%": 0.01},
+    "Pa s": {"Pa s": 1.0, "mPa s": 1e-3, "cP": 1e-3, "P": 0.1},
+}
+HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
+
+
+def plain(value):
+    """JSON types only: numpy scalars and tuples unpacked, NaN and infinity as null."""
+    if isinstance(value, dict):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(v) for v in value]
+    if isinstance(value, np.ndarray):
+        return plain(value.tolist())
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:
+    """``columns`` by heading as comma-separated text."""
+    file = io.StringIO(newline="")
+    writer = csv.writer(file)
+    writer.writerow(columns)
+    writer.writerows(zip(*(np.asarray(values, dtype=object).tolist() for values in columns.values())))
+    return file.getvalue().encode()
+
+
+class Columns(dict):
+    """Columns of a table by name; a missing one is an `InputError`."""
+
+    def __missing__(self, name: str):
+        raise InputError(f"the table has no column {name!r}; give a table that 'lubfric run' wrote")
+
+
+def read_table(path: Path) -> Columns:
+    """The columns that `table_bytes` wrote, by name. Raises `InputError` for a damaged table or another one."""
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            heading, *rows = list(csv.reader(file))
+        columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
+        return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
+    except (ValueError, IndexError, csv.Error) as problem:
+        said = f"{path} is no table of numbers, or torn ({shown(str(problem))})"
+        raise InputError(f"{said}; give a table that 'lubfric run' wrote") from None
+
+
+def read_columns(
+    path: Path, names: Sequence[str], units: Sequence[str | None], must_say: Sequence[str] = ()
+) -> list[list[float]]:
+    """Columns in SI units, found in the first row by the ``names``, which are headings with or without their units.
+
+    A heading may carry its unit in brackets: ``time [ms]``, ``load (kN)``. Without one it is SI, unless its unit is
+    among those that a heading ``must_say``; one that ends with another unit without brackets is refused. ``units``: the
+    SI unit to which each column must be convertible (None: any of `UNITS`). Comma, semicolon or tab separate; with one
+    of the latter two, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
+    Windows-1252.
+
+    Raises `InputError` naming file and line for anything else.
+    """
+    rows = _rows(path)
+    headings = [text.strip() for text in rows[0][1]]
+    for line, row in rows[1:]:
+        if any(field.strip() for field in row[len(headings) :]):
+            raise InputError(f"file {path.name}, line {line}: {len(row)} values for {len(headings)} headings")
+    columns, known = [], [*(name_and_unit(text)[0] for text in headings), *headings]
+    for name, unit in zip(names, units):
+        places = [i for i, text in enumerate(headings) if name == text] or [
+            i for i, text in enumerate(headings) if name == name_and_unit(text)[0]
+        ]
+        if len(places) != 1:
+            found = f"{len(places)} columns" if places else "no column"
+            raise InputError(
+                f"file {path.name} has {found} {name!r}{'' if places else nearest(name, known)}; "
+                f"it has: {', '.join(headings)}"
+            )
+        heading = headings[places[0]]
+        given = name_and_unit(heading)[1]
+        if given is None and unit in must_say:
+            raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}]")
+        if given is None:
+            _refuse_bare_unit(path, heading, unit)
+        factor = _factor(path, name, given, unit)
+        columns.append([factor * _number(path, line, row, places[0]) for line, row in rows[1:]])
+    return columns
+
+
+def name_and_unit(heading: str) -> tuple[str, str | None]:
+    """The two parts of a heading; the unit is None if it names none."""
+    found = HEADING.fullmatch(heading)
+    return (heading, None) if found is None else (found["name"], found["unit"])
+
+
+def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
+    """Raise `InputError` for a ``heading`` without brackets that ends with a unit other than SI (``time/ms``, ``speed
+    mm/s``, ``speed_mm_s``, ``slip %``): its values would be read as SI."""
+    text = _in_ascii(heading)
+    for si, table in UNITS.items():
+        for unit, factor in table.items():
+            if expected != si and (expected is not None or unit.isalpha() and len(unit) < 2):  # a letter may be a name
+                continue
+            spellings = {re.escape(spelling) for spelling in (unit, unit.replace("/", "_"), unit.replace(" ", ""))}
+            before = "" if unit == "%" else r"(?:^|[^A-Za-z0-9])"
+            if unit and factor != 1.0 and re.search(rf"{before}(?:{'|'.join(sorted(spellings))})[^A-Za-z0-9%]*$", text):
+                raise InputError(
+                    f"column {heading!r} of {path.name} names {unit} without brackets, and would be read in SI; put "
+                    f"the unit into brackets: 'name [{unit}]', or [{si}] if it is that after all"
+                )
+
+
+def _in_ascii(text: str) -> str:
+    """``text`` with a u for the sign of micro, and single spaces."""
+    return " ".join(text.replace("\N{MICRO SIGN}", "u").replace("\N{GREEK SMALL LETTER MU}", "u").split())
+
+
+def _factor(path: Path, name: str, given: str | None, expected: str | None) -> float:
+    """The factor that turns a value into SI."""
+    if given is None:
+        return 1.0
+    word = re.sub(r"\s*[\N{MIDDLE DOT}.*]\s*s$", " s", _in_ascii(given))  # Pa.s, Pa·s, Pa*s
+    tables = [table for unit, table in UNITS.items() if expected in (None, unit)]
+    for table in tables:
+        if word in table:
+            return table[word]
+    allowed = ", ".join(unit for table in tables for unit in table)
+    raise InputError(
+        f"file {path.name}, column {name!r}: unit {given!r} is not known here; allowed: {allowed}, or no unit for SI"
+    )
+
+
+def _rows(path: Path) -> list[tuple[int, list[str]]]:
+    """(line number, fields) of the rows that are neither empty nor comments; decimal marks made points."""
+    lines = [
+        (n, line) for n, line in enumerate(_text(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
+    ]
+    if len(lines) < 2:
+        raise InputError(f"file {path.name} has {len(lines)} rows; it needs a heading and rows of numbers")
+    separator = next((mark for mark in ";\t" if mark in lines[0][1]), ",")
+    try:
+        rows = [(n, next(csv.reader([line], delimiter=separator))) for n, line in lines]
+    except csv.Error as problem:
+        raise InputError(f"file {path.name} is no table ({problem}); give a CSV file") from None
+    if separator == ",":
+        return rows
+    return rows[:1] + [(n, [_decimal_point(path, n, field) for field in row]) for n, row in rows[1:]]
+
+
+def _decimal_point(path: Path, line: int, field: str) -> str:
+    if "," in field and "." in field:
+        raise InputError(
+            f"file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal mark, none for "
+            "thousands"
+        )
+    return field.replace(",", ".")
+
+
+def _number(path: Path, line: int, row: list[str], place: int) -> float:
+    field = row[place].strip() if place < len(row) else ""
+    try:
+        value = float(field)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value) or "_" in field:
+        raise InputError(
+            f"file {path.name}, line {line}, column {place + 1}: {shown(field)} is not a number; allowed: a "
+            "finite number in every row"
+        )
+    return value
+
+
+def _text(path: Path) -> str:
+    try:
+        if not path.is_file():
+            raise InputError(f"file {str(path)!r} does not exist; give a CSV file")
+        if path.stat().st_size > MOST_BYTES:
+            raise InputError(f"file {path.name} has {path.stat().st_size} bytes; allowed: up to {MOST_BYTES}")
+        content = path.read_bytes()
+    except (OSError, ValueError) as problem:
+        raise InputError(f"file {shown(str(path))} cannot be read ({problem})") from None
+    codes = ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp1252")
+    for code in codes:
+        try:
+            text = content.decode(code)
+        except UnicodeDecodeError:
+            continue
+        if "\0" not in text:
+            return text
+    raise InputError(f"file {path.name} is not text; give CSV in UTF-8, UTF-16 or Windows-1252")

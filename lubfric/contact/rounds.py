@@ -1,0 +1,139 @@
+"""Rounds of search and check: single precision on the cells that may touch, then double precision everywhere.
+
+Only the check ends the loop: a `look` at the whole patch in double precision, whatever the search found. There is no
+proof that conjugate directions converge when they are kept while the set changes. So rounds that gain nothing end the
+solve as stagnated.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED
+from .cells import Cells, rescaled
+from .result import contact_residuals, length_scale, zero_level
+from .search import FIRST_PACE, Search
+
+REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into touch
+MARGIN = 0.8  # of the tolerance, aimed at by the search
+FALL = 8e-6  # of the residual within a round: as far as single precision goes
+RIGID = 1e-2  # of the roughness: deflection of a yielded cell below which the search is exact
+WASTED = 4  # rounds without halving the residual
+
+
+@dataclass(frozen=True)
+class State:
+    """A pressure [Pa] with its displacement and gap [m] (nx, ny) and its approach [m].
+
+    ``scale`` [m]: the length in which residuals are measured; complementarity and penetration: the residuals. All have
+    the precision of the operator used.
+    """
+
+    pressure: np.ndarray
+    displacement: np.ndarray
+    gap: np.ndarray
+    approach: float
+    scale: float
+    residuals: dict[str, float]
+
+    @property
+    def residual(self) -> float:
+        """The worst."""
+        return max(self.residuals.values())
+
+
+@dataclass(frozen=True)
+class Found:
+    """The end of the rounds (``state``): how they ended, their cost, and the pace with which a next search should
+    begin."""
+
+    state: State
+    status: str
+    iterations: int
+    convolutions: float
+    history: tuple[float, ...]
+    pace: float
+    solver: str = "preconditioned conjugate gradient, candidates in single precision"
+    notes: tuple[str, ...] = ()
+
+    @property
+    def pressure(self) -> np.ndarray:
+        """[Pa] (nx, ny)"""
+        return self.state.pressure
+
+
+def look(problem, operator, pressure, level=None) -> State:
+    """The `State` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed approach."""
+    displacement = operator.apply(pressure)
+    gap = (problem.gap0 + displacement).astype(displacement.dtype, copy=False)
+    if level is None:
+        yielded = pressure >= problem.hardness
+        level = zero_level(gap, (pressure > 0) & ~yielded, yielded)
+    gap -= level
+    scale = length_scale(pressure, displacement, problem.gap0, operator, problem.roughness)
+    residuals = contact_residuals(pressure, gap, scale, problem.hardness, 1.0)
+    del residuals["load"]
+    return State(pressure, displacement, gap, level, scale, residuals)
+
+
+def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Found:
+    """Solve from ``pressure`` [Pa] for a total ``load`` [Pa cells] or an approach ``level`` [m]."""
+    state, status = look(problem, problem.operator.single, pressure, level), None
+    best, wasted, iterations, convolutions = np.inf, 0, 0, 1.0
+    history: list[float] = []
+    while status is None:
+        goal, pressure = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0)), state.pressure
+        if state.residual > goal and iterations < problem.max_iterations:
+            search = _begun(problem, state, load, pace, wasted > 0)
+            del state  # the search holds what it needs
+            search.run(goal, problem.max_iterations - iterations)
+            iterations, pace = iterations + search.iterations, pace if wasted else search.pace
+            history += search.history[:-1]
+            convolutions += search.convolutions
+            found = search.found(pressure, problem.hardness)
+            del search
+            pressure = _carrying(found, pressure, load, problem.hardness)
+            del found
+        state = look(problem, problem.operator, pressure, level)
+        convolutions += 1
+        best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
+        if state.residual <= problem.tolerance:
+            status = CONVERGED
+        elif iterations >= problem.max_iterations:
+            status = ITERATION_LIMIT
+        elif wasted > WASTED:
+            status = STAGNATED
+    return Found(state, status, iterations, convolutions, (*history, state.residual), pace)
+
+
+def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> tuple[np.ndarray, float, float]:
+    """A start for a finer grid, by one round in single precision without a check: pressure [Pa], its pace, and the
+    number of convolutions."""
+    state = look(problem, problem.operator.single, pressure, level)
+    if not state.residual:
+        return pressure, pace, 1.0
+    search = _begun(problem, state, load, pace)
+    search.run(MARGIN * problem.tolerance, problem.max_iterations)
+    found = _carrying(search.found(pressure, problem.hardness), pressure, load, problem.hardness)
+    return found, search.pace, 1.0 + search.convolutions
+
+
+def _begun(problem, state: State, load, pace: float, exact: bool = False) -> Search:
+    """A search from ``state`` on the cells that are loaded, or may come into touch."""
+    operator, flags, overlap = problem.operator.single, state.pressure > 0, max(0.0, -float(state.gap.min()))
+    if np.isfinite(state.scale):
+        overlap = state.residuals["penetration"] * state.scale  # of cells that have not yielded
+    flags |= state.gap < REACH * overlap
+    rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID * problem.roughness
+    return Search(problem, Cells.flagged(operator, flags), state, load, pace, exact or rigid)
+
+
+def _carrying(found, begun, load, hardness) -> np.ndarray:
+    """``found`` [Pa], made to carry the load. If single precision has lost the load, the pressure with which the search
+    had ``begun``."""
+    total = found.sum()
+    if not np.isfinite(total) or load is not None and total <= 0:
+        return begun
+    return found if load is None else rescaled(found, load, hardness)

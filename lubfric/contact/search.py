@@ -1,0 +1,279 @@
+"""Single-precision search for a better pressure on the cells that may touch: one convolution an iteration.
+
+The unknown is the change of the pressure since the gap was last computed in double precision, so rounding is relative
+to that change. The free cells are those whose pressure may change: they are in elastic contact (0 < p < H), or overlap
+without pressure, or have yielded and opened. On them the gap is the gradient of the energy.
+
+An iteration has three parts. First, a conjugate direction leads to a trial, by a length that is learnt from the steps
+before. (The preconditioner is |k|, the inverse of the half-space. The direction is kept when the set changes, where I.
+A. Polonsky and L. M. Keer, Wear 231 (1999) 206-219, doi:10.1016/S0043-1648(99)00113-1 restart.) Second, the trial is
+cut to 0..H and made to carry the load. Third, the change from the *known* pressure, whose gap is available, to the
+trial is convolved, and the step along it is exact. The new pressure is cut again, so it may differ from the known one
+on some cells. That difference is convolved together with the next trial.
+
+The exact search takes two or three convolutions an iteration: its preconditioner is a transform, its step is exact for
+the free cells, and what the limits cut off is convolved at once. It converges where a small change of the contact set
+changes the pressure a lot: for nearly rigid bodies, and after rounds that gained nothing.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from .cells import with_load
+from .result import dot, zero_level
+from .stencil import LEAST, Stencil
+from .transforms import filtered, wavenumber
+
+FIRST_PACE = 0.35  # of the step that the preconditioner would take were it the inverse
+LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual
+LEARNING = 0.3  # power of the relative length of a step in the next pace
+STEPS = (0.3, 2.0)  # of the way to the trial
+SHIFTS = 12  # of a trial at most
+TRANSFORMED = 0.7  # share of contact from which, on short axes, the preconditioner is the transform, not nine points
+NARROWINGS = (4, 8, 12, 16, 24, 32)  # iterations after which cells are left out
+NEAR, WORTH = 0.7, 0.6  # of the deepest overlap: gaps of cells that are kept; of the cells: most to be kept
+FORGOTTEN = 1e-6  # of the mean pressure in contact: less is not waited for
+PATIENCE = 8  # iterations without a tenth off the best residual
+CAPACITY = 0.999  # of the hardness times the free cells, beyond which the exact search frees more
+FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "weight", "residue", "before", "trial")
+
+
+class Search:
+    """The search on ``cells`` (`lubfric.contact.cells.Cells`), from the state ``state`` of a whole patch.
+
+    ``load`` [Pa cells]: what the pressure has to carry, or None if the approach is prescribed; ``pace``: that of an
+    earlier search, or `FIRST_PACE`; ``exact``: whether steps are exact.
+
+    Pressures are in units of the mean one in contact, gaps in units of the scale of ``state``. One value a cell:
+
+    - ``lower``, ``upper`` (None: no hardness): least and largest change of the pressure.
+    - ``gap``: that under the ``known`` change; ``change``: the known change and the part that is still to be convolved.
+    - ``weight``: 1 on free cells, else 0; ``residue``: that of the gap on them; ``before``: the residue from which the
+      ``direction`` was made.
+    - ``trial``: the change to aim at.
+    """
+
+    def __init__(self, problem, cells, state, load: float | None, pace: float, exact: bool):
+        operator, base, scale = problem.operator, cells.take(state.pressure), state.scale
+        total, loaded = float(base.sum()), np.count_nonzero(base)
+        if not math.isfinite(scale):  # no pressure yet
+            scale = max(-float(state.gap.min()), 1e-9 * max(problem.roughness, min(operator.spacing)))
+        self.unit = total / loaded if total > 0 else operator.e_prime * scale / min(operator.spacing)
+        self.compliance = self.unit / scale
+        self.cells, self.pace, self.exact, self.given = cells, pace, exact, load is not None
+        self.load = math.nan if load is None else load / self.unit
+        self.target = 0.0 if load is None else (load - total) / self.unit
+        self.slack = LOAD_ERROR * min(1.0, state.residual) * total / self.unit
+        self.hardness, self.plastic = problem.hardness / self.unit, math.isfinite(problem.hardness)
+        base /= self.unit
+        self.lower = np.negative(base, dtype=np.float32)
+        self.upper = (self.hardness - base).astype(np.float32) if self.plastic else None
+        del base
+        self.gap = cells.take(state.gap, np.float32, 1 / scale)
+        self.change, self.known, self.direction, self.before = (np.zeros_like(self.gap) for _ in range(4))
+        self.weight, self.residue, self.trial = (np.empty_like(self.gap) for _ in range(3))
+        self.power = self.level = self.overlap = 0.0
+        self.iterations = self.convolutions = 0
+        self.history: list[float] = []
+        factor, short = operator.e_prime / 4 / self.compliance, min(cells.shape) < LEAST
+        self.stiffness = self.stencil = None
+        if exact or short and loaded > TRANSFORMED * state.pressure.size:
+            self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
+        else:
+            self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)
+
+    def run(self, tolerance: float, limit: int) -> None:
+        """Iterate until the residual on these cells is <= tolerance, until it no longer falls, or ``limit`` times."""
+        best, waiting = math.inf, 0
+        while True:
+            self._look()
+            worst = self._worst(tolerance)
+            self.history.append(worst)
+            best, waiting = (worst, 0) if worst < 0.9 * best else (best, waiting + 1)
+            if worst <= tolerance or waiting > PATIENCE or self.iterations == limit:
+                return
+            self.iterations += 1
+            if self.iterations in NARROWINGS and not self.exact:
+                self._narrow()
+            self._turn()
+            if self.exact:
+                self._exact_step()
+            else:
+                self._step()
+
+    def found(self, pressure, hardness: float) -> np.ndarray:
+        """``pressure`` [Pa], the field with which the search began, with its changes; yielded cells have the hardness
+        [Pa] to the last digit."""
+        values = self.cells.take(pressure)
+        values += np.multiply(self.change, self.unit, dtype=float)
+        values *= self.change > self.lower
+        np.maximum(values, 0.0, out=values)
+        if self.plastic:
+            np.copyto(values, hardness, where=self.change >= self.upper)
+        return self.cells.spread(values)
+
+    def _look(self) -> None:
+        """Find the zero level of the gap, the free cells, the residue on them and the deepest overlap."""
+        inside, limited = self.change > self.lower, None
+        if self.plastic:
+            limited = self.change >= self.upper
+            inside &= ~limited
+        if self.given:
+            self.level = zero_level(self.gap, inside, limited, self.level)
+        free = self.gap < np.float32(self.level)
+        if self.plastic:
+            free ^= limited
+        free |= inside
+        if self.exact and self.plastic and self.given:
+            capacity = CAPACITY * self.hardness * np.count_nonzero(free)
+            if self._share(free) > capacity:  # all that has not yielded for good has to help
+                free = ~limited | (self.gap > self.level)
+        self.weight[:] = free
+        self.count = np.count_nonzero(free)
+        np.subtract(self.gap, np.float32(self.level), out=self.residue)
+        self.residue *= self.weight
+        self.overlap = -float(self.residue.min(where=~limited, initial=0.0) if self.plastic else self.residue.min())
+        self.overlap = max(self.overlap, 0.0)
+
+    def _share(self, free) -> float:
+        """The load that the free cells have to carry."""
+        return float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
+
+    def _worst(self, tolerance: float) -> float:
+        """The worst residual on these cells. Overlap is the worst as a rule, so the others are not looked at while it
+        is above ``tolerance``."""
+        if self.overlap > tolerance:
+            return self.overlap
+        pressure = self.change - self.lower
+        total = float(pressure.sum())
+        misfit = dot(pressure, np.abs(self.residue)) / total if total > 0 else math.inf
+        excess = abs(total - self.load) / self.load if self.given else 0.0
+        return max(self.overlap, misfit, excess)
+
+    def _narrow(self) -> None:
+        """Leave out the cells that are not in contact and did not come near it, if they are many."""
+        near = self.gap < self.level + NEAR * self.overlap
+        near |= self.weight > 0
+        near |= self.change > self.lower
+        near |= (
+            np.abs(self.known - self.lower) > FORGOTTEN
+        )  # a part of the known pressure that is still to be taken off
+        if not 0 < np.count_nonzero(near) <= WORTH * near.size:
+            return
+        kept = np.flatnonzero(near)
+        self.cells = self.cells.narrowed(kept)
+        self.target -= float(self.change.sum()) - float(self.change.take(kept).sum())
+        for name in FIELDS:  # one after the other, so that old ones are freed soon
+            if getattr(self, name) is not None:
+                setattr(self, name, getattr(self, name).take(kept))
+        if self.stencil is not None:
+            self.stencil.move(self.cells.index)
+        self._look()
+
+    def _turn(self) -> None:
+        """Conjugate direction on the free cells (Polak-Ribiere, never negative), along which a given load does not
+        change. The residue becomes the one before."""
+        turned = self.trial
+        if self.stencil is not None:
+            self.stencil.apply(self.residue, turned)
+        else:
+            field = self.cells.field(self.residue)
+            turned[:] = self.cells.gather(filtered(field, self.stiffness, field.shape, self.cells.operator.workers))
+            self.convolutions += 1
+        power = dot(self.residue, turned)
+        keep = max(0.0, (power - dot(self.before, turned)) / self.power) if self.power > 0 else 0.0
+        self.power = power
+        self.direction *= np.float32(keep)
+        self.direction -= turned
+        if self.given:
+            self.direction -= np.float32(dot(self.direction, self.weight) / max(self.count, 1))
+        self.direction *= self.weight
+        self.residue, self.before = self.before, self.residue
+
+    def _step(self) -> None:
+        """Go from the known pressure towards the trial, by the step that is exact along that change."""
+        self._try()
+        way, asked = np.subtract(self.trial, self.known, out=self.residue), self.trial - self.change
+        answer = self._answer(way)
+        slope, curvature = dot(self.before, asked), dot(asked, answer) * self.compliance
+        step = -slope / curvature if curvature > 0 else 1.0
+        step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
+        self.pace *= max(step, STEPS[0]) ** LEARNING
+        self.known += np.multiply(way, np.float32(step), out=asked)
+        self.gap += np.multiply(answer, np.float32(step * self.compliance), out=asked)
+        np.maximum(self.known, self.lower, out=self.change)
+        np.copyto(self.change, self.lower, where=self.trial <= self.lower)  # cells that the trial unloads stay so
+        if self.plastic:
+            np.minimum(self.change, self.upper, out=self.change)
+            np.copyto(self.change, self.upper, where=self.trial >= self.upper)
+
+    def _try(self) -> None:
+        """Make the trial: the change of pressure by one pace along the direction, within the limits and with the
+        load."""
+        aim = np.multiply(self.direction, np.float32(self.pace), out=self.residue)
+        aim += self.change
+        self._limit(aim)
+        shift = 0.0
+        for _ in range(SHIFTS if self.given else 0):
+            missing = self.target - float(self.trial.sum())
+            if abs(missing) <= self.slack:
+                return
+            movable = self.trial > self.lower
+            if self.plastic:
+                movable &= (self.trial < self.upper) & (self.weight > 0)
+            count = np.count_nonzero(movable)
+            if not count:
+                break
+            shift += missing / count
+            np.multiply(self.weight, np.float32(shift), out=self.trial)
+            self.trial += aim
+            self._limit(self.trial)
+        if self.given:
+            self._project(aim)
+
+    def _limit(self, aim) -> None:
+        """Set the trial to ``aim`` within the limits."""
+        np.maximum(aim, self.lower, out=self.trial)
+        if self.plastic:
+            np.minimum(self.trial, self.upper, out=self.trial)
+
+    def _project(self, aim) -> None:
+        """Make the trial by a bracketed shift of all cells, in double precision.
+
+        This is needed when few of many cells stay in contact, or when the free cells cannot carry their share. Then all
+        cells are free, and the direction is not kept.
+        """
+        base = np.negative(self.lower, dtype=float)
+        pressure = with_load(base + aim, self.target + float(base.sum()), self.hardness)
+        self.trial[:] = self._rounded(pressure, base, np.s_[:])
+        np.subtract(self.gap, np.float32(self.level), out=self.before)
+        self.power = 0.0
+
+    def _exact_step(self) -> None:
+        """The step that is exact along the direction, then brought within the limits and to the load, on the free
+        cells."""
+        curvature = dot(self.direction, self._answer(self.direction)) * self.compliance
+        slope = dot(self.before, self.direction)
+        if not (curvature > 0 and slope < 0):
+            self.power = 0.0
+            return
+        free = self.weight > 0
+        base = np.negative(self.lower[free], dtype=float)
+        new = base + (self.change + np.float32(-slope / curvature) * self.direction)[free]
+        new = with_load(new, self._share(free), self.hardness) if self.given else np.clip(new, 0.0, self.hardness)
+        self.change[free] = self._rounded(new, base, free)
+        self.gap += self._answer(self.change - self.known) * np.float32(self.compliance)
+        self.known[:] = self.change
+
+    def _rounded(self, pressure, base, cells) -> np.ndarray:
+        """Change of the pressure on ``cells`` in single precision, the limits met to the last digit."""
+        change = np.where(pressure <= 0, self.lower[cells], (pressure - base).astype(np.float32))
+        return np.where(pressure >= self.hardness, self.upper[cells], change) if self.plastic else change
+
+    def _answer(self, way) -> np.ndarray:
+        """Deflection under a change of pressure, to be multiplied by the compliance."""
+        self.convolutions += 1
+        return self.cells.gather(self.cells.operator.apply(self.cells.field(way)))

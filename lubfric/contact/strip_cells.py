@@ -1,0 +1,131 @@
+"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the
+scene's."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..errors import InputError
+from ..scene import Roughness, Scene
+from ..surface import Surface, correlation_length
+
+CELLS_PER_LENGTH = 4.0  # of the correlation length
+CELLS_PER_HALF_WIDTH = 2.0  # of the Hertz strip, along x
+EVEN = 4  # cells along x come in fours
+FAST = 16  # and along y in sixteens
+SUMMITS = 4.5  # Sq
+
+
+@dataclass(frozen=True)
+class Cells:
+    """``factors`` (fx, fy): length of a cell in the scene's own cells, of ``spacing`` [m]; ``count``: along x;
+    ``first`` [m]: centre of the first own cell along x (None: such that the coarse cells lie evenly about the line of
+    contact).
+    """
+
+    factors: tuple[int, int]
+    spacing: tuple[float, float]
+    count: int
+    first: float | None = None
+
+    @property
+    def coarse(self) -> tuple[float, float]:
+        """Length of a cell [m] along x and y."""
+        return self.spacing[0] * self.factors[0], self.spacing[1] * self.factors[1]
+
+    @property
+    def own(self) -> bool:
+        """Whether they are the scene's own."""
+        return self.factors == (1, 1)
+
+    def halved(self) -> Cells:
+        """Cells half as long along each axis, or as near to that as the scene's own cells allow."""
+        factors = max(1, self.factors[0] // 2), max(1, self.factors[1] // 2)
+        return replace(self, factors=factors, count=self.count * self.factors[0] // factors[0])
+
+    def ladder(self) -> list[tuple[int, int]]:
+        """Factors from those of these cells down to the scene's own, each half the one before."""
+        steps, cells = [self.factors], self
+        while not cells.own:
+            cells = cells.halved()
+            steps.append(cells.factors)
+        return steps
+
+    def rows(self, length: float) -> int:
+        """Number of cells along y of a strip of about ``length`` [m]: one that suits the Fourier transform."""
+        from scipy.fft import next_fast_len
+
+        return FAST * next_fast_len(max(1, round(length / (FAST * self.coarse[1]))), real=True)
+
+    def axis(self, factors: tuple[int, int] | None = None) -> np.ndarray:
+        """Cell centres [m] along x of these cells, or of the finer ones of ``factors``, which share columns with
+        them."""
+        fx = self.factors[0]
+        first = self.first
+        if first is None:
+            first = -0.5 * (self.count - 1) * self.coarse[0] - fx // 2 * self.spacing[0]
+        own = first + np.arange(self.count * fx) * self.spacing[0]
+        step = fx if factors is None else factors[0]
+        return own[fx // 2 % step :: step]
+
+    def thinned(self, heights: np.ndarray, factors: tuple[int, int]) -> np.ndarray:
+        """Every ``factors``-th of ``heights`` on the scene's own cells; of those along x the ones at `axis`."""
+        return heights[self.factors[0] // 2 % factors[0] :: factors[0], factors[1] // 2 :: factors[1]]
+
+
+def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:
+    """At least four cells in each of the correlation ``lengths`` [m], and two in the half-width of the Hertz strip.
+
+    Their lengths are ``spacing`` [m] times powers of two. Along x they cover at least ``reach`` [m].
+    """
+    fx, fy = largest_factors(spacing, lengths, half_width)
+    return Cells((fx, fy), tuple(spacing), EVEN * math.ceil(reach / (EVEN * fx * spacing[0]) - 1e-9))
+
+
+def cells_of_a_box(spacing, lengths, half_width: float, shape: tuple[int, int], first: float | None = None) -> Cells:
+    """The same cells over exactly the columns of ``shape``; where ``first`` is given, over exactly its rows too."""
+    fx, fy = largest_factors(spacing, lengths, half_width)
+    while shape[0] % (2 * fx) and fx > 1:
+        fx //= 2
+    while first is not None and shape[1] % (2 * fy) and fy > 1:
+        fy //= 2
+    return Cells((fx, fy), tuple(spacing), shape[0] // fx, first)
+
+
+def correlation_lengths(rough: Roughness) -> tuple[float, float]:
+    """Correlation lengths [m] at 1/e along x and y of a generated surface."""
+    decay = -math.log(rough.decay_level)
+    factor = decay if rough.acf == "exponential" else math.sqrt(decay)
+    both = np.broadcast_to(np.asarray(rough.correlation_length, dtype=float), 2)
+    return float(both[0]) / factor, float(both[1]) / factor
+
+
+def length_or_half(surface: Surface, axis: int) -> float:
+    """Correlation length [m] at 1/e; half the map where it is longer."""
+    try:
+        return correlation_length(surface, axis)
+    except InputError:
+        return 0.5 * surface.size[axis]
+
+
+def reach_of(scene: Scene, sq: float) -> float:
+    """Length [m] along x that contains the contact: it ends where an undeformed cylinder, resting on the ends of the
+    Hertz strip, has risen by `SUMMITS` Sq."""
+    bodies = scene.bodies
+    return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * SUMMITS * sq)
+
+
+def largest_factors(spacing, lengths, half_width: float) -> tuple[int, int]:
+    """Powers of two: the longest cells that still resolve the correlation ``lengths`` and the Hertz strip [m]."""
+    along = min(lengths[0] / CELLS_PER_LENGTH, half_width / CELLS_PER_HALF_WIDTH)
+    return _power_of_two(along / spacing[0]), _power_of_two(lengths[1] / (CELLS_PER_LENGTH * spacing[1]))
+
+
+def _power_of_two(ratio: float) -> int:
+    factor = 1
+    while 2 * factor <= ratio * (1 + 1e-9):
+        factor *= 2
+    return factor

@@ -1,0 +1,291 @@
+"""The sample of a rough surface: strips of it, each some 90 correlation lengths long across the motion.
+
+Strip number k of a scene on given cells is always the same. `Strips.stack` joins the first strips to one line, which is
+solved as one contact with one film and one approach. Strips come from an endless generated surface, from windows of a
+measured map, or there is one only: the patch that a scene asks for, or a map that was given.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from .._base import spacing as checked_spacing
+from ..errors import InputError
+from ..scene import Roughness, Scene
+from ..surface import Surface, generate_surface
+from .height_map import extended, measured, rough_bodies, whole_map
+from .hertz_strip import centred_axis
+from .strip_cells import EVEN, Cells, cells_of_a_box, choose_cells, correlation_lengths, length_or_half, reach_of
+
+STRIP, PIECE = 90.0, 42.0  # correlation lengths: of a strip, of a piece on the scene's own cells
+FIRST = 180.0  # correlation lengths that are solved first
+MOST = 46080.0  # correlation lengths, at most
+MOST_CELLS = 3_000_000  # of a stack: memory
+BLEND = 2.0  # correlation lengths along y over which one strip passes into the next
+APART = 4.0  # correlation lengths along the motion between windows that are independent
+ENOUGH = 8  # windows for an honest standard error
+STRIPS, PIECES = 0, 1  # streams of seeds
+
+
+@dataclass(frozen=True)
+class Strips:
+    """Strips of the surface of ``scene`` on ``cells``.
+
+    ``lengths`` [m]: correlation lengths at 1/e along x and y; ``length`` [m]: what one strip adds to a stack;
+    ``first``, ``available``: number of strips that are solved first, and that there are; ``pieces``: number of pieces.
+    ``windows``: whether each strip is a window of a measured map, which may differ from place to place. ``exact_sq``:
+    whether every strip has the Sq of the surface.
+    """
+
+    scene: Scene
+    cells: Cells
+    lengths: tuple[float, float]
+    length: float
+    first: int = 1
+    available: int = 1
+    pieces: int = 1
+    windows: bool = False
+    exact_sq: bool = False
+
+    def stack(self, count: int) -> Surface:
+        """The first ``count`` strips joined along y, periodic, on ``cells``."""
+        raise NotImplementedError
+
+    def piece(self, index: int) -> Surface:
+        """A piece on the scene's own cells, some 42 correlation lengths long: number ``index`` of ``pieces``. Every
+        n-th of its cells, in each direction, gives the coarse cells to compare it with."""
+        raise NotImplementedError
+
+    @property
+    def whole(self) -> bool:
+        """Whether a piece is all that there is."""
+        return False
+
+    def halved(self) -> Strips:
+        """The same strips on cells half as long."""
+        return replace(self, cells=self.cells.halved())
+
+
+@dataclass(frozen=True)
+class GeneratedStrips(Strips):
+    """Strips of one endless generated surface, or of two whose heights are added."""
+
+    def stack(self, count: int) -> Surface:
+        blend = _blend(self.lengths[1], self.cells.coarse[1])
+        shape = self.cells.count, self.cells.rows(self.length) + blend
+        strips = [self._generated((STRIPS, index), self.cells.coarse, shape) for index in range(count)]
+        return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
+
+    def piece(self, index: int) -> Surface:
+        fx, fy = self.cells.factors
+        rows = self.cells.rows(PIECE * self.lengths[1]) * fy
+        return self._generated((PIECES, index), self.cells.spacing, (self.cells.count * fx, rows))
+
+    def _generated(self, stream, spacing, shape) -> Surface:
+        maps = [_one_body(rough, name, stream, spacing, shape) for rough, name in rough_bodies(self.scene)]
+        return maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
+
+
+def _one_body(rough: Roughness, name: str, stream, spacing, shape) -> Surface:
+    surface = generate_surface(
+        (shape[0] * rough.oversize, shape[1]),
+        spacing,
+        sq=rough.sq,
+        correlation_length=rough.correlation_length,
+        acf=rough.acf,
+        decay_level=rough.decay_level,
+        seed=_seed_of(rough.seed, *stream, *(() if name == "surface" else (1,))),
+    )
+    return surface if rough.oversize == 1 else surface.cropped(shape).scaled(sq=rough.sq or 0.0)
+
+
+@dataclass(frozen=True)
+class MeasuredStrips(Strips):
+    """Windows of a measured ``surface``, on its own cells or on every second, fourth, ... of them.
+
+    ``starts``: first columns of the windows that the map holds independently. They are used in this order, so that any
+    number of them is spread over the map. Beyond its ends the map is continued by its mirror image.
+    """
+
+    surface: Surface | None = field(default=None, kw_only=True)
+    starts: tuple[int, ...] = field(default=(), kw_only=True)
+
+    def stack(self, count: int) -> Surface:
+        fx, fy = self.cells.factors
+        pieces = [self._columns(start)[fx // 2 :: fx] for start in self.starts[:count]]
+        heights = stacked(pieces, self._blend)
+        rows = heights.shape[1] // (4 * fy) * 4 * fy
+        note = f"{count} windows of {self.cells.count * fx} x {self._map.shape[1]} cells, stacked along y"
+        return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
+
+    def piece(self, index: int) -> Surface:
+        whole, blend, unit = self._columns(self.starts[index]), self._blend, 4 * self.cells.factors[1]
+        wanted = round(PIECE * self.lengths[1] / self._map.spacing[1])
+        rows = min(whole.shape[1] - blend, wanted) // unit * unit
+        first = (whole.shape[1] - rows - blend) // 2
+        piece = stacked([whole[:, first : first + rows + blend]], blend)[:, :rows]
+        return self._made(piece, self._map.spacing, "a piece on the map's own cells")
+
+    @property
+    def _map(self) -> Surface:
+        assert self.surface is not None
+        return self.surface
+
+    @property
+    def _blend(self) -> int:
+        return min(_blend(self.lengths[1], self._map.spacing[1]), self._map.shape[1] // 4)
+
+    def _columns(self, start: int) -> np.ndarray:
+        columns, last = start + np.arange(self.cells.count * self.cells.factors[0]), self._map.shape[0] - 1
+        return self._map.heights[np.minimum(np.where(columns < 0, -1 - columns, columns), 2 * last + 1 - columns)]
+
+    def _made(self, heights, spacing, note) -> Surface:
+        notes = (*self._map.notes, note)
+        return replace(self._map, heights=heights, spacing=spacing, mask=None, periodic_axes=(False, True), notes=notes)
+
+
+@dataclass(frozen=True)
+class OnePatch(Strips):
+    """One patch, ``surface``, of which there is no more."""
+
+    surface: Surface | None = field(default=None, kw_only=True)
+
+    def stack(self, count: int = 1) -> Surface:
+        assert self.surface is not None
+        heights = self.cells.thinned(self.surface.heights, self.cells.factors)
+        return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
+
+    @property
+    def whole(self) -> bool:
+        return True
+
+    def piece(self, index: int = 0) -> Surface:
+        assert self.surface is not None
+        return self.surface
+
+
+def strips_of(scene: Scene) -> Strips:
+    """Strips of the scene's surface, generated or measured; on the scene's own cells if ``numerics.grid`` is given."""
+    found = measured_strips(scene, whole_map(scene)) if measured(scene) else generated_strips(scene)
+    while scene.numerics.grid == "given" and not found.cells.own:
+        found = found.halved()
+    return found
+
+
+def generated_strips(scene: Scene) -> GeneratedStrips:
+    """Strips of the generated surface of ``scene``. Along x they are as long as its patch, or as the contact if that is
+    longer; where the patch is the area A, as the patch."""
+    patch, bodies = scene.contact, [rough for rough, _ in rough_bodies(scene)]
+    if patch.shape is None or patch.spacing is None:
+        raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
+    spacing, half_width = checked_spacing("contact.spacing", patch.spacing), scene.bodies.half_width
+    along_x, along_y = zip(*(correlation_lengths(rough) for rough in bodies if rough.sq))
+    shortest, lengths = (min(along_x), min(along_y)), (max(along_x), max(along_y))
+    if patch.region == "box":
+        cells = cells_of_a_box(spacing, shortest, half_width, patch.shape)
+    else:
+        sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))
+        cells = choose_cells(spacing, shortest, half_width, max(patch.shape[0] * spacing[0], reach_of(scene, sq)))
+    length = min(STRIP * lengths[1], MOST_CELLS / 2 / cells.count * cells.coarse[1])
+    available = int(min(MOST / STRIP, MOST_CELLS / (cells.count * cells.rows(length))))
+    first = min(round(FIRST / STRIP), available)
+    return GeneratedStrips(scene, cells, lengths, length, first, available, available, exact_sq=len(bodies) == 1)
+
+
+def measured_strips(scene: Scene, surface: Surface, lengths: tuple[float, float] | None = None) -> MeasuredStrips:
+    """Windows of a measured map under the cylinder of ``scene``. The map is levelled and filled, with x along the
+    motion. ``lengths``: its correlation lengths [m] along x and y, where they are known.
+
+    A map with fewer than eight whole windows gets further ones, which reach over its ends, where it is continued by its
+    mirror image. The Hertz strip of every window lies on the map itself: beyond it only single high summits touch.
+    """
+    if scene.contact.spacing is not None:
+        surface = surface.resampled(spacing=scene.contact.spacing)
+    reach = reach_of(scene, surface.sq)
+    if extended(scene):
+        surface = surface.continued(reach)
+    half_width, (dx, _) = scene.bodies.half_width, surface.spacing
+    lengths = lengths or (length_or_half(surface, 0), length_or_half(surface, 1))
+    if scene.contact.shape is not None:
+        reach = scene.contact.shape[0] * dx
+    cells = choose_cells(surface.spacing, lengths, half_width, min(reach, surface.size[0]))
+    while cells.count * cells.factors[0] > surface.shape[0]:
+        cells = replace(cells, count=cells.count - EVEN)
+    if cells.count < 1:
+        raise InputError(f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.factors[0]}")
+    fine = cells.count * cells.factors[0]
+    step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
+    beyond = 0 if extended(scene) else min(max(0, math.floor(0.5 * fine - half_width / dx)), surface.shape[0])
+    starts = _starts(surface.shape[0], fine, step, 0)
+    if len(starts) < ENOUGH:
+        starts = _starts(surface.shape[0], fine, step, beyond)
+    kept = surface.shape[1] - min(_blend(lengths[1], surface.spacing[1]), surface.shape[1] // 4)
+    length, count = kept * surface.spacing[1], len(starts)
+    if length < EVEN * cells.coarse[1] * (1 - 1e-9):
+        raise InputError(
+            f"the map is {surface.shape[1]} cells wide along y, across the motion: no line can be made of that; give a "
+            f"wider one, or numerics.sampling = 'patch' (its rows go on along y as they are)"
+        )
+    most = max(1, min(count, int(MOST_CELLS * cells.coarse[1] / (cells.count * length))))
+    first = min(most, max(1, math.ceil(FIRST * lengths[1] / length * (1 - 1e-9))))
+    starts = [starts[i] for i in spread(count)]
+    return MeasuredStrips(
+        scene, cells, lengths, length, first, most, count, windows=True, surface=surface, starts=tuple(starts)
+    )
+
+
+def one_patch(scene: Scene, surface: Surface, lengths: tuple[float, float]) -> OnePatch:
+    """The patch ``surface`` of ``scene``, of correlation ``lengths`` [m], on cells that divide its own."""
+    first = float(centred_axis(surface.shape[0], surface.spacing[0])[0])
+    cells = cells_of_a_box(surface.spacing, lengths, scene.bodies.half_width, surface.shape, first)
+    while scene.numerics.grid == "given" and not cells.own:
+        cells = cells.halved()
+    return OnePatch(scene, cells, lengths, surface.size[1], surface=surface)
+
+
+def stacked(strips: list[np.ndarray], blend: int) -> np.ndarray:
+    """Arrays (nx, ny) joined one after the other along y, and the last to the first.
+
+    The last ``blend`` cells of each are laid over the first of the next. Their weights are cos and sin, whose squares
+    add to 1, about the mean of all.
+    """
+    mean = float(np.mean([strip.mean() for strip in strips]))
+    angle = 0.5 * np.pi * (np.arange(blend) + 0.5) / blend
+    out = []
+    for before, strip in zip([strips[-1], *strips[:-1]], strips):
+        part = strip[:, : strip.shape[1] - blend].copy()
+        part[:, :blend] = mean + np.sin(angle) * (strip[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
+        out.append(part)
+    return np.concatenate(out, axis=1)
+
+
+def spread(count: int) -> list[int]:
+    """0 .. count - 1 in an order that begins in the middle, each number as far from those before as possible."""
+    left = set(range(count))
+    order: list[int] = []
+    while left:
+        middle = 0.5 * (count - 1)
+        best = max(left, key=lambda i: (min((abs(i - j) for j in order), default=0), -abs(i - middle), -i))
+        order.append(best)
+        left.remove(best)
+    return order
+
+
+def _starts(count: int, window: int, step: int, beyond: int) -> list[int]:
+    """First columns of windows that lie ``step`` apart on a map of ``count`` columns. ``beyond``: how many of them
+    reach over either end."""
+    room = count + 2 * beyond - window
+    most = room // step
+    return [(room - most * step) // 2 - beyond + step * k for k in range(most + 1)]
+
+
+def _blend(correlation: float, step: float) -> int:
+    return max(1, round(BLEND * correlation / step))
+
+
+def _seed_of(*words: int) -> int:
+    """One seed from several numbers; far apart for neighbouring numbers."""
+    return int(np.random.SeedSequence(words).generate_state(1)[0])

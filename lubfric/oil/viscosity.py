@@ -1,0 +1,182 @@
+"""Kinematic viscosity: over temperature (ASTM D341, and a table), and the viscosity index (ASTM D2270, ISO 2909)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from importlib import resources
+
+import numpy as np
+
+from .._base import validate
+from ..errors import InputError
+
+CONSTANT = 0.7  # of D341, mm²/s (older charts: 0.8, which moves 68 / 8.6 mm²/s at 60 °C from 28.49 to 28.58)
+CELSIUS = 273.15
+RANGE = (200.0, 600.0)  # K in which a temperature is taken for one of an oil
+LEAST = 2e-6  # m²/s at 100 °C: below it the index is not defined
+SLOPE = 0.00715  # of procedure B of D2270
+LARGEST = 400.0  # index accepted by `viscosity_at_100`; oils on the market end below 250
+with (resources.files(__package__) / "d2270.txt").open() as _file:
+    AT_100, LOW, HIGH = np.loadtxt(_file, unpack=True)  # mm²/s: at 100 °C; L and H of the standard
+
+
+def checked_temperature(temperature: float, name: str = "temperature") -> float:
+    """``temperature`` [K], checked to be possible for an oil. The error says so if °C were likely meant."""
+    try:
+        return validate.number(name, temperature, "K", minimum=RANGE[0], maximum=RANGE[1])
+    except InputError as error:
+        if isinstance(temperature, (int, float)) and -60 <= temperature < RANGE[0]:
+            error.hint(f"°C were meant? {temperature:g} °C = {temperature + CELSIUS:g} K")
+        raise
+
+
+@dataclass(frozen=True)
+class Walther:
+    """ASTM D341: log10 log10 Z = m - n log10 T, Z = nu + 0.7 + exp(-1.47 - 1.84 nu - 0.51 nu²), nu in mm²/s, T in K.
+
+    ``m``: intercept [-]; ``n``: slope [-], 2.5 to 4.5 for lubricating oils. The constant is 0.7. The exponential
+    matters only below 2 mm²/s (6e-4 of nu there). D341 gives the law for 0.21 to 2e7 mm²/s. Between the two
+    temperatures of its points it holds to a few percent for oils without wax. Outside them it is an extrapolation.
+    ``said``: the keys of [lubricant] that it follows from, with their values.
+    """
+
+    m: float
+    n: float
+    said: tuple[tuple[str, float | str], ...] = ()
+
+    def __call__(self, temperature: float) -> float:
+        """nu [m²/s] at ``temperature`` [K]."""
+        power = self.m - self.n * math.log10(checked_temperature(temperature))
+        return _viscosity(10 ** (10**power)) * 1e-6
+
+
+def walther(first: tuple[float, float], second: tuple[float, float], **said: float | str) -> Walther:
+    """`Walther` through two pairs (temperature [K], nu [m²/s]); nu must fall as the temperature rises. ``said``: the
+    keys of [lubricant] that the pairs follow from."""
+    (cold, thick), (warm, thin) = sorted((first, second))
+    checked_temperature(cold), checked_temperature(warm)
+    if not warm > cold:
+        raise InputError(f"temperatures = {cold:g} and {warm:g} K; give two that differ")
+    for nu in (thick, thin):
+        validate.number("kinematic viscosity", nu, "m²/s", minimum=0.21e-6, maximum=2.0)
+    if not thin < thick:
+        fault = f" = {thick:g} m²/s at {cold:g} K and {thin:g} m²/s at {warm:g} K"
+        raise InputError(fault, "kinematic viscosity", "one that falls as the temperature rises (swapped?)")
+    a, b = (math.log10(math.log10(_raised(nu * 1e6))) for nu in (thick, thin))
+    n = (a - b) / math.log10(warm / cold)
+    return Walther(a + n * math.log10(cold), n, tuple(said.items()))
+
+
+def _raised(nu: float) -> float:
+    """Z of D341 at nu [mm²/s]."""
+    return nu + CONSTANT + math.exp(-1.47 - 1.84 * nu - 0.51 * nu**2)
+
+
+def _viscosity(raised: float) -> float:
+    """nu [mm²/s] of Z: the standard's closed form, then Newton's method on its equation."""
+    x = raised - CONSTANT
+    nu = x - math.exp(-0.7487 - 3.295 * x + 0.6119 * x**2 - 0.3193 * x**3)
+    for _ in range(4 if nu < 5 else 0):
+        share = math.exp(-1.47 - 1.84 * nu - 0.51 * nu**2)
+        nu -= (nu + CONSTANT + share - raised) / (1 - (1.84 + 1.02 * nu) * share)
+    return nu
+
+
+@dataclass(frozen=True)
+class ViscosityTable:
+    """Pairs of temperature [K], rising, and kinematic viscosity [m²/s], falling; D341 between neighbours.
+
+    There is no value outside the table.
+    """
+
+    temperatures: tuple[float, ...]
+    viscosities: tuple[float, ...]
+
+    def __post_init__(self):
+        if len(self.temperatures) != len(self.viscosities) or len(self.temperatures) < 2:
+            said = f"a viscosity table of {len(self.temperatures)} temperatures and {len(self.viscosities)} viscosities"
+            raise InputError(said, allowed="as many of both, at least two")
+        if any(b <= a for a, b in zip(self.temperatures, self.temperatures[1:])):
+            raise InputError(f"temperatures = {self.temperatures}; allowed: rising, in K")
+        for i in range(1, len(self.temperatures)):
+            self._law_up_to(i)
+
+    def _law_up_to(self, i: int) -> Walther:
+        """Between the entries i - 1 and i."""
+        return walther(*zip(self.temperatures[i - 1 : i + 1], self.viscosities[i - 1 : i + 1]))
+
+    def piece(self, temperature: float) -> Walther:
+        """The D341 law between the neighbours of ``temperature`` [K]."""
+        low, high = self.temperatures[0], self.temperatures[-1]
+        validate.number("temperature", temperature, "K (the viscosity table's)", minimum=low, maximum=high)
+        return self._law_up_to(max(next(i for i, t in enumerate(self.temperatures) if t >= temperature), 1))
+
+    def __call__(self, temperature: float) -> float:
+        """nu [m²/s] at ``temperature`` [K]."""
+        return self.piece(temperature)(temperature)
+
+
+def viscosity_index(nu40: float, nu100: float) -> float:
+    """Viscosity index [-], not rounded, from the kinematic viscosities [m²/s] at 40 °C and at 100 °C.
+
+    ASTM D2270: with L and H of the standard's table (above 70 mm²/s at 100 °C of its formulas), procedure A,
+    ``100 (L - nu40)/(L - H)``, where nu40 >= H; procedure B, ``100 + (10^N - 1)/0.00715`` with
+    ``N = log(H/nu40)/log(nu100)`` in mm²/s, below (index 100 and more). The standard rounds to whole numbers.
+
+    Raises `InputError` for viscosities that are not positive, a nu100 below 2 mm²/s (not defined there) or not below
+    nu40.
+    """
+    nu40, nu100 = validate.positive("nu40", nu40, "m²/s"), validate.positive("nu100", nu100, "m²/s")
+    if nu100 < LEAST * (1 - 1e-12):
+        least = f"from 2e-6 m²/s (2 mm²/s), the viscosity index is not defined below{_millimetres(nu40, nu100)}"
+        raise InputError(f" = {nu100:g} m²/s is out of range", "nu100", least)
+    if nu40 <= nu100:
+        said = f" = {nu40:g} m²/s is not above nu100 = {nu100:g} m²/s"
+        raise InputError(said, "nu40", "nu40 > nu100 (swapped?)", also=("nu100",))
+    if nu100 > 1e-2:
+        raise InputError(f" = {nu100:g} m²/s is out of range", "nu100", f"up to 0.01 m²/s{_millimetres(nu40, nu100)}")
+    return _index(nu40 * 1e6, nu100 * 1e6)
+
+
+def _millimetres(nu40: float, nu100: float) -> str:
+    return "; mm²/s were meant? 1 mm²/s = 1e-6 m²/s" if min(nu40, nu100) > 1e-2 else ""
+
+
+def _index(at_40: float, at_100: float) -> float:
+    """The viscosity index, from viscosities in mm²/s."""
+    low, high = _low_high(at_100)
+    if at_40 >= high:
+        return 100 * (low - at_40) / (low - high)
+    return 100 + (10 ** (math.log(high / at_40) / math.log(at_100)) - 1) / SLOPE
+
+
+def _low_high(at_100: float) -> tuple[float, float]:
+    """L and H [mm²/s] at a kinematic viscosity [mm²/s] at 100 °C."""
+    if at_100 > AT_100[-1]:
+        return (0.8353 * at_100 + 14.67) * at_100 - 216, (0.1684 * at_100 + 11.85) * at_100 - 97
+    return float(np.interp(at_100, AT_100, LOW)), float(np.interp(at_100, AT_100, HIGH))
+
+
+def viscosity_at_100(nu40: float, index: float) -> float:
+    """Kinematic viscosity at 100 °C [m²/s] of an oil of ``nu40`` [m²/s] at 40 °C and viscosity index ``index``: D2270
+    inverted, by one bracketed root; `viscosity_index` of the result is ``index`` to 1e-9.
+
+    Raises `InputError` where no viscosity from 2 mm²/s at 100 °C up has that index.
+    """
+    from scipy.optimize import brentq
+
+    nu40 = validate.positive("nu40", nu40, "m²/s", maximum=1.0)
+    index = validate.number("viscosity_index", index, "(-)", minimum=-200, maximum=LARGEST)
+    at_40, least = nu40 * 1e6, LEAST * 1e6
+    if at_40 <= least or _index(at_40, least) > index:
+        said = (
+            f" = {index:g} (-) with nu40 = {nu40:g} m²/s gives less than 2e-6 m²/s at 100 °C, where it is not defined"
+        )
+        instead = "give the kinematic viscosities at 40 and 100 °C instead"
+        raise InputError(said, "viscosity_index", way_out=instead, also=("nu40",))
+    if _index(at_40, 0.999 * at_40) < index:
+        said = f" = {index:g} (-) has no oil of nu40 = {nu40:g} m²/s"
+        raise InputError(said, "viscosity_index", "a lower index", also=("nu40",))
+    root = brentq(lambda at_100: _index(at_40, at_100) - index, least, 0.999 * at_40, xtol=1e-13, rtol=1e-14)
+    return root * 1e-6

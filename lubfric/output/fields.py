@@ -1,0 +1,86 @@
+"""Fields of operating points as files: fields.npz, and contact_0.vtk ... for ParaView."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..sampling import FrictionResult
+from ..sharing import Prepared
+from .record import npz_bytes
+
+OF_ONE_GAP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a DeterministicResult
+
+
+def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
+    """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``; SI units.
+
+    A speed whose contact has other cells than the first one has their map and x under its index too.
+    """
+    arrays = {"speed": np.array([p.speed for p in points])}
+    if points[0].deterministic is not None:
+        results = [p.deterministic.result for p in points if p.deterministic is not None]
+        arrays["spacing"] = np.array([r.spacing for r in results])
+        for i, result in enumerate(results):
+            arrays |= {f"{name}_{i}": getattr(result, name) for name in OF_ONE_GAP}
+        return npz_bytes(arrays)
+    arrays |= _map_of(prepared, points[0])
+    for i, point in enumerate(points):
+        found = _film_and_contact(point)
+        if point.heights is not None and point.heights.shape != arrays["heights"].shape:
+            found |= _map_of(prepared, point)
+        arrays |= {f"{name}_{i}": array for name, array in found.items()}
+    return npz_bytes(arrays)
+
+
+def _map_of(prepared: Prepared, point: FrictionResult) -> dict[str, np.ndarray]:
+    if point.heights is None or not point.shows_contact:
+        surface = prepared.surface
+        return {"heights": surface.heights, "spacing": np.array(surface.spacing), "contact_x": prepared.contact.x}
+    spacing = np.array([point.x[1] - point.x[0], point.y[1] - point.y[0]])
+    return {"heights": point.heights, "spacing": spacing, "contact_x": point.x}
+
+
+def _film_and_contact(point: FrictionResult) -> dict[str, np.ndarray]:
+    """Those of film and contact that ``point`` has."""
+    film, found = point.balance.film if point.balance else None, {}
+    if film is not None:
+        found = {"film_x": film.x, "film_thickness": film.film_thickness, "film_pressure": film.pressure}
+    return found | ({"contact_pressure": point.pressure, "gap": point.gap} if point.shows_contact else {})
+
+
+def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
+    """Height [m], contact pressure [Pa], gap [m]; constant along the line: film thickness [m], film pressure [Pa].
+
+    At the cells of the contact, in the plane z = 0 (warp by "height" to see the surface). ``point`` needs fields
+    (``fields=True``) and contact, or the deterministic model. What a point does not have is left out.
+    """
+    x, y, fields = point.x, point.y, {}
+    heights = prepared.surface.heights if point.heights is None else point.heights
+    if heights.shape == (x.size, y.size):
+        fields["height"] = heights - np.nanmean(heights)
+    fields |= {"contact_pressure": point.pressure, "gap": point.gap}
+    film = point.balance.film if point.balance else None
+    if film is not None:
+        pressure = np.interp(x, film.x, film.pressure, left=0.0, right=0.0)
+        for name, values in (("film_thickness", film.film_at(x)), ("film_pressure", pressure)):
+            fields[name] = np.repeat(values[:, None], y.size, axis=1)
+    return grid_bytes(x, y, fields, f"U = {point.speed:g} m/s")
+
+
+def grid_bytes(x: np.ndarray, y: np.ndarray, fields: dict[str, np.ndarray], title: str) -> bytes:
+    """Point data (nx, ny) on the grid ``x`` (nx,), ``y`` (ny,) [m]: legacy VTK format 3.0, big-endian binary."""
+    points = np.zeros((y.size, x.size, 3))
+    points[..., 0], points[..., 1] = x[None, :], y[:, None]
+    parts = [
+        f"# vtk DataFile Version 3.0\nlubfric, {title}, SI units\nBINARY\nDATASET STRUCTURED_GRID\n"
+        f"DIMENSIONS {x.size} {y.size} 1\nPOINTS {x.size * y.size} double\n".encode(),
+        _big_endian(points),
+        f"\nPOINT_DATA {x.size * y.size}\n".encode(),
+    ]
+    for name, values in fields.items():
+        parts += [f"SCALARS {name} double 1\nLOOKUP_TABLE default\n".encode(), _big_endian(values.T), b"\n"]
+    return b"".join(parts)
+
+
+def _big_endian(values: np.ndarray) -> bytes:
+    return np.ascontiguousarray(values, dtype=">f8").tobytes()

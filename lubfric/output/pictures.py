@@ -1,0 +1,167 @@
+"""Pictures of a run: the Stribeck curve, and the contact of one speed (Akchurin et al. 2015, Figs. 8-10)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .._base import (
+    BLUE,
+    GREEN,
+    GREY,
+    RED,
+    field_image,
+    friction_over_speed,
+    load_shares,
+    new_figure,
+    plain_ticks,
+    speed_label,
+)
+
+WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
+NEAR = 4.0  # half-widths of the Hertz strip around which a gap is drawn
+
+
+def plot_stribeck(
+    path: Path, columns: dict[str, np.ndarray], title: str, entries: Sequence[Sequence[Any]], measured=None
+) -> None:
+    """Coefficient, load split and lambda ratio over entrainment speed.
+
+    ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are left out. ``entries``:
+    for each row, the assumptions that are violated (`lubfric.Validity`). ``measured``: a `lubfric.Measured` over speed,
+    drawn beside the curve.
+    """
+    figure = new_figure(figsize=(7, 8))
+    top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
+    order = friction_over_speed(top, columns)
+    c = type(columns)((name, column[order]) for name, column in columns.items())
+    speed, ratio = np.abs(c["speed"]), c["film_to_roughness_ratio"]
+    if measured is not None:
+        error = None if measured.deviation is None else 1.96 * measured.deviation
+        points = {"fmt": "D", "ms": 4, "color": "k", "mfc": "none", "lw": 1, "label": measured.source}
+        top.errorbar(np.abs(measured.x), measured.coefficient, error, **points)
+        top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
+    _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
+    top.set(title=title, xlabel="")
+    top.legend(framealpha=0.8, edgecolor="none")  # where it hides a line, the line shows through
+    load_shares(middle, speed, c["contact_load"] / (c["contact_load"] + c["film_load"]))
+    middle.legend(frameon=False, loc="center right")
+    bottom.loglog(speed, ratio, "o-", color=GREY, ms=4)
+    bottom.axhline(3, color=GREY, lw=0.7, ls=":")
+    below = ratio.max() < 4  # the line is near the upper end of the axis
+    place = {"xytext": (2, -2 if below else 2), "textcoords": "offset points", "va": "top" if below else "bottom"}
+    bottom.annotate("λ = 3", (speed[0], 3), color=GREY, **place)
+    bottom.set(ylabel="λ = central film / Sq (-)", xlabel=speed_label(c["speed"]))
+    for axis in (bottom.xaxis, bottom.yaxis):
+        plain_ticks(axis)
+    figure.savefig(path, dpi=150)
+
+
+def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> None:
+    """Ring the points at which an assumption is violated, and cross out those at which f is meaningless. The text below
+    says which."""
+    severe = np.array([any(entry.severe for entry in violated) for violated in entries], dtype=bool)
+    minor = np.array([len(violated) > 0 for violated in entries], dtype=bool) & ~severe
+    for chosen, marker, color, label in (
+        (minor, "o", GREY, "with cautions"),
+        (severe, "x", RED, "no answer (accepted)"),
+    ):
+        if chosen.any():
+            axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
+    if names := dict.fromkeys(entry.what for violated in entries for entry in violated):
+        figure.supxlabel("cautions: " + "; ".join(names), fontsize=8, color=GREY, wrap=True)
+
+
+def plot_contact(path: Path, prepared, point) -> None:
+    """The contact of ``point``, a `lubfric.FrictionResult` with fields, on the cells of ``prepared``, as PNG."""
+    if point.deterministic is not None:
+        figure = _one_gap(point.deterministic.result, prepared.scene.bodies.half_width)
+    else:
+        figure = _two_pressures(prepared, point)
+    figure.savefig(path, dpi=150)
+
+
+def _one_gap(result, half_width: float):
+    """Pressure, gap and shear around the Hertz strip, from above."""
+    from matplotlib.colors import LogNorm
+
+    near = np.abs(result.x) <= NEAR * half_width
+    y = np.arange(result.pressure.shape[1]) * result.spacing[1]
+    figure = new_figure(figsize=(13, 4.2))
+    for axes, (label, field, colours, norm) in zip(
+        figure.subplots(1, 3, sharey=True),
+        (
+            ("pressure (GPa)", result.pressure / 1e9, "magma_r", None),
+            ("gap (nm)", result.gap * 1e9, "viridis", LogNorm()),
+            ("shear (MPa)", result.shear / 1e6, "cividis", None),
+        ),
+    ):
+        field_image(axes, result.x[near], y, field[near], colours, label, norm=norm)
+        _hertz_strip(axes, half_width)
+    return figure
+
+
+def _two_pressures(prepared, point):
+    """Map of the contact pressure; beside it film, separation and surface on a section through the highest pressure.
+
+    The section shows what the paper's Fig. 10 shows: the smooth film h, the separation h_s = h - epsilon, and the rough
+    surface, deformed (z - u) and undeformed (z). epsilon and u are known up to one constant. It is chosen so that u has
+    zero mean over the section.
+    """
+    heights = prepared.surface.heights if point.heights is None else point.heights
+    heights, x = heights - heights.mean(), point.balance.contact.x
+    contact, film = point.balance.contact.fields, point.balance.film
+    row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
+    in_section = film is not None and heights.shape[0] == x.size
+    panels = [contact is not None or not in_section, in_section]
+    figure = new_figure(figsize=(5.5 * sum(panels), 4.5))
+    axes = list(figure.subplots(1, sum(panels), squeeze=False).flat)
+    loads = f"U = {point.speed:g} m/s, $F_C$ = {point.contact_load:.4g} N, $F_H$ = {point.film_load:.4g} N"
+    if contact is not None:
+        _pressure_map(axes[0], prepared, point, row)
+    elif panels[0]:
+        said = {"ha": "center", "va": "center", "transform": axes[0].transAxes}
+        axes[0].text(0.5, 0.5, "no dry contact field\n(separated, or read from a contact curve)", **said)
+        axes[0].set_axis_off()
+    axes[0].set_title(loads if panels[0] else f"{loads}: no contact")
+    if in_section:
+        _section(axes[-1], x * 1e6, heights[:, row], film.film_at(x), contact, row)
+        place = "" if contact is None else f"section at y = {point.y[row] * 1e6:.1f} µm"
+        axes[-1].set_title(place if panels[0] else f"{loads}: no contact\n{place}")
+    return figure
+
+
+def _pressure_map(axes, prepared, point, row: int) -> None:
+    """The pressure, with the section. Of long strips, only the part around the section, about twice as long as wide."""
+    pressure, x, y = point.pressure, point.x, point.y
+    across, along, at = x[-1] - x[0], y[-1], y[row]
+    field_image(axes, x, y, pressure / 1e9, "magma_r", "contact pressure (GPa)", vmin=0)
+    _hertz_strip(axes, prepared.scene.bodies.half_width)
+    axes.axhline(at * 1e6, color=GREEN, lw=0.8, ls=":")
+    axes.set_ylabel("y (µm); dotted: section")
+    if along >= WHOLE * across:
+        first = min(max(at - across, 0.0), along - 2 * across)
+        axes.set_ylim(first * 1e6, (first + 2 * across) * 1e6)
+        axes.set_ylabel(f"y (µm) on strips of {1e3 * point.uncertainty.length:.3g} mm; dotted: section")
+
+
+def _hertz_strip(axes, half_width: float) -> None:
+    for edge in (-half_width, half_width):
+        axes.axvline(edge * 1e6, color=GREY, lw=0.8, ls="--")
+    axes.set_xlabel("x (µm), direction of motion; dashed: Hertz strip")
+
+
+def _section(axes, micro, surface, smooth, contact, row: int) -> None:
+    axes.plot(micro, smooth * 1e9, color=BLUE, label="film thickness h")
+    axes.plot(micro, surface * 1e9, color=GREY, lw=0.8, ls="--", label="surface z, undeformed")
+    if contact is not None:
+        deflection = contact.displacement[:, row]
+        deformed = surface - deflection + deflection.mean()
+        axes.plot(micro, deformed * 1e9, color=GREY, lw=1, label="surface, deformed")
+        pressed_under = contact.gap[:, row] + deformed
+        axes.plot(micro, pressed_under * 1e9, color=RED, label="separation $h_s$ = h − ε")
+    axes.set(xlabel="x (µm)", ylabel="height (nm)")
+    axes.legend(frameon=False, fontsize=8)

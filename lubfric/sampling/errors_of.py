@@ -1,0 +1,201 @@
+"""From the error of a gap to `Uncertainty` and to the errors of all reported quantities."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..scene import Scene, budget
+from ..sharing import Balance, Forces
+from .sample import Found
+from .scatter import BlockError, Scatter
+from .uncertainty import FEW, FieldErrors, Uncertainty, field_errors_of, interval, load_sharing_error, percent, too_few
+
+FILMS = ("min_film", "central_film", "mean_gap", "film_to_roughness_ratio")
+SHEAR = ("shear_force", "couette_force", "rolling_force")
+HEAT = ("inlet_film_factor", "flash_temperature_rise", "film_temperature_rise")
+AREAS = ("real_contact_area_fraction", "real_contact_area")
+ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
+PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
+NO_CELLS = "not known: this contact has no places along y to compare"
+TOO_SHORT = (
+    "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling out, or give a "
+    "map that is longer across the motion)"
+)
+MISSED = "not known: the patch is too short along y to tell what contact it misses"
+
+
+@dataclass(frozen=True)
+class Numerical:
+    """The errors of solvers and grids.
+
+    - ``film``: of the film, relative; ``gap``: of the mean gap at given load [m], by the closing of the volume and by
+      the cells of the contact; ``shear``: of the film's shear stress, by its sum over nodes and by the heat left out
+      of it, relative to f; ``area``: of the contact area, relative.
+    """
+
+    film: float
+    gap: float
+    shear: float
+    area: float
+
+
+def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
+    """Uncertainty of f, and errors by field."""
+    balance, response, numerical = found.balance, found.response, _numerical(found)
+    forces, scatter, sampling = balance.forces, found.scatter, found.sampling
+    error, why = BlockError(0.0, ORDER), "there was none of it, or too little to tell"
+    relative = numerical.shear
+    if balance.film is None:
+        errors, why = _dry_errors(balance, scatter, scene), "no entrainment: there is no film"
+    elif response is None:
+        relative += forces.felt * numerical.film
+        errors, why = _film_errors(numerical.film, forces), "no contact was met: it has no relative error"
+    else:
+        error, mean_film = found.friction_error, balance.contact.mean_film
+        relative += response.per_film(forces, mean_film) * numerical.film
+        relative += response.relative("coefficient", numerical.gap)
+        errors = _contact_errors(scene, found, numerical)
+    notes = _notes(found, scene, sampling)
+    if not math.isfinite(sampling):
+        sampling = math.nan
+    both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
+    known = Uncertainty(
+        numerical=relative,
+        sampling=sampling,
+        interval=interval(forces.coefficient, relative, sampling, error.freedom),
+        line_scatter=sampling * math.sqrt(scatter.length / scene.bodies.width),
+        participation=scatter.spots,
+        length=scatter.length,
+        freedom=float(error.freedom),
+        tolerance=scene.numerics.sampling_tolerance,
+        area_needed=_area_needed(found, scene),
+        model_form=_model_form(scene, found),
+        notes=notes,
+    )
+    return known, field_errors_of(errors | {"coefficient": both}, why)
+
+
+def _numerical(found: Found) -> Numerical:
+    balance, effect, solved = found.balance, found.effect, found.solved
+    film = 0.0
+    if balance.film is not None:
+        residuals = balance.film.report.residuals
+        film = max(residuals.get("discretisation", 0.0), residuals.get("domain", 0.0))
+    forces, gap = balance.forces, 0.0
+    if found.response is not None and balance.film is not None:
+        gap = (
+            effect.rest
+            + found.second_order
+            + (budget.SLOPE if found.corrected else 1.0) * abs(found.left_by_root)
+            + solved.contact.gap_error
+        )
+    read = solved.contact.area_error / max(solved.contact.real_contact_area_fraction, 1e-300)
+    by_area = 0.0
+    if solved.contact.area_error and forces.total:
+        open_ = max(1 - solved.contact.real_contact_area_fraction, solved.contact.area_error)
+        by_area = solved.contact.area_error / open_ * forces.shear.felt / forces.total
+    return Numerical(film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read)
+
+
+def _contact_errors(scene: Scene, found: Found, numerical: Numerical) -> dict[str, float]:
+    """Relative errors where film and contact share the load, by the names of `FrictionResult`: the root of the sum of
+    squares of the standard error by the surface and of the estimated error by solvers and grids.
+
+    An error of the gap changes the division of the load, and everything with it (`Response.rates`). Films also have the
+    error of the film solve. The area also has its own scatter at given load, and what its cells may change.
+    """
+    balance, response, film = found.balance, found.response, numerical.film
+    assert response is not None
+    scattered = found.gap_error.error if math.isfinite(found.gap_error.error) else 0.0
+    gap = math.hypot(scattered, numerical.gap + film * balance.contact.mean_film)
+    errors = {name: response.relative(name, gap) for name in response.rates or ()}
+    errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
+    for name in FILMS:
+        errors[name] = errors.get(name, 0.0) + film
+    for name in HEAT:
+        errors[name] = errors.get(name, 0.0) + film
+    for name, of_sums in _shear_errors(balance.forces, film).items():
+        errors[name] = errors.get(name, 0.0) + of_sums
+    by_load = errors.get("contact_load", 0.0)
+    for name, error in _area_errors(scene, balance, found.scatter).items():
+        errors[name] = math.hypot(by_load, error, numerical.area)
+    if balance.contact.plastic_area_fraction > 0:
+        change = found.effect.plastic / balance.contact.plastic_area_fraction
+        counted = found.scatter.spots**-0.5 if found.scatter.spots else PLASTIC * math.hypot(by_load, numerical.area)
+        errors["plastic_area_fraction"] = math.hypot(counted, change)
+    return errors
+
+
+def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, float]:
+    """Relative standard errors of the areas at given load."""
+    fraction = balance.contact.real_contact_area_fraction
+    length = float(balance.contact.contact_fraction.sum() * (balance.contact.x[1] - balance.contact.x[0]))
+    pairs = (fraction, scatter.area.error), (length, scatter.touched.error)
+    finite = [(value, error if math.isfinite(error) else 0.0) for value, error in pairs]
+    return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(AREAS, finite)}
+
+
+def _dry_errors(balance: Balance, scatter: Scatter, scene: Scene) -> dict[str, float]:
+    """Errors without entrainment: the contact carries the whole load, so only the areas scatter."""
+    none = dict.fromkeys(("contact_load", "film_load", "boundary_force", *SHEAR), 0.0)
+    return _area_errors(scene, balance, scatter) | none
+
+
+def _film_errors(film: float, found: Forces) -> dict[str, float]:
+    """Errors without contact: everything depends on the film, whose relative error is ``film``."""
+    return dict.fromkeys((*FILMS, *HEAT), film) | _shear_errors(found, film) | {"film_load": 0.0}
+
+
+def _shear_errors(found: Forces, film: float) -> dict[str, float]:
+    """Relative errors of the film's friction and its parts, by the relative error ``film`` of the film and by the sums
+    over its nodes. The rolling part is a small difference of large numbers, so its error is large."""
+    shear = found.shear
+    rolling = film * max(abs(shear.rolling), shear.rolling_parts)
+    heat = found.heat.left_out * found.total
+    parts = {
+        "shear_force": (shear.total, film * abs(shear.couette) + rolling + heat),
+        "couette_force": (shear.couette, film * abs(shear.couette) + heat),
+        "rolling_force": (shear.rolling, rolling),
+    }
+    return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
+
+
+def _model_form(scene: Scene, found: Found) -> float:
+    """Error of load sharing; NaN except for a cylinder with a half-space contact, which is the case that was
+    studied."""
+    if found.strips is None:
+        return math.nan
+    film, sq = found.balance.film, float(found.contact.heights.std())  # type: ignore[attr-defined]
+    ratio = film.central_film / sq if film is not None and sq > 0 else math.inf
+    return load_sharing_error(ratio, found.balance.contact_load / scene.bodies.load)
+
+
+def _area_needed(found: Found, scene: Scene) -> float:
+    """How many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not known)."""
+    strips = found.strips
+    ends = strips is not None and strips.windows and found.count == strips.available
+    needed = (found.sampling / scene.numerics.sampling_tolerance) ** 2 if ends else 1.0
+    return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
+
+
+def _notes(found: Found, scene: Scene, sampling: float) -> tuple[str, ...]:
+    asked, strips, notes = scene.numerics.sampling_tolerance, found.strips, []
+    needed = _area_needed(found, scene)
+    if not math.isfinite(sampling):
+        if strips is None:
+            return (NO_CELLS,)
+        if found.response is None:
+            return (MISSED,)
+        return (TOO_SHORT.format(found.scatter.length / strips.lengths[1]),)
+    if sampling > asked and needed > 1:
+        times = float(f"{needed:.2g}")
+        notes.append(f"the map ends before the {percent(asked)} asked: that would take about {times:g} times its area")
+    elif sampling > asked:
+        notes.append(f"more than the {percent(asked)} asked")
+    if too_few(found.scatter.spots, sampling, asked):
+        notes.append(
+            f"few spots carry the load (participation {found.scatter.spots:.2g}, below {FEW:g}): the interval is too "
+            "narrow more often than it says"
+        )
+    return tuple(notes)

@@ -1,0 +1,89 @@
+"""The sections of a scene: which there are, made from the keys given for them, or changed by them."""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, fields, replace
+from typing import Any
+
+from .._base import validate
+from ..errors import InputError
+from ..oil import Lubricant
+from .bodies import Bodies, ContactDomain, Motion
+from .numerics import Numerics, refuse_dropped
+from .plausible import naming_slips
+from .roughness import NEEDED, Roughness, as_given, named
+from .short_forms import resolve, short_keys
+from .transient import Transient
+
+SECTIONS: dict[str, Any] = {
+    "bodies": Bodies,
+    "lubricant": Lubricant,
+    "motion": Motion,
+    "surface": Roughness,
+    "counterface": Roughness,
+    "contact": ContactDomain,
+    "numerics": Numerics,
+    "transient": Transient,
+}
+ROUGH = ("surface", "counterface")
+NEEDED_SECTIONS = ("bodies", "lubricant", "motion", "surface")
+INSTEAD = {  # of a missing key
+    "lubricant.viscosity": " in Pa s, or an oil: grade and viscosity_index, or nu40 and nu100, with its temperature",
+    "bodies.radius": " in m, or radii of both bodies",
+    "bodies.width": " in m",
+    "bodies.load": " in N, or hertz_pressure in Pa",
+    "bodies.boundary_friction_coefficient": " of the contact spots (some 0.1)",
+    "bodies.e_prime": " in Pa, or material, or young_modulus and poisson_ratio",
+    "motion.entrainment_speed": " in m/s, or surface_speeds of both bodies",
+}
+
+
+def check_keys(section: str, given: dict, others: tuple[str, ...] = ()) -> None:
+    """Raise `InputError` for a key of [``section``] that is not known; ``others`` are known beside its own."""
+    if section == "numerics":
+        refuse_dropped(given)
+    validate.keys(f"[{section}]", given, (*SECTIONS[section].__dataclass_fields__, *short_keys(section), *others))
+
+
+def made_section(section: str, given: dict, old: Any = None) -> Any:
+    """The section that the keys ``given`` make, or ``old`` with them changed. An error has the likely slip."""
+    check_keys(section, given)
+    with naming_slips(section, dict(given)), named(section):
+        plain = {key: tuple(v) if isinstance(v, list) else v for key, v in resolve(section, given, old).items()}
+        return SECTIONS[section](**plain) if old is None else replace(old, **plain)
+
+
+def changed_section(section: str, old: Any, values: Any) -> Any:
+    """``old`` with the fields in the dict ``values``. ``values`` may also be a whole section, which then replaces
+    ``old``."""
+    kind = SECTIONS.get(section, str)
+    if isinstance(values, kind) or (section in ("transient", "counterface") and values is None):
+        return values
+    by_field = section in SECTIONS and (old is not None or section == "counterface")
+    if not isinstance(values, dict) or not by_field:
+        shown = repr(values) if isinstance(values, (str, float, int)) else f"a {type(values).__name__}"
+        allowed = f"{'a dict of its fields, or ' if by_field else ''}a {kind.__name__}"
+        raise InputError(f" = {shown}", section, allowed)
+    return made_section(section, as_given(old, values) if section in ROUGH else values, old)
+
+
+def check_complete(name: str, table: dict) -> None:
+    """Raise `InputError` with everything that the ``table`` of scene ``name`` lacks.
+
+    A section whose keys contradict each other is left to the check that says so.
+    """
+    lacking = [f"[{section}] needs {missing}" for section in NEEDED_SECTIONS if (missing := _missing(section, table))]
+    if lacking:
+        raise InputError(f"scene {name} is not complete: {'; '.join(lacking)}")
+
+
+def _missing(section: str, table: dict) -> str:
+    given = dict(table.get(section, {}))
+    if section in ROUGH:
+        return "" if "file" in given or {"sq", "correlation_length"} <= set(given) else NEEDED
+    try:
+        plain = resolve(section, given)
+    except InputError:
+        return ""
+    needed = [f.name for f in fields(SECTIONS[section]) if f.default is MISSING and f.name not in plain]
+    return "; ".join(f"{name!r}{INSTEAD.get(f'{section}.{name}', '')}" for name in needed)

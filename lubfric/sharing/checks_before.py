@@ -1,0 +1,131 @@
+"""Checks of a scene and its map before anything is solved: half-space, small slopes, enough asperities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ..errors import InputError
+from ..film import ShearForce, hertz
+from ..oil import carried_stress, shear_stress
+from ..scene import doubts
+from ..surface import correlation_length, rms_slope
+from .checks import of_motion, of_pressure, of_shear
+from .validity import Validity
+
+NODES = 201  # across the Hertz strip
+
+WIDE, WIDEST = 0.1, 0.5  # half-width of the Hertz strip over R: half-space
+STEEP, STEEPEST = 0.5, 1.5  # rms slope
+FEW = 10  # correlation lengths that a patch should be wide
+YIELDED = 4.5e9  # Pa, peak Hertz pressure that hard steel does not carry elastically
+
+
+def beforehand(scene, surface) -> tuple[Validity, ...]:
+    """Entries for values far from the usual, for the bodies and for the map."""
+    unusual = [
+        Validity(d.name, d.value, d.limit, d.unit, "unusual", d.meant or "check the value and its unit")
+        for d in doubts(scene)
+    ]
+    return (*unusual, *of_bodies(scene.bodies), *of_map(rms_slope(surface)[2], _lengths_across(surface)))
+
+
+def _lengths_across(surface) -> float | None:
+    """Width of the map over its correlation length across the motion. None if it has no such length: a lay along the
+    motion, or a flat map."""
+    ny = surface.shape[1]
+    if ny < 8 or surface.sq == 0:
+        return None
+    try:
+        return ny * surface.spacing[1] / correlation_length(surface, 1)
+    except InputError:
+        return None
+
+
+def of_bodies(bodies) -> Iterator[Validity]:
+    """Half-space and elasticity of the Hertz contact."""
+    wide = bodies.half_width / bodies.radius
+    if wide > WIDE:
+        yield Validity(
+            "contact half-width over radius",
+            wide,
+            WIDEST if wide > WIDEST else WIDE,
+            "",
+            "the contact is as wide as the body, which is then no half-space",
+            "check bodies.load, e_prime and radius; a lighter load or a stiffer body",
+            wide > WIDEST,
+        )
+    if bodies.width < 2 * bodies.half_width:
+        yield Validity(
+            "line length over contact width",
+            bodies.width / (2 * bodies.half_width),
+            1.0,
+            "",
+            "the contact is wider than long: no line contact",
+            "check bodies.width and load",
+        )
+    peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
+    if bodies.hardness is None and peak > YIELDED:
+        yield Validity(
+            "peak Hertz pressure",
+            peak / 1e9,
+            YIELDED / 1e9,
+            "GPa",
+            "hard steel yields there, the bodies are elastic here",
+            "check bodies.load; give bodies.hardness",
+        )
+
+
+def of_map(slope: float, lengths: float | None) -> Iterator[Validity]:
+    """Entries for the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across
+    the motion (None: not known)."""
+    if slope > STEEP:
+        yield Validity(
+            "rms slope of the map",
+            slope,
+            STEEPEST if slope > STEEPEST else STEEP,
+            "",
+            "the half-space takes slopes as small: contact area and pressures are off",
+            "check the units of heights and spacing; filter the map at the scale that matters",
+            slope > STEEPEST,
+        )
+    if lengths is not None and lengths < FEW:
+        yield Validity(
+            "width of the map over its correlation length",
+            lengths,
+            FEW,
+            "",
+            "few asperities: another patch of the same surface would give another f",
+            "a larger map",
+        )
+
+
+def expected(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...]:
+    """Pairs (speed [m/s], entry). The speed is None if the entry is about bodies or map. Films are Moes' films under
+    the whole load."""
+    found = [(None, entry) for entry in beforehand(scene, surface)]
+    if scene.numerics.model == "deterministic":
+        return tuple(found)
+    for speed in speeds:
+        if speed == 0:
+            continue
+        film = scene.line_contact(speed).moes_film
+        entries = [*of_motion(scene, speed, film), *_of_film(scene, speed, film)]
+        found += [(speed, entry) for entry in entries]
+    return tuple(found)
+
+
+def _of_film(scene, speed: float, film: float) -> list[Validity]:
+    """Entries for a ``film`` [m] of even thickness under the Hertz pressure."""
+    bodies, lubricant, w = scene.bodies, scene.lubricant, scene.bodies.load / scene.bodies.width
+    x = np.linspace(-1, 1, NODES) * bodies.half_width
+    pressure = hertz.line_pressure(x, w, bodies.radius, bodies.e_prime)
+    with np.errstate(over="ignore"):
+        sliding = abs(scene.motion.slide_roll_ratio * speed)
+        stress = np.minimum(shear_stress(lubricant, pressure, sliding / film), 1e30)
+    above = np.maximum(stress - carried_stress(pressure), 0.0)
+    force, excess = (float(bodies.width * np.trapezoid(tau, x)) for tau in (stress, above))
+    shear = ShearForce(force, 0.0, excess=excess, stress_ratio=float(np.max(stress / carried_stress(pressure))))
+    total = max(force, bodies.boundary_friction_coefficient * bodies.load)
+    return [*of_pressure(scene, float(pressure.max())), *of_shear(scene, shear, bodies.load, total)]

@@ -1,0 +1,228 @@
+"""One implicit time step of the line contact: its complementarity equations and their Jacobian.
+
+    d(rho H)/dT + u d(rho H)/dX = d/dX( rho H³/(6 nu eta) dP/dX )   where P > 0,
+    the film no thinner than the gap where P = 0 (Swift-Stieber)
+
+The units are those of `lubfric.film.Problem` for a reference speed, and T = t U_ref/(unit of x). The time derivative is
+``rate (rho H - memory)``. Any implicit formula has that form (BDF2: `lubfric.time.march`), and rate = 0 gives the
+steady state. The unknowns z are the pressures at all nodes, and H00 in H = H00 + c X²/2 + K P.
+
+Mass is balanced in control volumes around the nodes. The Couette flow takes film and density by third-order upwind
+interpolation. The Poiseuille flow takes a centred film and the logarithmic mean of the fluidity. At both end nodes P
+equals the pressure of the film outside (`outside`).
+
+The equation r of every node holds in the sense ``P >= 0, r >= 0, P r = 0``. In the cavitated zone r > 0 is the rate at
+which the gap grows beyond the lubricant that flows in. Where the film forms again, the zone behind the rupture counts
+as full: mass is conserved in the pressurised film, but not through cavitation.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..film import Problem, log_mean_fluidity
+from .film_grid import FixedGrid
+from .march import Memory
+
+_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(24)
+_POINTS, _WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Speed u, load M, curvature c = R_ref/R and ambient viscosity nu at one time, relative to the reference."""
+
+    speed: float
+    load: float
+    curvature: float = 1.0
+    viscosity: float = 1.0
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A spring that carries load beside the film; its load falls exponentially with the mean film ``weights`` @ H.
+
+    Its load is ``load`` exp((``mean`` - mean film)/``length``), and a straight line beyond one length of compression.
+    """
+
+    weights: np.ndarray
+    mean: float
+    load: float
+    length: float
+
+    def at(self, H: np.ndarray) -> tuple[float, float]:
+        """The load, and its derivative by the mean film."""
+        depth = (self.mean - float(self.weights @ H)) / self.length
+        if depth > 1.0:
+            return self.load * np.e * depth, -self.load * np.e / self.length
+        load = self.load * np.exp(depth)
+        return load, -load / self.length
+
+
+def outside(
+    a: float, film: float, curvature: float, nu: float, speed: float, flow: float, rate: float
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """The pressure at a of the film beyond the last node, up to infinity, and its load. Each comes with its derivatives
+    by the flow f, the squeeze rate v and the film h_a.
+
+    The film is parabolic and isoviscous. At the distance s > a from the line of centres it is h = h_a + c (s² - a²)/2.
+    The flow towards the contact is f + v (s - a), with f the flow at a and v = dh/dt. Reynolds' equation in the units
+    of `lubfric.film.Problem` is dp/ds = 6 nu (f + v (s - a) - U h)/h³, with U the speed towards the contact. So the
+    pressure at a and the load beyond it are linear in U, f and v. The integrals are taken by Gauss quadrature in a/s.
+    """
+    s, h, weight = _nodes(a, film, curvature)
+
+    def moment(power, lever):
+        return float(np.sum(weight * (s - a) ** lever / h**power))
+
+    def tail(lever):
+        two, three, lifted = moment(2, lever), moment(3, lever), moment(3, lever + 1)
+        by_film = -2.0 * speed * three + 3.0 * (flow * moment(4, lever) + rate * moment(4, lever + 1))
+        value = speed * two - flow * three - rate * lifted
+        return 6.0 * nu * value, -6.0 * nu * three, -6.0 * nu * lifted, 6.0 * nu * by_film
+
+    return tail(0), tail(1)
+
+
+def outside_shear(
+    a: float, film: float, curvature: float, nu: float, speed: float, flow: float, rate: float
+) -> tuple[float, float]:
+    """(∫ ds/h, ∫ (h/2) dp/ds ds) beyond a, of the film of `outside`."""
+    s, h, weight = _nodes(a, film, curvature)
+    return float(np.sum(weight / h)), 3.0 * nu * float(np.sum(weight * (flow + rate * (s - a) - speed * h) / h**2))
+
+
+def _nodes(a: float, film: float, curvature: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Points s beyond a, the film there, and the weights ds."""
+    s = a / _POINTS
+    return s, film + 0.5 * curvature * (s * s - a * a), _WEIGHTS * s * s / a
+
+
+@dataclass(frozen=True)
+class StepTerms:
+    """One evaluation at P: what a solution is read from, and what the Jacobian needs. A pair (rho, H) is given at the
+    faces, for the Couette flow (``up``) and for the Poiseuille flow (``centre``)."""
+
+    P: np.ndarray
+    H: np.ndarray
+    rho: tuple  # value and slope
+    log_slope: np.ndarray  # of the viscosity
+    up: tuple
+    centre: tuple
+    fluidity: tuple
+    gradient: np.ndarray
+    flux: np.ndarray  # towards +X, (n,)
+    stored: np.ndarray  # per unit time in each control volume
+    r: np.ndarray  # node equations
+    ends: tuple  # pressure and load beyond each end, with their derivatives
+    carried: float  # ∫ P dX with the tails of ends that are not cavitated
+    spring: tuple[float, float]
+    balance: float  # carried + spring - load
+
+
+@dataclass(frozen=True)
+class StepEquations:
+    """The equations of one implicit step ``now``, with a ``memory`` of the past. ``spring``: carries load beside the
+    film."""
+
+    grid: FixedGrid
+    problem: Problem
+    now: Conditions
+    memory: Memory
+    spring: Spring | None = None
+
+    def evaluate(self, z: np.ndarray) -> StepTerms:
+        """All equations at z."""
+        grid, now, memory = self.grid, self.now, self.memory
+        P = z[:-1]
+        H = grid.kernel @ P + (z[-1] + 0.5 * now.curvature * grid.x**2)
+        log_eta, log_slope = self.problem.log_viscosity(P)
+        rho = self.problem.density(P)
+        up, centred = grid.upwind(now.speed), grid.centred
+        up_rho, up_H, mid_rho, mid_H = up(rho[0]), up(H), centred(rho[0]), centred(H)
+        fluidity = tuple(f / now.viscosity for f in log_mean_fluidity(log_eta))
+        gradient = np.diff(P) / (6.0 * grid.cells)
+        flux = now.speed * up_rho * up_H - mid_rho * mid_H**3 * fluidity[0] * gradient
+        stored = memory.rate * (rho[0] * H - memory.film) * grid.weights
+        r = np.empty_like(P)
+        r[1:-1] = stored[1:-1] + flux[1:] - flux[:-1]
+        ends, carried = [], float(grid.weights @ P)
+        for end, sign in ((0, 1.0), (-1, -1.0)):
+            flow, rate = sign * flux[end] + stored[end], memory.rate * (H[end] - memory.film[end])
+            pressure, load = outside(
+                abs(grid.x[end]), H[end], now.curvature, now.viscosity, sign * now.speed, flow, rate
+            )
+            r[end] = P[end] - pressure[0]
+            carried += load[0] if pressure[0] > 0.0 else 0.0
+            ends.append((pressure, load))
+        shared = self.spring.at(H) if self.spring else (0.0, 0.0)
+        flows = (up_rho, up_H), (mid_rho, mid_H), fluidity, gradient, flux, stored
+        balance = carried + shared[0] - now.load
+        return StepTerms(P, H, rho, log_slope, *flows, r, tuple(ends), carried, shared, balance)
+
+    def jacobian(self, t: StepTerms) -> np.ndarray:
+        """Derivatives (n + 2, n + 2) of (r, balance) by z."""
+        grid, memory, n = self.grid, self.memory, self.grid.n
+        G = self._flux_slopes(t)
+        J = np.empty((n + 2, n + 2), order="F")
+        inertia = memory.rate * grid.weights * t.rho[0]
+        np.subtract(G[1:], G[:-1], out=J[1:n])
+        stored = np.empty((n + 1, n + 2))
+        np.multiply(inertia[:, None], grid.kernel, out=stored[:, :-1])
+        stored[:, -1] = inertia
+        i = np.arange(n + 1)
+        stored[i, i] += memory.rate * grid.weights * t.H * t.rho[1]
+        J[1:n] += stored[1:n]
+        J[n + 1, :-1] = grid.weights
+        J[n + 1, -1] = 0.0
+        for end, face, sign, (pressure, load) in zip((0, n), (0, -1), (1.0, -1.0), t.ends):
+            flow, film = sign * G[face] + stored[end], np.append(grid.kernel[end], 1.0)
+
+            def slope(value, by_flow, by_rate, by_film):
+                return by_flow * flow + (by_rate * memory.rate + by_film) * film
+
+            J[end] = -slope(*pressure)
+            J[end, end] += 1.0
+            if pressure[0] > 0.0:
+                J[n + 1] += slope(*load)
+        if self.spring is not None and t.spring[1]:
+            J[n + 1, :-1] += t.spring[1] * (self.spring.weights @ grid.kernel)
+            J[n + 1, -1] += t.spring[1] * self.spring.weights.sum()
+        return J
+
+    def _flux_slopes(self, t: StepTerms) -> np.ndarray:
+        """Derivatives (n, n + 2) of the fluxes through the faces by z: by film, gradient, viscosity and density."""
+        grid, speed, n = self.grid, self.now.speed, self.grid.n
+        up, centred = grid.upwind(speed), grid.centred
+        mean, by_left, by_right = t.fluidity
+        rho, H = t.centre
+        couette, poiseuille = speed * t.up[0], 3.0 * rho * H**2 * mean * t.gradient
+        G = np.empty((n, n + 2))
+        np.multiply(couette[:, None], up.kernel, out=G[:, :-1])
+        G[:, :-1] -= poiseuille[:, None] * centred.kernel
+        G[:, -1] = couette - poiseuille
+        i, cube = np.arange(n), rho * H**3
+        by_P = cube * mean / (6.0 * grid.cells)
+        G[i, i] += by_P - cube * t.gradient * by_left * t.log_slope[:-1]
+        G[i, i + 1] -= by_P + cube * t.gradient * by_right * t.log_slope[1:]
+        slope = t.rho[1]
+        if slope.any():
+            rows = i[:, None]
+            G[rows, up.columns] += (speed * t.up[1])[:, None] * up.values * slope[up.columns]
+            G[rows, centred.columns] -= (H**3 * mean * t.gradient)[:, None] * centred.values * slope[centred.columns]
+        return G
+
+    def residual(self, t: StepTerms) -> float:
+        """The largest relative residual: of the mass in the pressurised control volumes (relative to what they contain,
+        per step or per passage of their film), of tension in the cavitated ones and of lubricant created there, of the
+        load, and of the pressure at the ends."""
+        scale = t.H * (self.memory.rate * self.grid.weights + abs(self.now.speed)) + 1e-300
+        top = max(float(t.P.max()), 1e-300)
+        mass, wet = t.r[1:-1] / scale[1:-1], t.P[1:-1] > 0.0
+        missing = np.max(np.abs(mass[wet]), initial=0.0)
+        created = np.max(-mass[~wet], initial=0.0)
+        ends = np.max(np.abs(np.minimum(t.P, t.r)[[0, -1]])) / top
+        load = abs(t.balance) / max(abs(self.now.load), 1e-300)
+        return float(np.max([missing, created, -t.P.min() / top, ends, load]))

@@ -1,0 +1,253 @@
+"""The march in time: variable-step BDF2 with a local error estimate, from one output time to the next.
+
+BDF2 differentiates the parabola through the new value and the two before it. For one step this is backward Euler with
+another memory: y' = rate (y - memory) (`Memory`). Its local error is d³y/dt³ τ²(τ+τ')²/(6(2τ+τ')), with the third
+derivative from the divided difference of four values (τ' is the step before τ). A start, and every jump of a history,
+takes one step as two halves and as a whole; the difference is the error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+import numpy as np
+
+from .._base import validate
+from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, InputError, Report
+from ..scene import History
+
+SAFETY, SHRINK, GROWTH = 0.85, 0.2, 2.0  # of the step; BDF2 is stable for growth below 2.41
+FAILED = 0.25  # step after a solve that failed
+LEAST_LEFT = 0.2  # of an unknown that is positive: what extrapolation leaves of it
+SHORTEST = 1e-11  # of the duration: below it a step has failed for good
+ROUNDING = 1e-13  # relative: times that are closer are one time; below that of `lubfric.scene.history`
+
+
+@dataclass(frozen=True)
+class Memory:
+    """What an implicit step needs of the past: y' = rate (y - film), in 1/s; rate = 0: steady."""
+
+    rate: float
+    film: np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class Step:
+    """One solved step: ``film`` is the y that the next step remembers, ``z`` the unknowns, ``payload`` whatever else
+    the next solve starts from. The run continues only from a ``status`` of "converged"."""
+
+    status: str
+    film: np.ndarray
+    z: np.ndarray
+    payload: Any = None
+
+
+class Solver(Protocol):
+    """The equations of one implicit step. The last of its unknowns z may have any sign; the others are 0 or positive,
+    and keep that when the start of a step is extrapolated."""
+
+    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any, /) -> Step:
+        """The state at ``time`` [s] with this memory, from the unknowns ``z``."""
+        ...
+
+    def error_of(self, solution: Any, difference: np.ndarray, /) -> float:
+        """Relative size of a difference of films, compared with the tolerance of a step."""
+        ...
+
+
+@dataclass(frozen=True)
+class Level:
+    """The state at one time [s]: the film that is differentiated (n + 1) and the unknowns z."""
+
+    time: float
+    film: np.ndarray
+    z: np.ndarray
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a run has come. It can continue from any progress.
+
+    ``levels``: up to three, oldest first, since the last jump; ``step``: the next [s]; ``payload``: what the solver
+    returned beside its unknowns. ``steps`` taken and ``rejected``; ``worst``: largest local error so far, over the
+    tolerance. Of the last step its ``solution``, its ``error``, and whether it ended at an output time.
+    """
+
+    levels: tuple[Level, ...]
+    step: float
+    payload: Any = None
+    steps: int = 0
+    rejected: int = 0
+    worst: float = 0.0
+    solution: Any = None
+    error: float = 0.0
+    at_output: bool = False
+
+    @property
+    def time(self) -> float:
+        """Reached [s]."""
+        return self.levels[-1].time
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The times and the accuracy of a run: output ``times`` [s], ``stops`` (times at which a step ends, these among
+    them), those that are ``jumps`` of a history, the step after a start or a jump [s], the largest local error of a
+    step."""
+
+    times: np.ndarray
+    stops: tuple[float, ...]
+    jumps: frozenset[float]
+    first_step: float
+    tolerance: float
+
+    @property
+    def end(self) -> float:
+        """Last output [s]."""
+        return float(self.times[-1])
+
+
+def checked_times(times) -> np.ndarray:
+    """Output times [s]: increasing, the first >= 0, the last > 0."""
+    times = validate.array("times", times, "s", ndim=1)
+    if times[0] < 0.0 or np.any(np.diff(times) <= 0.0) or times[-1] <= 0.0:
+        raise InputError("times must increase from 0 s or later to a time above 0 s; allowed: 0 <= t1 < t2 < ... in s")
+    return times
+
+
+def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float) -> Plan:
+    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change. Times that differ only by
+    rounding become one, because no step is as short as that."""
+    histories, end = tuple(histories), float(times[-1])
+    jumps = _onto(times, [t for h in histories for t in h.jumps(end)])
+    stops = np.union1d(times, jumps)
+    stops = np.union1d(stops, _onto(stops, [t for h in histories for t in h.stops(end)]))
+    return Plan(times, tuple(stops.tolist()), frozenset(jumps.tolist()), first_step, tolerance)
+
+
+def _onto(known: np.ndarray, found: list[float]) -> np.ndarray:
+    """The times ``found`` [s], rising. One that differs only by rounding from one of ``known``, or from the one before
+    it, is replaced by that."""
+    times = np.unique(np.array(found, float))
+    times = times[np.diff(times, prepend=-np.inf) > ROUNDING * np.abs(times)]
+    right = np.clip(np.searchsorted(known, times), 1, max(known.size - 1, 1))
+    for near in (known[right - 1], known[np.minimum(right, known.size - 1)]):
+        times = np.where(np.abs(near - times) <= ROUNDING * np.abs(times), near, times)
+    return np.unique(times)
+
+
+def begun(first: Step, plan: Plan) -> Progress:
+    """The progress at t = 0 with the state ``first``."""
+    return Progress((Level(0.0, first.film, first.z),), plan.first_step, first.payload, solution=first)
+
+
+def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
+    """The progress after every step from ``now`` on, until the end or until the shortest step fails. (Then the last
+    time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing else."""
+    for stop in plan.stops:
+        while now.time < stop:
+            found = advance(now, stop, solver, plan.tolerance, SHORTEST * plan.end)
+            if found is None:
+                return
+            now = replace(found, at_output=found.time == stop and bool(np.any(plan.times == stop)))
+            if now.time in plan.jumps:  # the same state without its past
+                now = replace(now, levels=now.levels[-1:], step=plan.first_step)
+            yield now
+
+
+def marched(solver: Solver, plan: Plan, first: Step) -> tuple[Progress, list[float], list[Any]]:
+    """The last progress of a run from the state ``first``, and the times [s] and steps of its outputs."""
+    now = begun(first, plan)
+    times, outputs = ([0.0], [first]) if plan.times[0] == 0.0 else ([], [])
+    for now in steps(solver, plan, now):
+        if now.at_output:
+            times.append(now.time)
+            outputs.append(now.solution)
+    return now, times, outputs
+
+
+def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dict[str, float]) -> Report:
+    """The report of a run: ``residuals``, each over its tolerance, and "step", the largest accepted local error."""
+    residuals = {"step": now.worst} | residuals
+    worst = max(residuals.values())
+    status = CONVERGED if now.time >= plan.end else STAGNATED
+    if status == CONVERGED and not worst <= 1.0:
+        status = ITERATION_LIMIT
+    notes = [f"{cells}, {now.rejected} steps rejected"]
+    if status == STAGNATED:
+        notes.append(f"stopped at t = {now.time:.6g} s: the shortest step failed")
+    tried = now.steps + now.rejected
+    return Report(solver, status, now.steps, worst, 1.0, residuals, evaluations=tried, notes=tuple(notes))
+
+
+def advance(now: Progress, until: float, solver: Solver, tolerance: float, shortest: float) -> Progress | None:
+    """One step towards ``until`` [s]. It is halved if it would leave a tiny last step. If its solve fails, or its error
+    is above ``tolerance``, it is repeated with a shorter step. None: even the shortest step [s] failed."""
+    rejected, step = now.rejected, now.step
+    while step >= shortest:
+        left = until - now.time
+        planned = left if step >= left * (1 - 1e-9) else min(step, 0.5 * left)
+        end = now.time + planned if planned < left else until
+        found = (_bdf2 if len(now.levels) > 1 else _pair)(now, end, solver)
+        if found is None:
+            step, rejected = FAILED * planned, rejected + 1
+            continue
+        levels, solution, error, order = found
+        change = max(SAFETY * (tolerance / max(error, 1e-30)) ** (1 / (order + 1)), SHRINK)
+        if error <= tolerance:
+            step, error = planned * min(change, GROWTH), error / tolerance
+            worst = max(now.worst, error)
+            return Progress(levels, step, solution.payload, now.steps + 1, rejected, worst, solution, error)
+        step, rejected = planned * min(change, 0.9), rejected + 1
+    return None
+
+
+Attempt = tuple[tuple[Level, ...], Step, float, int]  # levels after the step, its solution, error, order
+
+
+def _solved(solver: Solver, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step | None:
+    solution = solver.solve(time, memory, z, payload)
+    return solution if solution.status == CONVERGED else None
+
+
+def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
+    """Backward Euler over the whole step and over its halves."""
+    start = now.levels[-1]
+    step = end - start.time
+    middle = start.time + 0.5 * step
+    whole = _solved(solver, end, Memory(1.0 / step, start.film), start.z, now.payload)
+    first = whole and _solved(solver, middle, Memory(2.0 / step, start.film), start.z, now.payload)
+    second = first and _solved(solver, end, Memory(2.0 / step, first.film), first.z, first.payload)
+    if whole is None or first is None or second is None:
+        return None
+    levels = (start, Level(middle, first.film, first.z), Level(end, second.film, second.z))
+    return levels, second, solver.error_of(second, whole.film - second.film), 1
+
+
+def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:
+    """BDF2 over the last two levels, from unknowns extrapolated along them, or from the last ones if that fails."""
+    old, last = now.levels[-2:]
+    step, before = end - last.time, last.time - old.time
+    ratio = step / before
+    weight = ratio**2 / (1.0 + 2.0 * ratio)
+    memory = Memory((1.0 + 2.0 * ratio) / ((1.0 + ratio) * step), last.film + weight * (last.film - old.film))
+    guess = last.z + ratio * (last.z - old.z)  # zeros stay zero, positive unknowns positive
+    guess[:-1] = np.where(last.z[:-1] > 0.0, np.maximum(guess[:-1], LEAST_LEFT * last.z[:-1]), 0.0)
+    solution = _solved(solver, end, memory, guess, now.payload) or _solved(solver, end, memory, last.z, now.payload)
+    if solution is None:
+        return None
+    levels = (*now.levels, Level(end, solution.film, solution.z))
+    if len(levels) < 4:
+        return levels, solution, 0.0, 2
+    curve = _divided([level.time for level in levels], [level.film for level in levels])
+    error = solver.error_of(solution, curve * step**2 * (step + before) ** 2 / (2.0 * step + before))
+    return levels[1:], solution, error, 2
+
+
+def _divided(times: list[float], values: list[np.ndarray]) -> np.ndarray:
+    """Highest divided difference."""
+    for k in range(1, len(times)):
+        values = [(b - a) / (times[i + k] - times[i]) for i, (a, b) in enumerate(zip(values, values[1:]))]
+    return values[0]

@@ -1,0 +1,16 @@
+"""The quick studies of the finite elements and closed forms: orders of convergence, closed forms, and `lubfric` beside
+them."""
+
+import pytest
+
+from verification.check import Check
+from verification.run import load
+from verification.studies import STUDIES
+
+NAMES = ("reynolds", "reynolds_surface", "layer", "contact", "contact_rough", "ehl", "contact_grid", "ehl_grid")
+
+
+@pytest.mark.parametrize("study", [s for s in STUDIES if s.name in NAMES], ids=lambda s: s.name)
+def test_every_check_passes(study):
+    checks = [item for item in load(study)("quick") if isinstance(item, Check)]
+    assert len(checks) > 5 and [c for c in checks if c.failed] == []
