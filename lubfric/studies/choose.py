@@ -47,11 +47,13 @@ def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Itera
 
 
 def tolerance_between(prepared: Prepared) -> float:
-    """The tolerance on f between the points of a curve: that on f itself. On a line of a rough surface, neighbouring
-    points may be solved on different lengths of it; there it is the root sum of squares of the tolerance on f and the
+    """The tolerance on f between the points of a curve: that on f itself. On strips of a rough surface, neighbouring
+    points may be solved on different numbers of them; there it is the root sum of squares of the tolerance on f and the
     sampling tolerance."""
     numerics = prepared.scene.numerics
-    return numerics.tolerance if prepared.lines is None else math.hypot(numerics.tolerance, numerics.sampling_tolerance)
+    if prepared.strips is None or prepared.given or numerics.sampling == "patch":
+        return numerics.tolerance
+    return math.hypot(numerics.tolerance, numerics.sampling_tolerance)
 
 
 def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()) -> tuple[float | None, float]:
