@@ -92,7 +92,8 @@ def solve_refined(
     dry contact. Raises `ConvergenceError`.
     """
     results: list[DeterministicResult] = []
-    error, coarser = None, None
+    error: float | None = None
+    coarser: Problem | None = None
     for shape in grids:
         problem = lay(shape)
         start = None if coarser is None else refined_start(coarser, problem, results[-1])

@@ -80,9 +80,10 @@ def _attempts(problem: Problem, start: State | None, tolerance, work: Work) -> I
     dry = dry_contact(problem)
     cold = dry_start(problem, dry)
     yield "from the dry contact", newton(problem, cold, work, tolerance=tolerance, most=DIRECT)
-    if problem.lubricant.newtonian:
-        limit = {"limiting_stress_coefficient": THIN_STRESS, "limiting_stress_offset": THIN_OFFSET}
-        thin = replace(problem, contact=replace(problem.contact, lubricant=replace(problem.lubricant, **limit)))
+    lubricant = problem.lubricant
+    if lubricant.newtonian:
+        limited = replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
+        thin = replace(problem, contact=replace(problem.contact, lubricant=limited))
         helped = newton(thin, cold, work, tolerance=tolerance, most=DIRECT)
         if helped.residual <= tolerance:
             found = newton(problem, helped.at.state, work, tolerance=tolerance, most=DIRECT)
