@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from toys import EvenFilmLevel, Spring
 
 import lubfric
-from lubfric.contact.hertz_strip import strip_weight
+from lubfric.contact.rough_contract import strip_weight
 from lubfric.errors import ITERATION_LIMIT
 from lubfric.sharing import OperatingPoint, Settings, Start, balanced, divided, separated
 

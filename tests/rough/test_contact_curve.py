@@ -6,7 +6,7 @@ import pytest
 import lubfric
 from lubfric.contact import contact_curve, solve
 from lubfric.contact.cells import rescaled, shifted
-from lubfric.contact.left_out import left_out
+from lubfric.contact.contact_curve import left_out
 
 E_PRIME, HEAVIEST = 231e9, 2e8
 
