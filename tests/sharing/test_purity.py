@@ -127,8 +127,9 @@ def test_a_like_scene_is_prepared_as_if_alone(scene_of):
     """What is remembered of one lubricant, speed or tolerance is not taken for another."""
     prepared = lubfric.prepare(LINE)
     at(prepared, 0.01)
-    for changed in ({"lubricant": {"viscosity": 0.1}}, {"motion": {"slide_roll_ratio": 0.5}}, {"bodies": {"load": 9.0}}):
-        scene = LINE.with_(**changed)
+    changes = ("lubricant", "viscosity", 0.1), ("motion", "slide_roll_ratio", 0.5), ("bodies", "load", 9.0)
+    for section, key, value in changes:
+        scene = LINE.with_(**{section: {key: value}})
         assert at(lubfric.prepare(scene, like=prepared), 0.01) == at(scene, 0.01)
     tight = lubfric.friction(prepared, 0.01, tolerance=2e-3)
     assert bits(tight) == at(LINE.with_(numerics={"tolerance": 2e-3}), 0.01)

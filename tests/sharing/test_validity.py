@@ -109,8 +109,8 @@ def test_a_sweep_marks_the_point_and_keeps_the_rest():
 @pytest.mark.parametrize("column", [0, -1])
 @pytest.mark.parametrize("grid", ["given", "auto"])
 def test_a_contact_on_the_edge_columns_of_a_patch_is_refused(grid, column):
-    """A ridge on the last column carries the load, also where the cells that are solved leave that column out. The whole
-    result is kept, and returned where it is accepted."""
+    """A ridge on an edge column carries the load, also where the cells that are solved leave that column out. The
+    whole result is kept, and returned where it is accepted."""
     scene = PAPER.with_(numerics={"grid": grid})
     rough = lubfric.prepare(scene).surface
     heights = rough.heights.copy()
