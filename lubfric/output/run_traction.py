@@ -10,9 +10,10 @@ import numpy as np
 
 from .._base import plain, read_table, whole_file
 from ..errors import ConvergenceError, InputError
+from ..quantities import NUMBERS
 from ..scene import LARGEST_RATIO, Scene
 from ..sharing import prepare
-from ..studies import QUANTITIES, curve_table, fingerprint, traction, uncertainty_columns
+from ..studies import curve_table, fingerprint, traction, uncertainty_columns
 from .console import say, say_written
 from .draw_curves import plot_traction
 from .record import made_of
@@ -28,7 +29,7 @@ def run_traction(scene: Scene, out: Path, ratios: str) -> int:
     say(prepared.surface.describe())
     with run_folder(out, fingerprint(prepared, asked, "traction")) as folder:
         found = traction(prepared, asked, on_point=_progress, raise_on_failure=False)
-        columns = {"ratio": found.ratio} | {name: found[name] for name in QUANTITIES}
+        columns = {"ratio": found.ratio} | {name: found[name] for name in NUMBERS}
         folder.clear()
         folder.write("traction.csv", curve_table(found, columns))
         columns |= uncertainty_columns(found.uncertainty)

@@ -13,4 +13,4 @@ from .outlook import Forecast, forecast
 from .result import FrictionResult
 from .sample import Found, sampled
 from .scatter import block_error, gap_influence, line_load, strip_gap
-from .uncertainty import FIELDS, Uncertainty, UncertaintyCurve, curve_of, percent, student
+from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, percent, student

@@ -12,5 +12,5 @@ from .forces import Forces, forces
 from .heat import Heat, film_lubricant, inlet_at, point_heat
 from .point import Point, Settings, Trial, exponents
 from .prepared import Prepared, at_tolerance, on_piece, on_stack, prepare, scene_of, takes_strips
-from .response import Response, Slopes, divided, grown, quantities, respond
+from .response import Response, Slopes, divided, grown, quantities, respond, touched_length
 from .validity import Validity, entries_of, gathered, in_a_cell, refused

@@ -12,7 +12,8 @@ from ..errors import InputError
 from ..sampling import FrictionResult
 from ..scene import Scene
 from ..sharing import Prepared
-from .interpolate import FEWEST, Interpolant, Samples, numbers_of, through
+from .curve import columns_of
+from .interpolate import FEWEST, Interpolant, Samples, through
 
 AUTO = "auto"
 CHOSEN, MOST = 12, 25  # speeds that a curve chooses, about, and at most
@@ -47,7 +48,7 @@ def _one_by_one(prepared: Prepared, ahead: list[float], solve: Callable) -> Iter
         failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
         wanted = None
         if len(good) >= FEWEST:
-            wanted = next_speed(through(numbers_of(good)), tolerance_between(prepared), failed)[0]
+            wanted = next_speed(through(columns_of(good)), tolerance_between(prepared), failed)[0]
         ahead = [] if wanted is None else [wanted]
 
 
@@ -55,8 +56,10 @@ def tolerance_between(prepared: Prepared) -> float:
     """The tolerance on f between the points of a curve: that on f itself. On a line of a rough surface, neighbouring
     points may be solved on different lengths of it; there it is the root sum of squares of the tolerance on f and the
     sampling tolerance."""
-    numerics = prepared.scene.numerics
-    return numerics.tolerance if prepared.lines is None else math.hypot(numerics.tolerance, numerics.sampling_tolerance)
+    numerics, strips = prepared.scene.numerics, prepared.strips
+    if strips is None or strips.whole:
+        return numerics.tolerance
+    return math.hypot(numerics.tolerance, numerics.sampling_tolerance)
 
 
 def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()) -> tuple[float | None, float]:

@@ -50,7 +50,7 @@ def test_a_film_and_a_contact_from_outside_balance_as_they_must(both, speed, clo
 
 def test_they_separate_and_run_dry(both):
     fast = lubfric.friction(both, 1e3)
-    assert fast.film_load == B.load and fast.decision.contact == "none" and fast.decision.clearance > 0
+    assert fast.film_load == B.load and "none" in fast.decision.contact and fast.clearance > 0
     dry = lubfric.friction(both, 0.0)
     assert dry.coefficient == pytest.approx(B.boundary_friction_coefficient) and dry.decision.contact == "a spring"
 
