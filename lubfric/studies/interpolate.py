@@ -168,8 +168,8 @@ class Interpolant:
 
 
 def through(numbers: dict[str, np.ndarray]) -> Interpolant:
-    """The curve through points with these ``numbers``, as `lubfric.quantities` names them. Raises `InputError` for speeds
-    of both directions and for fewer than three different ones."""
+    """The curve through points with these ``numbers``, as `lubfric.quantities` names them. Raises `InputError` for
+    speeds of both directions and for fewer than three different ones."""
     speed = numbers["speed"]
     if (speed > 0).any() and (speed < 0).any():
         raise InputError("speeds run both ways; a curve between them has those of one direction: solve two curves")

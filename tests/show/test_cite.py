@@ -62,8 +62,8 @@ def cites(scene):
         ("Houpert", HOT, HOT.with_(lubricant={"limiting_stress_coefficient": None})),
         ("Greenwood, J. B. P.", PATCH.with_(contact={"model": "summits"}), PATCH),
         ("Polonsky", PATCH, PATCH.with_(contact={"model": "summits"})),
-        ("Johnson, J. A.", PATCH.with_(numerics={"film_deflection": "scaled"}), PATCH),
-        ("Satterthwaite", PATCH.with_(numerics={"sampling": "line"}), PATCH),
+        ("Johnson, J. A.", PATCH, PATCH.with_(numerics={"film_deflection": "hydrodynamic"})),
+        ("Satterthwaite", PATCH.with_(numerics={"sampling": "strips"}), PATCH),
     ],
 )
 def test_an_option_is_cited_where_it_was_used(author, used, not_used):

@@ -85,8 +85,9 @@ def test_a_curve_is_drawn_on_given_axes(curve):
 
 
 def test_the_band_of_a_curve_is_that_of_its_intervals(curve):
-    interval = np.stack([0.9 * curve.coefficient, 1.2 * curve.coefficient], axis=1)
-    curve, ax = replace(curve, uncertainty=replace(curve.uncertainty, interval=interval)), axes()
+    wide = [replace(p.uncertainty, interval=(0.9 * p.coefficient, 1.2 * p.coefficient)) for p in curve.points]
+    points = tuple(replace(point, uncertainty=each) for point, each in zip(curve.points, wide))
+    curve, ax = replace(curve, points=points), axes()
     curve.plot(ax)
     corners = ax.collections[0].get_paths()[0].vertices
     for speed, ends in zip(curve.speed, curve.uncertainty.interval):
