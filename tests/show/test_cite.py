@@ -62,7 +62,7 @@ def cites(scene):
         ("Houpert", HOT, HOT.with_(lubricant={"limiting_stress_coefficient": None})),
         ("Greenwood, J. B. P.", PATCH.with_(contact={"model": "summits"}), PATCH),
         ("Polonsky", PATCH, PATCH.with_(contact={"model": "summits"})),
-        ("Johnson, J. A.", PATCH, PATCH.with_(numerics={"film_deflection": "hydrodynamic"})),
+        ("Johnson, J. A.", PATCH.with_(numerics={"film_deflection": "scaled"}), PATCH),
         ("Satterthwaite", PATCH.with_(numerics={"sampling": "strips"}), PATCH),
     ],
 )
