@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import Shown
+from .._base import Shown, axes_or_new, field_image
 from ..deterministic import Refined
 from ..errors import InputError, Report
 from ..quantities import PointQuantities, described_in_doc, in_words
@@ -100,9 +100,10 @@ class FrictionResult(PointQuantities[float], Shown):
 
     def plot_contact(self, ax=None):
         """The pressure of the rough contact in the plane; returns the axes. Needs ``fields=True``, and contact."""
-        from .._base import pressure_axes
-
-        return pressure_axes(self, ax)
+        axes = axes_or_new(ax)
+        field_image(axes, self.x, self.y, self.pressure / 1e9, "magma_r", "contact pressure (GPa)", vmin=0)
+        axes.set_title(f"U = {self.speed:g} m/s, $F_C$ = {self.contact_load:.4g} N, $F_H$ = {self.film_load:.4g} N")
+        return axes
 
     def _kept(self, name: str, found: np.ndarray | None) -> np.ndarray:
         if found is None:

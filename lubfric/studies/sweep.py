@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base import curve_axes, validate, write_whole
+from .._base import validate, write_whole
 from ..errors import ITERATION_LIMIT, InputError, Report
 from ..quantities import ESTIMATED, PointQuantities, described_in_doc
 from ..sampling import FrictionResult
@@ -15,6 +15,7 @@ from ..scene import FASTEST, Scene
 from ..sharing import Prepared
 from .choose import AUTO, next_speed, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, report_of
+from .draw import curve_axes
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
 from .points import Outcome, Piece, key_of, made_ready, solved

@@ -8,8 +8,9 @@ import pytest
 from matplotlib.figure import Figure
 
 import lubfric
-from lubfric._base import friction_over_time, new_figure
+from lubfric._base import new_figure
 from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
+from lubfric.time import friction_over_time
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
