@@ -100,20 +100,12 @@ def judged(result: R, raise_on_failure: bool) -> R:
     return result
 
 
-def csv_bytes(curve) -> bytes:
-    """The table of a `StribeckResult`: one row a speed, one column a quantity, the unit in the heading. The last
-    columns say which assumptions are violated there, and how sure f is."""
-    return curve_table(curve, columns_of(curve.points) | {"speed": curve.speed})
-
-
-def curve_table(curve: CurveResult, columns: dict[str, np.ndarray]) -> bytes:
-    """``columns`` of a curve under their headings, how sure f is, and the violated assumptions at each point."""
-    named = {heading(name): values for name, values in (columns | uncertainty_columns(curve.uncertainty)).items()}
-    return table_bytes(named | {"validity": curve.told, "uncertainty": list(curve.uncertainty.text)})
-
-
-def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
-    """The numbers of an `UncertaintyCurve` as columns of a table, the interval as its two ends."""
+def csv_bytes(curve: CurveResult) -> bytes:
+    """The table of a curve: one row a point, one column a quantity, the unit in the heading; then how sure f is, and in
+    words which assumptions are violated there."""
+    found, swept = curve.uncertainty, {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
     low, high = found.interval.T
-    ends = {"interval_low": low, "interval_high": high}
-    return ends | {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}
+    columns = swept | columns_of(curve.points) | swept | {"interval_low": low, "interval_high": high}
+    columns |= {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}
+    named = {heading(name): values for name, values in columns.items()}
+    return table_bytes(named | {"validity": curve.told, "uncertainty": list(found.text)})
