@@ -51,6 +51,7 @@ CONSTANTS = (
     (problem, "COARSE_TOLERANCE"),
     (problem, "COARSE_ITERATIONS"),
     (cells, "DENSE"),
+    (stencil, "SPARSE"),
     (stencil, "FACTOR"),
     (stencil, "LEAST"),
     (solve, "HEAVIER"),

@@ -138,7 +138,7 @@ def _run(arguments) -> None:
 
         if not takes_strips(scene):
             raise InputError(
-                "--sampling-tolerance is for a rough cylinder on strips of its roughness (numerics.sampling = 'strips'), "
+                "--sampling-tolerance is for a rough cylinder on strips (numerics.sampling = 'strips'), "
                 f"and {scene.name} is solved on one patch, as it is; leave it out"
             )
         scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})

@@ -29,9 +29,9 @@ MISSED = "not known: the patch is too short along y to tell what contact it miss
 class Numerical:
     """The errors of solvers and grids.
 
-    - ``film``: of the film, relative; ``gap``: of the mean gap at given load [m], by the closing of the volume and by the
-      cells of the contact; ``shear``: of the film's shear stress, by its sum over nodes and by the heat left out of it,
-      relative to f; ``area``: of the contact area, relative.
+    - ``film``: of the film, relative; ``gap``: of the mean gap at given load [m], by the closing of the volume and by
+      the cells of the contact; ``shear``: of the film's shear stress, by its sum over nodes and by the heat left out
+      of it, relative to f; ``area``: of the contact area, relative.
     """
 
     film: float
@@ -162,7 +162,8 @@ def _shear_errors(found: Forces, film: float) -> dict[str, float]:
 
 
 def _model_form(scene: Scene, found: Found) -> float:
-    """Error of load sharing; NaN except for a cylinder with a half-space contact, which is the case that was studied."""
+    """Error of load sharing; NaN except for a cylinder with a half-space contact, which is the case that was
+    studied."""
     if found.strips is None:
         return math.nan
     film, sq = found.balance.film, float(found.contact.heights.std())  # type: ignore[attr-defined]

@@ -84,8 +84,8 @@ class Found:
 
     @property
     def corrected(self) -> float:
-        """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left. On the
-        scene's own cells nothing is corrected, so that loads and fields belong together."""
+        """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left. On
+        the scene's own cells nothing is corrected, so that loads and fields belong together."""
         if self.strips is None or self.strips.cells.own:
             return 0.0
         return self.effect.gap + self.left_by_root
@@ -97,8 +97,8 @@ class Found:
 
     @property
     def second_order(self) -> float:
-        """What that correction leaves open of the gap [m]: the correction times the change of ln(F_H/F_C) that it makes.
-        No more was seen, but for one of 25 scenes (1.4 times that, beside a scatter of 17 %)."""
+        """What that correction leaves open of the gap [m]: the correction times the change of ln(F_H/F_C) that it
+        makes. No more was seen, but for one of 25 scenes (1.4 times that, beside a scatter of 17 %)."""
         return 0.0 if self.response is None else abs(self.response.split) * self.corrected**2
 
     def change(self, name: str) -> float:
@@ -192,10 +192,10 @@ def _speed_of(scene, film: float) -> float:
 def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
     """Number of strips that the standard error ``numerics.sampling_tolerance`` needs, at least as many as there are.
 
-    It is (reached/asked)² x 1.3 times the present number, at least 1.5 and at most four times that. A standard error from few blocks is
-    itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long enough whenever its blocks
-    happen to scatter little, the stated error would be too small. So the first one counts as long enough only if even 1
-    + 1/sqrt(nu) times its error is within what is asked.
+    It is (reached/asked)² x 1.3 times the present number, at least 1.5 and at most four times that. A standard error
+    from few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long
+    enough whenever its blocks happen to scatter little, the stated error would be too small. So the first one counts
+    as long enough only if even 1 + 1/sqrt(nu) times its error is within what is asked.
     """
     asked, count = prepared.scene.numerics.sampling_tolerance, found.count
     reached, spots = found.sampling, found.scatter.spots

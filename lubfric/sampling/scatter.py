@@ -111,10 +111,11 @@ class Scatter:
 
 
 def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips: Strips, count: int) -> Scatter:
-    """The `Scatter` of ``contact``, a stack of ``count`` ``strips``, in ``balance``. Of a mirrored map only half counts.
+    """The `Scatter` of ``contact``, a stack of ``count`` ``strips``, in ``balance``. Of a mirrored map only half
+    counts.
 
-    A place changes f by its influence on the gap, which divides the load, and by where it touches: the film has no shear
-    there. Both together are one influence on f.
+    A place changes f by its influence on the gap, which divides the load, and by where it touches: the film has no
+    shear there. Both together are one influence on f.
 
     The standard errors come from blocks along y. If there are three windows of a measured map or more, they are the
     larger of that and the ones from windows, which show whether a surface differs from place to place.

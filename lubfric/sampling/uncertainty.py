@@ -81,9 +81,10 @@ def too_few(participation: float, reached: float, asked: float) -> bool:
 def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> float:
     """Relative error of f by Eq. (8), as far as a study has shown it (docs/model-error.md).
 
-    In contact ``min(0.3, 0.02 + 0.56 (1 - s))`` with s = F_C/F_T. For a full film ``min(0.3, 3.2/λ²)`` with λ = central
-    film/Sq. 0 if the contact carries the whole load. The rms over surfaces of f/f_deterministic - 1 lies below that: the
-    cylinder of the paper, Sq 100 nm, 5.5 to 110 N, patches of 90 µm, where much of it differs from patch to patch.
+    In contact ``min(0.3, 0.02 + 0.56 (1 - s))`` with s = F_C/F_T. For a full film ``min(0.3, 3.2/λ²)`` with λ =
+    central film/Sq. 0 if the contact carries the whole load. The rms over surfaces of f/f_deterministic - 1 lies below
+    that: the cylinder of the paper, Sq 100 nm, 5.5 to 110 N, patches of 90 µm, where much of it differs from patch to
+    patch.
     """
     if contact_share >= 1 or (contact_share <= 0 and film_to_roughness_ratio == math.inf):
         return 0.0

@@ -1,8 +1,8 @@
 """Load sharing, Eq. (8) of the paper: film and contact carry one load.
 
 `prepared` makes a scene ready; `point` solves film and contact, each at its share of the load; `balance` finds the
-division at which they agree; `forces` and `heat` give the friction; `response` tells how strongly all that depends on an
-error of the gap. `checks` are the assumptions of the model.
+division at which they agree; `forces` and `heat` give the friction; `response` tells how strongly all that depends on
+an error of the gap. `checks` are the assumptions of the model.
 """
 
 from .balance import Balance, solve_balance

@@ -135,8 +135,8 @@ def respond(
 def quantities(
     scene: Scene, contact: RoughContact, film: EHLResult, state: ContactState, contact_load: float
 ) -> dict[str, float]:
-    """The reported numbers of ``film`` and a contact in ``state``, by the names of `FrictionResult`. ``mean_gap`` is the
-    mean film over A, since the film fills the gap."""
+    """The reported numbers of ``film`` and a contact in ``state``, by the names of `FrictionResult`. ``mean_gap`` is
+    the mean film over A, since the film fills the gap."""
     found = forces(scene, film, state, contact_load)
     return {
         "coefficient": found.coefficient,

@@ -10,7 +10,6 @@ from .fit_input import Measured, read_measured
 from .fit_result import FitResult
 from .plan import StudyPlan, plan_study
 from .result import StudyResult, open_study
-from .rows import CONVERGED, UNUSED
 from .run import study
 from .store import fingerprint
 from .study_file import load_study

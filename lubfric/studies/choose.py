@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -30,14 +30,9 @@ APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
 
-def chosen(prepared: Prepared, kept: Iterable[float], solve: Callable) -> Iterator[tuple[float, Any]]:
-    """(speed [m/s], outcome) of a curve that chooses its speeds, beside those that are to be ``kept``.
-    ``solve(speeds)`` yields these pairs. Raises `InputError` at once if there is no range of speeds."""
-    first = sorted({*first_speeds(prepared.scene, prepared.surface.sq), *kept}, reverse=True)
-    return _one_by_one(prepared, first, solve)
-
-
-def _one_by_one(prepared: Prepared, ahead: list[float], solve: Callable) -> Iterator[tuple[float, Any]]:
+def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Iterator[tuple[float, Any]]:
+    """(speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
+    ``solve(speeds)`` yields these pairs."""
     outcomes: dict[float, Any] = {}
     while ahead and len(outcomes) < MOST:
         for speed, outcome in solve(ahead):
@@ -52,11 +47,13 @@ def _one_by_one(prepared: Prepared, ahead: list[float], solve: Callable) -> Iter
 
 
 def tolerance_between(prepared: Prepared) -> float:
-    """The tolerance on f between the points of a curve: that on f itself. On a line of a rough surface, neighbouring
-    points may be solved on different lengths of it; there it is the root sum of squares of the tolerance on f and the
+    """The tolerance on f between the points of a curve: that on f itself. On strips of a rough surface, neighbouring
+    points may be solved on different numbers of them; there it is the root sum of squares of the tolerance on f and the
     sampling tolerance."""
     numerics = prepared.scene.numerics
-    return numerics.tolerance if prepared.lines is None else math.hypot(numerics.tolerance, numerics.sampling_tolerance)
+    if prepared.strips is None or prepared.given or numerics.sampling == "patch":
+        return numerics.tolerance
+    return math.hypot(numerics.tolerance, numerics.sampling_tolerance)
 
 
 def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()) -> tuple[float | None, float]:

@@ -172,8 +172,13 @@ class Interpolant:
 def numbers_of(points) -> dict[str, np.ndarray]:
     """What an interpolation needs of ``points``, arrays by name; NaN where one is None."""
     found = {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in NEEDED}
-    decided = {n: [getattr(getattr(p, "decision", None), n, None) for p in points] for n in DECIDED}
-    return found | {name: np.array(values, dtype=float) for name, values in decided.items()}
+    return found | {name: np.array([decided(p, name) for p in points]) for name in DECIDED}
+
+
+def decided(point, name: str) -> float:
+    """``clearance`` or ``steepness`` of a point; NaN where it has none."""
+    found = getattr(point, name, getattr(getattr(point, "decision", None), name, None))
+    return np.nan if found is None else float(found)
 
 
 def through(numbers: dict[str, np.ndarray]) -> Interpolant:

@@ -93,9 +93,14 @@ class StudyResult(Shown):
         return found if self.chosen else found | {SPEED: (SPEED, np.array(self.plan["speeds"]))}
 
     @property
+    def failures(self) -> tuple[str, ...]:
+        """Why points could not be solved, one text for each of them."""
+        return tuple(status for status in self.status.flat if status not in (CONVERGED, MISSING, UNUSED))
+
+    @property
     def failed(self) -> int:
         """Number of points that could not be solved."""
-        return int(np.count_nonzero(~np.isin(self.status, (CONVERGED, MISSING, UNUSED))))
+        return len(self.failures)
 
     @property
     def solved(self) -> int:

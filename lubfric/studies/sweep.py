@@ -22,7 +22,7 @@ from .store import opened
 
 
 @described_in_doc
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     """Arrays over the speeds, in the order asked for; NaN where a point failed.
 
@@ -167,7 +167,7 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
     missing have neither point nor error."""
     outcomes = [found.get(speed) for speed in asked or sorted(found)]
     points = [outcome if isinstance(outcome, FrictionResult) else None for outcome in outcomes]
-    errors = {i: outcome for i, outcome in enumerate(outcomes) if isinstance(outcome, Exception)}
+    errors: dict[int, Exception] = {i: o for i, o in enumerate(outcomes) if isinstance(o, Exception)}
     speeds = np.array(asked or sorted(found))
     report = report_of("stribeck", [f"speed {u:g} m/s" for u in speeds], "speeds", points, errors)
     columns = columns_of(points) | {"speed": speeds}
