@@ -80,7 +80,7 @@ def _numbers(prepared: Prepared, speed: float, found: Found, begun: float) -> Fr
         seconds=time.perf_counter() - begun,
         report=replace(balance.report, notes=notes),
         balance=replace(balance, contact=replace(contact, fields=found.solved.contact.fields)),
-        heights=getattr(found.contact, "heights", None),
+        heights=None if found.strips is None else found.contact.heights,  # type: ignore[attr-defined]
         decision=decision,
         validity=passed,
         steepness=_steepness(prepared, speed, found.response, balance),
