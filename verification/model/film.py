@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 import lubfric
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import solve_point
 
 from ..check import AT_MOST, Check, Item, Table
 from ..kept import Run

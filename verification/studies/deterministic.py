@@ -7,9 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import dry_contact, reach, solve_refined
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import dry_contact, lay_out, reach, solve_point, solve_refined
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
 from lubfric.surface.height_map import Surface
