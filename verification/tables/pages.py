@@ -19,7 +19,6 @@ BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of
 BENCHMARKS = {
     "chosen-speeds": "chosen_speeds.py",
     "contact-aspher": "contact_vs_aspher.py",
-    "contact-before": "contact_before_after.py",
     "contact-constants": "contact_constants.py",
     "film-times": "ehl_times.py",
     "study-points": "study.py",
@@ -57,7 +56,7 @@ def body(table: Table, command: str) -> str:
 
 def source(command: str) -> str:
     """One line in italics: the command as it is typed, the day, the version and the machine."""
-    from lubfric._base.version import __version__
+    from lubfric import __version__
 
     day, machine, python = time.strftime("%Y-%m-%d"), platform.machine(), platform.python_version()
     return f"*`{command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"
