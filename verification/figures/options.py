@@ -29,7 +29,6 @@ SPEEDS = {"cylinder": (1e-3, 1), "flat strip, 500 MPa": (1e-3, 10), "cylinder, 1
 DEFLECTIONS = {
     "hydrodynamic": "own pressure (paper)",
     "scaled": "whole load, E' $F_H/F_T$ (Johnson)",
-    "total": "film and contact pressure",
 }
 
 
@@ -49,7 +48,7 @@ def film_deflection(quick: bool, run: Run) -> PaperFigure:
     canvas, grid = axes(2, 3, width=12.5, height=6.2, sharex="col")
     rows, most = [], {}
     for column, name in zip(grid.T, SCENES):
-        for (key, label), style in zip(DEFLECTIONS.items(), ("o-", "s--", "^:")):
+        for (key, label), style in zip(DEFLECTIONS.items(), ("o-", "s--")):
             f, share = found[name, key]
             column[0].semilogx(speeds[name], f, style, ms=4, label=label)
             column[1].loglog(speeds[name], share, style, ms=4, label=label)

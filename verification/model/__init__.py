@@ -1,6 +1,6 @@
 """``python -m verification model``: what load sharing leaves out, measured against one gap with one pressure.
 
-The same surfaces, loads and fluids are solved by Eq. (8) over the Hertz strip and over the box, by three deflections of
+The same surfaces, loads and fluids are solved by Eq. (8) over the Hertz strip and over the box, by two deflections of
 the film, and by ``numerics.model = "deterministic"``, which is the reference. The exit code is 1 when a point of the
 reference failed, or when the error of the model is larger than the results state.
 """
