@@ -50,6 +50,11 @@ def oil_without(place: int, **lost) -> Callable:
     return argument(place, lambda oil: replace(oil, **lost))
 
 
+def history_without(**lost) -> Callable:
+    """Replace a contact in time by one whose lubricant has lost something."""
+    return keywords(lubricant=lambda oil: replace(oil, **lost))
+
+
 def line_without(**lost) -> Callable:
     """Replace a film solver by one that gets the line contact with another oil."""
     return argument(0, lambda line: replace(line, lubricant=replace(line.lubricant, **lost)))
@@ -273,9 +278,9 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
             ("transient_no_limit", "limiting stress dropped", oil_without(0, limiting_stress_coefficient=None)),
         ),
         "lubfric.time.begin:ContactHistory": (
-            ("transient_density", "density law dropped in a transient", oil_without(-4, density_law="constant")),
-            ("transient_viscosity_law", "always Roelands' law in time", oil_without(-4, viscosity_law="roelands")),
-            ("transient_load", "load of a transient taken as load per width", argument(-1, lambda width: 1.0)),
+            ("transient_density", "density law dropped in a transient", history_without(density_law="constant")),
+            ("transient_viscosity_law", "always Roelands' law in time", history_without(viscosity_law="roelands")),
+            ("transient_load", "load of a transient taken as load per width", with_keywords(width=1.0)),
         ),
         "lubfric.scene.history:Ramp.at": (
             ("ramp_ignored", "ramps of a transient stay at their start", argument(1, lambda time: 0.0)),

@@ -30,14 +30,14 @@ def test_every_place_exists_and_is_restored(mutant):
 
 
 def test_a_place_that_is_gone_is_an_error_and_undoes_the_others():
-    from lubfric.contact import half_space
+    from lubfric.contact import strips
 
-    original = half_space.solve_contact
-    places = ("lubfric.contact.half_space:solve_contact", "lubfric.contact.half_space:no_such")
+    original = strips.centred_axis
+    places = ("lubfric.contact.strips:centred_axis", "lubfric.contact.strips:no_such")
     gone = Mutant("gone", "", {place: lambda f: f for place in places})
     with pytest.raises(AttributeError, match="no_such"), applied(gone):
         pass
-    assert half_space.solve_contact is original
+    assert strips.centred_axis is original
 
 
 def test_calls_are_counted():
