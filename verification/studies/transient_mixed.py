@@ -43,8 +43,8 @@ def transient_mixed(level: str):
 
 def run(model, plan: Transient, times=None, **numerics):
     """`lubfric.transient` of a prepared model with another plan (and numerics)."""
-    scene = replace(model.scene, transient=plan)
-    return lubfric.transient(replace(model, scene=scene.with_(numerics=numerics) if numerics else scene), times)
+    scene = replace(model.scene, transient=plan).with_(numerics=numerics)
+    return lubfric.transient(prepare(scene, like=model), times)
 
 
 def wave(amplitude: float, frequency: float, mean: float = 0.0) -> Harmonic:
@@ -54,7 +54,7 @@ def wave(amplitude: float, frequency: float, mean: float = 0.0) -> Harmonic:
 
 def steady(model):
     """The scene held, and ramped slowly through lift-off."""
-    fine = replace(model, scene=model.scene.with_(numerics={"tolerance": 2e-3}))
+    fine = prepare(model.scene.with_(numerics={"tolerance": 2e-3}), like=model)
     held = run(fine, Transient(1.0), [0.0, 0.1, 1.0])
     point = lubfric.friction(fine)
     yield Check("held in time: friction", held.coefficient[-1], point.coefficient, 2e-3, STEADY)
