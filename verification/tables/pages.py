@@ -57,7 +57,7 @@ def body(table: Table, command: str) -> str:
 
 def source(command: str) -> str:
     """One line in italics: the command as it is typed, the day, the version and the machine."""
-    from lubfric._base.version import __version__
+    from lubfric import __version__
 
     day, machine, python = time.strftime("%Y-%m-%d"), platform.machine(), platform.python_version()
     return f"*`{command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"
