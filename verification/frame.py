@@ -70,9 +70,6 @@ def main(command: Command, argv: list[str]) -> int:
     if options.list:
         print("\n".join(f"{s.name:<16} {s.title} [{', '.join(s.levels)}]" for s in studies))
         return 0
-    if options.go_on:
-        for file in sorted(options.out.rglob("*.jsonl")):
-            kept.adopt(file)
     return run_all(command, tuple(_prepared(command, s, options) for s in studies), options)
 
 
@@ -116,7 +113,6 @@ def parser(command: Command) -> argparse.ArgumentParser:
                 level.add_argument(f"--{name}", dest="level", action="store_const", const=name, help=words)
     p.add_argument("--only", nargs="+", metavar="NAME", help="run only these")
     p.add_argument("--out", type=Path, default=Path(command.out), metavar="DIR", help="folder (default: %(default)s)")
-    p.add_argument("--go-on", action="store_true", help="go on with rows that other code has kept in the folder")
     p.add_argument("--list", action="store_true", help="name the parts and stop")
     if command.workers:
         p.add_argument("--workers", type=int, default=command.workers, help="processes (default: %(default)s)")

@@ -27,7 +27,7 @@ def point(
     is drawn.
 
     ``at`` may say more: default (the setting that users get), apart (the error is that of the grid against a finer one,
-    not that of the solver), size (unknowns), memory (peak bytes above the start), work (convolutions or Newton steps).
+    not that of the solver), size (unknowns).
     """
     median, low, high = (float(s) for s in seconds)
     where = at | {"panel": panel, "method": method, "setting": setting, "low": low, "high": high}

@@ -26,7 +26,6 @@ FIGURES = {
     "fig8": "cylinder:stribeck_curves",
     "fig9": "cylinder:pressure_map",
     "fig10": "cylinder:sections",
-    "film": "options:film_deflection",
 }
 
 

@@ -15,7 +15,6 @@ PARTS: tuple[tuple[str, str, str, dict], ...] = (
     ("model-error", "model.error:model_error", "Load sharing beside one gap, one pressure", {}),
     ("held-out", "model.error:held_out", "The stated error of the model on other surfaces", {}),
     ("grids", "model.film:grids", "One gap, one pressure on ever smaller cells", {}),
-    ("loads", "model.film:loads", "One gap, one pressure at heavy loads", {}),
 )
 
 

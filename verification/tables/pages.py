@@ -25,8 +25,8 @@ BENCHMARKS = {
     "study-points": "study.py",
 }
 CAMPAIGNS = {  # command: its tables
-    "charts": ("contact-methods", "growth"),
-    "model": ("model-error", "model-cost", "measured-map", "held-out", "refinement", "heavy-loads"),
+    "charts": ("contact-methods",),
+    "model": ("model-error", "model-cost", "measured-map", "held-out", "refinement"),
     "sampling": ("sampling-coverage", "sampling-numbers"),
     "stability": ("stability-film", "stability-contact", "stability-sharing", "stability-whole"),
 }
