@@ -5,8 +5,6 @@ A command is a list of studies and little else (`Command`). Its studies hand ove
 in the folder of the report (`kept.Run`).
 """
 
-from __future__ import annotations
-
 import argparse
 import difflib
 import sys
@@ -29,8 +27,6 @@ LEVELS = ("default", "quick", "full")
 class Command:
     """What makes one command different from the others.
 
-    Attributes
-    ----------
     name : "" for the plain command; summary : for ``--help``
     studies : what there is to run; out : default folder of its files
     levels : those it offers, the default one first

@@ -5,8 +5,6 @@ plain values. The rows are lines of JSON in a file, and a case whose row is ther
 a folder that is named after the code which solved it, so that rows of other code are never mixed with new ones.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Callable, Iterator, Mapping

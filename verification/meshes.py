@@ -1,7 +1,5 @@
 """Fields on meshes, in files. The only module that knows meshio."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

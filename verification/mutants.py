@@ -5,8 +5,6 @@ are options that are lost on their way to the number: each function works, but s
 arrive. The wiring checks have to catch these.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 

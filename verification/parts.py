@@ -1,7 +1,5 @@
 """Parts of a result and of a model that a study counts on. A part that is missing ends the study in words."""
 
-from __future__ import annotations
-
 from typing import TypeVar
 
 from lubfric.contact import ContactResult, ContactState, HalfSpaceContact

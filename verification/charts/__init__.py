@@ -4,8 +4,6 @@ Times are processor seconds, which another job on the machine changes less than 
 is measured is kept in the folder: the same command draws it again.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Iterator
 

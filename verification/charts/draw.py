@@ -1,7 +1,5 @@
 """Draws charts from the points alone."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .. import plotting

@@ -1,7 +1,5 @@
 """Measured points: how they are taken and where."""
 
-from __future__ import annotations
-
 import os
 import platform
 import time

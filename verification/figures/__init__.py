@@ -6,8 +6,6 @@ written from the numbers of the run. ``--quick`` takes smaller grids and fewer c
 Figs. 3 and 4.)
 """
 
-from __future__ import annotations
-
 import importlib
 from argparse import Namespace
 from collections.abc import Iterator

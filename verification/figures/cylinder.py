@@ -1,7 +1,5 @@
 """Figs. 8, 9 and 10: the cylinder of Tables 1 and 2, on an ensemble of surfaces and on a real ground one."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Any

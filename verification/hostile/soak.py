@@ -3,8 +3,6 @@
 They come in chunks of scenes that depend on nothing but their number. A chunk that is done is kept.
 """
 
-from __future__ import annotations
-
 import math
 import os
 from collections import Counter

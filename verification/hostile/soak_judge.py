@@ -6,8 +6,6 @@ deflection. What joins them is written here. Two divisions of the load, the resu
 that balances by a secant. Where that is far off, a bracketed root does.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

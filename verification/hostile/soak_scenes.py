@@ -1,7 +1,5 @@
 """Random scenes over what machines have, for the soak: every key that a scene file is likely to carry."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

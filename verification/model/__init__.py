@@ -5,8 +5,6 @@ the film, and by ``numerics.model = "deterministic"``, which is the reference. T
 reference failed, or when the error of the model is larger than the results state.
 """
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 
 from .. import frame

@@ -1,7 +1,5 @@
 """The deterministic film on ever smaller cells, every point alone."""
 
-from __future__ import annotations
-
 import resource
 import time
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """The same operating point by every model of load sharing and by one gap with one pressure."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Iterable

@@ -4,8 +4,6 @@ Every case is solved many times, with seeds of its own. The exit code is 1 when 
 or bias of a case is out of its bounds (`verification.sampling.coverage`).
 """
 
-from __future__ import annotations
-
 from argparse import ArgumentParser, Namespace
 
 from .. import frame

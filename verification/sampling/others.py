@@ -1,7 +1,5 @@
 """What else the sampling states: pieces of a map, and every other number."""
 
-from __future__ import annotations
-
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path

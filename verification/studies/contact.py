@@ -1,7 +1,5 @@
 """Hertz line contact on the finite-element layer, elastic and capped, beside `lubfric.solve_contact`."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import lubfric

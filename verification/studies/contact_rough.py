@@ -1,7 +1,5 @@
 """A rough periodic patch on the finite-element layer, elastic and capped, beside `lubfric.solve_contact`."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

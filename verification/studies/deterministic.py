@@ -1,7 +1,5 @@
 """The deterministic mixed film of lubfric: its limits, its grids, and its film in the same gap by finite elements."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The EHL line contact by finite elements, full system, against `lubfric.solve_ehl` and a table."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The elastic layer by finite elements against its exact compliance, and its approach to the half-space."""
 
-from __future__ import annotations
-
 import numpy as np
 from skfem import MeshTri
 

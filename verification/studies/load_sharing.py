@@ -1,7 +1,5 @@
 """The whole model twice: film, rough contact and their load sharing by finite elements, beside `lubfric.friction`."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

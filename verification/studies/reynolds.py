@@ -1,7 +1,5 @@
 """Reynolds equation on a line: closed forms, rupture, piezoviscosity, and a wave Galerkin rings on."""
 
-from __future__ import annotations
-
 import numpy as np
 import skfem
 

@@ -1,7 +1,5 @@
 """Reynolds equation on a surface: manufactured solutions, finite width, rupture."""
 
-from __future__ import annotations
-
 import numpy as np
 import skfem
 

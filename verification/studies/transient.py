@@ -1,7 +1,5 @@
 """The smooth contact in time: exact squeeze, a table, stops and reversals, jumps of every size."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from dataclasses import replace

@@ -5,8 +5,6 @@ between them is replaced as a whole. Tables come from `verification.tables`, fro
 scripts of the folder ``benchmarks`` (`BENCHMARKS`).
 """
 
-from __future__ import annotations
-
 import platform
 import re
 import time

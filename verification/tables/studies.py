@@ -3,8 +3,6 @@
 A study runs once in a process, however many tables are made of it.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from functools import cache

@@ -1,7 +1,5 @@
 """Wiring of the rough contact: hardness, area, coarse grids, and what part of the width is touched."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

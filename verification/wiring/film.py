@@ -1,7 +1,5 @@
 """Wiring of the smooth film and of its shear, in steady motion."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

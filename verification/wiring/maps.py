@@ -1,7 +1,5 @@
 """Wiring of the height map: every key of a surface from a file, and of a generated one."""
 
-from __future__ import annotations
-
 import itertools
 import tempfile
 from collections.abc import Iterator
