@@ -7,6 +7,7 @@ import math
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 from ..deterministic import Refined, deterministic_point
 from ..scene import Scene
@@ -48,7 +49,7 @@ def deterministic_answer(prepared: Prepared, speed: float, begun: float) -> Fric
     )
 
 
-def _per_width(prepared: Prepared, found: Refined) -> dict[str, float]:
+def _per_width(prepared: Prepared, found: Refined) -> dict[str, Any]:
     bodies, result = prepared.scene.bodies, found.result
     return {
         "contact_load": result.split.spots,
@@ -59,7 +60,7 @@ def _per_width(prepared: Prepared, found: Refined) -> dict[str, float]:
     }
 
 
-def _numbers(prepared: Prepared, found: Refined) -> dict[str, float]:
+def _numbers(prepared: Prepared, found: Refined) -> dict[str, Any]:
     result, width = found.result, prepared.scene.bodies.width
     dx, dy = result.spacing
     area = float(result.spots.sum()) * dx * dy
