@@ -47,15 +47,6 @@ class ContactState:
         """(gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
         return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
 
-    def along_y(self, weight, stretches: int) -> tuple[np.ndarray, np.ndarray]:
-        """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal sections of the width.
-        Needs ``fields``; ``stretches``, the number of sections, divides the number of cells along y."""
-        if self.fields is None:
-            raise InputError("a contact without fields has nothing along y; solve a half-space contact with fields")
-        load, gap = self.fields.pressure.sum(axis=0), np.maximum(self.fields.gap, 0.0)
-        gap = weight @ gap / np.sum(weight)
-        return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)
-
     def touching(self, x) -> np.ndarray:
         """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either
         way. (The columns of the contact are finer than the cells of a film, and vary from one to the next.)"""

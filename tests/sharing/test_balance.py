@@ -128,13 +128,6 @@ def test_both_balances_recomputed_from_the_fields(scene):
     assert point.coefficient == pytest.approx((0.09 * carried + point.shear_force) / B.load, rel=1e-4)
 
 
-def test_loads_and_gaps_along_the_line_add_up(patch):
-    state = lubfric.friction(patch, 0.003, fields=True).balance.contact
-    loads, gaps = state.along_y(patch.contact.weight, 8)
-    assert loads.sum() == pytest.approx(1.0) and gaps.mean() == pytest.approx(state.mean_gap, rel=1e-12)
-    assert loads.size == gaps.size == 8 and np.ptp(loads) > 0
-
-
 def test_without_entrainment_the_contact_carries_everything(patch, spring):
     for prepared in (patch, spring):
         point = lubfric.friction(prepared, 0.0)
