@@ -16,7 +16,10 @@ def test_cells_resolve_correlation_length_and_strip():
     cells = choose_cells((0.5e-6, 0.25e-6), (8e-6, 16e-6), 4.5e-6, 90e-6)
     assert cells.factors == (4, 16) and cells.coarse == (2e-6, 4e-6)
     assert 90e-6 <= cells.count * cells.coarse[0] < 90e-6 + 4 * cells.coarse[0]
-    assert choose_cells((0.5e-6, 0.5e-6), (8e-6, 8e-6), 1.0e-6, 90e-6).factors == (1, 4)  # the Hertz strip asks for more
+    assert choose_cells((0.5e-6, 0.5e-6), (8e-6, 8e-6), 1.0e-6, 90e-6).factors == (
+        1,
+        4,
+    )  # the Hertz strip asks for more
     assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (52, 64)).count * 2 == 52
     assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (48, 50), -24e-6).factors == (2, 1)
     assert cells.halved().factors == (2, 8) and cells.halved().count == 2 * cells.count
