@@ -6,7 +6,6 @@ from scipy.optimize import brentq
 
 import lubfric
 from lubfric.contact import asperity_contact, asperity_curve, find_asperities
-from lubfric.contact.asperities import AsperityContact
 from lubfric.sharing import prepare
 
 CYLINDER = lubfric.load_scene("paper").with_(
@@ -21,30 +20,6 @@ FLAT = lubfric.load_scene("flat").with_(
 )
 MODELS = ("summits", "patches")
 RADIUS, E = 30e-6, 231e9
-
-
-def one_ball(model, reading="volume"):
-    """A single paraboloid, 0.5 um high, in the middle of a patch 24 um square."""
-    x = (np.arange(121) - 60) * 0.2e-6
-    z = np.maximum(0.5e-6 - (x[:, None] ** 2 + x**2) / (2 * RADIUS), 0.0)
-    z -= z.mean()
-    return AsperityContact(z, (0.2e-6, 0.2e-6), x, np.ones(x.size), E, 121 * 0.2e-6, None, model, reading, 1e-6)
-
-
-@pytest.mark.parametrize("model", MODELS)
-def test_one_asperity_is_hertz(model):
-    patch, load = one_ball(model), 2e-3
-    closure = patch.close(np.full(121, 0.5e-6), load)
-    approach = (load / (2 / 3 * E * np.sqrt(RADIUS))) ** (2 / 3)
-    # patches are counted in whole cells
-    assert closure.real_contact_area_fraction == pytest.approx(
-        np.pi * RADIUS * approach / (121 * 0.2e-6) ** 2, rel=0.1 if model == "patches" else 0.02
-    )
-    separation = patch.heights.max() - approach
-    gap = np.maximum(separation - patch.heights, 0).mean()
-    assert closure.mean_gap == pytest.approx(gap, abs=0.03 * approach)
-    centre = closure.contact_fraction[60] * 121 * 0.2e-6
-    assert centre == pytest.approx(2 * np.sqrt(RADIUS * approach), rel=0.07)  # chord through the middle
 
 
 @pytest.mark.parametrize("reading", ["volume", "mean-plane"])
@@ -74,22 +49,6 @@ def test_both_balances_recomputed_from_the_asperities(model, reading):
     mean = (contact.weight @ gap.mean(axis=1)) / contact.weight.sum()
     assert mean == pytest.approx(contact.weight @ film / contact.weight.sum(), rel=2e-3)
     assert point.contact_load + point.film_load == pytest.approx(scene.bodies.load, rel=1e-12)
-
-
-@pytest.mark.parametrize("model", MODELS)
-def test_the_curve_is_the_law(model):
-    z = lubfric.generate_surface((128, 128), 2e-6, sq=2e-7, correlation_length=12e-6, acf="gaussian", seed=2).heights
-    law = find_asperities(z, 2e-6, E, definition=model).at
-    separation = 2.2e-7
-    curve = asperity_curve(z, 2e-6, E, heaviest=law(separation).mean_pressure, definition=model, reading="volume")
-    for level in (2.5e-7, 3.5e-7):
-        there = law(level)
-        gap, area, _ = curve.at(there.mean_pressure)
-        assert gap == pytest.approx(np.maximum(level - z, 0).mean(), rel=0.08 if model == "patches" else 0.02)
-        assert area == pytest.approx(there.contact_area_fraction, rel=0.2 if model == "patches" else 0.05)
-    assert np.all(np.diff(curve.mean_pressure) < 0) and np.all(np.diff(curve.mean_gap) > 0)
-    plane = asperity_curve(z, 2e-6, E, heaviest=1e6, definition=model, reading="mean-plane")
-    assert plane.touching_gap == pytest.approx(z.max())
 
 
 def test_a_film_carries_what_patches_cannot():
@@ -134,20 +93,6 @@ def test_oversize_cuts_the_middle_of_a_longer_map():
     assert np.allclose(surface.heights, surface.heights[:, ::-1]) and "mirror" in " ".join(surface.notes)
     with pytest.raises(lubfric.InputError, match="correlation_length"):
         prepare(CYLINDER.with_(surface={"correlation_length": 30e-6}))
-
-
-@pytest.mark.parametrize(
-    "section,key,value",
-    [
-        ("contact", "model", "summit"),
-        ("contact", "asperity_separation", "plane"),
-        ("numerics", "film_deflection", "totel"),
-        ("surface", "oversize", 0),
-    ],
-)
-def test_bad_options(section, key, value):
-    with pytest.raises(lubfric.InputError, match=f"{section}.{key}"):
-        CYLINDER.with_(**{section: {key: value}})
 
 
 @pytest.mark.parametrize("columns", [1, 2, 3])

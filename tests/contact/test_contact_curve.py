@@ -33,14 +33,6 @@ def test_the_error_told_holds_where_the_contact_is_solved(surface):
     assert lightest < 1e-2 * HEAVIEST and curve.error_at(0.0) == curve.error_at(below)
 
 
-def test_a_tighter_curve_tells_less_and_is_nearer(surface):
-    told = []
-    for accuracy in (1e-2, 1e-3):
-        curve = contact_curve(surface.heights, surface.spacing, E_PRIME, heaviest=HEAVIEST, accuracy=accuracy)
-        told.append([curve.error_at(HEAVIEST * share) for share in (0.5, 0.1, 0.03)])
-    assert np.all(np.array(told[1]) < told[0])
-
-
 def test_it_is_part_of_the_numerical_error_of_f():
     """A flat contact whose friction nearly cancels: within what it states of one solved a hundred times tighter."""
     scene = lubfric.load_scene("flat").with_(

@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric._base import read_table
-from lubfric.output import main
 from lubfric.output.describe import describe_scene
 from lubfric.sampling import forecast
 from verification.hostile.soak_force import friction_force
@@ -199,12 +197,3 @@ def test_a_forecast_is_right_to_a_factor_of_four():
         assert 0.25 < told.length / found.length < 4
         assert speed > 0.02 or 0.3 < told.error / found.sampling < 3
     assert " 1.4 " in describe_scene(PAPER)  # mm
-
-
-def test_the_command_tells_the_interval(tmp_path, capsys):
-    arguments = ["run", "paper", "--out", str(tmp_path), "--speeds", "0.002,0.5", "--sampling-tolerance", "0.05"]
-    assert main(arguments) == 0
-    assert "surface" in capsys.readouterr().err
-    columns = read_table(tmp_path / "stribeck.csv")
-    assert np.all(columns["interval_low"] <= columns["coefficient"])
-    assert np.all(columns["coefficient"] <= columns["interval_high"]) and np.all(columns["sampling_error"] <= 0.05)

@@ -19,7 +19,7 @@ def test_cells_resolve_correlation_length_and_strip():
     assert choose_cells((0.5e-6, 0.5e-6), (8e-6, 8e-6), 1.0e-6, 90e-6).factors == (
         1,
         4,
-    )  # the Hertz strip asks for more
+    )  # the contact asks
     assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (52, 64)).count * 2 == 52
     assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (48, 50), -24e-6).factors == (2, 1)
     assert cells.halved().factors == (2, 8) and cells.halved().count == 2 * cells.count

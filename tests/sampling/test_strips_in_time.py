@@ -84,21 +84,6 @@ def test_contact_areas_of_a_run_are_those_on_the_cells_of_the_scene(held):
         assert found == pytest.approx(steady.real_contact_area_fraction, rel=0.12)
 
 
-def test_plastic_areas_of_a_run_are_those_on_the_cells_of_the_scene():
-    """On the cells of the line a third less yielded."""
-    scene = HELD.with_(
-        surface={"acf": "exponential"},
-        bodies={"hardness": 2e9},
-        motion={"entrainment_speed": 0.01},
-        transient=Transient(1e-3, outputs=1),
-        numerics={"sampling_tolerance": 0.05},
-    )
-    steady = lubfric.friction(scene)
-    found = lubfric.transient(scene).plastic_area_fraction
-    assert steady.plastic_area_fraction > 0.01
-    assert found == pytest.approx(steady.plastic_area_fraction, rel=0.15)
-
-
 def test_a_film_that_bends_its_bodies_divides_the_load_as_softly_as_in_a_steady_contact():
     """A heavier load, where the film hardly feels its own: the error of a run held at one speed is that of
     `lubfric.friction`, whose response is solved for."""
@@ -115,12 +100,3 @@ def test_a_film_thins_with_its_load_as_a_rigid_or_an_elastic_one(load, speed, lo
     assert low < film_thinning(scene, load) < high
     assert film_thinning(scene, 0.0) == 1.0
     assert 0 < film_thinning(scene.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}), load) <= 1.0
-
-
-def test_areas_at_rest_are_not_known_where_the_cells_are_longer_than_those_of_the_scene():
-    """No steady speed tells what the cells do. An area on longer cells is no answer: it was 1.9 times too large."""
-    rest = HELD.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}, transient=Transient(1e-3))
-    prepared = lubfric.prepare(rest)
-    assert max(prepared.strips.cells.factors) > 1
-    strip = strip_for(prepared)
-    assert math.isnan(strip.area) and math.isnan(strip.plastic)
