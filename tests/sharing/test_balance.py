@@ -207,11 +207,6 @@ def test_the_strip_does_not_depend_on_the_box_and_the_box_does(patch):
     assert change["hertz"] < 5e-3 < 0.02 < change["box"]
 
 
-def test_pure_rolling_has_no_boundary_friction():
-    point = lubfric.friction(PATCH.with_(motion={"slide_roll_ratio": 0.0}), 0.01)
-    assert point.boundary_force == 0 and point.couette_force == 0 and point.rolling_force > 0
-
-
 def test_the_plastic_limit_carries_less_separation():
     elastic, soft = (lubfric.friction(PATCH.with_(bodies={"hardness": h}), 0.003) for h in (None, 1e9))
     assert elastic.plastic_area_fraction == 0 < soft.plastic_area_fraction
