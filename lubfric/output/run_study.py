@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from pathlib import Path
 
@@ -19,23 +20,22 @@ from ..studies import (
 from .console import Pace, keeping, put, say, say_written
 
 
-def run_study(arguments) -> int:
-    """Plan, solve and write study.csv (and study.nc, study.parquet); returns the exit code."""
-    import sys
-
+def run_study(arguments) -> None:
+    """Plan, solve and write study.csv (and study.nc, study.parquet)."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=MOST_WORKERS)
     plan = load_study(arguments.study)
     if arguments.explain:
         put(sys.stdout, plan.explain(arguments.out) + "\n")
-        return 0
+        return
     check_tools(arguments.netcdf, arguments.parquet)
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
         result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
-    tables = {"study.csv": result.to_csv}
-    tables |= {"study.nc": result.to_netcdf} if arguments.netcdf else {}
-    tables |= {"study.parquet": result.to_parquet} if arguments.parquet else {}
+    netcdf, parquet = {"study.nc": result.to_netcdf}, {"study.parquet": result.to_parquet}
+    tables = (
+        {"study.csv": result.to_csv} | (netcdf if arguments.netcdf else {}) | (parquet if arguments.parquet else {})
+    )
     for name, write in tables.items():
         write(arguments.out / name)
     if result.cautioned:
