@@ -6,12 +6,11 @@ import json
 import time
 from pathlib import Path
 
-from .._base import FolderLock, new_figure, plain, shown, write_whole
+from .._base import FolderLock, new_figure, plain, shown, whole_file, write_whole
 from ..errors import InputError
 from ..scene import Scene
 from ..studies import FitResult, explain_fit, fit, read_measured
 from .console import Pace, say, say_written
-from .run_folder import drawn
 
 
 def run_fit(scene: Scene, arguments) -> None:
@@ -53,20 +52,13 @@ def _write(found: FitResult, folder: Path) -> list[str]:
         "fitted": found.predicted,
         "report": found.report.as_dict(),
     }
-    files = {
-        "fitted.toml": found.scene.to_toml().encode(),
-        "fit.png": drawn(_draw, found),
-        "fit.json": json.dumps(plain(record), indent=1).encode(),
-    }
-    with FolderLock(folder):
-        for name, content in files.items():
-            write_whole(folder / name, content)
-    return list(files)
-
-
-def _draw(file, found: FitResult) -> None:
     figure = new_figure(figsize=(7, 6.5))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
     found.plot(top).set_xlabel("")
     found.plot_residuals(bottom)
-    figure.savefig(file, dpi=150)
+    with FolderLock(folder):
+        write_whole(folder / "fitted.toml", found.scene.to_toml().encode())
+        with whole_file(folder / "fit.png") as part:
+            figure.savefig(part, dpi=150)
+        write_whole(folder / "fit.json", json.dumps(plain(record), indent=1).encode())
+    return ["fitted.toml", "fit.png", "fit.json"]

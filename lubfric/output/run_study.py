@@ -8,15 +8,7 @@ from pathlib import Path
 
 from .._base import validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, Report
-from ..studies import (
-    MOST_WORKERS,
-    check_tools,
-    in_words,
-    load_study,
-    open_study,
-    pool,
-    study,
-)
+from ..studies import MOST_WORKERS, check_tools, in_words, load_study, open_study, pool, study
 from .console import Pace, keeping, put, say, say_written
 
 
@@ -32,10 +24,11 @@ def run_study(arguments) -> None:
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
         result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
-    netcdf, parquet = {"study.nc": result.to_netcdf}, {"study.parquet": result.to_parquet}
-    tables = (
-        {"study.csv": result.to_csv} | (netcdf if arguments.netcdf else {}) | (parquet if arguments.parquet else {})
-    )
+    tables = {"study.csv": result.to_csv}
+    if arguments.netcdf:
+        tables["study.nc"] = result.to_netcdf
+    if arguments.parquet:
+        tables["study.parquet"] = result.to_parquet
     for name, write in tables.items():
         write(arguments.out / name)
     if result.cautioned:
@@ -43,10 +36,8 @@ def run_study(arguments) -> None:
     say_written(tables, arguments.out, begun)
     if result.failed:
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
-        raise ConvergenceError(
-            f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}", report, result
-        )
-    return 0
+        said = f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}"
+        raise ConvergenceError(said, report, result)
 
 
 def _kept(folder) -> str:
