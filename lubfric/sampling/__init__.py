@@ -7,10 +7,8 @@ interval. `friction` is the entry; `answer` and `answer_deterministic` are the t
 
 from .cite import together
 from .friction import friction
-from .missed import missed_share
-from .moment_error import moment_error
-from .outlook import Forecast, forecast
+from .outlook import forecast
 from .result import FrictionResult
-from .sample import Found, sampled
-from .scatter import block_error, gap_influence, line_load, strip_gap
+from .sample import sampled
+from .scatter import moment_error
 from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, percent, student

@@ -41,7 +41,7 @@ def load_sharing_answer(prepared: Prepared, speed: float, fields: bool, begun: f
         decision=decision,
         validity=validity,
         balance=replace(found.balance, contact=replace(found.balance.contact, fields=found.solved.contact.fields)),
-        heights=getattr(found.contact, "heights", None),
+        heights=None if found.strips is None else found.contact.heights,  # type: ignore[attr-defined]
     )
 
 

@@ -107,7 +107,10 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
     gap."""
     assert balance.film is not None and balance.response is not None
     slope, ladder, coarse = balance.response.slopes.gap, strips.cells.ladder(), strips.cells
-    places, changes, states, rest = [], [], [], math.inf
+    places: list[tuple[np.ndarray, np.ndarray]] = []
+    changes: list[float] = []
+    states: list[ContactState] = []
+    rest = math.inf
     for factors in ladder:
         contact = on_piece(prepared, strips, index, factors)
         if rest <= enough and contact.heights.size > MOST_CELLS:
