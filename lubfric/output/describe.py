@@ -74,8 +74,8 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
     if strips is not None:
         dx, dy = strips.cells.coarse
         asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um"
-        rows[0] += f"; strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)"
-        rows[1] += f" {'strips':>8} {'length (mm)':>12} {'time (s)':>9}"
+        rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
+        rows[-1] += f" {'strips':>8} {'length (mm)':>12} {'time (s)':>9}"
     for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], scene.motion.entrainment_speed, speeds[-1]}):
         one, film = forecast(scene, strips, surface.sq, summit, speed), f"{'no entrainment: all contact':<38}"
         if speed != 0:
