@@ -169,7 +169,7 @@ class OnePatch(Strips):
 
 def strips_of(scene: Scene) -> Strips:
     """Strips of the scene's surface, generated or measured; on the scene's own cells if ``numerics.grid`` is given."""
-    found = measured_strips(scene, whole_map(scene)) if measured(scene) else generated_strips(scene)
+    found: Strips = measured_strips(scene, whole_map(scene)) if measured(scene) else generated_strips(scene)
     while scene.numerics.grid == "given" and not found.cells.own:
         found = found.halved()
     return found

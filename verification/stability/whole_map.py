@@ -6,8 +6,6 @@ before the first touching cell, ruptured film and all, by second-order upwind di
 and of 1/h³ between cells. What those quadratures leave open is estimated, and allowed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np

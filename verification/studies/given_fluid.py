@@ -7,8 +7,6 @@ agree. The half-space of lubfric is averaged over its cells first (`load_sharing
 are; what is left falls with their size.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 

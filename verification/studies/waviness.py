@@ -7,8 +7,6 @@ full-system finite elements. In a film of even thickness h and viscosity eta it 
 q = 48 eta U/(E' k² h³): that is told beside it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 

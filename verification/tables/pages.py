@@ -5,8 +5,6 @@ between them is replaced as a whole. Tables come from `verification.tables`, fro
 scripts of the folder ``benchmarks`` (`BENCHMARKS`).
 """
 
-from __future__ import annotations
-
 import platform
 import re
 import time
@@ -24,8 +22,8 @@ BENCHMARKS = {
     "study-points": "study.py",
 }
 CAMPAIGNS = {  # command: its tables
-    "charts": ("contact-methods", "growth"),
-    "model": ("model-error", "model-cost", "measured-map", "held-out", "refinement", "heavy-loads"),
+    "charts": ("contact-methods",),
+    "model": ("model-error", "model-cost", "measured-map", "held-out", "refinement"),
     "sampling": ("sampling-coverage", "sampling-numbers"),
     "stability": ("stability-film", "stability-contact", "stability-sharing", "stability-whole"),
 }
