@@ -53,8 +53,7 @@ class Outcome:
 
 
 def collected(items: Iterable[Item], timed: bool, found: dict[type, list], progress: Progress) -> None:
-    """Put every item of a study with its kind in ``found``. The time since the one before belongs to a check that
-    brings no time of its own."""
+    """Put every item of a study with its kind in ``found``; a check has the time since the item before it."""
     last = time.perf_counter()
     for item in items:
         now, kind = time.perf_counter(), type(item)

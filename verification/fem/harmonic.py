@@ -120,8 +120,7 @@ def compliance(strip: Strip) -> Compliance:
 
 
 def graded_mesh(strip: Strip) -> MeshTri:
-    """Triangles, split until none is longer than ``hypot(diagonal of the finest, growth * distance from the
-    patch)``."""
+    """Triangles, none longer than ``hypot(diagonal of the finest, growth * distance from the patch)``."""
     dx = strip.spacing[0]
     side = dx * 2**strip.side
     mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))
