@@ -29,28 +29,11 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
         ylabel = "discretisation error" if apart else "solver error"
         ax.set(xscale="log", yscale="log", xlabel="CPU seconds", ylabel=ylabel)
         ax.set_title(label, fontsize=9)
-        readable(ax)
     handles = [axes[0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]
     handles.append(axes[0].plot([], [], "o", mfc="none", mec="k", ms=10, ls="", label="default setting")[0])
     canvas.legend(handles=handles, loc="outside lower center", ncols=3 if columns > 1 else 2, frameon=False, fontsize=8)
     canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
     return plotting.compact(plotting.finish(name, canvas, "Error against time", format="png"))
-
-
-def readable(ax) -> None:
-    """Label the time axis at 1, 2 and 5 where it shows less than two powers of ten, in at least two places."""
-    from matplotlib.ticker import FixedLocator, FuncFormatter
-
-    low, high = ax.get_xlim()
-    if high < 30 * low:
-        ticks: list[float] = []
-        while len(ticks) < 2:
-            low, high = low / 1.3, high * 1.3
-            ticks = [m * 10.0**k for k in range(-9, 6) for m in (1, 2, 5) if low <= m * 10.0**k <= high]
-        ax.set_xlim(low, high)
-        ax.xaxis.set_major_locator(FixedLocator(ticks))
-        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    ax.xaxis.set_minor_formatter("")
 
 
 def palette(points: list[Check]) -> dict[str, str]:

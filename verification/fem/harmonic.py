@@ -26,8 +26,7 @@ from .triangles import factorised, graded
 
 @dataclass(frozen=True)
 class Strip:
-    """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, centred on x = 0 and repeated along y.
-    nx is even.
+    """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, centred on x = 0 and repeated along y. nx is even.
 
     side : that of the square body is dx 2^side
     fineness : each cell along x is 2^fineness facets

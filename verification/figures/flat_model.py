@@ -1,5 +1,4 @@
-"""Load sharing of nominally flat surfaces from tables: films once for each load, contact curves once for
-each surface.
+"""Load sharing of nominally flat surfaces from tables: films once for each load, contact curves once for each surface.
 
 Every surface, contact model and reading of the paper's Figs. 5 and 6 shares the films. So a map of d costs no more than
 its films and its contact curves. `lubfric.friction` does the same without tables, and the figure compares some points.

@@ -26,20 +26,6 @@ def stribeck() -> Cells:
     return ["U (m/s)", "f", "F_C (N)", "F_H (N)", "mean gap (nm)"], rows
 
 
-def film_load_of_patches() -> Cells:
-    """F_H at 0.001 m/s over generated patches of the paper's size: twelve seeds for each correlation length."""
-    rows = []
-    for length in (4e-6, 8e-6, 16e-6):
-        loads = []
-        for seed in range(1, 13):
-            rough = {"correlation_length": length, "seed": seed}
-            scene = lubfric.load_scene("paper").with_(surface=rough, numerics={"grid": "given", "sampling": "patch"})
-            loads.append(lubfric.friction(scene, 0.001).film_load)
-        mean, spread = np.mean(loads), np.std(loads, ddof=1)
-        rows.append([f"{1e6 * length:g} µm", f"{mean:.3f} ± {spread:.3f} N", f"{min(loads):.3f} to {max(loads):.3f} N"])
-    return ["correlation length", "F_H mean ± sd", "range"], rows
-
-
 def times() -> Cells:
     """CPU seconds of usual jobs, the smallest of three."""
     paper = lubfric.load_scene("paper")
@@ -106,7 +92,6 @@ def mutants() -> Cells:
 TABLES: dict[str, Callable[[], Cells]] = {
     "waviness": waviness,
     "stribeck": stribeck,
-    "film-load-of-patches": film_load_of_patches,
     "times": times,
     "contact-transforms": contact_transforms,
     "mutants": mutants,
