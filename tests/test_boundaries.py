@@ -142,7 +142,7 @@ def test_no_circle_of_imports_between_modules():
 def test_no_circle_of_imports_between_packages():
     """Nor between a package and what stands beside it, at any depth: what is above imports what is below."""
     arrows = arrows_of_imports()
-    assert len(arrows) > 200
+    assert len(arrows) > 100
     for depth in (2, 3):
         rooms: dict[str, set[str]] = {}
         for name, others in arrows.items():

@@ -16,5 +16,6 @@ from .result import ContactResult, contact_residuals, length_scale
 from .rough_contract import ContactState, RoughContact
 from .rounds import refine
 from .solve import solve_contact
-from .strips import Strips, correlation_lengths, length_or_half, one_patch, strips_of
+from .strip_cells import correlation_lengths, length_or_half
+from .strips import Strips, one_patch, strips_of
 from .transforms import even_transform

@@ -160,11 +160,10 @@ def separation_for_load(
 ) -> AsperityResult:
     """The separation at which independent asperities carry a given load.
 
-    The flat comes down in steps. Each approach to the highest point is 25 % longer than the last, and none goes below
-    the deepest valley. When the load is reached, the last step is searched (Chandrupatla), until
-    ``|load - target|/target <= tolerance``. The load of summits is continuous and falls with the separation. That of
-    patches jumps where cells join (a tolerance of 1e-3 suits some hundred contacts). It also has a largest value,
-    because patches grow together.
+    The flat comes down in steps, each 25 % longer than the last, at most to the deepest valley. When the load is
+    reached, the last step is searched (Chandrupatla), until ``|load - target|/target <= tolerance``. The load of
+    summits is continuous and falls with the separation. That of patches jumps where cells join (1e-3 suits some hundred
+    contacts), and has a largest value, because patches grow together.
 
     Parameters
     ----------
@@ -181,48 +180,47 @@ def separation_for_load(
     InputError : a value out of range
     ConvergenceError : the model cannot carry the load, or jumps over it; carries report and the closest result
     """
-    options = {"definition": definition, "hardness": hardness, "periodic": periodic}
-    asperities = find_asperities(heights, spacing, e_prime, **options)
+    asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
     target = validate.positive("mean_pressure", mean_pressure, "Pa")
     validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
-    top, span = asperities.heights.max(), float(np.ptp(asperities.heights))
-    if span == 0:
+    if np.ptp(asperities.heights) == 0:
         raise InputError("heights are all equal: no asperities; give a rough surface in m")
+    best, scanned, history = _closest(asperities, target, tolerance)
+    error = abs(best.mean_pressure / target - 1)
+    most = f"at most {best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m"
+    advice = "" if history else f"{definition} cannot carry a mean pressure of {target:.4g} Pa: {most}"
+    report = Report(
+        "asperity separation",
+        CONVERGED if error <= tolerance else STAGNATED,
+        len(history) or scanned,
+        error,
+        tolerance,
+        residuals={"load": error},
+        history=history,
+        evaluations=scanned + len(history),
+        advice=advice,
+    )
+    best = replace(best, report=report)
+    if raise_on_failure:
+        report.raise_if_failed(best)
+    return best
+
+
+def _closest(asperities: Asperities, target: float, tolerance: float) -> tuple[AsperityResult, int, tuple[float, ...]]:
+    """The contact whose mean pressure is closest to ``target`` [Pa], the number of approaches scanned, and the errors
+    of the search in the last of them; none if the asperities carry less at every approach (then: the most)."""
+    top, span = asperities.heights.max(), float(np.ptp(asperities.heights))
 
     def excess(approach, _=None):
         result = asperities.at(float(top - approach))
         return result.mean_pressure / target - 1, result
 
-    before, scanned, best, advice, history = 0.0, 0, excess(0.0)[1], "", ()
-    for approach in span * APPROACHES:
+    before, best = 0.0, excess(0.0)[1]
+    for scanned, approach in enumerate(span * APPROACHES, start=1):
         value, result = excess(approach)
-        scanned += 1
-        best = max(best, result, key=lambda found: found.load)
         if value >= 0:
             middle, step, bounds = 0.5 * (before + approach), 0.25 * (approach - before), (before, approach)
             root = increasing_root(excess, middle, step=step, bounds=bounds, tolerance=tolerance)
-            best, history = root.payload, root.history
-            break
-        before = approach
-    else:
-        advice = (
-            f"{definition} cannot carry a mean pressure of {target:.4g} Pa: at most {best.mean_pressure:.4g} Pa, at "
-            f"separation {best.separation:.4g} m"
-        )
-    error, done = abs(best.mean_pressure / target - 1), len(history)
-    status = CONVERGED if error <= tolerance else STAGNATED
-    report = Report(
-        "asperity separation",
-        status,
-        done or scanned,
-        error,
-        tolerance,
-        residuals={"load": error},
-        history=history,
-        evaluations=scanned + done,
-        advice=advice,
-    )
-    result = replace(best, report=report)
-    if raise_on_failure:
-        report.raise_if_failed(result)
-    return result
+            return root.payload, scanned, root.history
+        before, best = approach, max(best, result, key=lambda found: found.load)
+    return best, len(APPROACHES), ()

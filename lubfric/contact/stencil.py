@@ -17,6 +17,7 @@ from .transforms import filtered, wavenumber
 
 POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
 BLOCK = 16384  # cells that stay in the cache from one pass to the next
+SPARSE = 0.15  # share of the cells below which their neighbours are gathered one by one
 FACTOR = 4  # cells, each way, that are one for long waves
 LEAST = 64  # cells along an axis: on shorter ones long waves cost more than they save
 
@@ -56,7 +57,9 @@ class Stencil:
         self.padded.fill(0)
         self.cells = np.arange(self.shape[0] * self.shape[1]) if cells is None and 1 in self.shape else cells
         if self.cells is not None:
-            self.corner = self.cells + 2 * (self.cells // self.shape[1])  # flat number of the lower left point
+            row, column = np.divmod(self.cells, self.shape[1])
+            self.corner = self.cells + 2 * row  # flat number of the lower left point
+            self.owner = row // FACTOR * -(-self.shape[1] // FACTOR) + column // FACTOR  # of the cell for long waves
 
     def apply(self, values: np.ndarray, sums: np.ndarray) -> None:
         """Write the sums at the cells into ``sums``."""
@@ -72,12 +75,18 @@ class Stencil:
             padded[:, 0], padded[:, -1] = padded[:, -2], padded[:, 1]
         if self.cells is None:
             self._sweep(sums.reshape(self.shape))
-        else:
+        elif 1 in self.shape or self.cells.size < SPARSE * inner.size:
             self._gather(values, sums)
+        else:
+            self._sweep(whole := np.empty(self.shape, np.float32))
+            whole.ravel().take(self.cells, out=sums, mode="clip")
         if self.long_waves is not None:
             found = filtered(_summed(inner), self.long_waves, self.coarse, None)
-            found = found.repeat(FACTOR, axis=1)[:, : inner.shape[1]].repeat(FACTOR, axis=0)[: inner.shape[0]].ravel()
-            sums -= found if self.cells is None else found.take(self.cells)
+            if self.cells is None:
+                whole = found.repeat(FACTOR, axis=1)[:, : inner.shape[1]].repeat(FACTOR, axis=0)[: inner.shape[0]]
+                sums -= whole.ravel()
+            else:
+                sums -= found.ravel().take(self.owner)
 
     def _gather(self, values, sums) -> None:
         """The sums at the cells, one neighbour after the other."""

@@ -1,4 +1,5 @@
-"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the scene's."""
+"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the
+scene's."""
 
 from __future__ import annotations
 
@@ -7,7 +8,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..scene import Scene
+from ..errors import InputError
+from ..scene import Roughness, Scene
+from ..surface import Surface, correlation_length
 
 CELLS_PER_LENGTH = 4.0  # of the correlation length
 CELLS_PER_HALF_WIDTH = 2.0  # of the Hertz strip, along x
@@ -18,8 +21,9 @@ SUMMITS = 4.5  # Sq
 
 @dataclass(frozen=True)
 class Cells:
-    """``factors`` (fx, fy): length of a cell in the scene's own cells, of ``spacing`` [m]; ``count``: along x; ``first``
-    [m]: centre of the first own cell along x (None: such that the coarse cells lie evenly about the line of contact).
+    """``factors`` (fx, fy): length of a cell in the scene's own cells, of ``spacing`` [m]; ``count``: along x;
+    ``first`` [m]: centre of the first own cell along x (None: such that the coarse cells lie evenly about the line of
+    contact).
     """
 
     factors: tuple[int, int]
@@ -57,7 +61,8 @@ class Cells:
         return FAST * next_fast_len(max(1, round(length / (FAST * self.coarse[1]))), real=True)
 
     def axis(self, factors: tuple[int, int] | None = None) -> np.ndarray:
-        """Cell centres [m] along x of these cells, or of the finer ones of ``factors``, which share columns with them."""
+        """Cell centres [m] along x of these cells, or of the finer ones of ``factors``, which share columns with
+        them."""
         fx = self.factors[0]
         first = self.first
         if first is None:
@@ -88,6 +93,22 @@ def cells_of_a_box(spacing, lengths, half_width: float, shape: tuple[int, int], 
     while first is not None and shape[1] % (2 * fy) and fy > 1:
         fy //= 2
     return Cells((fx, fy), tuple(spacing), shape[0] // fx, first)
+
+
+def correlation_lengths(rough: Roughness) -> tuple[float, float]:
+    """Correlation lengths [m] at 1/e along x and y of a generated surface."""
+    decay = -math.log(rough.decay_level)
+    factor = decay if rough.acf == "exponential" else math.sqrt(decay)
+    both = np.broadcast_to(np.asarray(rough.correlation_length, dtype=float), 2)
+    return float(both[0]) / factor, float(both[1]) / factor
+
+
+def length_or_half(surface: Surface, axis: int) -> float:
+    """Correlation length [m] at 1/e; half the map where it is longer."""
+    try:
+        return correlation_length(surface, axis)
+    except InputError:
+        return 0.5 * surface.size[axis]
 
 
 def reach_of(scene: Scene, sq: float) -> float:

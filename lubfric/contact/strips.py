@@ -15,10 +15,10 @@ import numpy as np
 from .._base import spacing as checked_spacing
 from ..errors import InputError
 from ..scene import Roughness, Scene
-from ..surface import Surface, correlation_length, generate_surface
+from ..surface import Surface, generate_surface
 from .height_map import extended, measured, rough_bodies, whole_map
 from .hertz_strip import centred_axis
-from .strip_cells import EVEN, Cells, cells_of_a_box, choose_cells, reach_of
+from .strip_cells import EVEN, Cells, cells_of_a_box, choose_cells, correlation_lengths, length_or_half, reach_of
 
 STRIP, PIECE = 90.0, 42.0  # correlation lengths: of a strip, of a piece on the scene's own cells
 FIRST = 180.0  # correlation lengths that are solved first
@@ -34,10 +34,10 @@ STRIPS, PIECES = 0, 1  # streams of seeds
 class Strips:
     """Strips of the surface of ``scene`` on ``cells``.
 
-    ``lengths`` [m]: correlation lengths at 1/e along x and y; ``length`` [m]: what one strip adds to a stack; ``first``,
-    ``available``: number of strips that are solved first, and that there are; ``pieces``: number of pieces. ``windows``:
-    whether each strip is a window of a measured map, which may differ from place to place. ``exact_sq``: whether every
-    strip has the Sq of the surface.
+    ``lengths`` [m]: correlation lengths at 1/e along x and y; ``length`` [m]: what one strip adds to a stack;
+    ``first``, ``available``: number of strips that are solved first, and that there are; ``pieces``: number of pieces.
+    ``windows``: whether each strip is a window of a measured map, which may differ from place to place. ``exact_sq``:
+    whether every strip has the Sq of the surface.
     """
 
     scene: Scene
@@ -169,7 +169,7 @@ class OnePatch(Strips):
 
 def strips_of(scene: Scene) -> Strips:
     """Strips of the scene's surface, generated or measured; on the scene's own cells if ``numerics.grid`` is given."""
-    found = measured_strips(scene, whole_map(scene)) if measured(scene) else generated_strips(scene)
+    found: Strips = measured_strips(scene, whole_map(scene)) if measured(scene) else generated_strips(scene)
     while scene.numerics.grid == "given" and not found.cells.own:
         found = found.halved()
     return found
@@ -260,22 +260,6 @@ def stacked(strips: list[np.ndarray], blend: int) -> np.ndarray:
         part[:, :blend] = mean + np.sin(angle) * (strip[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
         out.append(part)
     return np.concatenate(out, axis=1)
-
-
-def correlation_lengths(rough: Roughness) -> tuple[float, float]:
-    """Correlation lengths [m] at 1/e along x and y of a generated surface."""
-    decay = -math.log(rough.decay_level)
-    factor = decay if rough.acf == "exponential" else math.sqrt(decay)
-    both = np.broadcast_to(np.asarray(rough.correlation_length, dtype=float), 2)
-    return float(both[0]) / factor, float(both[1]) / factor
-
-
-def length_or_half(surface: Surface, axis: int) -> float:
-    """Correlation length [m] at 1/e; half the map where it is longer."""
-    try:
-        return correlation_length(surface, axis)
-    except InputError:
-        return 0.5 * surface.size[axis]
 
 
 def spread(count: int) -> list[int]:

@@ -138,7 +138,7 @@ def _run(arguments) -> None:
 
         if not takes_strips(scene):
             raise InputError(
-                "--sampling-tolerance is for a rough cylinder on strips of its roughness (numerics.sampling = 'strips'), "
+                "--sampling-tolerance is for a rough cylinder on strips (numerics.sampling = 'strips'), "
                 f"and {scene.name} is solved on one patch, as it is; leave it out"
             )
         scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
@@ -148,18 +148,10 @@ def _run(arguments) -> None:
     for option, of in OPTIONS.items():
         if getattr(arguments, option) not in (None, False) and of != what:
             raise InputError(f"--{option} is for {of}, and this is {what}; leave it out")
-    if what == RATIOS:
-        from .run_traction import run_traction
+    from . import run_curve, run_history
 
-        run_traction(scene, arguments.out, arguments.ratios)
-    elif what == IN_TIME:
-        from .run_history import run_history
-
-        run_history(scene, arguments.out, arguments.animation)
-    else:
-        from .run_sweep import run_sweep
-
-        run_sweep(scene, arguments)
+    solve = {RATIOS: run_curve.run_traction, IN_TIME: run_history.run_history, CURVE: run_curve.run_sweep}[what]
+    solve(scene, arguments)
 
 
 def _info(arguments) -> None:
@@ -181,7 +173,7 @@ def _fit(arguments) -> None:
 
 
 def _plot(arguments) -> None:
-    from . import run_history, run_sweep, run_traction
+    from . import run_curve, run_history
 
     given = [name for name in ("measured", "speed", "coefficient") if getattr(arguments, name) is not None]
     if given and "measured" not in given:
@@ -189,8 +181,8 @@ def _plot(arguments) -> None:
     for table, what in (("history.csv", "a run in time"), ("traction.csv", "a traction curve")):
         if given and (arguments.folder / table).is_file():
             raise InputError(f"--measured is drawn beside a Stribeck curve, and {arguments.folder} holds {what}")
-    if not (run_history.plot_again(arguments.folder) or run_traction.plot_again(arguments.folder)):
-        run_sweep.plot_again(arguments)
+    again = run_history if (arguments.folder / "history.csv").is_file() else run_curve
+    again.plot_again(arguments)
 
 
 def _init(arguments) -> None:

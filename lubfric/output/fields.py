@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 
 from ..sampling import FrictionResult
 from ..sharing import Prepared
-from .record import npz_bytes
 
 OF_ONE_GAP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a DeterministicResult
 
@@ -84,3 +85,10 @@ def grid_bytes(x: np.ndarray, y: np.ndarray, fields: dict[str, np.ndarray], titl
 
 def _big_endian(values: np.ndarray) -> bytes:
     return np.ascontiguousarray(values, dtype=">f8").tobytes()
+
+
+def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:
+    """``arrays`` as a compressed ``.npz`` file."""
+    file = io.BytesIO()
+    np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
+    return file.getvalue()

@@ -7,44 +7,30 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base import (
-    BLUE,
-    GREEN,
-    GREY,
-    RED,
-    friction_over_time,
-    load_shares,
-    new_figure,
-    plain,
-    read_table,
-    table_bytes,
-    time_scale,
-    whole_file,
-)
+from .._base import BLUE, GREEN, GREY, RED, load_shares, new_figure, read_table, table_bytes, whole_file
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..scene import Scene
-from ..sharing import in_a_cell, prepare
+from ..sharing import in_a_cell
 from ..studies import fingerprint
-from ..time import STATE, UNITS, TransientResult, transient
-from .console import Pace, keeping, say, say_written
-from .record import made_of, npz_bytes
-from .run_folder import CHECKPOINT, RunFolder, run_folder, run_name
+from ..time import STATE, UNITS, TransientResult, friction_over_time, time_scale, transient
+from .console import Pace, keeping, say
+from .fields import npz_bytes
+from .run_folder import CHECKPOINT, RunFolder, read_record, ready, run_folder
 
 FRAMES = 150  # of an animation at most, spread over the run
 
 
-def run_history(scene: Scene, out: Path, animation: bool) -> int:
-    """Compute and write history.csv, history.png, fields.npz (and animation.gif) and, last, result.json to ``out``.
+def run_history(scene: Scene, arguments) -> None:
+    """Compute and write history.csv, history.png, fields.npz (with ``arguments.animation``: animation.gif) and, last,
+    result.json to ``arguments.out``.
 
-    The scene is checked and made ready before ``out`` is touched, and the results of an earlier run stay until those of
-    this one are there. An interrupted run continues from ``out``/checkpoint. A failed run writes what it has, and then
-    raises `ConvergenceError`.
+    The scene is checked and made ready before the folder is touched, and the results of an earlier run stay until those
+    of this one are there. An interrupted run continues from its folder checkpoint. A failed run writes what it has, and
+    then raises `ConvergenceError`.
     """
-    begun, reached, pace = time.perf_counter(), 0.0, Pace()
+    begun, reached, pace, out = time.perf_counter(), 0.0, Pace(), arguments.out
     failure: LubfricError | None = None
-    say(f"{scene.name}: preparing the height map and the contact")
-    prepared = prepare(scene)
-    say(prepared.surface.describe())
+    prepared = ready(scene)
 
     def on_step(now, duration, row):
         nonlocal reached
@@ -59,7 +45,7 @@ def run_history(scene: Scene, out: Path, animation: bool) -> int:
     def kept() -> str:
         return f"interrupted; the state at t = {reached:.5g} s is kept in {out}: the same command goes on from there"
 
-    with keeping(kept), run_folder(out, fingerprint(prepared)) as folder:
+    with keeping(kept), run_folder(out, fingerprint(prepared), begun) as folder:
         checkpoint = out / CHECKPOINT
         if (checkpoint / STATE).is_file():
             say(f"going on from {checkpoint}")
@@ -69,19 +55,10 @@ def run_history(scene: Scene, out: Path, animation: bool) -> int:
             if error.result is None:
                 raise
             result, failure = error.result, error
-        for text in result.validity:
-            say(text)
-        _write(folder, scene, result, animation)
-        record = made_of(scene, prepared.surface, sq=prepared.surface.sq) | {
-            "seconds": time.perf_counter() - begun,
-            "report": result.report.as_dict(),
-            "validity": list(result.validity),
-        }
-        folder.finish(plain(record))
-    say_written(folder.written, out, begun)
+        _write(folder, scene, result, arguments.animation)
+        folder.finish(folder.record(prepared, result))
     if failure:
         raise failure
-    return 0
 
 
 def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
@@ -98,15 +75,11 @@ def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: 
         folder.make("animation.gif", animate, result, scene.bodies.half_width)
 
 
-def plot_again(folder: Path) -> bool:
-    """Draw history.png again if there is a history.csv; returns whether there was."""
-    source = folder / "history.csv"
-    if not source.is_file():
-        return False
-    columns = read_table(source)
-    with whole_file(folder / "history.png") as part:
-        plot_history(part, columns, run_name(folder))
-    return True
+def plot_again(arguments) -> None:
+    """Draw history.png of ``arguments.folder`` again."""
+    columns, record = read_table(arguments.folder / "history.csv"), read_record(arguments.folder)
+    with whole_file(arguments.folder / "history.png") as part:
+        plot_history(part, columns, record["scene"]["name"])
 
 
 def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:

@@ -8,9 +8,7 @@ from pathlib import Path
 from .._base import validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, Report
 from ..studies import (
-    CONVERGED,
     MOST_WORKERS,
-    UNUSED,
     check_tools,
     in_words,
     load_study,
@@ -44,9 +42,10 @@ def run_study(arguments) -> int:
         say(f"{result.cautioned} of {result.solved} points have cautions: column validity of study.csv")
     say_written(tables, arguments.out, begun)
     if result.failed:
-        first = next(status for status in result.status.flat if status not in (CONVERGED, UNUSED))
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
-        raise ConvergenceError(f"{result.failed} of {result.solved} points failed; first: {first}", report, result)
+        raise ConvergenceError(
+            f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}", report, result
+        )
     return 0
 
 

@@ -1,16 +1,14 @@
 """The answer at one speed: the sample of the surface, the models, the interval of f.
 
-`sample` solves strips of the surface until the standard error is within what is asked; `cells` corrects for their coarse
-cells; `scatter` reads the standard error off one solved contact; `errors_of` and `uncertainty` make the interval.
-`friction` is the entry; `answer` and `answer_deterministic` are the two models.
+`sample` solves strips of the surface until the standard error is within what is asked; `cells` corrects for their
+coarse cells; `scatter` reads the standard error off one solved contact; `errors_of` and `uncertainty` make the
+interval. `friction` is the entry; `answer` and `answer_deterministic` are the two models.
 """
 
 from .cite import together
 from .friction import friction
-from .missed import missed_share
-from .moment_error import moment_error
-from .outlook import Forecast, forecast
+from .outlook import forecast
 from .result import FrictionResult
-from .sample import Found, sampled
-from .scatter import block_error, gap_influence, line_load, strip_gap
-from .uncertainty import FIELDS, Uncertainty, UncertaintyCurve, curve_of, percent, student
+from .sample import sampled
+from .scatter import moment_error
+from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, percent, student

@@ -1,5 +1,5 @@
-"""The effect of the coarse cells of a sample: pieces of the surface are solved on the same cells and on finer ones, down
-to the scene's own, under the same film and load.
+"""The effect of the coarse cells of a sample: pieces of the surface are solved on the same cells and on finer ones,
+down to the scene's own, under the same film and load.
 
 What a piece shows is a change of the mean gap. The response of the balance turns it into a change of f.
 """
@@ -64,8 +64,8 @@ class CellEffect:
     contact_load: float = 0.0
 
     def at_load(self, contact_load: float) -> CellEffect:
-        """The effect, used at another load: what that may change of it was seen to be less than 1.5 |ln| of the ratio of
-        loads times the change and its standard error, on Gaussian and measured surfaces."""
+        """The effect, used at another load: what that may change of it was seen to be less than 1.5 |ln| of the ratio
+        of loads times the change and its standard error, on Gaussian and measured surfaces."""
         if not self.contact_load:
             return self
         moved = abs(math.log(contact_load / self.contact_load))
@@ -107,7 +107,10 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
     gap."""
     assert balance.film is not None and balance.response is not None
     slope, ladder, coarse = balance.response.slopes.gap, strips.cells.ladder(), strips.cells
-    places, changes, states, rest = [], [], [], math.inf
+    places: list[tuple[np.ndarray, np.ndarray]] = []
+    changes: list[float] = []
+    states: list[ContactState] = []
+    rest = math.inf
     for factors in ladder:
         contact = on_piece(prepared, strips, index, factors)
         if rest <= enough and contact.heights.size > MOST_CELLS:

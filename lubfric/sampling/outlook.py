@@ -36,8 +36,8 @@ class Forecast:
 
 
 def forecast(scene: Scene, strips: Strips | None, sq: float, summit: float, speed: float) -> Forecast:
-    """What a point at ``speed`` [m/s] will take. ``sq``, ``summit`` [m]: of the surface that is solved first, its standard
-    deviation and its highest height over the mean; ``strips``: None for a contact without cells.
+    """What a point at ``speed`` [m/s] will take. ``sq``, ``summit`` [m]: of the surface that is solved first, its
+    standard deviation and its highest height over the mean; ``strips``: None for a contact without cells.
 
     The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
     independent heights. The effect on f follows from the share of the load that the rigid film of the whole load would

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ..contact import RoughContact, Strips
+from ..contact import RoughContact, Strips, weighted_mean
 from ..errors import LubfricError
 from ..scene import budget
 from ..sharing import (
@@ -20,7 +20,6 @@ from ..sharing import (
     grown,
     on_piece,
     on_stack,
-    quantities,
     solve_balance,
 )
 from .cells import CellEffect, effect_of_cells, lost_summits
@@ -84,8 +83,8 @@ class Found:
 
     @property
     def corrected(self) -> float:
-        """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left. On the
-        scene's own cells nothing is corrected, so that loads and fields belong together."""
+        """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left. On
+        the scene's own cells nothing is corrected, so that loads and fields belong together."""
         if self.strips is None or self.strips.cells.own:
             return 0.0
         return self.effect.gap + self.left_by_root
@@ -97,8 +96,8 @@ class Found:
 
     @property
     def second_order(self) -> float:
-        """What that correction leaves open of the gap [m]: the correction times the change of ln(F_H/F_C) that it makes.
-        No more was seen, but for one of 25 scenes (1.4 times that, beside a scatter of 17 %)."""
+        """What that correction leaves open of the gap [m]: the correction times the change of ln(F_H/F_C) that it
+        makes. No more was seen, but for one of 25 scenes (1.4 times that, beside a scatter of 17 %)."""
         return 0.0 if self.response is None else abs(self.response.split) * self.corrected**2
 
     def change(self, name: str) -> float:
@@ -192,10 +191,10 @@ def _speed_of(scene, film: float) -> float:
 def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
     """Number of strips that the standard error ``numerics.sampling_tolerance`` needs, at least as many as there are.
 
-    It is (reached/asked)² x 1.3 times the present number, at least 1.5 and at most four times that. A standard error from few blocks is
-    itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long enough whenever its blocks
-    happen to scatter little, the stated error would be too small. So the first one counts as long enough only if even 1
-    + 1/sqrt(nu) times its error is within what is asked.
+    It is (reached/asked)² x 1.3 times the present number, at least 1.5 and at most four times that. A standard error
+    from few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long
+    enough whenever its blocks happen to scatter little, the stated error would be too small. So the first one counts
+    as long enough only if even 1 + 1/sqrt(nu) times its error is within what is asked.
     """
     asked, count = prepared.scene.numerics.sampling_tolerance, found.count
     reached, spots = found.sampling, found.scatter.spots
@@ -249,7 +248,7 @@ def _corrected(prepared: Prepared, speed: float, found: Found) -> Found:
     by_load = response.slopes.area_factor(loads[1] - solved.contact_load, scene.bodies.width, area)
     plastic = max(state.plastic_area_fraction + effect.plastic, 0.0)
     state = grown(replace(state, plastic_area_fraction=plastic), effect.area * by_load)
-    mean = quantities(scene, found.contact, film, state, loads[1])["mean_gap"] + effect.film
+    mean = weighted_mean(film.film_at(found.contact.x), found.contact.weight) + effect.film
     state = replace(state, mean_gap=mean, mean_film=mean)
     there = forces(scene, film, state, loads[1])
     balance = replace(solved, film_load=loads[0], contact_load=loads[1], film=film, contact=state, forces=there)

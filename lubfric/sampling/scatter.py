@@ -111,10 +111,11 @@ class Scatter:
 
 
 def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips: Strips, count: int) -> Scatter:
-    """The `Scatter` of ``contact``, a stack of ``count`` ``strips``, in ``balance``. Of a mirrored map only half counts.
+    """The `Scatter` of ``contact``, a stack of ``count`` ``strips``, in ``balance``. Of a mirrored map only half
+    counts.
 
-    A place changes f by its influence on the gap, which divides the load, and by where it touches: the film has no shear
-    there. Both together are one influence on f.
+    A place changes f by its influence on the gap, which divides the load, and by where it touches: the film has no
+    shear there. Both together are one influence on f.
 
     The standard errors come from blocks along y. If there are three windows of a measured map or more, they are the
     larger of that and the ones from windows, which show whether a surface differs from place to place.
@@ -180,3 +181,29 @@ def weighted_errors(parts) -> BlockError:
     if variance == 0 or not math.isfinite(variance):
         return BlockError(math.sqrt(variance), sum(f for _, f in terms))
     return BlockError(math.sqrt(variance), int(variance**2 / sum(v**2 / max(f, 1) for v, f in terms)))
+
+
+def moment_error(
+    contact, state, loads, softness: float, width: float, correlation_length: float, parts, thinning: float
+) -> float:
+    """Relative standard error of f at one moment, from a `ContactState` with fields on ``contact``: 0 without contact,
+    NaN if the line is too short.
+
+    ``loads``: (F_C, F_H) [N]; ``softness``: -dG/d ln F_C [m] of the contact; ``parts``: boundary and viscous friction
+    [N]; ``thinning``: -d ln h/d ln F_H of the film, 1 if it is rigid and some .1 if it is elastic. Film and contact are
+    assumed to have time to divide the load anew (`lubfric.sampling.response.respond`). A film that is squeezed follows
+    more slowly, and the error is smaller then.
+    """
+    contact_load, film_load = loads
+    boundary, viscous = parts
+    total, friction = contact_load + film_load, boundary + viscous
+    if contact_load <= 0 or friction == 0:
+        return 0.0
+    if state.fields is None or not math.isfinite(correlation_length):
+        return math.nan
+    slope = -softness / (contact_load / width)
+    values = gap_influence(strip_gap(contact, state), line_load(contact, state), slope)
+    found = block_error(values, contact.spacing[1], correlation_length)
+    shares = contact_load / total, film_load / total
+    split = found.error / (softness * shares[1] + thinning * state.mean_film * shares[0])
+    return abs((viscous * shares[0] - boundary * shares[1]) / friction) * split if found.freedom else math.nan

@@ -1,8 +1,8 @@
 """Load sharing, Eq. (8) of the paper: film and contact carry one load.
 
 `prepared` makes a scene ready; `point` solves film and contact, each at its share of the load; `balance` finds the
-division at which they agree; `forces` and `heat` give the friction; `response` tells how strongly all that depends on an
-error of the gap. `checks` are the assumptions of the model.
+division at which they agree; `forces` and `heat` give the friction; `response` tells how strongly all that depends on
+an error of the gap. `checks` are the assumptions of the model.
 """
 
 from .balance import Balance, solve_balance
@@ -10,7 +10,7 @@ from .checks import judged, of_deflection, of_ends, of_error, of_film, of_motion
 from .checks_before import expected
 from .forces import Forces, forces
 from .heat import Heat, film_lubricant, inlet_at, point_heat
-from .point import Point, Settings, Trial, exponents
+from .point import Point, exponents
 from .prepared import Prepared, at_tolerance, on_piece, on_stack, prepare, scene_of, takes_strips
-from .response import Response, Slopes, divided, grown, quantities, respond
+from .response import Response, Slopes, divided, grown, quantities, touched_length
 from .validity import Validity, entries_of, gathered, in_a_cell, refused

@@ -172,11 +172,12 @@ def _beginning(point: Point, sq: float, start: Balance | None):
 
 
 def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
-    """The split at ``point`` predicted from the balance ``start`` at another speed, and the slope of the residual there.
+    """The split at ``point`` predicted from the balance ``start`` at another speed, and the slope of the residual
+    there.
 
     The film follows Moes' formula, ``h ~ F_H^-m`` locally, and the mean gap a power of the contact's load, ``g ~
-    F_C^-b``. The slope of (g - h)/(g + h) at a balance is (b F_H + m F_C)/(2 F_T), which gives b. The prediction is only
-    a start.
+    F_C^-b``. The slope of (g - h)/(g + h) at a balance is (b F_H + m F_C)/(2 F_T), which gives b. The prediction is
+    only a start.
     """
     assert start.film is not None
     load, slope = point.scene.bodies.load, start.slope

@@ -79,7 +79,7 @@ class Point:
 
     def trial(self, film_load: float, contact_load: float, last: Trial | None = None) -> Trial:
         """The film of ``film_load`` [N], and under it the contact that carries ``contact_load`` [N], from ``last``."""
-        film = self.film(film_load, last and last.film, last.cells if last else 0)
+        film = self.film(film_load, last.film if last else None, last.cells if last else 0)
         touched = last.touched if last else None
         contact = self.pressed(self.contact, film, contact_load, touched)
         return Trial(

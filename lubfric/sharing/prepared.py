@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from .._base import Shown, instance
+from .._base import FieldsOnly, Shown, instance
 from ..contact import (
     BOUNDARY,
     AsperityContact,
@@ -40,7 +41,7 @@ REMEMBERED = 64  # strips, pieces, operators and reference points
 
 
 @dataclass(frozen=True, repr=False)
-class Prepared(Shown):
+class Prepared(FieldsOnly, Shown):
     """A scene made ready by `prepare`. It is accepted wherever a scene is, and safe to share: nothing in it changes.
 
     Attributes
@@ -59,7 +60,11 @@ class Prepared(Shown):
     known: tuple[Validity, ...] = ()
     strips: Strips | None = None
     given: bool = False
-    memo: dict[Any, Any] = field(default_factory=dict, compare=False, hash=False)
+
+    @cached_property
+    def memo(self) -> dict[Any, Any]:
+        """What was `remembered`; neither compared nor pickled."""
+        return {}
 
     def remembered(self, key: Any, make: Callable[[], Any]) -> Any:
         """What ``make`` gives, made once for ``key`` and kept as long as there is room. It depends on scene and key
@@ -71,9 +76,6 @@ class Prepared(Shown):
         while len(self.memo) > REMEMBERED:
             self.memo.pop(next(iter(self.memo)), None)
         return made
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {f.name: getattr(self, f.name) for f in fields(self)} | {"memo": {}}
 
     def _facts(self) -> dict[str, str]:
         return {"": self.scene.name, "map": self.surface.describe()}
@@ -114,7 +116,9 @@ def prepare(
         if _same_contact(scene, like.scene):
             kept = {key: value for key, value in like.memo.items() if key[0] != "reference"}
             strips = None if like.strips is None else replace(like.strips, scene=scene)
-            return replace(like, scene=scene, known=beforehand(scene, like.surface), strips=strips, memo=kept)
+            made = replace(like, scene=scene, known=beforehand(scene, like.surface), strips=strips)
+            made.memo.update(kept)
+            return made
         surface = like.surface if like.given else None
         contact = None if isinstance(like.contact, OWN) else like.contact
     given = surface is not None or contact is not None

@@ -2,7 +2,8 @@
 
 from .choose import AUTO
 from .codec import classes_of, decode, encode
-from .curve import QUANTITIES, csv_bytes, curve_table, uncertainty_columns
+from .curve import CurveResult, csv_bytes
+from .draw import friction_over_speed, interval_band
 from .executor import MOST_WORKERS, pool, processors
 from .explain import in_words
 from .fit import explain_fit, fit
@@ -10,7 +11,6 @@ from .fit_input import Measured, read_measured
 from .fit_result import FitResult
 from .plan import StudyPlan, plan_study
 from .result import StudyResult, open_study
-from .rows import CONVERGED, UNUSED
 from .run import study
 from .store import fingerprint
 from .study_file import load_study

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,8 @@ from ..errors import InputError
 from ..sampling import FrictionResult
 from ..scene import Scene
 from ..sharing import Prepared
-from .interpolate import FEWEST, Interpolant, Samples, numbers_of, through
+from .curve import columns_of
+from .interpolate import FEWEST, Interpolant, Samples, through
 
 AUTO = "auto"
 CHOSEN, MOST = 12, 25  # speeds that a curve chooses, about, and at most
@@ -30,14 +31,9 @@ APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
 
-def chosen(prepared: Prepared, kept: Iterable[float], solve: Callable) -> Iterator[tuple[float, Any]]:
-    """(speed [m/s], outcome) of a curve that chooses its speeds, beside those that are to be ``kept``.
-    ``solve(speeds)`` yields these pairs. Raises `InputError` at once if there is no range of speeds."""
-    first = sorted({*first_speeds(prepared.scene, prepared.surface.sq), *kept}, reverse=True)
-    return _one_by_one(prepared, first, solve)
-
-
-def _one_by_one(prepared: Prepared, ahead: list[float], solve: Callable) -> Iterator[tuple[float, Any]]:
+def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Iterator[tuple[float, Any]]:
+    """(speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
+    ``solve(speeds)`` yields these pairs."""
     outcomes: dict[float, Any] = {}
     while ahead and len(outcomes) < MOST:
         for speed, outcome in solve(ahead):
@@ -47,16 +43,18 @@ def _one_by_one(prepared: Prepared, ahead: list[float], solve: Callable) -> Iter
         failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
         wanted = None
         if len(good) >= FEWEST:
-            wanted = next_speed(through(numbers_of(good)), tolerance_between(prepared), failed)[0]
+            wanted = next_speed(through(columns_of(good)), tolerance_between(prepared), failed)[0]
         ahead = [] if wanted is None else [wanted]
 
 
 def tolerance_between(prepared: Prepared) -> float:
-    """The tolerance on f between the points of a curve: that on f itself. On a line of a rough surface, neighbouring
-    points may be solved on different lengths of it; there it is the root sum of squares of the tolerance on f and the
+    """The tolerance on f between the points of a curve: that on f itself. On strips of a rough surface, neighbouring
+    points may be solved on different numbers of them; there it is the root sum of squares of the tolerance on f and the
     sampling tolerance."""
     numerics = prepared.scene.numerics
-    return numerics.tolerance if prepared.lines is None else math.hypot(numerics.tolerance, numerics.sampling_tolerance)
+    if prepared.strips is None or prepared.given or numerics.sampling == "patch":
+        return numerics.tolerance
+    return math.hypot(numerics.tolerance, numerics.sampling_tolerance)
 
 
 def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()) -> tuple[float | None, float]:

@@ -114,7 +114,7 @@ def _value(plain, classes: dict[str, type], content: memoryview) -> Any:
 
 def _rebuilt(kind: type, plain: dict, classes, content):
     """An object of ``kind`` as it was: checks and conversions of its constructor had their turn."""
-    new = object.__new__(kind)
+    new: Any = object.__new__(kind)
     for field in fields(kind):
         part = _value(plain[field.name], classes, content)
         if isinstance(part, np.ndarray):

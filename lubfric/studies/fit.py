@@ -88,6 +88,10 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     ----------
     scene, measured, parameters : as for `lubfric.fit`
 
+    Returns
+    -------
+    str : lines of text
+
     Raises
     ------
     InputError : a parameter is not one
@@ -106,20 +110,19 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
 
 
 def _begin(scene: Scene, found: Parameters, start: dict) -> np.ndarray:
-    values = []
-    for key, low, high in zip(found.keys, found.low, found.high):
-        section, _, name = key.partition(".")
-        if key in start:
-            values.append(number(f"start[{key!r}]", start[key], "(of the key)", minimum=low, maximum=high))
-            continue
-        value = vars(getattr(scene, section)).get(name)  # a short form has none there
-        inside = isinstance(value, (int, float)) and low < value < high
-        values.append(float(value) if inside else np.nan)
+    """Where the search begins, as positions between the bounds."""
     for key in start:
         if key not in found.keys:
             raise InputError(f"start holds {key!r}, which is no parameter; allowed: {', '.join(found.keys)}")
-    middle = found.values(np.full(len(values), 0.5))
-    return np.clip(found.unit(np.where(np.isnan(values), middle, values)), 0.02, 0.98)
+    values = found.values(np.full(len(found.keys), 0.5))
+    for i, (key, low, high) in enumerate(zip(found.keys, found.low, found.high)):
+        section, _, name = key.partition(".")
+        own = vars(getattr(scene, section)).get(name)  # a short form has none there
+        if key in start:
+            values[i] = number(f"start[{key!r}]", start[key], "(of the key)", minimum=low, maximum=high)
+        elif isinstance(own, (int, float)) and low < own < high:
+            values[i] = own
+    return np.clip(found.unit(values), 0.02, 0.98)
 
 
 @dataclass(frozen=True)

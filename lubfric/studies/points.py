@@ -13,7 +13,7 @@ from ..errors import LubfricError, ValidityError
 from ..sampling import FrictionResult, friction
 from ..scene import Scene
 from ..sharing import Prepared, prepare
-from .choose import chosen
+from .choose import chosen, first_speeds
 from .store import Store, digest, fingerprint, point_key
 
 Outcome = FrictionResult | LubfricError
@@ -41,11 +41,12 @@ def solved(piece: Piece) -> Iterator[tuple[str, float, Outcome | None]]:
     store, speeds = Store(piece.folder), piece.speeds
     try:
         model = piece.scene if isinstance(piece.scene, Prepared) else prepare(piece.scene)
-        points = _points(store, piece, model, speeds)
-        if not speeds:
-            points = chosen(model, piece.kept, partial(_points, store, piece, model))
+        first = speeds or sorted({*first_speeds(model.scene, model.surface.sq), *piece.kept}, reverse=True)
     except LubfricError as error:
         points = _points(store, piece, error, speeds or (math.nan,))
+    else:
+        solve = partial(_points, store, piece, model)
+        points = solve(first) if speeds else chosen(model, first, solve)
     done: tuple[float, ...] = ()
     for speed, outcome in points:
         done = (*done, speed)

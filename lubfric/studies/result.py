@@ -12,7 +12,7 @@ from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import scene_as_dict
 from .choose import AUTO
-from .interpolate import DECIDED, Interpolant, through
+from .interpolate import Interpolant, through
 from .plan import StudyPlan
 from .rows import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, stored_rows
 from .store import Store
@@ -55,7 +55,7 @@ class StudyResult(Shown):
         """The result of the ``rows``, in the order of a plan (`plan_as_dict`)."""
         chosen, shape = plan["speeds"] == AUTO, tuple(plan["shape"])
         table = (len(plan["keys"]), shape[-1])
-        columns = {name: np.full(table, np.nan) for name in (*NUMBERS, *DECIDED) if chosen or name != SPEED}
+        columns = {name: np.full(table, np.nan) for name in NUMBERS if chosen or name != SPEED}
         status = np.full(table, UNUSED if chosen else MISSING, dtype=object)
         validity = np.full(table, "", dtype=object)
         words = {STATUS: status, VALIDITY: validity}
@@ -93,9 +93,14 @@ class StudyResult(Shown):
         return found if self.chosen else found | {SPEED: (SPEED, np.array(self.plan["speeds"]))}
 
     @property
+    def failures(self) -> tuple[str, ...]:
+        """Why points could not be solved, one text for each of them."""
+        return tuple(status for status in self.status.flat if status not in (CONVERGED, MISSING, UNUSED))
+
+    @property
     def failed(self) -> int:
         """Number of points that could not be solved."""
-        return int(np.count_nonzero(~np.isin(self.status, (CONVERGED, MISSING, UNUSED))))
+        return len(self.failures)
 
     @property
     def solved(self) -> int:

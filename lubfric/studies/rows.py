@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from ..quantities import NUMBERS
 from ..sampling import FrictionResult
 from ..sharing import in_a_cell
-from .interpolate import DECIDED
 from .points import Outcome
 from .store import Store, digest, point_key
 
@@ -34,8 +32,6 @@ def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
     numbers |= {f"uncertainty_{n}": v for n, v in vars(outcome.uncertainty).items() if isinstance(v, float)}
     numbers |= zip(("uncertainty_low", "uncertainty_high"), outcome.uncertainty.interval)
-    decided = {name: getattr(outcome.decision, name, None) for name in DECIDED}
-    numbers |= {name: math.nan if value is None else value for name, value in decided.items()}
     return {STATUS: outcome.report.status, VALIDITY: in_a_cell(outcome.validity), **numbers}
 
 

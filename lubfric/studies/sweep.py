@@ -7,22 +7,23 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base import curve_axes, validate, write_whole
+from .._base import validate, write_whole
 from ..errors import ITERATION_LIMIT, InputError, Report
-from ..quantities import PointQuantities, described_in_doc
-from ..sampling import FIELDS, FrictionResult
+from ..quantities import ESTIMATED, PointQuantities, described_in_doc
+from ..sampling import FrictionResult
 from ..scene import FASTEST, Scene
 from ..sharing import Prepared
 from .choose import AUTO, next_speed, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, report_of
+from .draw import curve_axes
 from .executor import checked_executor, spread
-from .interpolate import FEWEST, Interpolant, numbers_of, through
+from .interpolate import FEWEST, Interpolant, through
 from .points import Outcome, Piece, key_of, made_ready, solved
 from .store import opened
 
 
 @described_in_doc
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     """Arrays over the speeds, in the order asked for; NaN where a point failed.
 
@@ -48,7 +49,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     @property
     def field_errors(self) -> dict[str, np.ndarray]:
         """Relative errors of the other numbers, arrays (n,) by name."""
-        return {n: np.array([np.nan if p is None else getattr(p.errors, n) for p in self.points]) for n in FIELDS}
+        return {n: np.array([np.nan if p is None else getattr(p.errors, n) for p in self.points]) for n in ESTIMATED}
 
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.studies.interpolate`). They
@@ -73,7 +74,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     @cached_property
     def _curve(self) -> Interpolant:
-        return through(numbers_of(self.points))
+        return through(columns_of(self.points))
 
     def plot(self, ax=None, **style):
         """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
@@ -167,7 +168,7 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
     missing have neither point nor error."""
     outcomes = [found.get(speed) for speed in asked or sorted(found)]
     points = [outcome if isinstance(outcome, FrictionResult) else None for outcome in outcomes]
-    errors = {i: outcome for i, outcome in enumerate(outcomes) if isinstance(outcome, Exception)}
+    errors: dict[int, Exception] = {i: o for i, o in enumerate(outcomes) if isinstance(o, Exception)}
     speeds = np.array(asked or sorted(found))
     report = report_of("stribeck", [f"speed {u:g} m/s" for u in speeds], "speeds", points, errors)
     columns = columns_of(points) | {"speed": speeds}
@@ -179,7 +180,7 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
 
 def _with_interpolation(curve: StribeckResult, tolerance: float) -> Report:
     """The report of a curve that chose its speeds: its residual is the estimated error between the points."""
-    report, error = curve.report, next_speed(through(numbers_of(curve.points)), tolerance)[1]
+    report, error = curve.report, next_speed(through(columns_of(curve.points)), tolerance)[1]
     return replace(
         report,
         status=report.status if error <= tolerance else ITERATION_LIMIT,

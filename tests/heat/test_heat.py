@@ -109,10 +109,9 @@ def test_viscosity_over_temperature():
 
 
 def test_roelands_temperature_law_follows_an_oil():
-    """S0 from the slope at 70 °C foretells ASTM D341 between 50 and 100 °C to 4 %."""
-    from lubfric import oil
+    """With S0 from the slope at 70 °C it is within 4 % of ASTM D341 between 50 and 100 °C."""
 
-    made = oil.from_grade("ISO VG 68", 95, density=870)
+    made = lubfric.oil.from_grade("ISO VG 68", 95, density=870)
     lubricant = Lubricant(
         made.viscosity(T0), 2e-8, temperature=T0, temperature_coefficient=made.temperature_coefficient(T0)
     )
@@ -134,15 +133,6 @@ def test_flash_of_a_semi_ellipse_by_quadrature():
     for i in (60, 128, 200):
         exact = swept(lambda at: np.sqrt(np.maximum(1 - at**2, 0)), x[i], 1 + x[i]) / math.sqrt(math.pi)
         assert rise[i] == pytest.approx(exact, rel=5e-4)
-
-
-def test_both_bodies_share_the_heat_of_one_surface_temperature():
-    """Each body alone, with the share e sqrt(u) of the heat, is as hot as both together."""
-    x, heat = np.linspace(0, 1e-4, 50), np.linspace(1, 2, 50) * 1e8
-    first, second = 1.3e4 * math.sqrt(0.4), 1.0e4 * math.sqrt(2.0)
-    together = flash_matrix(x, first + second) @ heat
-    for own in (first, second):
-        assert flash_matrix(x, own) @ (heat * own / (first + second)) == pytest.approx(together, rel=1e-12)
 
 
 @pytest.mark.parametrize("ratio", [0.02, 0.3, 2.0])
@@ -169,7 +159,7 @@ def test_half_the_nodes_change_the_force_little():
     assert forces[0] == pytest.approx(fine, rel=1e-3)
 
 
-@settings(max_examples=25)
+@settings(max_examples=12)
 @given(st.floats(5e8, 1.5e9), st.floats(0.001, 2.0), st.floats(-2, 1))
 def test_heated_force_lies_between_one_pass_and_isothermal(peak, ratio, log_speed):
     x, p, h, _ = contact(peak, 65)

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from lubfric.film.limiter import FILM_STEP, VISCOSITY_STEP
 
 from lubfric import InputError
 from lubfric.film import step_length
+from lubfric.film.newton import FILM_STEP, VISCOSITY_STEP
 from lubfric.scene import Table
 from lubfric.time import Level, Progress, Step, checked_times, plan_of, report_of, steps
 

@@ -113,7 +113,7 @@ def test_pieces_that_miss_their_map_fail(monkeypatch, missed, passed):
 
 def test_a_number_beyond_its_stated_error_fails(monkeypatch):
     rows = {"f": (0.01, 0.02), "gap": (0.05, 0.02), "area": None}
-    monkeypatch.setattr(others, "FIELDS", tuple(rows))
+    monkeypatch.setattr(others, "ESTIMATED", tuple(rows))
     monkeypatch.setattr(others, "beside", lambda number: rows)
     *checks, table = others.quantities("quick")
     assert {c.name.split(":")[0]: c.passed for c in checks} == {"f": True, "gap": False}

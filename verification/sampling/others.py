@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.sampling.uncertainty import FIELDS
+from lubfric.quantities import ESTIMATED
 
 from ..check import AT_LEAST, Check, Item, Table
 from ..hostile.soak_scenes import random_scene
@@ -74,7 +74,7 @@ def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
     """Every reported number of random scenes beside the same at 0.01 %: is it within its stated error?"""
     found = [row for _, row in run.solved({str(k): k for k in range(SCENES[level])}, beside)]
     rows = []
-    for name in FIELDS:
+    for name in ESTIMATED:
         stated = [row[name] for row in found if row and row[name] is not None]
         if stated:
             held = float(np.mean([off <= max(error, FLOOR) for off, error in stated]))
@@ -95,7 +95,7 @@ def beside(number: int) -> dict:
     except lubfric.LubfricError:
         return {}
     row: dict = {}
-    for name in FIELDS:
+    for name in ESTIMATED:
         value, reference, error = getattr(found, name), getattr(tight, name), getattr(found.errors, name)
         largest = max(abs(value), abs(reference), 1e-300)
         stated = error is not None and np.isfinite(error)

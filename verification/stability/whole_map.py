@@ -12,9 +12,7 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import half_space
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.problem import Problem
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import Problem, lay_out, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
 

@@ -5,12 +5,10 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import dry_contact, reach
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import dry_contact, lay_out, reach, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
-from lubfric.surface.height_map import Surface
+from lubfric.surface import Surface
 
 from ..check import ABSOLUTE, Check, compared
 from ..fem.fluid import Fluid

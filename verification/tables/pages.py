@@ -17,7 +17,6 @@ BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of
 BENCHMARKS = {
     "chosen-speeds": "chosen_speeds.py",
     "contact-aspher": "contact_vs_aspher.py",
-    "contact-before": "contact_before_after.py",
     "contact-constants": "contact_constants.py",
     "film-times": "ehl_times.py",
     "study-points": "study.py",

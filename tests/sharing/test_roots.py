@@ -78,12 +78,6 @@ def test_every_evaluation_is_handed_the_payload_of_the_one_before():
     assert seen[0] == "nothing yet" and len(set(seen)) == len(seen) and seen[1] == 0.0
 
 
-def test_the_slope_is_that_of_the_last_two_points():
-    found = increasing_root(lambda x, _: (3 * x - 1, None), 0.0, step=0.1, bounds=BOUNDS, tolerance=1e-9)
-    assert found.slope == pytest.approx(3.0)
-    assert increasing_root(lambda x, _: (x, None), 0.0, step=0.1, bounds=BOUNDS, tolerance=1e-9).slope is None
-
-
 def test_a_known_point_is_not_evaluated_again():
     g, calls = counted(lambda x: math.tanh(x - 1.3))
     found = increasing_root(g, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-9, first=(math.tanh(-1.3), "known"))
