@@ -47,9 +47,7 @@ def html():
     field = Field("f", "pressure", [[0.0, 0.0]], {})
     trace, words = "Traceback\n  " + "x" * 300, "Words.\n\nMore words."
     study, drawn = Study("s", "m:f", "A study"), (figure, png)
-    outcome = Outcome(
-        study, "quick", words, checks, (table,), drawn, (field,), 1.0, 2**30, f"SolveError: {long}", trace
-    )
+    outcome = Outcome(study, "quick", words, checks, (table,), drawn, (field,), 1.0, f"SolveError: {long}", trace)
     return page.render(Report("quick", ("s", "later"), (outcome,), False, "2026-01-01", 1.0, environment()))
 
 
