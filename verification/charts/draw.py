@@ -46,12 +46,12 @@ def palette(points: list[Check]) -> dict[str, str]:
 def curve(ax, points: list[Check], colour: str) -> None:
     """One method, in the order in which its settings were given."""
     errors = [p.measured for p in points]
-    times = np.array([p.seconds for p in points])
+    times = np.array([p.at["seconds"] for p in points])
     spread = np.abs([times - [p.at["low"] for p in points], [p.at["high"] for p in points] - times])
     ax.errorbar(times, np.maximum(errors, LEAST), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
     for p, e in zip(points, errors):
         if p.at.get("default"):
-            ax.plot(p.seconds, max(e, LEAST), "o", mfc="none", mec="k", ms=10)
+            ax.plot(p.at["seconds"], max(e, LEAST), "o", mfc="none", mec="k", ms=10)
 
 
 def methods_table(points: list[Check]) -> Table:
@@ -62,7 +62,7 @@ def methods_table(points: list[Check]) -> Table:
     for panel in dict.fromkeys(p.at["panel"] for p in good):
         best: dict[str, float] = {}
         for p in (p for p in good if p.at["panel"] == panel):
-            best[p.at["method"]] = min(p.seconds, best.get(p.at["method"], np.inf))
+            best[p.at["method"]] = min(p.at["seconds"], best.get(p.at["method"], np.inf))
         ours = best["lubfric"]
         rows.append([panel, f"{1e3 * ours:.0f} ms", *(f"{best[n] / ours:.1f}" if n in best else "" for n in names)])
     return Table("contact-methods", f"Time to an error of {EQUAL:g}", ["contact", "lubfric", *names], rows)
