@@ -43,10 +43,10 @@ class Problem:
         )
         if fx == fy == 1:
             return None
-        nx, ny = operator.shape
+        parts = [self.gap0[i::fx, j::fy] for i in range(fx) for j in range(fy)]
         return replace(
             self,
-            gap0=self.gap0.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3)),
+            gap0=np.mean(parts, axis=0),
             operator=operator.coarsened((fx, fy)),
             tolerance=COARSE_TOLERANCE,
             max_iterations=COARSE_ITERATIONS,

@@ -49,7 +49,7 @@ class Search:
 
     Pressures are in units of the mean one in contact, gaps in units of the scale of ``state``. One value a cell:
 
-    - ``lower``, ``upper`` (None: no hardness): least and largest change of the pressure.
+    - ``lower``, ``upper``: least and largest change of the pressure (to zero, and to the hardness).
     - ``gap``: that under the ``known`` change; ``change``: the known change and the part that is still to be convolved.
     - ``weight``: 1 on free cells, else 0; ``residue``: that of the gap on them; ``before``: the residue from which the
       ``direction`` was made.
@@ -70,7 +70,7 @@ class Search:
         self.hardness, self.plastic = problem.hardness / self.unit, math.isfinite(problem.hardness)
         base /= self.unit
         self.lower = np.negative(base, dtype=np.float32)
-        self.upper = (self.hardness - base).astype(np.float32) if self.plastic else None
+        self.upper = np.subtract(self.hardness, base, dtype=np.float32)
         del base
         self.gap = cells.take(state.gap, np.float32, 1 / scale)
         self.change, self.known, self.direction, self.before = (np.zeros_like(self.gap) for _ in range(4))
@@ -111,32 +111,27 @@ class Search:
         values += np.multiply(self.change, self.unit, dtype=float)
         values *= self.change > self.lower
         np.maximum(values, 0.0, out=values)
-        if self.plastic:
-            np.copyto(values, hardness, where=self.change >= self.upper)
+        np.copyto(values, hardness, where=self.change >= self.upper)
         return self.cells.spread(values)
 
     def _look(self) -> None:
         """Find the zero level of the gap, the free cells, the residue on them and the deepest overlap."""
-        inside, limited = self.change > self.lower, None
-        if self.plastic:
-            limited = self.change >= self.upper
-            inside &= ~limited
+        yielded = self.change >= self.upper
+        inside = (self.change > self.lower) & ~yielded
         if self.given:
-            self.level = zero_level(self.gap, inside, limited, self.level)
+            self.level = zero_level(self.gap, inside, yielded, self.level)
         free = self.gap < np.float32(self.level)
-        if self.plastic:
-            free ^= limited
+        free ^= yielded
         free |= inside
-        if self.exact and self.plastic and self.given:
+        if self.exact and self.given:
             capacity = CAPACITY * self.hardness * np.count_nonzero(free)
             if self._share(free) > capacity:  # all that has not yielded for good has to help
-                free = ~limited | (self.gap > self.level)
+                free = ~yielded | (self.gap > self.level)
         self.weight[:] = free
         self.count = np.count_nonzero(free)
         np.subtract(self.gap, np.float32(self.level), out=self.residue)
         self.residue *= self.weight
-        self.overlap = -float(self.residue.min(where=~limited, initial=0.0) if self.plastic else self.residue.min())
-        self.overlap = max(self.overlap, 0.0)
+        self.overlap = max(0.0, -float(self.residue.min()))
 
     def _share(self, free) -> float:
         """The load that the free cells have to carry."""
@@ -158,17 +153,14 @@ class Search:
         near = self.gap < self.level + NEAR * self.overlap
         near |= self.weight > 0
         near |= self.change > self.lower
-        near |= (
-            np.abs(self.known - self.lower) > FORGOTTEN
-        )  # a part of the known pressure that is still to be taken off
+        near |= np.abs(self.known - self.lower) > FORGOTTEN  # known pressure that is still to be taken off
         if not 0 < np.count_nonzero(near) <= WORTH * near.size:
             return
         kept = np.flatnonzero(near)
         self.cells = self.cells.narrowed(kept)
         self.target -= float(self.change.sum()) - float(self.change.take(kept).sum())
         for name in FIELDS:  # one after the other, so that old ones are freed soon
-            if getattr(self, name) is not None:
-                setattr(self, name, getattr(self, name).take(kept))
+            setattr(self, name, getattr(self, name).take(kept))
         if self.stencil is not None:
             self.stencil.move(self.cells.index)
         self._look()
@@ -204,10 +196,9 @@ class Search:
         self.pace *= max(step, STEPS[0]) ** LEARNING
         self.known += np.multiply(way, np.float32(step), out=asked)
         self.gap += np.multiply(answer, np.float32(step * self.compliance), out=asked)
-        np.maximum(self.known, self.lower, out=self.change)
+        self._limit(self.known, self.change)
         np.copyto(self.change, self.lower, where=self.trial <= self.lower)  # cells that the trial unloads stay so
         if self.plastic:
-            np.minimum(self.change, self.upper, out=self.change)
             np.copyto(self.change, self.upper, where=self.trial >= self.upper)
 
     def _try(self) -> None:
@@ -215,7 +206,7 @@ class Search:
         load."""
         aim = np.multiply(self.direction, np.float32(self.pace), out=self.residue)
         aim += self.change
-        self._limit(aim)
+        self._limit(aim, self.trial)
         shift = 0.0
         for _ in range(SHIFTS if self.given else 0):
             missing = self.target - float(self.trial.sum())
@@ -223,22 +214,22 @@ class Search:
                 return
             movable = self.trial > self.lower
             if self.plastic:
-                movable &= (self.trial < self.upper) & (self.weight > 0)
+                movable &= self.trial < self.upper
             count = np.count_nonzero(movable)
             if not count:
                 break
             shift += missing / count
             np.multiply(self.weight, np.float32(shift), out=self.trial)
             self.trial += aim
-            self._limit(self.trial)
+            self._limit(self.trial, self.trial)
         if self.given:
             self._project(aim)
 
-    def _limit(self, aim) -> None:
-        """Set the trial to ``aim`` within the limits."""
-        np.maximum(aim, self.lower, out=self.trial)
+    def _limit(self, values, out) -> None:
+        """``values`` within the limits, into ``out``; `numpy.clip` with arrays takes six times as long."""
+        np.maximum(values, self.lower, out=out)
         if self.plastic:
-            np.minimum(self.trial, self.upper, out=self.trial)
+            np.minimum(out, self.upper, out=out)
 
     def _project(self, aim) -> None:
         """Make the trial by a bracketed shift of all cells, in double precision.
@@ -271,7 +262,7 @@ class Search:
     def _rounded(self, pressure, base, cells) -> np.ndarray:
         """Change of the pressure on ``cells`` in single precision, the limits met to the last digit."""
         change = np.where(pressure <= 0, self.lower[cells], (pressure - base).astype(np.float32))
-        return np.where(pressure >= self.hardness, self.upper[cells], change) if self.plastic else change
+        return np.where(pressure >= self.hardness, self.upper[cells], change)
 
     def _answer(self, way) -> np.ndarray:
         """Deflection under a change of pressure, to be multiplied by the compliance."""
