@@ -11,10 +11,9 @@ from scipy import fft
 from .._base import FieldsOnly, FrozenArrays, validate
 from ..errors import InputError
 from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
-from .transforms import Strip, even_transform, filtered, rounded, wavenumber
+from .transforms import Strip, even_transform, filtered, wavenumber
 
 KINDS = ("periodic", "free")
-NARROW = 0.7  # of the rows: loaded ones that are worth transforms of their own
 
 
 def _once(method):
@@ -57,24 +56,13 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         """
         if np.shape(pressure) != self.shape:
             raise InputError(f"pressure has shape {np.shape(pressure)}; allowed: {self.shape} as the operator")
-        pressure, nx = np.asarray(pressure, dtype=self.symbol.dtype), self.shape[0]
-        if self.boundary == ("free", "periodic"):
-            loaded = np.flatnonzero(pressure.any(axis=1))
-            if loaded.size and loaded[-1] - loaded[0] < NARROW * nx:
-                count = rounded(int(loaded[-1] - loaded[0]) + 1, nx)
-                first = min(int(loaded[0]), nx - count)
-                farthest = rounded(max(nx - first, first + count), nx) - 1
-                return self._strip(count, nx, farthest).apply(pressure[first : first + count], first)
-        return filtered(pressure, self.symbol, self.padded, self.workers)
+        return filtered(np.asarray(pressure, dtype=self.symbol.dtype), self.symbol, self.padded, self.workers)
 
+    @_once
     def window(self, count: int) -> Strip:
         """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y: an exact part of this one,
         with the same zero level. Made once for every count."""
-        return self._strip(count, count, count - 1)
-
-    @_once
-    def _strip(self, count: int, rows: int, farthest: int) -> Strip:
-        return Strip(self._kernel, self.shape[1], count, rows, farthest, self.symbol.dtype, self.workers)
+        return Strip(self._kernel[:count], self.shape[1], self.symbol.dtype, self.workers)
 
     @cached_property
     def _kernel(self) -> np.ndarray:

@@ -24,7 +24,7 @@ import numpy as np
 
 from .cells import with_load
 from .result import dot, zero_level
-from .stencil import LEAST, Stencil
+from .stencil import Stencil
 from .transforms import filtered, wavenumber
 
 FIRST_PACE = 0.35  # of the step that the preconditioner would take were it the inverse
@@ -32,13 +32,8 @@ LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, 
 LEARNING = 0.3  # power of the relative length of a step in the next pace
 STEPS = (0.3, 2.0)  # of the way to the trial
 SHIFTS = 12  # of a trial at most
-TRANSFORMED = 0.7  # share of contact from which, on short axes, the preconditioner is the transform, not nine points
-NARROWINGS = (4, 8, 12, 16, 24, 32)  # iterations after which cells are left out
-NEAR, WORTH = 0.7, 0.6  # of the deepest overlap: gaps of cells that are kept; of the cells: most to be kept
-FORGOTTEN = 1e-6  # of the mean pressure in contact: less is not waited for
 PATIENCE = 8  # iterations without a tenth off the best residual
 CAPACITY = 0.999  # of the hardness times the free cells, beyond which the exact search frees more
-FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "weight", "residue", "before", "trial")
 
 
 class Search:
@@ -78,9 +73,8 @@ class Search:
         self.power = self.level = self.overlap = 0.0
         self.iterations = self.convolutions = 0
         self.history: list[float] = []
-        factor, short = operator.e_prime / 4 / self.compliance, min(cells.shape) < LEAST
-        self.stiffness = self.stencil = None
-        if exact or short and loaded > TRANSFORMED * state.pressure.size:
+        factor = operator.e_prime / 4 / self.compliance
+        if exact:
             self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
         else:
             self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)
@@ -96,8 +90,6 @@ class Search:
             if worst <= tolerance or waiting > PATIENCE or self.iterations == limit:
                 return
             self.iterations += 1
-            if self.iterations in NARROWINGS and not self.exact:
-                self._narrow()
             self._turn()
             if self.exact:
                 self._exact_step()
@@ -148,28 +140,11 @@ class Search:
         excess = abs(total - self.load) / self.load if self.given else 0.0
         return max(self.overlap, misfit, excess)
 
-    def _narrow(self) -> None:
-        """Leave out the cells that are not in contact and did not come near it, if they are many."""
-        near = self.gap < self.level + NEAR * self.overlap
-        near |= self.weight > 0
-        near |= self.change > self.lower
-        near |= np.abs(self.known - self.lower) > FORGOTTEN  # known pressure that is still to be taken off
-        if not 0 < np.count_nonzero(near) <= WORTH * near.size:
-            return
-        kept = np.flatnonzero(near)
-        self.cells = self.cells.narrowed(kept)
-        self.target -= float(self.change.sum()) - float(self.change.take(kept).sum())
-        for name in FIELDS:  # one after the other, so that old ones are freed soon
-            setattr(self, name, getattr(self, name).take(kept))
-        if self.stencil is not None:
-            self.stencil.move(self.cells.index)
-        self._look()
-
     def _turn(self) -> None:
         """Conjugate direction on the free cells (Polak-Ribiere, never negative), along which a given load does not
         change. The residue becomes the one before."""
         turned = self.trial
-        if self.stencil is not None:
+        if not self.exact:
             self.stencil.apply(self.residue, turned)
         else:
             field = self.cells.field(self.residue)
