@@ -47,7 +47,7 @@ class Problem:
         return replace(
             self,
             gap0=np.mean(parts, axis=0),
-            operator=operator.coarsened((fx, fy)),
+            operator=operator.coarsened((fx, fy)).single,
             tolerance=COARSE_TOLERANCE,
             max_iterations=COARSE_ITERATIONS,
         )
