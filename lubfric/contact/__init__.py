@@ -12,7 +12,7 @@ from .operator import HalfSpace, half_space
 from .problem import Problem, make_problem
 from .result import ContactResult, contact_residuals, length_scale
 from .rough_contract import ContactState, RoughContact, weighted_mean
-from .rounds import refine
+from .rounds import Found, State, concluded, look, refine, state_of
 from .solve import solve_contact
 from .strip_cells import correlation_lengths, length_or_half
 from .strips import Strips, one_patch, strips_of
