@@ -175,7 +175,17 @@ def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
     """
     z = np.moveaxis(heights, axis, 0)
     if periodic:
-        new = _fourier(z, count)
+        from scipy import fft
+
+        n, keep = len(z), min(len(z), count) // 2 + 1
+        spectrum = np.zeros((count // 2 + 1, z.shape[1]), complex)
+        spectrum[:keep] = fft.rfft(z, axis=0)[:keep]
+        shift = 0.5 * (n / count - 1) / n  # from old to new cell centres, in periods
+        spectrum *= np.exp(2j * np.pi * shift * np.arange(len(spectrum)))[:, None]
+        even = min(n, count)
+        if even % 2 == 0 and n != count:  # the highest mode is shared by +k and -k
+            spectrum[even // 2] *= 2.0 if count < n else 0.5
+        new = fft.irfft(spectrum, count, axis=0) * (count / n)
     else:
         from scipy.interpolate import CubicSpline
 
@@ -183,18 +193,3 @@ def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
         edges = np.minimum(ratio * np.arange(count + 1), len(z))
         new = np.diff(CubicSpline(np.arange(len(z) + 1), integral)(edges), axis=0) / ratio
     return np.moveaxis(new, 0, axis)
-
-
-def _fourier(z, count) -> np.ndarray:
-    """Fourier series of n cell centres evaluated at ``count`` cell centres of the same period."""
-    from scipy import fft
-
-    n, keep = len(z), min(len(z), count) // 2 + 1
-    spectrum = np.zeros((count // 2 + 1, z.shape[1]), complex)
-    spectrum[:keep] = fft.rfft(z, axis=0)[:keep]
-    shift = 0.5 * (n / count - 1) / n  # from old to new cell centres, in periods
-    spectrum *= np.exp(2j * np.pi * shift * np.arange(len(spectrum)))[:, None]
-    even = min(n, count)
-    if even % 2 == 0 and n != count:  # the highest mode is shared by +k and -k
-        spectrum[even // 2] *= 2.0 if count < n else 0.5
-    return fft.irfft(spectrum, count, axis=0) * (count / n)
