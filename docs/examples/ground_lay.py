@@ -27,7 +27,7 @@ def solve(surface_file, places=5):
         nx, ny = model.surface.shape[0], full.shape[1]
         rows = []
         for first in np.linspace(0, full.shape[0] - nx, places).astype(int):
-            piece = full.cropped((nx, ny), (first, 0)).periodic("mirror", axes=(False, True))
+            piece = full.cropped((nx, ny), (first, 0)).periodic(axes=(False, True))
             heights = piece.heights - piece.heights.mean()
             place = replace(model, surface=piece, contact=replace(model.contact, heights=heights))
             rows.append(lubfric.stribeck(place, SPEEDS).coefficient)

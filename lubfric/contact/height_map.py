@@ -127,7 +127,7 @@ def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface"
     )
     if rough.oversize == 1:
         return surface
-    surface = surface.cropped(domain.shape).periodic("mirror", axes=(domain.geometry == "flat", True))
+    surface = surface.cropped(domain.shape).periodic(axes=(domain.geometry == "flat", True))
     return surface if rough.sq is None else surface.scaled(sq=rough.sq)
 
 
@@ -189,4 +189,4 @@ def _cut_to_contact(scene: Scene, surface: Surface, continued: bool) -> Surface:
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
             f"{'' if continued else '; ' + TOO_SHORT if nx > surface.shape[0] else ''}"
         )
-    return surface.cropped((nx, ny)).periodic("mirror", axes=(domain.geometry == "flat", True))
+    return surface.cropped((nx, ny)).periodic(axes=(domain.geometry == "flat", True))
