@@ -140,7 +140,7 @@ def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface"
     )
     if rough.oversize == 1:
         return surface
-    surface = surface.cropped(domain.shape).periodic("mirror", axes=(domain.geometry == "flat", True))
+    surface = surface.cropped(domain.shape).periodic(axes=(domain.geometry == "flat", True))
     return surface if rough.sq is None else surface.scaled(sq=rough.sq)
 
 
@@ -202,4 +202,4 @@ def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
             f"{'' if mirrored or nx <= surface.shape[0] else '; ' + TOO_SHORT}"
         )
-    return surface.cropped((nx, ny)).periodic("mirror", axes=(not cylinder, True))
+    return surface.cropped((nx, ny)).periodic(axes=(not cylinder, True))
