@@ -105,10 +105,11 @@ def _marched(
 
 
 def _state(now: Progress) -> Progress:
-    """All that a resumed run needs: ``now``, without what the next step computes again."""
-    contact = now.payload
-    bare = replace(contact, state=replace(contact.state, fields=None, y=None))
-    return replace(now, payload=bare, solution=None)
+    """All that a resumed run needs to give the same bits: ``now``, of the contact the pressure, from which the next one
+    is solved, and not what the next step computes again."""
+    state = now.payload.state
+    fields = state.fields and replace(state.fields, gap=np.empty(0), displacement=np.empty(0))
+    return replace(now, payload=replace(now.payload, state=replace(state, fields=fields, y=None)), solution=None)
 
 
 def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.ndarray]:
