@@ -61,8 +61,7 @@ def convergence(name: str, caption: str, series: Sequence[Series], size: str, er
 
 
 def picture(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Figure:
-    """Errors against mesh size, log-log, each with its fitted order over all meshes and a dotted line of the expected
-    one."""
+    """Errors against mesh size, log-log, each with its fitted order and a dotted line of the expected one."""
     canvas, ax = axes(height=3.6 + 0.2 * ((len(series) + 1) // 2))
     for one in series:
         sizes, errors = np.asarray(one.sizes, dtype=float), np.asarray(one.errors, dtype=float)

@@ -72,8 +72,7 @@ class Sphere:
 
 @dataclass(frozen=True)
 class Wave:
-    """The surface ``amplitude cos(2 pi x/length)`` on a plane. The share s is p/p*, p* the pressure that closes the
-    gap."""
+    """The surface ``amplitude cos(2 pi x/length)`` on a plane. The share s is p/p*, p* closing the gap."""
 
     e_prime: float
     amplitude: float
@@ -92,8 +91,7 @@ class Wave:
 
     @property
     def mean_gap(self) -> float:
-        """``amplitude (1 - s + s ln s)`` [m], because the pressure is minus the derivative of the energy by the mean
-        gap."""
+        """``amplitude (1 - s + s ln s)`` [m]: the pressure is minus the derivative of the energy by it."""
         return self.amplitude * (1 - self.share + self.share * math.log(self.share))
 
     def pressure(self, x):

@@ -23,8 +23,7 @@ Case = TypeVar("Case")
 
 @dataclass(frozen=True)
 class Run:
-    """How a part of a campaign runs: the folder that keeps its rows (None: nowhere), the number of processes, and the
-    name of its file."""
+    """How a part of a campaign runs: folder of its rows (None: nowhere), processes, name of its file."""
 
     folder: Path | None = None
     workers: int = 1
@@ -75,8 +74,7 @@ def code() -> str:
 
 
 def rows_of(file: Path) -> dict[str, Any]:
-    """The rows of ``file`` by case. The file is made if it is missing, and a last line that was not written to its end
-    is cut off."""
+    """The rows of ``file`` by case. It is made if it is missing; an unfinished last line is cut off."""
     file.parent.mkdir(parents=True, exist_ok=True)
     whole = file.read_bytes() if file.is_file() else b""
     whole = whole[: whole.rfind(b"\n") + 1]

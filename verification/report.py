@@ -76,7 +76,6 @@ def outcome_dict(outcome: Outcome) -> dict:
         "description": outcome.description,
         "passed": outcome.passed,
         "seconds": outcome.seconds,
-        "peak_memory_bytes": outcome.peak_memory,
         "error": outcome.error,
         "traceback": outcome.trace,
         "checks": [c.as_dict() for c in outcome.checks],

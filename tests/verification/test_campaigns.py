@@ -11,11 +11,10 @@ import lubfric
 from verification import kept
 from verification.__main__ import main
 from verification.charts import contact, draw
-from verification.charts.measure import interleaved, point
+from verification.charts.measure import point
 from verification.check import Check
 from verification.kept import Run
-from verification.model import error, film, points
-from verification.opponents import CONTACT
+from verification.model import error, points
 from verification.sampling import coverage, others
 
 NAN = float("nan")
@@ -23,8 +22,7 @@ NAN = float("nan")
 
 def test_rows_come_in_order_from_several_processes_and_are_kept(tmp_path):
     run, cases = Run(tmp_path, 2), {str(k): k for k in range(4)}
-    assert list(run.solved(cases, math.factorial)) == [(0, 1), (1, 1), (2, 2), (3, 6)]
-    assert list(run.solved(cases, None)) == [(0, 1), (1, 1), (2, 2), (3, 6)]
+    assert list(run.solved(cases, math.factorial)) == list(run.solved(cases, None)) == [(0, 1), (1, 1), (2, 2), (3, 6)]
 
 
 def test_a_line_that_was_not_written_to_its_end_is_written_again(tmp_path):
@@ -113,15 +111,6 @@ def test_pieces_that_miss_their_map_fail(monkeypatch, missed, passed):
     assert check.passed == passed
 
 
-def test_a_piece_is_its_part_of_the_map(tmp_path, monkeypatch):
-    seen = []
-    monkeypatch.setattr(others, "MAP", (192, 162))
-    monkeypatch.setattr(others, "solve", lambda scene, speed, asked: seen.append(np.load(scene.surface.file)))
-    for place in (None, *np.ndindex(2, 3)):
-        others.piece(("", 3, (2, 3), place))
-    assert np.array_equal(np.block([seen[1:4], seen[4:]]), seen[0])
-
-
 def test_a_number_beyond_its_stated_error_fails(monkeypatch):
     rows = {"f": (0.01, 0.02), "gap": (0.05, 0.02), "area": None}
     monkeypatch.setattr(others, "ESTIMATED", tuple(rows))
@@ -164,19 +153,13 @@ def test_every_model_answers_the_same_scene_and_a_lost_reference_fails():
     assert [c.failed for c in error.failures(lost)] == [True, False, False, False]
 
 
-def test_grids_say_what_they_found():
-    f, seconds, memory = film.on_cells((0.01, 1, 32))
-    assert 0.04 < f < 0.09 and seconds > 0 and 0 < memory < 6
-
-
 def test_a_measured_map_is_slid_along_both_axes_of_its_file(tmp_path):
     """The map turned by a quarter is the same map slid along the other axis."""
     map_ = lubfric.generate_surface((64, 64), 90e-6 / 64, sq=100e-9, correlation_length=(5e-6, 12e-6), seed=4)
     found = {}
     for name, heights in (("straight", map_.heights), ("turned", map_.heights.T)):
         np.save(tmp_path / f"{name}.npy", heights)
-        keys = {"file": str(tmp_path / f"{name}.npy"), "spacing": map_.spacing, "unit": "m"}
-        keys |= {"sq": None, "correlation_length": None}
+        keys = {"file": str(tmp_path / f"{name}.npy"), "spacing": map_.spacing, "sq": None, "correlation_length": None}
         scene = lubfric.load_scene("paper").with_(surface=keys, contact={"shape": None, "spacing": None})
         (tmp_path / f"{name}.toml").write_text(scene.to_toml())
         for axis in "xy":
@@ -185,13 +168,6 @@ def test_a_measured_map_is_slid_along_both_axes_of_its_file(tmp_path):
     assert found["straight", "x"] != pytest.approx(found["straight", "y"], rel=2e-3)
     for axis, other in ("xy", "yx"):
         assert found["straight", axis] == pytest.approx(found["turned", other], rel=2e-3)
-
-
-def test_repeats_are_interleaved():
-    order = []
-    found = interleaved({name: lambda name=name: order.append(name) for name in "ab"}, 3)
-    median, low, high = found["a"][1]
-    assert order == list("ababab") and 0 <= low <= median <= high
 
 
 def test_methods_agree_and_errors_fall_with_the_tolerance():
@@ -216,14 +192,6 @@ def test_methods_are_compared_at_one_error():
     ]
     assert draw.methods_table(rows).rows == (("case", "20 ms", "4.0"),)
     assert draw.work_precision("contact", rows, "an abacus").data[:4] == b"\x89PNG"
-
-
-def test_opponents_give_none_where_they_are_not_installed(monkeypatch):
-    import sys
-
-    for name in ("aspher", "tamaas"):
-        monkeypatch.setitem(sys.modules, name, None)
-        assert CONTACT[name](contact.heights(64, "gaussian"), 1e-6, 231e9) is None
 
 
 @pytest.mark.slow

@@ -1,6 +1,4 @@
-"""The mutation test is itself tested: mutants change what they say, leave nothing behind, and are caught for
-a reason.
-"""
+"""The mutation test is itself tested: mutants change what they say, leave nothing behind, and are caught."""
 
 import json
 

@@ -21,10 +21,7 @@ from verification.check import Field
     ids=lambda m: type(m).__name__,
 )
 def test_vtu_round_trip(mesh, tmp_path):
-    values, vector = (
-        np.sin(np.arange(mesh.nvertices)),
-        np.random.default_rng(1).normal(size=(mesh.nvertices, 3)),
-    )
+    values, vector = (np.sin(np.arange(mesh.nvertices)), np.random.default_rng(1).normal(size=(mesh.nvertices, 3)))
     field = meshes.mesh_field("f", "", mesh, {"p": values, "u": vector}, {"index": np.arange(mesh.nelements)})
     back = meshio.read(meshes.write_vtu(tmp_path / "f.vtu", field))
     assert np.array_equal(back.points[:, : mesh.dim()], mesh.p.T)

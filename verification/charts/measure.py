@@ -28,7 +28,7 @@ def point(
     not that of the solver), size (unknowns).
     """
     median, low, high = (float(s) for s in seconds)
-    where = at | {"panel": panel, "method": method, "setting": setting, "low": low, "high": high}
+    where = at | {"panel": panel, "method": method, "setting": setting, "seconds": median, "low": low, "high": high}
     name = f"{panel}; {method}; {setting}"
     return Check(name, error, 0.0, 0.0, "a tighter solution", TOLD, seconds=median, at=where).as_dict()
 

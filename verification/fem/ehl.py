@@ -244,7 +244,6 @@ def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
 
 
 def refined(coarse: Solution, body: Body) -> Iterate:
-    """A solution taken to the next finer mesh, film included: the film of the interpolated pressure would
-    be rougher."""
+    """A solution taken to the next finer mesh, film included (that of the interpolated pressure is rougher)."""
     P = coarse.body.line.probes(body.x[None]) @ coarse.P
     return Iterate(refined_displacement(coarse.body, body, coarse.displacement), P, coarse.approach, P <= 0)

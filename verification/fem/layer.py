@@ -85,8 +85,7 @@ class Layer:
 
 
 def graded_mesh(width: float, thickness: float, strip: float, fine: float, growth: float = 0.4) -> MeshTri:
-    """Triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x|
-    <= strip``.
+    """Triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x| <= strip``.
 
     The mesh is mirrored about x = 0, so that the nodes on the two sides lie at the same depths.
     """

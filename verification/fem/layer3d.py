@@ -199,9 +199,8 @@ def solve(
 ) -> Solved:
     """Displacement of the assembled layer under nodal surface forces (nx, ny) in N, downwards.
 
-    The stopping test, made here on the returned displacement and not taken from the iteration: ``|f - K
-    u|/|f|`` in the 2-norm <= tolerance. Raises `SolveError` with report and result otherwise, unless
-    ``raise_on_failure`` is False.
+    The stopping test, made here on the returned displacement and not taken from the iteration: ``|f - K u|/|f|`` in the
+    2-norm <= tolerance. Raises `SolveError` with report and result otherwise, unless ``raise_on_failure`` is False.
     """
     layer = grid.layer
     force = np.asarray(force, dtype=float)

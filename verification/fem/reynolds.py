@@ -348,8 +348,7 @@ def measure(problem: Problem, p, r, held, cavitated, flow) -> dict[str, float]:
 
 
 def newton_step(problem: Problem, matrix, r, p, held, cavitated) -> np.ndarray:
-    """The step to ``r = 0`` on free nodes and to ``p = 0`` on cavitated ones, with none on held ones. It is shortened
-    where the viscosity would run away."""
+    """The step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, shortened where viscosity would run away."""
     step = np.where(cavitated & ~held, -p, 0.0)
     free = np.flatnonzero(~(held | cavitated))
     rhs = -(r + matrix @ step)[free]

@@ -61,8 +61,7 @@ def film_load(case: tuple) -> float:
 
 
 def stribeck_curves(quick: bool, run: Run) -> PaperFigure:
-    """Fig. 8: three models with ensemble mean and band, the real surface, and F_H at 0.001 m/s over
-    correlation length."""
+    """Fig. 8: three models with mean and band, the real surface, and F_H at 0.001 m/s over L."""
     speeds, seeds = np.geomspace(1e-3, 1.0, 5 if quick else 11), range(1, 3 if quick else 9)
     cases = {f"{kind}, {seed}": ((*kind, seed), speeds, "") for kind in KINDS for seed in seeds}
     if real_surface() and not quick:

@@ -41,8 +41,7 @@ def outcomes(group_and_share: tuple[str, float]) -> list[tuple[str, str]]:
 
 
 def bad_inputs(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Bad scenes, files and calls from a seeded generator. `lubfric.LubfricError` refuses each in words,
-    within 8 s and 2 GB."""
+    """Bad scenes, files and calls. `lubfric.LubfricError` refuses each in words, within 8 s and 2 GB."""
     from .case import BAD, GOOD
 
     share = 0.1 if level == "quick" else 1.0

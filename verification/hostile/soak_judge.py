@@ -134,7 +134,8 @@ def judge_of(prepared: Prepared, result) -> Judge:
     oil = scene.lubricant
     newtonian = oil.eyring_stress is None and oil.limiting_stress_coefficient is None  # whose spike f feels
     tolerance = TIGHT if cancels or newtonian or scene.motion.slide_roll_ratio == 0 else LOOSE
-    scaled, strips, pairs = scene.numerics.film_deflection == "scaled", prepared.strips, ()
+    scaled, strips = scene.numerics.film_deflection == "scaled", prepared.strips
+    pairs: tuple[tuple[Strip, Strip], ...] = ()
     if strips is None or strips.whole:
         n, dx = prepared.surface.shape[0], prepared.surface.spacing[0]
         strip = _strip(prepared.surface, (np.arange(n) - 0.5 * (n - 1)) * dx)

@@ -22,7 +22,7 @@ def grids(level: str, run: Run = Run()) -> Iterator[Item]:
     """f at 5.5 N on three grids, and the time of a Stribeck curve."""
     count, cells = GRIDS[level]
     cases = {
-        f"{u} m/s, {n} cells, {k}": (u, n, k) for u in (0.03, 0.01, 0.003) for k in range(1, count + 1) for n in cells
+        f"{u} m/s, {n} cells, {k}": (u, k, n) for u in (0.03, 0.01, 0.003) for k in range(1, count + 1) for n in cells
     }
     rows = [row for _, row in run.solved(cases, on_cells)]
     f, seconds = np.array(rows)[:, :2].reshape(3, count, 3, 2).transpose(3, 0, 1, 2)

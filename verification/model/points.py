@@ -42,8 +42,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Point:
-    """One operating point by one method, with the error of the model that its result states. A failure has NaN and its
-    words."""
+    """One operating point by one method, with the model error that it states. A failure has NaN and words."""
 
     setting: Setting
     speed: float

@@ -43,8 +43,7 @@ def pieces(level: str, run: Run = Run(), seed: int = SEED, scene: str | None = N
 
 
 def piece(case: tuple) -> dict:
-    """A point on one piece of a map, which is written and read again as instrument files are, or (None) on all of
-    it."""
+    """A point on one piece of a map (None: all of it), which is written and read again as instrument files are."""
     name, seed, cuts, place = case
     if name:
         scene, contact = lubfric.load_scene(name), {}
@@ -72,8 +71,7 @@ def piece(case: tuple) -> dict:
 
 
 def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Every reported number of random scenes beside the same at a tolerance of 0.01 %: is it within its stated
-    error?"""
+    """Every reported number of random scenes beside the same at 0.01 %: is it within its stated error?"""
     found = [row for _, row in run.solved({str(k): k for k in range(SCENES[level])}, beside)]
     rows = []
     for name in ESTIMATED:
@@ -89,8 +87,7 @@ def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
 
 
 def beside(number: int) -> dict:
-    """(relative deviation, stated relative error) of every quantity of a random patch, None where none is stated;
-    nothing where the scene is refused."""
+    """(relative deviation, stated error) by quantity of a random patch; None if none is stated, {} if refused."""
     scene = random_scene(np.random.default_rng((11, number))).with_(numerics={"sampling": "patch", "tolerance": 0.01})
     try:
         found = lubfric.friction(scene)

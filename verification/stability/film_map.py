@@ -27,8 +27,7 @@ PAPER = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosit
 
 @dataclass(frozen=True)
 class Film:
-    """Arguments ``case`` of the film solvers in SI units, the tolerance asked for, and M and L of a film to start
-    from."""
+    """Arguments ``case`` of the film solvers in SI units, the tolerance, and M and L of a film to start from."""
 
     case: dict = field(hash=False)
     tolerance: float = TOLERANCE

@@ -106,8 +106,7 @@ def hertz(level: str):
 
 
 def edge_mean_error(found: Layer, fine: float) -> float:
-    """Relative L2 error of the pressure, as root mean square over loads that move the edge of the contact through one
-    cell."""
+    """Relative L2 error of the pressure, rms over loads that move the edge of the contact through a cell."""
     errors = []
     for shift in np.arange(5) / 5:
         load = LINE_LOAD * (1 + fine * shift) ** 2 / (1 + fine) ** 2

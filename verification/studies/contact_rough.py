@@ -37,8 +37,7 @@ def contact_rough(level: str):
 
 
 def roughness(x, y, seed: int = 2, waves: int = 4, slope: float = -1.8):
-    """Heights [m] with root mean square SQ: waves of random phase, 1 to ``waves`` in the box, of amplitude
-    |n|^slope."""
+    """Heights [m] of rms SQ: waves of random phase, 1 to ``waves`` in the box, of amplitude |n|^slope."""
     phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, (waves + 1, 2 * waves + 1))
     total, power = np.zeros(np.broadcast_shapes(x.shape, y.shape)), 0.0
     for i in range(waves + 1):

@@ -1,6 +1,4 @@
-"""The whole job of `lubfric`: what grid, patch, area A, tolerance and direction do to the coefficient of
-friction.
-"""
+"""The whole job of `lubfric`: what grid, patch, area A, tolerance and direction do to the coefficient of friction."""
 
 from dataclasses import replace
 from typing import Any
@@ -32,8 +30,7 @@ TIGHT = {
 
 
 def friction(level: str):
-    """`lubfric.friction` on the paper's cylinder (Tables 1 and 2; generated Gaussian roughness of 100 nm, 8
-    µm at 1/e).
+    """`lubfric.friction` on the paper's cylinder (Tables 1 and 2; generated Gaussian roughness of 100 nm, 8 µm at 1/e).
 
     Full film has a closed form for its friction. Running backwards over the mirrored surface must change nothing: a
     film or a strip off by half a cell would. Then come the numerical choices: the cells per correlation length, the

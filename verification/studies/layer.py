@@ -5,13 +5,7 @@ from skfem import MeshTri
 
 from ..check import Check, Table, bound, compared
 from ..convergence import Series, convergence
-from ..fem.compliance import (
-    Elastic,
-    curvature_number,
-    half_space_compliance,
-    layer_compliance,
-    missing,
-)
+from ..fem.compliance import Elastic, curvature_number, half_space_compliance, layer_compliance, missing
 from ..fem.layer import Layer, graded_mesh, make_layer
 from ..fem.layer3d import Layer3D, graded_levels, multigrid, rigid_body_modes, solve
 from ..fem.layer_waves import fourier_compliance

@@ -54,8 +54,7 @@ def slider(refinements: int):
 
 
 def parabola_mesh(cells: int, inlet: float = PARABOLA.inlet, shift: float = 0.0) -> skfem.MeshLine:
-    """Cells that are fine where the film is thin, with the inlet to X = 2. ``shift`` moves the nodes by a part of a
-    cell."""
+    """Cells that are fine where the film is thin, up to X = 2. ``shift`` moves the nodes by a part of a cell."""
     span = np.arcsinh(2) + np.arcsinh(-inlet)
     stretched = np.linspace(-np.arcsinh(-inlet), np.arcsinh(2) + shift * span / cells, cells + 1)
     return skfem.MeshLine(np.sinh(stretched) * PARABOLA.scale)

@@ -147,8 +147,7 @@ def edged(e: exact.ExponentialPad) -> skfem.MeshQuad:
 
 
 def parabolic(refinements: int):
-    """Rupture on a surface: infinite width repeats the line; finite width, where the rupture line bends, is the same on
-    both kinds of cells and loses no mass."""
+    """Rupture: infinite width repeats the line; finite width agrees on both kinds of cells and loses no mass."""
     e = exact.Parabola(VISCOSITY, SPEED, 0.01, 1e-6, -10.0)
     x = np.sinh(np.linspace(-np.arcsinh(10), np.arcsinh(2), 25)) * e.scale
 

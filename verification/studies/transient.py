@@ -133,8 +133,7 @@ def marched(resolution: float, steps: int) -> float:
 
 
 def one_step(resolution: float) -> float:
-    """Relative error of the sinking speed in one backward Euler step, in which the law holds with the film
-    at its end."""
+    """Relative error of the sinking speed in one backward Euler step: the law holds with the film at its end."""
     made, step = setting(resolution), 1e-2 * LONG
     first = made.undeformed(1e-6)
     h = made.solve(step, Memory(1 / step, first.film), first.z).terms.H.min() * made.problem.film_unit

@@ -23,9 +23,8 @@ def transient_mixed(level: str):
 
     It is the paper's scene, for which a generated surface stands in for the measured one. Slow changes must follow the
     Stribeck curve, and a scene that is held its steady answer. Fast changes leave it: slowing down drags a thick film
-    along, speeding up a thin one, so the friction loop opens with frequency. The error of friction
-    follows from the time tolerance and from the film's grid, against the finest of each. Last comes the cost of a cycle
-    of 300 steps.
+    along, speeding up a thin one, so the friction loop opens with frequency. The error of friction follows from the
+    time tolerance and from the film's grid, against the finest of each. Last comes the cost of a cycle of 300 steps.
     """
     n = CELLS[level]
     contact, motion = {"shape": (n, n), "spacing": 90e-6 / n}, {"entrainment_speed": LARGEST}

@@ -31,8 +31,7 @@ COLUMNS = ("case", "wavelength/b", "kept: lubfric", "finite elements", "even fil
 
 @dataclass(frozen=True)
 class Case:
-    """A smooth line contact in SI units: load per width, radius, E', speed, viscosity and its coefficient (None:
-    constant)."""
+    """A smooth line contact in SI units; ``coefficient``: of pressure and viscosity (None: constant)."""
 
     name: str
     load: float
@@ -85,8 +84,7 @@ def waviness(level: str) -> Iterator[Item]:
 def compared(
     case: Case, lengths=LENGTHS, judged: Case | None = None, refinements: int = 2, fineness: float = 1.0
 ) -> Iterator[tuple[float, float, float, float, float]]:
-    """Wavelength, |h1|/A at x = 0 by lubfric, by finite elements (of the case ``judged``) and in an even film, and the
-    rms of the difference."""
+    """Wavelength, |h1|/A at x = 0 by lubfric, finite elements (of ``judged``) and an even film; rms difference."""
     line = case.line
     b = line.half_width
     flat = Surface(np.zeros((64, 1)), (5 * b / CELLS,) * 2, periodic_axes=(True, True))

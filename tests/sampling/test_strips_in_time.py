@@ -1,4 +1,4 @@
-"""The line of a run in time, and its averages."""
+"""The strips of a run in time, and its averages."""
 
 import dataclasses
 import math
@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.sampling import line_friction
 from lubfric.scene import Transient
 from lubfric.time.steady import film_thinning, strip_for
 
@@ -27,6 +26,14 @@ def test_the_line_is_as_long_as_the_tolerance_asks(held):
     assert held.line_length == pytest.approx(steady.uncertainty.length, rel=0.05)
     assert held.sampling_error.max() < 1.3 * 0.035
     assert held.uncertainty.length[0] == held.line_length
+
+
+def test_a_run_held_at_one_speed_is_the_steady_point(held):
+    steady = lubfric.friction(HELD)
+    np.testing.assert_allclose(held.coefficient, steady.coefficient, rtol=0.03)
+    np.testing.assert_allclose(held.sampling_error, steady.uncertainty.sampling, rtol=0.4)
+    assert np.all(held.uncertainty.interval[:, 0] < held.coefficient)
+    assert "standard error" in " ".join(held.report.notes)
 
 
 def test_an_average_over_time_is_as_unsure_as_its_line(held):
@@ -61,11 +68,11 @@ def test_a_run_in_time_takes_cells_that_do_not_move_its_friction():
     )
     coarse = lubfric.prepare(scene)
     fine = strip_for(coarse).prepared
-    by_cells = [line_friction(prepared, 0.1)[1].by_cells for prepared in (coarse, fine)]
-    assert by_cells[0] > 0.015 and by_cells[1] <= scene.numerics.tolerance
+    assert lubfric.friction(scene).decision.change_by_cells > 0.015
+    assert lubfric.friction(fine).decision.change_by_cells <= scene.numerics.tolerance
     assert fine.surface.spacing[0] < coarse.surface.spacing[0]
     kept = strip_for(lubfric.prepare(scene.with_(numerics={"tolerance": 0.1}))).prepared
-    assert kept.lines.cells == coarse.lines.cells
+    assert kept.strips.cells == coarse.strips.cells
 
 
 def test_contact_areas_of_a_run_are_those_on_the_cells_of_the_scene(held):
@@ -75,21 +82,6 @@ def test_contact_areas_of_a_run_are_those_on_the_cells_of_the_scene(held):
     for run, steady in ((held, lubfric.friction(HELD)), (rough, lubfric.friction(scene))):
         found = run.real_contact_area_fraction[-1]
         assert found == pytest.approx(steady.real_contact_area_fraction, rel=0.12)
-
-
-def test_plastic_areas_of_a_run_are_those_on_the_cells_of_the_scene():
-    """On the cells of the line a third less yielded."""
-    scene = HELD.with_(
-        surface={"acf": "exponential"},
-        bodies={"hardness": 2e9},
-        motion={"entrainment_speed": 0.01},
-        transient=Transient(1e-3, outputs=1),
-        numerics={"sampling_tolerance": 0.05},
-    )
-    steady = lubfric.friction(scene)
-    found = lubfric.transient(scene).plastic_area_fraction
-    assert steady.plastic_area_fraction > 0.01
-    assert found == pytest.approx(steady.plastic_area_fraction, rel=0.15)
 
 
 def test_a_film_that_bends_its_bodies_divides_the_load_as_softly_as_in_a_steady_contact():
@@ -108,12 +100,3 @@ def test_a_film_thins_with_its_load_as_a_rigid_or_an_elastic_one(load, speed, lo
     assert low < film_thinning(scene, load) < high
     assert film_thinning(scene, 0.0) == 1.0
     assert 0 < film_thinning(scene.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}), load) <= 1.0
-
-
-def test_areas_at_rest_are_not_known_where_the_cells_are_longer_than_those_of_the_scene():
-    """No steady speed tells what the cells do. An area on longer cells is no answer: it was 1.9 times too large."""
-    rest = HELD.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}, transient=Transient(1e-3))
-    prepared = lubfric.prepare(rest)
-    assert max(prepared.lines.cells.factors) > 1
-    strip = strip_for(prepared)
-    assert math.isnan(strip.area) and math.isnan(strip.plastic)
