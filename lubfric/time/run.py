@@ -98,10 +98,18 @@ def _marched(
         if now.at_output:
             put_out(now)
         if store is not None:
-            store.save(replace(now, solution=None))  # which the next step computes again
+            store.save(_state(now))
         if on_step is not None:
             on_step(now.time, plan.end, outputs[-1][0] if now.at_output else None)
     return now, outputs
+
+
+def _state(now: Progress) -> Progress:
+    """All that a resumed run needs to give the same bits: ``now``, of the contact the pressure, from which the next one
+    is solved, and not what the next step computes again."""
+    state = now.payload.state
+    fields = state.fields and replace(state.fields, gap=np.empty(0), displacement=np.empty(0))
+    return replace(now, payload=replace(now.payload, state=replace(state, fields=fields, y=None)), solution=None)
 
 
 def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.ndarray]:
