@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact import contact_curve, solve
-from lubfric.contact.cells import rescaled, shifted
+from lubfric.contact import contact_curve
 from lubfric.contact.contact_curve import left_out
 
 E_PRIME, HEAVIEST = 231e9, 2e8
@@ -63,19 +62,6 @@ def test_nodes_left_out_are_missed_as_by_scipys_cubic(nodes):
             assert found == pytest.approx(
                 abs(PchipInterpolator(x[others], values[others])(x[i]) - values[i]), abs=1e-12
             )
-
-
-def test_a_start_shifted_to_less_load_saves_work(monkeypatch):
-    """Against pressures in proportion to the load; the gaps are the same."""
-    heights = lubfric.generate_surface((96, 96), 2e-6, sq=1e-7, correlation_length=8e-6, seed=1).heights
-    curves = []
-    for begin in (shifted, rescaled):
-        monkeypatch.setattr(solve, "shifted", begin)
-        curves.append(contact_curve(heights, (2e-6, 2e-6), E_PRIME, heaviest=HEAVIEST, tolerance=1e-5))
-    assert curves[0].evaluations < 0.8 * curves[1].evaluations
-    share = np.array([0.5, 0.1, 1e-3])
-    gaps = np.array([[curve.at(HEAVIEST * p)[0] for p in share] for curve in curves])
-    assert gaps[0] == pytest.approx(gaps[1], rel=1e-3)
 
 
 def test_the_area_between_nodes_is_within_what_is_told_and_what_the_film_feels():

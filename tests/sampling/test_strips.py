@@ -1,7 +1,5 @@
 """Strips: generated, and windows of a measured map, stacked to one line; their cells and seams."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -38,12 +36,6 @@ def test_a_strip_is_always_the_same_and_like_no_other():
     assert both.sq == pytest.approx(PAPER.surface.sq, rel=0.03)
     other = lubfric.prepare(PAPER.with_(surface={"seed": 2})).strips.stack(1)
     assert abs(np.corrcoef(one.heights.ravel(), other.heights.ravel())[0, 1]) < 0.1
-
-
-def test_two_rough_bodies_add_their_squares_and_share_no_seed():
-    rough = {"sq": 1e-7, "correlation_length": 8e-6, "acf": "gaussian", "seed": 1}
-    alone, both = (lubfric.prepare(scene).strips.stack(4) for scene in (PAPER, PAPER.with_(counterface=rough)))
-    assert both.sq == pytest.approx(math.sqrt(2) * alone.sq, rel=0.1)
 
 
 def test_stacked_windows_keep_their_variance_and_join_smoothly():

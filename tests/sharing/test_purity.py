@@ -37,7 +37,7 @@ SCENES = {
     "measured": None,
 }
 CHEAP = LINE.with_(numerics={"tolerance": 0.05, "sampling_tolerance": 0.3}, surface={"correlation_length": 4e-6})
-QUICK, REST = list(SCENES)[:4], list(SCENES)[4:]
+QUICK, REST = list(SCENES)[:3], list(SCENES)[3:]
 
 
 @pytest.fixture(scope="session")
@@ -115,8 +115,8 @@ def test_another_process_moves_no_bit(scene_of):
             assert pool.submit(at, scene_of(name), speeds[0]).result() == expected[speeds[0]], name
 
 
-@settings(max_examples=5)
-@given(st.lists(st.sampled_from([0.0, -0.01, *SPEEDS]), min_size=2, max_size=3, unique=True))
+@settings(max_examples=4)
+@given(st.lists(st.sampled_from([0.0, -0.01, *SPEEDS]), min_size=2, max_size=2, unique=True))
 def test_speeds_in_any_order_and_number(order):
     prepared = lubfric.prepare(CHEAP)
     for speed in order:
@@ -136,8 +136,8 @@ def test_a_like_scene_is_prepared_as_if_alone(scene_of):
 
 
 def test_fields_are_kept_and_change_no_number():
-    shown, alone = lubfric.friction(LINE, 0.01, fields=True), lubfric.friction(LINE, 0.01)
-    assert bits(shown) == bits(alone) and shown.pressure.shape == shown.heights.shape
+    shown = lubfric.friction(LINE, 0.01, fields=True)
+    assert bits(shown) == alone("line", LINE, (0.01,))[0.01] and shown.pressure.shape == shown.heights.shape
 
 
 def test_a_study_that_goes_on_has_the_same_bits(tmp_path):
