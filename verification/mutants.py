@@ -156,7 +156,7 @@ def same_cells(original):
 
 def not_mirrored(original):
     """A map that is called periodic without being made so."""
-    return lambda surface, edge="mirror", *, axes=(True, True): replace(
+    return lambda surface, *, axes=(True, True): replace(
         surface, periodic_axes=tuple(a or b for a, b in zip(axes, surface.periodic_axes))
     )
 

@@ -25,7 +25,7 @@ def solve(surface_file, places=5):
         nx, ny = lubfric.prepare(scene).surface.shape[0], full.shape[1]
         rows = []
         for first in np.linspace(0, full.shape[0] - nx, places).astype(int):
-            piece = full.cropped((nx, ny), (first, 0)).periodic("mirror", axes=(False, True))
+            piece = full.cropped((nx, ny), (first, 0)).periodic(axes=(False, True))
             rows.append(lubfric.stribeck(lubfric.prepare(scene, piece), SPEEDS).coefficient)
         curves[direction] = np.array(rows)
     return curves

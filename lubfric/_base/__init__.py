@@ -10,6 +10,7 @@ from .figures import (
     field_image,
     friction_lines,
     load_shares,
+    log_if_wide,
     make_ready,
     new_figure,
     plain_ticks,

@@ -66,6 +66,12 @@ def plain_ticks(axis) -> None:
         axis.set_minor_formatter(NullFormatter())
 
 
+def log_if_wide(axes, name: str, values: np.ndarray) -> None:
+    """A logarithmic axis "x" or "y" where the positive ``values`` on it spread over more than a factor of 20."""
+    if values.min() > 0 and values.max() > 20 * values.min():
+        axes.set(**{f"{name}scale": "log"})
+
+
 def speed_label(speed: np.ndarray) -> str:
     """The label of a logarithmic axis of entrainment ``speed`` [m/s], which shows its magnitude."""
     if not (speed < 0).any():

@@ -43,11 +43,11 @@ class Problem:
         )
         if fx == fy == 1:
             return None
-        nx, ny = operator.shape
+        parts = [self.gap0[i::fx, j::fy] for i in range(fx) for j in range(fy)]
         return replace(
             self,
-            gap0=self.gap0.reshape(nx // fx, fx, ny // fy, fy).mean(axis=(1, 3)),
-            operator=operator.coarsened((fx, fy)),
+            gap0=np.mean(parts, axis=0),
+            operator=operator.coarsened((fx, fy)).single,
             tolerance=COARSE_TOLERANCE,
             max_iterations=COARSE_ITERATIONS,
         )

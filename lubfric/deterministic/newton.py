@@ -88,9 +88,7 @@ def newton(problem: Problem, state: State, work: Work, *, tolerance, most, past:
 
 
 def _stalled(history) -> bool:
-    if len(history) <= PATIENCE:
-        return False
-    return not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
+    return len(history) > PATIENCE and not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
 
 
 def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float]:

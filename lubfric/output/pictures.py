@@ -17,12 +17,11 @@ from .._base import (
     field_image,
     friction_lines,
     load_shares,
+    log_if_wide,
     new_figure,
     plain_ticks,
     speed_label,
 )
-from ..errors import InputError
-from ..quantities import axis_label
 from ..studies import friction_over_speed, interval_band
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
@@ -67,7 +66,7 @@ def plot_stribeck(
 def plot_traction(
     path: Path, columns: dict[str, np.ndarray], title: str, entries: Sequence[Sequence[Any]], measured=None
 ) -> None:
-    """Friction over the slide-roll ratio, and temperatures below; arguments as `plot_stribeck`, without ``measured``."""
+    """Friction over the slide-roll ratio, and temperatures below. Arguments as of `plot_stribeck`."""
     good = np.flatnonzero(np.isfinite(columns["coefficient"]))
     order = good[np.argsort(columns["ratio"][good])]
     c = type(columns)((name, column[order]) for name, column in columns.items())
@@ -85,7 +84,7 @@ def plot_traction(
     bottom.plot(ratio, c["film_temperature_rise"], "-", color=GREEN, label="film above the surfaces")
     bottom.set(xlabel="slide-roll ratio (-)", ylabel="largest temperature rise (K)")
     bottom.legend(frameon=False)
-    _log_if_wide(bottom, "x", ratio)
+    log_if_wide(bottom, "x", ratio)
     plain_ticks(bottom.xaxis)
     figure.savefig(path, dpi=150)
 
@@ -195,51 +194,3 @@ def _section(axes, micro, surface, smooth, contact, row: int) -> None:
         axes.plot(micro, pressed_under * 1e9, color=RED, label="separation $h_s$ = h − ε")
     axes.set(xlabel="x (µm)", ylabel="height (nm)")
     axes.legend(frameon=False, fontsize=8)
-
-
-def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity: str = "coefficient") -> None:
-    """Draw ``quantity`` of a `StudyResult` as contours over two of its keys, for example ``"speed"`` and
-    ``"motion.slide_roll_ratio"``.
-
-    Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions, and numbers
-    of which there are two at least.
-    """
-    coords = study.coords
-    for key in (across, up):
-        if key not in coords:
-            raise InputError(f"{key!r} is not varied in this study; allowed: {', '.join(coords)}")
-    dims = [coords[up][0], coords[across][0]]
-    longer = [d for d, n in zip(study.dims, study.status.shape) if n > 1 and d not in dims]
-    if longer or dims[0] == dims[1]:
-        raise InputError(f"a map needs two dimensions, this study varies {', '.join(study.dims)} as well")
-    axes = [study.dims.index(d) for d in dims]
-    values = np.moveaxis(study[quantity], axes, (0, 1)).reshape(*(study.status.shape[a] for a in axes))
-    x, y = (_numbers(key, coords[key][1]) for key in (across, up))
-    values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
-    known = np.ma.masked_invalid(values)
-    figure = new_figure(figsize=(7, 5))
-    ax = figure.subplots()
-    shown = ax.contourf(x, y, known, levels=16, cmap="viridis")
-    ax.contour(x, y, known, levels=16, colors="w", linewidths=0.4)
-    rows, places = np.nonzero(~np.isfinite(values))
-    if rows.size:
-        ax.plot(x[places], y[rows], "x", color=RED, label="no answer")
-        ax.legend(frameon=False)
-    ax.set(xlabel=axis_label(across), ylabel=axis_label(up), title=title)
-    _log_if_wide(ax, "x", x)
-    _log_if_wide(ax, "y", y)
-    figure.colorbar(shown, label="friction coefficient (-)" if quantity == "coefficient" else quantity)
-    figure.savefig(path, dpi=150)
-
-
-def _numbers(key: str, values: np.ndarray) -> np.ndarray:
-    """The values [SI] of a key along one axis of a map."""
-    if values.dtype.kind != "f" or np.unique(values).size < max(2, values.size):
-        raise InputError(f"{key} = {', '.join(map(str, values))}; an axis of a map takes two or more different numbers")
-    return values
-
-
-def _log_if_wide(axes, name: str, values: np.ndarray) -> None:
-    """A logarithmic axis "x" or "y" where the positive ``values`` on it spread over more than a factor of 20."""
-    if values.min() > 0 and values.max() > 20 * values.min():
-        axes.set(**{f"{name}scale": "log"})

@@ -3,7 +3,6 @@ has saved is kept apart."""
 
 from __future__ import annotations
 
-import io
 import json
 import platform
 import shutil
@@ -36,13 +35,6 @@ def ready(scene: Scene) -> Prepared:
     prepared = prepare(scene)
     say(prepared.surface.describe())
     return prepared
-
-
-def drawn(plot: Callable, *arguments) -> bytes:
-    """The figure of ``plot(file, *arguments)``."""
-    buffer = io.BytesIO()
-    plot(buffer, *arguments)
-    return buffer.getvalue()
 
 
 def read_record(folder: Path) -> dict:
@@ -79,13 +71,9 @@ class RunFolder:
         self.written.append(name)
 
     def draw(self, name: str, plot: Callable, *arguments) -> None:
-        """Write the figure that ``plot(file, *arguments)`` draws."""
-        self.write(name, drawn(plot, *arguments))
-
-    def make(self, name: str, save: Callable, *arguments) -> None:
-        """Write a file by ``save(path, *arguments)``, if it can only be written by name."""
+        """Write the picture that ``plot(path, *arguments)`` saves."""
         with whole_file(self.path / name) as part:
-            save(part, *arguments)
+            plot(part, *arguments)
         self.written.append(name)
 
     def record(self, prepared: Prepared, result, **numbers: object) -> dict:

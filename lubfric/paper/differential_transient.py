@@ -17,7 +17,7 @@ from ..film import LineContact, Problem, cubic, smallest
 from ..scene import History, checked_history
 from ..time import FIRST_STEP, WET, Memory, Step, TransientFilm, checked_times, marched, plan_of, report_of
 from .differential import solve_differential_deflection
-from .differential_equations import NEAR, Squeeze, make_mesh
+from .differential_equations import NEAR, make_mesh
 from .differential_newton import newton
 
 TOLERANCE, MOST_STEPS = 1e-6, 40  # of Newton's method in a step
@@ -51,9 +51,8 @@ class UniformSetting:
         problem, n = self.problem(time), self.nodes
         unit, film, pressure = problem.length_unit, problem.film_unit, problem.pressure_unit
         mesh = make_mesh(self.domain[0] / unit, self.domain[1] / unit, n, self.bandwidth, True)
-        rate = memory.rate * unit / problem.contact.entrainment_speed
-        squeeze = Squeeze(rate, rate * memory.film / film)
-        found = newton(mesh, problem, z[:n] / pressure, z[n:] / film, TOLERANCE, MOST_STEPS, squeeze)
+        memory = Memory(memory.rate * unit / problem.contact.entrainment_speed, memory.film / film)
+        found = newton(mesh, problem, z[:n] / pressure, z[n:] / film, TOLERANCE, MOST_STEPS, memory)
         stored = problem.density(found.P)[0] * found.H * film
         z = np.concatenate([found.P * pressure, found.H * film])
         return Step(status=found.status, film=stored, z=z)

@@ -30,6 +30,7 @@ from .uncertainty import FEW, MATTERS, too_few
 SAFETY = 1.3  # of the length that a standard error asks for
 LEAST, GROWTH = 1.5, 4.0  # times the length so far: a standard error from few blocks is no guide further
 FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
+LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
 CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
 REFERENCES = (0.05, 0.4, 1.6)  # Moes' film of the whole load over Sq, at the speeds of reference points
 
@@ -214,14 +215,17 @@ def _missed(prepared: Prepared, found: Found, strips: Strips) -> float:
 
 
 def _too_coarse(prepared: Prepared, speed: float, found: Found) -> bool:
-    """Whether the cells change the division of the load by more than can be corrected, or f by more than is allowed
-    beyond first order; where the film clears the summits, whether the cells cut off a summit that would touch."""
+    """Whether the cells change the division of the load or the gap by more than can be corrected, or f by more than is
+    allowed beyond first order; where the film clears the summits, whether the cells cut off a summit that would
+    touch."""
     response, strips, scene = found.response, found.strips, prepared.scene
     if strips is None or strips.cells.own or found.solved.film is None:
         return False
     allowed = budget.CONTACT_GRID * scene.numerics.tolerance
     if response is not None:
         moved = abs(response.split * found.corrected)
+        if max(abs(found.corrected), abs(found.effect.film)) > LARGEST * found.solved.contact.mean_gap:
+            return True
         return moved > FARTHEST or response.relative("coefficient", found.second_order) > allowed
     clearance = found.solved.contact.mean_film - found.solved.contact.mean_gap
     if found.count > strips.first or clearance > CLOSE * prepared.surface.sq:

@@ -58,7 +58,7 @@ class Numerics(Brief):
         ("scaled"); its own ("hydrodynamic", the paper)
     model : "load-sharing": film and contact share the load, Eq. (8); "deterministic": one gap and one pressure
         (docs/deterministic.md); "auto": load sharing
-    grid : "auto": the coarsest contact grid and shortest patch that the tolerance allows; "given": the scene's own
+    grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
     heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how
         its viscosity falls with the temperature), "on", "off"
     accept : True: results outside the range of the model are returned and marked, instead of refused

@@ -1,10 +1,24 @@
-"""Friction over the speed, drawn with its parts and intervals."""
+"""Friction over the speed, drawn with its parts and intervals; numbers of a study over two of its keys."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
-from .._base import BLUE, FRICTION, axes_or_new, friction_lines, plain_ticks, speed_label
+from .._base import (
+    BLUE,
+    FRICTION,
+    RED,
+    axes_or_new,
+    friction_lines,
+    log_if_wide,
+    new_figure,
+    plain_ticks,
+    speed_label,
+)
+from ..errors import InputError
+from ..quantities import axis_label
 
 
 def interval_band(ax, over: np.ndarray, columns) -> None:
@@ -50,3 +64,45 @@ def curve_axes(curve, ax=None, **style):
     friction_over_speed(axes, columns, between, **style)
     axes.legend(frameon=False)
     return axes
+
+
+def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity: str = "coefficient") -> None:
+    """Draw ``quantity`` of a `StudyResult` as contours over two of its keys, for example ``"speed"`` and
+    ``"motion.slide_roll_ratio"``.
+
+    Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions, and numbers
+    of which there are two at least.
+    """
+    coords = study.coords
+    for key in (across, up):
+        if key not in coords:
+            raise InputError(f"{key!r} is not varied in this study; allowed: {', '.join(coords)}")
+    dims = [coords[up][0], coords[across][0]]
+    longer = [d for d, n in zip(study.dims, study.status.shape) if n > 1 and d not in dims]
+    if longer or dims[0] == dims[1]:
+        raise InputError(f"a map needs two dimensions, this study varies {', '.join(study.dims)} as well")
+    axes = [study.dims.index(d) for d in dims]
+    values = np.moveaxis(study[quantity], axes, (0, 1)).reshape(*(study.status.shape[a] for a in axes))
+    x, y = (_numbers(key, coords[key][1]) for key in (across, up))
+    values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
+    known = np.ma.masked_invalid(values)
+    figure = new_figure(figsize=(7, 5))
+    ax = figure.subplots()
+    shown = ax.contourf(x, y, known, levels=16, cmap="viridis")
+    ax.contour(x, y, known, levels=16, colors="w", linewidths=0.4)
+    rows, places = np.nonzero(~np.isfinite(values))
+    if rows.size:
+        ax.plot(x[places], y[rows], "x", color=RED, label="no answer")
+        ax.legend(frameon=False)
+    ax.set(xlabel=axis_label(across), ylabel=axis_label(up), title=title)
+    log_if_wide(ax, "x", x)
+    log_if_wide(ax, "y", y)
+    figure.colorbar(shown, label="friction coefficient (-)" if quantity == "coefficient" else quantity)
+    figure.savefig(path, dpi=150)
+
+
+def _numbers(key: str, values: np.ndarray) -> np.ndarray:
+    """The values [SI] of a key along one axis of a map."""
+    if values.dtype.kind != "f" or np.unique(values).size < max(2, values.size):
+        raise InputError(f"{key} = {', '.join(map(str, values))}; an axis of a map takes two or more different numbers")
+    return values

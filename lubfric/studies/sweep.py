@@ -108,7 +108,7 @@ def stribeck(
     ----------
     scene : from `lubfric.load_scene` or `lubfric.prepare`
     speeds : entrainment speeds [m/s], (n,); None: the scene's own; "auto": at most 25, so that ``curve.at(speed)`` is
-        within the tolerance on f everywhere between, and ``curve.lift_off`` is enclosed. On a line of the surface that
+        within the tolerance on f everywhere between, and ``curve.lift_off`` is enclosed. On strips of the surface that
         is the root sum of squares of the tolerance and the sampling tolerance
     executor : any `concurrent.futures.Executor`
     tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept

@@ -98,17 +98,10 @@ def _marched(
         if now.at_output:
             put_out(now)
         if store is not None:
-            store.save(_state(now))
+            store.save(replace(now, solution=None))  # which the next step computes again
         if on_step is not None:
             on_step(now.time, plan.end, outputs[-1][0] if now.at_output else None)
     return now, outputs
-
-
-def _state(now: Progress) -> Progress:
-    """All that a resumed run needs: ``now``, without what the next step computes again."""
-    contact = now.payload
-    bare = replace(contact, state=replace(contact.state, fields=None, y=None))
-    return replace(now, payload=bare, solution=None)
 
 
 def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.ndarray]:

@@ -57,27 +57,6 @@ def test_patch_radius_converges_with_the_grid():
 
 
 @pytest.mark.parametrize("definition", DEFINITIONS)
-def test_load_per_asperity_does_not_depend_on_spacing(definition):
-    loads = [
-        asperity_contact(paraboloids(pitch, 2), STEP, E_PRIME, separation=480e-9, definition=definition)
-        for pitch in (14e-6, 20e-6, 30e-6, 40e-6)
-    ]
-    assert [r.contacts for r in loads] == [4] * 4
-    assert np.ptp([r.load / r.contacts for r in loads]) < 1e-9 * loads[0].load
-
-
-def test_definitions_agree_on_separate_summits_at_small_overlap_and_else_not():
-    heights = paraboloids(4e-6, 3, step=12.5e-9)
-    summits, patches = (
-        asperity_contact(heights, 12.5e-9, E_PRIME, separation=490e-9, definition=d) for d in DEFINITIONS
-    )
-    assert patches.contacts == summits.contacts == 9
-    assert patches.load == pytest.approx(summits.load, rel=0.01)
-    summits, patches = (rough_contact(d, 50e-9) for d in DEFINITIONS)
-    assert summits.contacts > patches.contacts > 5
-
-
-@pytest.mark.parametrize("definition", DEFINITIONS)
 @settings(max_examples=15)
 @given(st.integers(0, 127), st.integers(0, 127), st.booleans(), st.booleans(), st.floats(-1e-6, 1e-6))
 def test_shift_mirror_exchange_and_datum_do_not_matter(definition, i, j, flip, swap, datum):
@@ -89,22 +68,15 @@ def test_shift_mirror_exchange_and_datum_do_not_matter(definition, i, j, flip, s
     assert np.allclose(np.sort(b.forces), np.sort(a.forces), rtol=1e-6)
 
 
-def test_summits_carry_less_the_further_apart_and_elastic_contact_scales_with_the_modulus():
-    loads = [rough_contact("summits", s).load for s in np.linspace(-2e-7, 3e-7, 40)]
-    assert np.all(np.diff(loads) <= 0) and loads[-1] > 0
-    assert rough_contact("summits", 1.0).load == 0 and rough_contact("patches", 1.0).contacts == 0
-    stiff = asperity_contact(ROUGH.heights, ROUGH.spacing, 3 * E_PRIME, separation=1e-7)
-    assert stiff.load == pytest.approx(3 * rough_contact("summits", 1e-7).load)
-
-
 @pytest.mark.parametrize("definition", DEFINITIONS)
 def test_similarity(definition):
-    """Heights x h and lengths x l: F ~ E' l h, area ~ l^2."""
-    h, length = 3.0, 0.5
+    """Heights x h, lengths x l and modulus x e: F ~ e l h, area ~ l^2."""
+    h, length, e = 3.0, 0.5, 2.0
     a = rough_contact(definition, 100e-9)
-    b = asperity_contact(ROUGH.heights * h, 1e-6 * length, E_PRIME, separation=100e-9 * h, definition=definition)
-    assert b.load == pytest.approx(a.load * length * h)
+    b = asperity_contact(ROUGH.heights * h, 1e-6 * length, e * E_PRIME, separation=100e-9 * h, definition=definition)
+    assert b.load == pytest.approx(a.load * e * length * h)
     assert b.contact_area == pytest.approx(a.contact_area * length**2)
+    assert rough_contact(definition, 1.0).load == 0
 
 
 @pytest.mark.parametrize("definition", DEFINITIONS)
@@ -155,12 +127,6 @@ def _patch_count(heights, periodic):
     return asperity_contact(heights, 1e-6, E_PRIME, separation=5e-8, definition="patches", periodic=periodic).contacts
 
 
-def test_a_plateau_of_equal_cells_counts_once_as_a_pair():
-    heights = np.zeros((9, 9))
-    heights[4, 4] = heights[4, 5] = 1e-7
-    assert asperity_contact(heights, 1e-6, E_PRIME, separation=5e-8).contacts == 1
-
-
 @pytest.mark.parametrize(
     "definition, pressure", [("summits", 1e6), ("summits", 2e8), ("patches", 1e6), ("patches", 2e7)]
 )
@@ -202,17 +168,8 @@ def test_a_jump_over_the_load_is_not_called_converged():
 
 @pytest.mark.parametrize(
     "changes",
-    [
-        {"heights": np.zeros(5)},
-        {"heights": np.full((4, 4), np.nan)},
-        {"spacing": 0},
-        {"e_prime": -1},
-        {"definition": "summit"},
-        {"hardness": 0},
-        {"separation": math.nan},
-        {"separation": np.zeros(3)},
-        {"separation": "low"},
-    ],
+    [{"heights": np.zeros(5)}, {"spacing": 0}, {"e_prime": -1}, {"definition": "summit"}, {"hardness": 0}]
+    + [{"separation": value} for value in (math.nan, np.zeros(3), "low")],
 )
 def test_contact_refuses(changes):
     given = {"heights": ROUGH.heights, "spacing": 1e-6, "e_prime": E_PRIME, "separation": 1e-7} | changes
@@ -220,17 +177,9 @@ def test_contact_refuses(changes):
         asperity_contact(given.pop("heights"), given.pop("spacing"), given.pop("e_prime"), **given)
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [
-        {"mean_pressure": 0},
-        {"mean_pressure": -1e6},
-        {"mean_pressure": math.inf},
-        {"mean_pressure": 1e6, "tolerance": 0},
-    ],
-)
+@pytest.mark.parametrize("changes", [{"mean_pressure": 0}, {"mean_pressure": math.inf}, {"tolerance": 0}])
 def test_inverse_refuses(changes):
     with pytest.raises(InputError):
-        separation_for_load(ROUGH.heights, 1e-6, E_PRIME, **changes)
+        separation_for_load(ROUGH.heights, 1e-6, E_PRIME, **{"mean_pressure": 1e6} | changes)
     with pytest.raises(InputError, match="equal"):
         separation_for_load(np.zeros((4, 4)), 1e-6, E_PRIME, mean_pressure=1e6)

@@ -6,7 +6,7 @@ import pytest
 import lubfric
 from lubfric.contact import contact_curve, solve
 from lubfric.contact.cells import rescaled, shifted
-from lubfric.contact.left_out import left_out
+from lubfric.contact.contact_curve import left_out
 
 E_PRIME, HEAVIEST = 231e9, 2e8
 
@@ -33,24 +33,6 @@ def test_the_error_told_holds_where_the_contact_is_solved(surface):
     assert lightest < 1e-2 * HEAVIEST and curve.error_at(0.0) == curve.error_at(below)
 
 
-def test_a_tighter_curve_tells_less_and_is_nearer(surface):
-    told = []
-    for accuracy in (1e-2, 1e-3):
-        curve = contact_curve(surface.heights, surface.spacing, E_PRIME, heaviest=HEAVIEST, accuracy=accuracy)
-        told.append([curve.error_at(HEAVIEST * share) for share in (0.5, 0.1, 0.03)])
-    assert np.all(np.array(told[1]) < told[0])
-
-
-def test_the_load_read_off_is_as_near_as_the_friction_asks(surface):
-    """Loads at given gaps against those of a curve of many more nodes."""
-    rough = contact_curve(surface.heights, surface.spacing, E_PRIME, heaviest=HEAVIEST, accuracy=3e-3)
-    fine = contact_curve(surface.heights, surface.spacing, E_PRIME, heaviest=HEAVIEST, accuracy=1e-4)
-    gaps = [fine.at(HEAVIEST * share)[0] for share in (0.7, 0.4, 0.2, 0.1, 0.05)]
-    loads = np.array([[c.pressure_at(g) for g in gaps] for c in (rough, fine)])
-    felt = 1 - loads[1] / HEAVIEST  # near the heaviest the film carries nothing, and f does not feel it
-    assert np.all(felt * np.abs(loads[0] / loads[1] - 1) < 0.02)
-
-
 def test_it_is_part_of_the_numerical_error_of_f():
     """A flat contact whose friction nearly cancels: within what it states of one solved a hundred times tighter."""
     scene = lubfric.load_scene("flat").with_(
@@ -70,11 +52,10 @@ def test_it_is_part_of_the_numerical_error_of_f():
 
 
 @pytest.mark.parametrize("nodes", [3, 4, 5, 12])
-@pytest.mark.parametrize("seed", [0, 1, 2])
-def test_nodes_left_out_are_missed_as_by_scipys_cubic(nodes, seed):
+def test_nodes_left_out_are_missed_as_by_scipys_cubic(nodes):
     from scipy.interpolate import PchipInterpolator
 
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(nodes)
     x, y = np.cumsum(rng.uniform(0.1, 2.0, nodes)), rng.standard_normal(nodes)
     for values in (y, np.cumsum(np.abs(y)), np.zeros(nodes)):
         for i, found in enumerate(left_out(x, values), 1):
@@ -111,7 +92,7 @@ def test_the_area_between_nodes_is_within_what_is_told_and_what_the_film_feels()
     assert curve.area_error_at(curve.mean_pressure[-1] / 2) == curve.contact_area_fraction[-1]
 
 
-@pytest.mark.parametrize("seed", range(1, 9))
+@pytest.mark.parametrize("seed", range(1, 5))
 def test_the_area_read_off_a_curve_is_as_sure_as_is_told(seed):
     """Against a curve of a tolerance on f ten times as tight."""
     scene = lubfric.load_scene("flat").with_(

@@ -10,7 +10,7 @@ import pytest
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.pictures import plot_map
+from lubfric.studies import plot_map
 
 SCENE = lubfric.load_scene("paper").with_(
     bodies={"radius": 0.01, "hertz_pressure": 1e9, "width": 0.01, "material": "steel"},

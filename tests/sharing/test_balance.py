@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from toys import Spring
 
 import lubfric
-from lubfric.contact.hertz_strip import strip_weight
+from lubfric.contact.rough_contract import strip_weight
 from lubfric.errors import ITERATION_LIMIT
 from lubfric.film import rigid_cylinder as rigid
 from lubfric.sharing import Point, divided, solve_balance
@@ -78,7 +78,7 @@ def test_film_share_grows_with_speed_and_either_direction_is_the_same(spring):
     assert 0 < curve.film_load[0] < 0.06 * B.load
     backwards = lubfric.friction(spring, -1e-5)
     assert backwards.film_load == pytest.approx(curve.film_load[0], rel=1e-9)
-    assert curve.points[-1].decision.contact == "none" and curve.points[-1].decision.clearance > 0
+    assert "none" in curve.points[-1].decision.contact and curve.points[-1].clearance > 0
     assert curve.points[0].decision.contact == "a spring"
 
 
@@ -126,13 +126,6 @@ def test_both_balances_recomputed_from_the_fields(scene):
     smooth = (share @ film.film_at(x)) / share.sum()
     assert gap == pytest.approx(smooth, rel=3e-4)
     assert point.coefficient == pytest.approx((0.09 * carried + point.shear_force) / B.load, rel=1e-4)
-
-
-def test_loads_and_gaps_along_the_line_add_up(patch):
-    state = lubfric.friction(patch, 0.003, fields=True).balance.contact
-    loads, gaps = state.along_y(patch.contact.weight, 8)
-    assert loads.sum() == pytest.approx(1.0) and gaps.mean() == pytest.approx(state.mean_gap, rel=1e-12)
-    assert loads.size == gaps.size == 8 and np.ptp(loads) > 0
 
 
 def test_without_entrainment_the_contact_carries_everything(patch, spring):
@@ -212,11 +205,6 @@ def test_the_strip_does_not_depend_on_the_box_and_the_box_does(patch):
         loads = [lubfric.friction(each, 0.001).film_load for each in (cut, made)]
         change[region] = abs(loads[1] / loads[0] - 1)
     assert change["hertz"] < 5e-3 < 0.02 < change["box"]
-
-
-def test_pure_rolling_has_no_boundary_friction():
-    point = lubfric.friction(PATCH.with_(motion={"slide_roll_ratio": 0.0}), 0.01)
-    assert point.boundary_force == 0 and point.couette_force == 0 and point.rolling_force > 0
 
 
 def test_the_plastic_limit_carries_less_separation():

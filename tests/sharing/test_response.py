@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.sharing import Response, Slopes, solve_balance
+from lubfric.sharing import solve_balance
+from lubfric.sharing.response import Response, Slopes
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (96, 96), "spacing": 0.9e-6},

@@ -48,12 +48,6 @@ def test_any_shift_and_stiffness(root, guess, stiffness):
     assert abs(found.x - root) <= 1.1e-6 / stiffness + 1e-12 * abs(root)
 
 
-def test_never_evaluates_outside_the_bounds():
-    g, calls = counted(lambda x: x - 39.5)
-    assert increasing_root(g, 0.0, step=7.0, bounds=BOUNDS, tolerance=1e-9).status == CONVERGED
-    assert min(calls) >= BOUNDS[0] and max(calls) <= BOUNDS[1]
-
-
 def test_a_function_of_one_sign_is_reported_not_hidden():
     g, calls = counted(lambda x: 1.0 + math.exp(x / 100))
     found = increasing_root(g, 0.0, step=1.0, bounds=BOUNDS, tolerance=1e-9)
@@ -65,17 +59,6 @@ def test_the_evaluation_limit_is_reported():
     found = increasing_root(g, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-15, max_evaluations=4)
     assert found.status == ITERATION_LIMIT and len(calls) == 4
     assert abs(found.value) == min(found.history)
-
-
-def test_every_evaluation_is_handed_the_payload_of_the_one_before():
-    seen = []
-
-    def f(x, last):
-        seen.append(last)
-        return math.tanh(x - 1.3), x
-
-    increasing_root(f, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-9, first=(None, "nothing yet"))
-    assert seen[0] == "nothing yet" and len(set(seen)) == len(seen) and seen[1] == 0.0
 
 
 def test_a_known_point_is_not_evaluated_again():

@@ -59,7 +59,7 @@ def surface(cells: int, seed: int = 1) -> Surface:
     fine = lubfric.generate_surface(
         (256, 128), WIDTH / 256, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=seed
     )
-    mirrored = replace(fine.cropped((256, 100)).periodic("mirror", axes=(False, True)), periodic_axes=(True, True))
+    mirrored = replace(fine.cropped((256, 100)).periodic(axes=(False, True)), periodic_axes=(True, True))
     return mirrored.resampled(shape=(cells, round(cells * 100 / 256) * 2))
 
 

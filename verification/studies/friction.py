@@ -141,7 +141,7 @@ def area_of_the_balance():
     """Strip or box: F_H at the paper's speed against the width of the patch. One surface is cut to all widths."""
     spacing, cells = 0.9375e-6, 192
     heights = surface((cells, cells), spacing)[:, :96]
-    heights = lubfric.Surface(heights, (spacing, spacing)).periodic("mirror", axes=(False, True)).heights
+    heights = lubfric.Surface(heights, (spacing, spacing)).periodic(axes=(False, True)).heights
 
     def film_load(region: str, width: float) -> float:
         n = round(width / spacing)

@@ -1,4 +1,4 @@
-"""The line of a run in time, and its averages."""
+"""The strip of rough surface of a run in time, and its averages."""
 
 import dataclasses
 import math
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.sampling import line_friction
+from lubfric.sampling import sampled
 from lubfric.scene import Transient
 from lubfric.time.steady import film_thinning, strip_for
 
@@ -27,6 +27,14 @@ def test_the_line_is_as_long_as_the_tolerance_asks(held):
     assert held.line_length == pytest.approx(steady.uncertainty.length, rel=0.05)
     assert held.sampling_error.max() < 1.3 * 0.035
     assert held.uncertainty.length[0] == held.line_length
+
+
+def test_a_run_held_at_one_speed_is_the_steady_point(held):
+    steady = lubfric.friction(HELD)
+    np.testing.assert_allclose(held.coefficient, steady.coefficient, rtol=0.03)
+    np.testing.assert_allclose(held.sampling_error, steady.uncertainty.sampling, rtol=0.4)
+    assert np.all(held.uncertainty.interval[:, 0] < held.coefficient)
+    assert "standard error" in " ".join(held.report.notes)
 
 
 def test_an_average_over_time_is_as_unsure_as_its_line(held):
@@ -61,11 +69,11 @@ def test_a_run_in_time_takes_cells_that_do_not_move_its_friction():
     )
     coarse = lubfric.prepare(scene)
     fine = strip_for(coarse).prepared
-    by_cells = [line_friction(prepared, 0.1)[1].by_cells for prepared in (coarse, fine)]
+    by_cells = [sampled(prepared, 0.1).change("gap") for prepared in (coarse, fine)]
     assert by_cells[0] > 0.015 and by_cells[1] <= scene.numerics.tolerance
     assert fine.surface.spacing[0] < coarse.surface.spacing[0]
     kept = strip_for(lubfric.prepare(scene.with_(numerics={"tolerance": 0.1}))).prepared
-    assert kept.lines.cells == coarse.lines.cells
+    assert kept.strips.cells == coarse.strips.cells
 
 
 def test_contact_areas_of_a_run_are_those_on_the_cells_of_the_scene(held):
@@ -114,6 +122,24 @@ def test_areas_at_rest_are_not_known_where_the_cells_are_longer_than_those_of_th
     """No steady speed tells what the cells do. An area on longer cells is no answer: it was 1.9 times too large."""
     rest = HELD.with_(motion={"entrainment_speed": 0.0, "speeds": (1.0,)}, transient=Transient(1e-3))
     prepared = lubfric.prepare(rest)
-    assert max(prepared.lines.cells.factors) > 1
+    assert max(prepared.strips.cells.factors) > 1
     strip = strip_for(prepared)
     assert math.isnan(strip.area) and math.isnan(strip.plastic)
+
+
+def test_a_run_on_one_patch_takes_the_cells_of_the_patch():
+    """Steady friction is solved on longer cells and corrected for them; a run in time is not corrected."""
+    scene = HELD.with_(numerics={"sampling": "patch"})
+    prepared = lubfric.prepare(scene)
+    assert max(prepared.strips.cells.factors) > 1
+    strip = strip_for(prepared).prepared
+    assert strip.strips.cells.own
+    assert strip.surface.spacing == strip.contact.spacing == pytest.approx(scene_spacing(scene))
+    assert strip.surface.shape == strip.contact.heights.shape == scene.contact.shape
+    run, own = lubfric.transient(scene), scene.with_(numerics={"grid": "given", "film_deflection": "hydrodynamic"})
+    assert run.coefficient[0] == pytest.approx(lubfric.friction(own).coefficient, rel=0.01)
+    assert run.line_length == pytest.approx(scene.contact.shape[1] * scene_spacing(scene)[1])
+
+
+def scene_spacing(scene):
+    return tuple(np.broadcast_to(scene.contact.spacing, 2).tolist())

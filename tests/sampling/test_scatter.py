@@ -4,19 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from lubfric.sampling.influence import (
-    BlockError,
-    add_errors,
-    block_error,
-    gap_influence,
-    participation,
-    spot_loads,
-    weighted_errors,
-)
 from scipy import stats
 
-from lubfric.sampling import student
-from lubfric.sampling.uncertainty import interval
+from lubfric.sampling.scatter import BlockError, add_errors, block_error, gap_influence, participation, weighted_errors
+from lubfric.sampling.uncertainty import interval, student
 
 
 def correlated(rng, count, length):
@@ -28,7 +19,7 @@ def correlated(rng, count, length):
 
 def test_block_error_is_that_of_the_mean_of_correlated_values():
     rng, count, length = np.random.default_rng(5), 3200, 10
-    draws = [correlated(rng, count, length) for _ in range(400)]
+    draws = [correlated(rng, count, length) for _ in range(300)]
     found = [block_error(d, 1.0, length / math.sqrt(math.pi)) for d in draws]
     assert found[0].freedom == 31
     observed = np.std([d.mean() for d in draws])
@@ -42,7 +33,7 @@ def test_neighbouring_blocks_are_alike_near_their_common_end():
     rng, length, count = np.random.default_rng(7), 8.0, 180 * 8
     kernel = np.exp(-2 * (np.arange(-40, 41) / length) ** 2)
     kernel /= np.linalg.norm(kernel)
-    noise = rng.standard_normal((3000, count + 80))
+    noise = rng.standard_normal((2000, count + 80))
     found = [block_error(np.convolve(row, kernel, "valid"), 1.0, length).error ** 2 for row in noise]
     exact = math.sqrt(math.pi) * length / count * (1 - 1 / (math.sqrt(math.pi) * 180))
     assert np.mean(found) == pytest.approx(exact, rel=0.02)  # 6 % less without
@@ -80,15 +71,11 @@ def test_influence_does_not_change_the_mean_and_takes_out_what_follows_the_load(
 
 @pytest.mark.parametrize("count", [1, 7, 50])
 def test_participation_counts_equal_loads(count):
-    loads = np.zeros(100)
-    loads[:count] = 3.0
-    assert participation(loads) == pytest.approx(count)
-    assert participation(np.zeros(4)) == 0.0
-
-
-def test_spot_loads_keep_the_load():
-    line = np.random.default_rng(2).random(96)
-    assert spot_loads(line, 1.0, 4.0).sum() == pytest.approx(line[: 96 // 7 * 7].sum())
+    """Loads 4 cells apart, each of a spot: 1.75 correlation lengths."""
+    loads = np.zeros(400)
+    loads[: 4 * count : 4] = 3.0
+    assert participation(loads, 1.0, 4 / 1.75) == pytest.approx(count)
+    assert participation(np.zeros(4), 1.0, 1.0) == 0.0
 
 
 def test_independent_errors_add_and_freedom_follows_welch_and_satterthwaite():
