@@ -63,11 +63,6 @@ def test_kernel_mutant_is_caught_by_hertz_and_the_library_is_not():
     assert clean.passed and clean.measured == 0 and clean.at["looked_at"] == caught.at["looked_at"]
 
 
-def test_viscosity_mutant_is_caught_by_the_film_table():
-    caught = tried("viscosity_exponent", "ehl_grid")
-    assert caught.passed and "film" in caught.note
-
-
 def test_a_mutant_that_nobody_calls_is_not_caught():
     idle = tried("half_cell", "no_study")
     assert not idle.passed and idle.at["calls"] == 0 and "never ran" in idle.refused
