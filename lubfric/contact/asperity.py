@@ -36,7 +36,6 @@ class AsperityResult:
     report : of the search, when the load was given
     """
 
-    definition: str
     separation: float | np.ndarray
     load: float
     mean_pressure: float
@@ -56,7 +55,6 @@ class Asperities:
     """The asperities of a height map (nx, ny) [m]. ``find(flat)`` gives (index, overlap, radius) of those that touch a
     flat (nx, ny) [m]."""
 
-    definition: str
     heights: np.ndarray
     spacing: tuple[float, float]
     e_prime: float
@@ -76,7 +74,6 @@ class Asperities:
             plastic = area * (1 - ratio**2)
         whole = flat.size * self.spacing[0] * self.spacing[1]
         return AsperityResult(
-            definition=self.definition,
             separation=separation,
             load=float(force.sum()),
             mean_pressure=float(force.sum() / whole),
@@ -103,7 +100,7 @@ def find_asperities(heights, spacing, e_prime, *, definition="summits", hardness
         raise InputError(f" = {validate.shown(periodic)}", "periodic", "True, False, or one of them for each axis")
     spacing = validate.spacing("spacing", spacing)
     find = FINDERS[definition](heights, spacing, (bool(pair[0]), bool(pair[1])))
-    return Asperities(definition, heights, spacing, e_prime, hardness, find)
+    return Asperities(heights, spacing, e_prime, hardness, find)
 
 
 def asperity_contact(
@@ -135,8 +132,7 @@ def asperity_contact(
     An overlap delta on a radius R carries ``F = (2/3) E' sqrt(R) delta^1.5`` over ``pi a² = pi R delta`` (Hertz 1882).
     A Hertz pressure of peak p0 that is cut off at P_u leaves ``F = P_u pi a² (1 - s²/3)``, ``s = P_u/p0 < 1``.
     """
-    options = {"definition": definition, "hardness": hardness, "periodic": periodic}
-    found = find_asperities(heights, spacing, e_prime, **options)
+    found = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
     try:
         flat = np.broadcast_to(np.asarray(separation, dtype=float), found.heights.shape)
     except (TypeError, ValueError):

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .transforms import rounded
-
 DENSE = 0.6  # share of the cells from which all are taken: their numbers take more memory than they save
+ROUND = 8  # rows: windows of nearly the same width share their operator
 NEWTON = 12  # steps before every other one halves the bracket
 
 
@@ -27,7 +26,7 @@ class Cells:
         whole, rows = flags.shape, slice(None)
         if operator.boundary == ("free", "periodic"):
             touched = np.flatnonzero(flags.any(axis=1))
-            count = rounded(int(touched[-1] - touched[0]) + 1, whole[0])
+            count = min(ROUND * -(-int(touched[-1] - touched[0] + 1) // ROUND), whole[0])
             first = min(int(touched[0]), whole[0] - count)
             operator, rows = operator.window(count), slice(first, first + count)
         flags = flags[rows]

@@ -77,7 +77,7 @@ class Search:
         if exact:
             self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
         else:
-            self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)
+            self.stencil = Stencil(cells, operator.spacing, operator.boundary, factor)
 
     def run(self, tolerance: float, limit: int) -> None:
         """Iterate until the residual on these cells is <= tolerance, until it no longer falls, or ``limit`` times."""
@@ -166,7 +166,7 @@ class Search:
         way, asked = np.subtract(self.trial, self.known, out=self.residue), self.trial - self.change
         answer = self._answer(way)
         slope, curvature = dot(self.before, asked), dot(asked, answer) * self.compliance
-        step = -slope / curvature if curvature > 0 else 1.0
+        step: float = -slope / curvature if curvature > 0 else 1.0
         step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
         self.pace *= max(step, STEPS[0]) ** LEARNING
         self.known += np.multiply(way, np.float32(step), out=asked)

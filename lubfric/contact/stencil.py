@@ -34,51 +34,38 @@ def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
 
 
 class Stencil:
-    """Applies the nine points, less long waves, times ``factor``, to single-precision values on some ``cells`` of a
-    grid (flat numbers; None: all). The values of the others are zero; periodic axes wrap around."""
+    """Applies the nine points, less long waves, times ``factor``, to single-precision values on the ``cells``
+    (`lubfric.contact.cells.Cells`) of a grid. The values of the others are zero; periodic axes wrap around."""
 
-    def __init__(self, shape, spacing, boundary, cells, factor: float):
-        self.shape, self.boundary = shape, boundary
-        self.padded = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)
-        nearest = nearest_coefficients(shape, spacing)
+    def __init__(self, cells, spacing, boundary, factor: float):
+        self.cells, self.boundary, self.shape = cells, boundary, cells.shape
+        self.padded = np.zeros((self.shape[0] + 2, self.shape[1] + 2), np.float32)
+        nearest = nearest_coefficients(self.shape, spacing)
         self.coefficients = tuple(np.float32(factor * c) for c in nearest)
         self.long_waves = None  # the series less |k|, on cells FACTOR times as long
-        if min(shape) >= LEAST:
+        if min(self.shape) >= LEAST:
             self.coarse = tuple(
-                (2 if kind == "free" else 1) * -(-n // FACTOR) for n, kind in zip(shape, boundary)
+                (2 if kind == "free" else 1) * -(-n // FACTOR) for n, kind in zip(self.shape, boundary)
             )  # free axes are padded to twice their length
             missed = _series(nearest, self.coarse) - wavenumber(self.coarse, tuple(FACTOR * d for d in spacing))
             self.long_waves = (factor / FACTOR**2 * np.maximum(missed, 0.0)).astype(np.float32)
-        self.cells = cells
-        if cells is not None:
-            row, column = np.divmod(cells, shape[1])
-            self.points = (row + 1) * (shape[1] + 2) + column + 1  # their flat numbers in ``padded``
-            self.owner = row // FACTOR * -(-shape[1] // FACTOR) + column // FACTOR  # of the cell for long waves
+            row, column = (np.arange(n, dtype=np.int32) // FACTOR for n in self.shape)
+            self.owner = cells.gather(row[:, None] * (column[-1] + 1) + column)  # of each cell: the one for long waves
 
     def apply(self, values: np.ndarray, sums: np.ndarray) -> None:
         """Write the sums at the cells into ``sums``."""
-        padded, cells = self.padded, self.cells
+        padded, whole = self.padded, np.empty(self.shape, np.float32)
         inner = padded[1:-1, 1:-1]
-        if cells is None:
-            inner[:] = values.reshape(self.shape)
-        else:
-            padded.ravel()[self.points] = values
+        inner[:] = self.cells.field(values)
         if self.boundary[0] == "periodic":
             padded[0], padded[-1] = padded[-2], padded[1]
         if self.boundary[1] == "periodic":
             padded[:, 0], padded[:, -1] = padded[:, -2], padded[:, 1]
-        if cells is None:
-            self._sweep(sums.reshape(self.shape))
-        else:
-            self._sweep(whole := np.empty(self.shape, np.float32))
-            whole.ravel().take(cells, out=sums, mode="clip")
+        self._sweep(whole)
+        sums[:] = self.cells.gather(whole)
         if self.long_waves is not None:
             found = filtered(_summed(inner), self.long_waves, self.coarse, None)
-            if cells is None:
-                whole = found.repeat(FACTOR, axis=1)[:, : inner.shape[1]].repeat(FACTOR, axis=0)[: inner.shape[0]]
-                sums -= whole.ravel()
-            else:
-                sums -= found.ravel().take(self.owner)
+            sums -= found.ravel().take(self.owner)
 
     def _sweep(self, sums) -> None:
         """The sums for all cells, some rows at a time, within the cache."""

@@ -13,7 +13,6 @@ from scipy import fft
 PADDED = 131072  # waves of a block of padded columns
 NEGLIGIBLE = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}  # of the coefficient under the cell itself
 WORTH = 2e4  # values that a transform of their own is worth
-ROUND = 8  # rows: strips of nearly the same width share their transforms
 
 
 def wavenumber(shape, spacing) -> np.ndarray:
@@ -96,8 +95,3 @@ def _reaches(kernel, negligible: float) -> np.ndarray:
     felt = np.abs(kernel) > negligible * np.abs(kernel[0])
     last = felt.shape[0] - 1 - np.argmax(felt[::-1], axis=0)
     return np.maximum.accumulate(last[::-1])[::-1]
-
-
-def rounded(count: int, most: int) -> int:
-    """``count`` rows rounded up."""
-    return min(ROUND * -(-count // ROUND), most)

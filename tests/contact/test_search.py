@@ -7,7 +7,7 @@ import pytest
 
 from lubfric import solve_contact
 from lubfric.contact import half_space, rounds, search, stencil
-from lubfric.contact.cells import shifted
+from lubfric.contact.cells import Cells, shifted
 from lubfric.contact.stencil import Stencil
 
 E_PRIME, DX = 231e9, 2e-6
@@ -35,7 +35,8 @@ def smooth(n, correlation, seed=0):
 
 def applied(shape, boundary, cells, values, factor=3.0):
     sums = np.empty_like(values)
-    Stencil(shape, (0.5, 0.8), boundary, cells, factor).apply(values, sums)
+    operator = half_space(shape, (0.5, 0.8), E_PRIME, boundary)
+    Stencil(Cells(operator, cells, slice(None), shape), operator.spacing, boundary, factor).apply(values, sums)
     return sums
 
 
