@@ -34,8 +34,6 @@ class Check:
 
     A measured value that is NaN or infinite never passes.
 
-    Attributes
-    ----------
     source : where ``expected`` comes from (closed form, publication, another solver)
     seconds : filled in by the runner for studies that yield their checks one by one
     decisive : False for what is only shown beside the others; it may fail without the run failing
@@ -168,8 +166,6 @@ class Figure:
 class Field:
     """Values on a mesh, written as a VTU file.
 
-    Attributes
-    ----------
     name : also the name of the file
     caption : what the field shows, with units
     points : (n, 1), (n, 2) or (n, 3) coordinates in m

@@ -1,7 +1,5 @@
 """Observed orders of convergence: measured, checked and drawn."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -27,8 +25,6 @@ def fitted_order(sizes, errors) -> float:
 class Series:
     """Errors on ever finer meshes.
 
-    Attributes
-    ----------
     label : in the picture
     sizes, errors : of every mesh
     order : expected; None where none is known

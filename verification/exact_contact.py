@@ -5,8 +5,6 @@ E* = E'/2 with 2/E' = sum (1 - nu^2)/E. Hertz (1882) line and point contact: K. 
 (1939) A49-A53, doi:10.1115/1.4008919.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

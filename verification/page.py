@@ -1,7 +1,5 @@
 """The report as one HTML page. It has no script, fetches nothing, and can be read on a phone and without a network."""
 
-from __future__ import annotations
-
 import base64
 from html import escape
 

@@ -1,7 +1,5 @@
 """A run as a whole: its verdict, its text on the terminal and its files. `page` makes the HTML."""
 
-from __future__ import annotations
-
 import csv
 import importlib.metadata
 import json
@@ -25,8 +23,6 @@ PACKAGES = ("lubfric", "numpy", "scipy", "scikit-fem", "meshio", "pyamg", "matpl
 class Report:
     """Everything a run found.
 
-    Attributes
-    ----------
     level, selected : what was asked for: the level, and the names of the studies
     outcomes : the studies finished so far
     complete : False while studies are still to come, or never came because the run was stopped

@@ -1,8 +1,6 @@
 """Run studies one after another, or each in a process of its own. A study that raises is a failed check, and stops no
 other."""
 
-from __future__ import annotations
-
 import importlib
 import inspect
 import multiprocessing
@@ -27,8 +25,6 @@ INSTALL = 'pip install "lubfric[verification]"'
 class Outcome:
     """What came of one study.
 
-    Attributes
-    ----------
     study, level : what was run
     description : docstring of the study
     checks, tables, figures, fields : all that was handed over, also before a failure

@@ -12,7 +12,8 @@ from ..errors import InputError
 from ..sampling import FrictionResult
 from ..scene import Scene
 from ..sharing import Prepared
-from .interpolate import FEWEST, Interpolant, numbers_of, through
+from .curve import columns_of
+from .interpolate import FEWEST, Interpolant, through
 
 AUTO = "auto"
 CHOSEN, MOST = 12, 25  # speeds that a curve chooses, about, and at most
@@ -42,7 +43,7 @@ def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Itera
         failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
         wanted = None
         if len(good) >= FEWEST:
-            wanted = next_speed(through(numbers_of(good)), tolerance_between(prepared), failed)[0]
+            wanted = next_speed(through(columns_of(good)), tolerance_between(prepared), failed)[0]
         ahead = [] if wanted is None else [wanted]
 
 

@@ -88,6 +88,10 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     ----------
     scene, measured, parameters : as for `lubfric.fit`
 
+    Returns
+    -------
+    str : lines of text
+
     Raises
     ------
     InputError : a parameter is not one

@@ -18,8 +18,6 @@ import numpy as np
 
 from ..errors import InputError
 
-NEEDED = ("speed", "contact_load", "film_load", "boundary_force", "coefficient", "film_to_roughness_ratio")
-DECIDED = ("clearance", "steepness")  # what is needed of the decision of a point
 FEWEST = 3  # solved speeds
 EXPONENT = 0.6
 HERTZ, OTHERS = 1.5, (1.0, 2.0)  # powers of the remaining speed with which a contact ends: expected, and in question
@@ -158,21 +156,9 @@ class Interpolant:
         return np.where(at < knee, slow, alone[:-1])
 
 
-def numbers_of(points) -> dict[str, np.ndarray]:
-    """What an interpolation needs of ``points``, arrays by name; NaN where one is None."""
-    found = {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in NEEDED}
-    return found | {name: np.array([decided(p, name) for p in points]) for name in DECIDED}
-
-
-def decided(point, name: str) -> float:
-    """``clearance`` or ``steepness`` of a point; NaN where it has none."""
-    found = getattr(point, name, getattr(getattr(point, "decision", None), name, None))
-    return np.nan if found is None else float(found)
-
-
 def through(numbers: dict[str, np.ndarray]) -> Interpolant:
-    """The curve through points with these ``numbers`` (`numbers_of`). Raises `InputError` for speeds of both directions
-    and for fewer than three different ones."""
+    """The curve through points with these ``numbers``, as `lubfric.quantities` names them. Raises `InputError` for
+    speeds of both directions and for fewer than three different ones."""
     speed = numbers["speed"]
     if (speed > 0).any() and (speed < 0).any():
         raise InputError("speeds run both ways; a curve between them has those of one direction: solve two curves")

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FrozenArrays, Shown, validate
+from .._base import FrozenArrays, Shown, axes_or_new, field_image, validate
 from ..errors import InputError
 from . import prepare, regrid, statistics
 
@@ -92,9 +92,11 @@ class Surface(FrozenArrays, Shown):
 
     def plot(self, ax=None):
         """The heights in the plane, on ``ax`` or new axes, which are returned."""
-        from .._base import surface_axes
-
-        return surface_axes(self, ax)
+        axes = axes_or_new(ax)
+        x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
+        field_image(axes, x, y, (self.heights - np.nanmean(self.heights)) * 1e9, "cividis", "height (nm)")
+        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm")
+        return axes
 
     def _facts(self) -> dict[str, str]:
         return {"": self.describe()}

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import Shown, history_axes, loop_axes, validate
+from .._base import Shown, validate
 from ..errors import Report
 from ..sampling import UncertaintyCurve, percent, student
 from ..sharing import Validity, gathered
+from .draw import history_axes, loop_axes
 from .march import Plan, Progress, report_of
 from .moment import UNITS
 from .sharing import Sharing

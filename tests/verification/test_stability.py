@@ -141,7 +141,7 @@ def test_a_load_below_rounding_rests_on_one_cell():
 
 
 def test_contact_curve_holds_its_accuracy_near_full_contact():
-    from lubfric.rough.contact_curve import contact_curve
+    from lubfric.contact import contact_curve
 
     z = contact_map.surface("exponential", 48, 48, 1e-9)
     heaviest = 0.7 * contact_map.full_contact(z)

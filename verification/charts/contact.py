@@ -1,8 +1,6 @@
 """The chart of the dry contact: error of the pressure against time, by method, tolerance, load, surface and
 boundary."""
 
-from __future__ import annotations
-
 from functools import lru_cache, partial
 
 import numpy as np

@@ -1,15 +1,11 @@
 """Draws charts from the points alone."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .. import plotting
 from ..check import Check, Figure, Table
-from .growth import exponent
 
 LEAST = 1e-12  # of the reference: errors below are drawn there
-NOTICED = 2e5  # bytes: less is lost in what the process already had
 ORDER = ("lubfric", "default", "default, cold", "default, warm")
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B", "#7F7F7F", "#882255")
 EQUAL = 1e-5  # error of the pressure at which methods are compared
@@ -75,28 +71,6 @@ def curve(ax, points: list[Check], colour: str) -> None:
             ax.plot(p.duration, max(e, LEAST), "o", mfc="none", mec="k", ms=10)
 
 
-def growth(points: list[Check], machine: str) -> Figure:
-    """Time and peak memory over size, with the exponents of the larger half."""
-    panels = list(dict.fromkeys(p.word("panel") for p in points))
-    canvas, axes = plotting.axes(2, len(panels), width=3.3 * len(panels), height=6, squeeze=False)
-    for (above, below), label in zip(axes.T, panels):
-        chosen = [p for p in points if p.word("panel") == label]
-        unit = "points" if "sweep" in label else "cells" if label == "contact" else "nodes"
-        above.loglog([p.number("size") for p in chosen], [p.duration for p in chosen], "o-")
-        title = f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}"
-        if label == "contact":
-            title += f", convolutions ~ N^{exponent(chosen, 'work'):.2f}"
-        above.set(title=title, ylabel="CPU seconds", xlabel=unit)
-        seen = [p for p in chosen if p.number("memory") > NOTICED]
-        memory = [p.number("memory") / 1e6 for p in seen]
-        below.loglog([p.number("size") for p in seen], memory, "o-", color="#D55E00")
-        below.set(title=f"memory ~ N^{exponent(seen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit)
-        below.set_xlim(above.get_xlim())
-        below.xaxis.set_minor_formatter("")
-    canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
-    return plotting.compact(plotting.finish("growth", canvas, "Time and peak memory against size", format="png"))
-
-
 def methods_table(points: list[Check]) -> Table:
     """Contacts solved to a measured error of `EQUAL`: time of every method over that of the library."""
     good = [p for p in points if not p.at.get("apart") and p.measured <= EQUAL]
@@ -109,16 +83,3 @@ def methods_table(points: list[Check]) -> Table:
         ours = best["lubfric"]
         rows.append([panel, f"{1e3 * ours:.0f} ms", *(f"{best[n] / ours:.1f}" if n in best else "" for n in names)])
     return Table("contact-methods", f"Time to an error of {EQUAL:g}", ["contact", "lubfric", *names], rows)
-
-
-def growth_table(points: list[Check]) -> Table:
-    """Cost against size."""
-    rows = []
-    for panel in dict.fromkeys(p.word("panel") for p in points):
-        own = [p for p in points if p.word("panel") == panel]
-        times = [f"{1e3 * p.duration:.3g} ms" if p.duration < 1 else f"{p.duration:.3g} s" for p in own]
-        memory = f"{max(p.number('memory') for p in own) / 1e6:.0f} MB"
-        size, work = (f"{own[0].number(what):,.0f} to {own[-1].number(what):,.0f}" for what in ("size", "work"))
-        rows.append([panel, size, ", ".join(times), f"N^{exponent(own, 'seconds'):.2f}", memory, work])
-    columns = ["job", "cells, nodes or points", "CPU time of each size", "larger half", "memory at most"]
-    return Table("growth", "Cost against size", [*columns, "convolutions, steps or points"], rows)

@@ -4,8 +4,6 @@ The unknowns are the nodal forces f and the approach delta. With u = C f and g =
 three: off (f = 0, g >= 0), touching (g = 0, 0 <= f <= limit) or saturated (f = limit, g <= 0).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -25,8 +23,6 @@ PATIENCE = 8  # steps without fewer nodes in the wrong place, before they are mo
 class Contact:
     """Nodal fields (n,) of a contact, in the order of ``gap0``.
 
-    Attributes
-    ----------
     pressure : nodal force over nodal weight, Pa
     gap : m; negative only where pressure is at its limit
     displacement : downwards, m

@@ -13,8 +13,6 @@ to have several solutions where the pressure spike is not resolved. First-order 
 serves first guesses. Both fade where pressure diffuses in less than a cell.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -32,8 +30,6 @@ PENALTY = 0.03
 class Film:
     """The flow on a line.
 
-    Attributes
-    ----------
     line : P2
     fluid : viscosity and density laws
     hertz_pressure : Pa per unit of P

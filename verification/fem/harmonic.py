@@ -10,8 +10,6 @@ Pressure is constant on the cells of a patch along x, and the compliance gives m
 symmetric. Along y cells are points of a trigonometric series, as in any contact solver by Fourier transforms.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 
@@ -31,8 +29,6 @@ class Strip:
     """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, centred on x = 0 and repeated along y.
     nx is even.
 
-    Attributes
-    ----------
     side : that of the square body is dx 2^side
     fineness : each cell along x is 2^fineness facets
     growth : cell length per distance from the patch

@@ -4,8 +4,6 @@ It is the same discrete layer that `layer3d` assembles, element for element. Onl
 the two agree to the tolerance of the iteration there, and one application costs two transforms here.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ tangent of the whole system (`ehl_newton`) at the smooth solution, with ``-by_H 
 point stays, as pressure and its slope vanish there.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

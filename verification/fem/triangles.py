@@ -1,7 +1,5 @@
 """What the bodies of triangles share: graded meshes, factors of a stiffness, and stresses in plane strain."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -5,8 +5,6 @@ Every surface, contact model and reading of the paper's Figs. 5 and 6 shares the
 its films and its contact curves. `lubfric.friction` does the same without tables, and the figure compares some points.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Figs. 3 and 4: a square array of spherical asperities against a flat. Load per asperity over separation."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

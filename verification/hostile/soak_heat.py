@@ -4,8 +4,6 @@ The temperature across the film comes from its double integral on a grid, by a f
 of the surfaces comes from heat that is constant in each cell, and that of the inlet from Moes' film and bisection.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Draws and counts the maps."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Maps of smooth line contacts: load, material, speed, laws, tolerance, poor starts, starvation."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field

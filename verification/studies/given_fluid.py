@@ -7,19 +7,13 @@ agree. The half-space of lubfric is averaged over its cells first (`load_sharing
 are; what is left falls with their size.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import reach
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.problem import Problem
-from lubfric.deterministic.result import DeterministicResult
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import DeterministicResult, Problem, lay_out, reach, solve_point
 from lubfric.film import LineContact
 
 from ..check import ABSOLUTE, Check

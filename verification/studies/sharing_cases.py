@@ -1,8 +1,6 @@
 """Load sharing by finite elements beyond the paper's corner: oils, sliding, yielding, the flat contact, a measured
 map."""
 
-from __future__ import annotations
-
 import math
 import tempfile
 from collections.abc import Callable

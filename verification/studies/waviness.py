@@ -7,16 +7,12 @@ full-system finite elements. In a film of even thickness h and viscosity eta it 
 q = 48 eta U/(E' k² h³): that is told beside it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric.deterministic import Start
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import lay_out, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant, viscosity
 from lubfric.surface.height_map import Surface
@@ -111,11 +107,10 @@ def compared(
 def response(smooth, base, k: float) -> np.ndarray:
     """Change of the gap per height of exp(i k x), complex (nx,)."""
     height = HEIGHT * base.central_gap
-    start = Start(lambda: base.state, smooth.speed)
 
     def change(wave):
         wavy = replace(smooth, heights=height * wave[:, None])
-        return (solve_point(wavy, starts=[start], tolerance=PRECISION).gap - base.gap)[:, 0] / height
+        return (solve_point(wavy, start=base.state, tolerance=PRECISION).gap - base.gap)[:, 0] / height
 
     return change(np.cos(k * base.x)) + 1j * change(np.sin(k * base.x))
 

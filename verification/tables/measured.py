@@ -1,7 +1,5 @@
 """What each table measures. Each function returns `Cells`, and `TABLES` names the functions."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 
