@@ -136,8 +136,7 @@ def asperity_contact(
     try:
         flat = np.broadcast_to(np.asarray(separation, dtype=float), found.heights.shape)
     except (TypeError, ValueError):
-        shape = found.heights.shape
-        raise InputError(f"separation must be a number or an array of shape {shape} in m") from None
+        raise InputError(f"separation must be a number or an array of shape {found.heights.shape} in m") from None
     validate.array("separation", flat, "m", ndim=2)
     return found.at(separation)
 

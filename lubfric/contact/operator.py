@@ -21,10 +21,10 @@ def _once(method):
 
     @wraps(method)
     def kept(self, *arguments):
-        key = (method.__name__, *arguments)
-        if key not in self._made:
-            self._made[key] = method(self, *arguments)
-        return self._made[key]
+        made, key = self.__dict__.setdefault("_made", {}), (method.__name__, *arguments)
+        if key not in made:
+            made[key] = method(self, *arguments)
+        return made[key]
 
     return kept
 
@@ -68,11 +68,6 @@ class HalfSpace(FrozenArrays, FieldsOnly):
     def _kernel(self) -> np.ndarray:
         """Coefficients along the free axis x of every wave along y [m/Pa], lags (nx) first."""
         return fft.irfft(self.symbol, n=self.padded[0], axis=0)[: self.shape[0]]
-
-    @cached_property
-    def _made(self) -> dict:
-        """Operators derived from this one (`_once`)."""
-        return {}
 
     @cached_property
     def single(self) -> HalfSpace:

@@ -119,6 +119,9 @@ def concluded(problem, found: Found, control: dict[str, float], failed: str) -> 
     state, residuals = found.state, found.state.residuals | control
     pressure, worst = state.pressure, max(residuals.values())
     status = CONVERGED if worst <= problem.tolerance else failed if found.status == CONVERGED else found.status
+    worst = worst if math.isfinite(worst) else math.inf
+    cost, notes = (tuple(found.history), found.convolutions), tuple(found.notes)
+    report = Report(found.solver, status, found.iterations, worst, problem.tolerance, residuals, *cost, notes)
     return ContactResult(
         pressure=pressure,
         gap=state.gap,
@@ -128,17 +131,7 @@ def concluded(problem, found: Found, control: dict[str, float], failed: str) -> 
         mean_gap=state.mean_gap,
         contact_area_fraction=np.count_nonzero(pressure) / pressure.size,
         plastic_area_fraction=np.count_nonzero(pressure >= problem.hardness) / pressure.size,
-        report=Report(
-            found.solver,
-            status,
-            found.iterations,
-            worst if math.isfinite(worst) else math.inf,
-            problem.tolerance,
-            residuals,
-            tuple(found.history),
-            found.convolutions,
-            tuple(found.notes),
-        ),
+        report=report,
     )
 
 

@@ -71,7 +71,7 @@ class Search:
         self.change, self.known, self.direction, self.before = (np.zeros_like(self.gap) for _ in range(4))
         self.weight, self.residue, self.trial = (np.empty_like(self.gap) for _ in range(3))
         self.power = self.level = self.overlap = 0.0
-        self.iterations = self.convolutions = 0
+        self.iterations = self.convolutions = self.count = 0
         self.history: list[float] = []
         factor = operator.e_prime / 4 / self.compliance
         if exact:
@@ -120,7 +120,7 @@ class Search:
             if self._share(free) > capacity:  # all that has not yielded for good has to help
                 free = ~yielded | (self.gap > self.level)
         self.weight[:] = free
-        self.count = np.count_nonzero(free)
+        self.count = int(np.count_nonzero(free))
         np.subtract(self.gap, np.float32(self.level), out=self.residue)
         self.residue *= self.weight
         self.overlap = max(0.0, -float(self.residue.min()))
@@ -166,7 +166,7 @@ class Search:
         way, asked = np.subtract(self.trial, self.known, out=self.residue), self.trial - self.change
         answer = self._answer(way)
         slope, curvature = dot(self.before, asked), dot(asked, answer) * self.compliance
-        step: float = -slope / curvature if curvature > 0 else 1.0
+        step = -slope / curvature if curvature > 0 else 1.0
         step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
         self.pace *= max(step, STEPS[0]) ** LEARNING
         self.known += np.multiply(way, np.float32(step), out=asked)

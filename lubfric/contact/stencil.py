@@ -44,9 +44,8 @@ class Stencil:
         self.coefficients = tuple(np.float32(factor * c) for c in nearest)
         self.long_waves = None  # the series less |k|, on cells FACTOR times as long
         if min(self.shape) >= LEAST:
-            self.coarse = tuple(
-                (2 if kind == "free" else 1) * -(-n // FACTOR) for n, kind in zip(self.shape, boundary)
-            )  # free axes are padded to twice their length
+            # free axes are padded to twice their length
+            self.coarse = tuple((2 if kind == "free" else 1) * -(-n // FACTOR) for n, kind in zip(self.shape, boundary))
             missed = _series(nearest, self.coarse) - wavenumber(self.coarse, tuple(FACTOR * d for d in spacing))
             self.long_waves = (factor / FACTOR**2 * np.maximum(missed, 0.0)).astype(np.float32)
             row, column = (np.arange(n, dtype=np.int32) // FACTOR for n in self.shape)
