@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import replace
+from typing import Any
 
 from ..oil import estimate_in_words
 from ..sharing import Prepared, Response, Validity, judged, of_error, quantities, touched_length
@@ -63,7 +64,7 @@ def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
     return (Validity(what, 100 * change, 100 * tolerance, "%", consequence, remedy),)
 
 
-def _numbers(prepared: Prepared, speed: float, found: Found) -> dict[str, float]:
+def _numbers(prepared: Prepared, speed: float, found: Found) -> dict[str, Any]:
     """All numbers of the sample but the time, by name."""
     scene, balance, sq = prepared.scene, found.balance, prepared.surface.sq
     contact, film, loads = balance.contact, balance.film, (balance.film_load, balance.contact_load)

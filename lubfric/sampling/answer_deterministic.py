@@ -7,6 +7,7 @@ import math
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 from ..deterministic import Refined, deterministic_point
 from ..quantities import NUMBERS
@@ -40,7 +41,7 @@ def deterministic_answer(prepared: Prepared, speed: float, begun: float) -> Fric
     )
 
 
-def _numbers(prepared: Prepared, speed: float, found: Refined) -> dict[str, float]:
+def _numbers(prepared: Prepared, speed: float, found: Refined) -> dict[str, Any]:
     """All numbers of the point but the time, by name; NaN where the model has no such number."""
     result, bodies, sq = found.result, prepared.scene.bodies, prepared.surface.sq
     dx, dy = result.spacing

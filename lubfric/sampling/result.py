@@ -18,7 +18,7 @@ from .uncertainty import FieldErrors, Uncertainty
 
 
 @described_in_doc
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, repr=False, kw_only=True)
 class FrictionResult(PointQuantities[float], Shown):
     """One operating point (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
 

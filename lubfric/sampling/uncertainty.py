@@ -107,7 +107,7 @@ def curve_of(points) -> UncertaintyCurve:
     return UncertaintyCurve(**columns, interval=both, text=tuple("" if p is None else p.text for p in points))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class FieldErrors(Quantities[float]):
     """Estimated relative error of every reported quantity: one standard error, where the surface is part of it. NaN
     where it is not known; ``reasons`` then has the name and why."""

@@ -1,6 +1,7 @@
 """The deterministic mixed film of lubfric: its limits, its grids, and its film in the same gap by finite elements."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -71,12 +72,21 @@ def problem(cells: int, speed: float, seed: int = 1):
 def smooth():
     """A surface without roughness."""
     for speed, load in ((0.3, LOAD), (0.1, 20 * LOAD)):
-        oil = {"viscosity": VISCOSITY, "pressure_viscosity_coefficient": ALPHA, "density_law": "dowson-higginson"}
+        oil: dict[str, Any] = {
+            "viscosity": VISCOSITY,
+            "pressure_viscosity_coefficient": ALPHA,
+            "density_law": "dowson-higginson",
+        }
         line = contact(speed, load, Lubricant(**oil))
         step = sum(reach(line, 0.0)) / 512
         flat = Surface(np.zeros((64, 1)), (step, step), periodic_axes=(True, True))
         found = solve_point(lay_out(flat, line, sliding=2 * speed, boundary_friction=0.09))
-        body = {"load_per_width": load, "radius": RADIUS, "e_prime": E_PRIME, "entrainment_speed": speed}
+        body: dict[str, Any] = {
+            "load_per_width": load,
+            "radius": RADIUS,
+            "e_prime": E_PRIME,
+            "entrainment_speed": speed,
+        }
         film = lubfric.solve_ehl(**body, **oil, tolerance=1e-4)
         rows = [
             ("smallest film", "m", found.min_gap, film.min_film, 1e-3),

@@ -138,8 +138,8 @@ def summary(pairs: list[Pair]) -> Table:
         for s in pair.solutions:
             mesh = (round(s.contact.hertz_pressure / 1e9, 3), s.body.stiffness.shape[0], s.body.line.N)
             off = [f"{100 * d:+.4f} %" for d in pair.differences(s)]
-            solve = (s.report.iterations, s.report.residual)
-            rows.append((pair.label, *mesh, *solve, s.flow_film / k, s.min_film / k, *off))
+            work = (s.report.iterations, s.report.residual)
+            rows.append((pair.label, *mesh, *work, s.flow_film / k, s.min_film / k, *off))
         solve = (line.x.size, line.report.iterations, line.report.residual)
         films = (line.flow_film / k, line.min_film / k)
         rows.append((pair.label, "", "lubfric", *solve, *films, "", "", f"{pair.seconds:.1f} s"))
@@ -163,7 +163,7 @@ def body_field(pair: Pair) -> Field:
 
 def differences(pairs: list[Pair], level: str):
     """The film's difference from `lubfric` shrinks with the mesh."""
-    series: dict[int, list[Series]] = {5: [], 10: []}
+    series: dict[float, list[Series]] = {5: [], 10: []}
     for pair in pairs:
         sizes = [s.cell_length / s.contact.half_width for s in pair.solutions]
         errors = [pair.differences(s)[2] for s in pair.solutions]
@@ -175,7 +175,7 @@ def differences(pairs: list[Pair], level: str):
         (10, 1.0, "the film has a kink under the pressure spike, which no mesh here resolves"),
     ):
         if level != "quick":
-            mean = np.sqrt(np.mean(np.square([s.errors for s in series[L]]), axis=0))
+            mean = np.sqrt(np.mean(np.square([list(s.errors) for s in series[L]]), axis=0))
             name = f"order of the film difference, L = {L}, root mean square over contacts"
             yield Series("", 0.5 ** np.arange(mean.size), mean, order, name, 0.2, source, AT_LEAST).judged()
         caption = f"Film of the full-system finite elements against lubfric at L = {L}, root mean square over the "

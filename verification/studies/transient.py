@@ -51,7 +51,7 @@ HALVED = (
     (3, 1.963, 1.939),
     (5, 1.914, 1.621),
 )
-COARSE = {"tolerance": 3e-3, "time_tolerance": 1e-4}
+COARSE: dict[str, Any] = {"tolerance": 3e-3, "time_tolerance": 1e-4}
 FIRST_STEPS = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 HEAVIEST = 100.0  # M up to which every jump is solved; beyond, the table shows what failed
 MATRIX = {

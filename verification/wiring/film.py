@@ -63,9 +63,13 @@ def film(name: str, oil: dict) -> Iterator[Check]:
     s = smooth(oil)
     b = s.bodies
     found = lubfric.friction(s, 0.3)
-    laws = {"pressure_viscosity_coefficient": 25e-9, "viscosity_law": "roelands", "density_law": "constant"} | oil
-    body = {"load_per_width": 300.0 / b.width, "radius": b.radius, "e_prime": b.e_prime}
-    motion = {"entrainment_speed": 0.3, "viscosity": 0.36}
+    laws: dict[str, Any] = {
+        "pressure_viscosity_coefficient": 25e-9,
+        "viscosity_law": "roelands",
+        "density_law": "constant",
+    } | oil
+    body: dict[str, Any] = {"load_per_width": 300.0 / b.width, "radius": b.radius, "e_prime": b.e_prime}
+    motion: dict[str, Any] = {"entrainment_speed": 0.3, "viscosity": 0.36}
     other = lubfric.solve_differential_deflection(**body, **motion, **laws, tolerance=3e-3)
     rows = [
         ("flow film", "m", parts.film(found).flow_film, other.flow_film, 5e-3),
