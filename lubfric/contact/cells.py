@@ -34,10 +34,6 @@ class Cells:
         many = np.count_nonzero(flags) > DENSE * flags.size
         return Cells(operator, None if many else np.flatnonzero(flags), rows, whole)
 
-    def narrowed(self, kept) -> Cells:
-        """Those of these cells whose positions are ``kept``."""
-        return Cells(self.operator, kept if self.index is None else self.index.take(kept), self.rows, self.whole)
-
     def gather(self, field) -> np.ndarray:
         """Values of a field of the rows, one axis."""
         return field.ravel() if self.index is None else field.ravel().take(self.index)

@@ -11,10 +11,9 @@ from scipy import fft
 from .._base import FieldsOnly, FrozenArrays, validate
 from ..errors import InputError
 from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
-from .transforms import Strip, even_transform, filtered, rounded, wavenumber
+from .transforms import Strip, even_transform, filtered, wavenumber
 
 KINDS = ("periodic", "free")
-NARROW = 0.7  # of the rows: loaded ones that are worth transforms of their own
 
 
 def _once(method):
@@ -57,24 +56,13 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         """
         if np.shape(pressure) != self.shape:
             raise InputError(f"pressure has shape {np.shape(pressure)}; allowed: {self.shape} as the operator")
-        pressure, nx = np.asarray(pressure, dtype=self.symbol.dtype), self.shape[0]
-        if self.boundary == ("free", "periodic"):
-            loaded = np.flatnonzero(pressure.any(axis=1))
-            if loaded.size and loaded[-1] - loaded[0] < NARROW * nx:
-                count = rounded(int(loaded[-1] - loaded[0]) + 1, nx)
-                first = min(int(loaded[0]), nx - count)
-                farthest = rounded(max(nx - first, first + count), nx) - 1
-                return self._strip(count, nx, farthest).apply(pressure[first : first + count], first)
-        return filtered(pressure, self.symbol, self.padded, self.workers)
+        return filtered(np.asarray(pressure, dtype=self.symbol.dtype), self.symbol, self.padded, self.workers)
 
+    @_once
     def window(self, count: int) -> Strip:
         """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y: an exact part of this one,
         with the same zero level. Made once for every count."""
-        return self._strip(count, count, count - 1)
-
-    @_once
-    def _strip(self, count: int, rows: int, farthest: int) -> Strip:
-        return Strip(self._kernel, self.shape[1], count, rows, farthest, self.symbol.dtype, self.workers)
+        return Strip(self._kernel[:count], self.shape[1], self.symbol.dtype, self.workers)
 
     @cached_property
     def _kernel(self) -> np.ndarray:
@@ -101,32 +89,17 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         From the low frequencies: exact if periodic, and close to it if free. With one free axis the kernel is made
         anew, because its waves end. ``padded`` must be even multiples of the factors.
         """
-        shape, padded = (tuple(n // f for n, f in zip(sizes, factors)) for sizes in (self.shape, self.padded))
-        spacing = tuple(d * f for d, f in zip(self.spacing, factors))
+        fx, fy = factors
+        shape, padded = (self.shape[0] // fx, self.shape[1] // fy), (self.padded[0] // fx, self.padded[1] // fy)
+        spacing = (self.spacing[0] * fx, self.spacing[1] * fy)
         if self.boundary == ("free", "periodic"):
             kernel = semiperiodic_coefficients(shape, spacing, self.e_prime)
             own = line_coefficients(1, self.spacing[0], self.e_prime, shape[0] * spacing[0])[0]
-            kernel[:, 0] += (self._kernel[0, 0] - own) * factors[0]  # gauge
+            kernel[:, 0] += (self._kernel[0, 0] - own) * fx  # gauge
             symbol = even_transform(kernel, padded[0])
         else:
             symbol = np.ascontiguousarray(self.symbol[: padded[0] // 2 + 1, : padded[1] // 2 + 1])
         return replace(self, shape=shape, padded=padded, spacing=spacing, symbol=symbol)
-
-    @_once
-    def shortened(self, count: int) -> HalfSpace:
-        """The same cells on the first ``count`` of a free axis x, made once.
-
-        An exact part of this operator, in the same gauge.
-        Raises `InputError` unless x is free and ``count`` at most as long as it is.
-        """
-        if self.boundary[0] != "free" or not 1 <= count <= self.shape[0]:
-            raise InputError(
-                f"count = {count} cells of a {self.boundary[0]} axis of {self.shape[0]}; allowed: 1 to "
-                "all cells of a free axis"
-            )
-        padded = (_padded_length(count), self.padded[1])
-        symbol = even_transform(self._kernel[:count], padded[0])
-        return replace(self, shape=(count, self.shape[1]), padded=padded, symbol=symbol)
 
 
 def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), workers=None) -> HalfSpace:
@@ -141,7 +114,7 @@ def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), worke
       243 (2000) 101-111, doi:10.1016/S0043-1648(00)00427-0).
 
     Free axes are padded with zeros: no images. Positive definite (semi-definite when periodic in
-    both, the mean being lost), and reciprocal: see `reciprocity_error`. Raises `InputError`.
+    both, the mean being lost), and reciprocal (Maxwell-Betti: q·Kp = p·Kq). Raises `InputError`.
     """
     shape = tuple(shape)
     if len(shape) != 2:
@@ -155,14 +128,14 @@ def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), worke
     boundary = tuple(validate.choice(f"boundary[{axis}]", kind, KINDS) for axis, kind in enumerate(boundary))
     if workers is not None:
         workers = validate.integer("workers", workers, minimum=1)
-    padded = tuple(n if kind == "periodic" else _padded_length(n) for n, kind in zip(shape, boundary))
+    padded = (_padded_length(shape[0], boundary[0]), _padded_length(shape[1], boundary[1]))
     symbol = _symbol(shape, spacing, e_prime, boundary, padded)
     return HalfSpace(shape, spacing, e_prime, boundary, padded, symbol, workers)
 
 
-def _padded_length(n: int) -> int:
-    """At least 2 n - 1, a multiple of 4 (so that grids can be halved) with small prime factors."""
-    return 4 * fft.next_fast_len(-(-(2 * n - 1) // 4), real=True)
+def _padded_length(n: int, kind: str) -> int:
+    """Of a free axis at least 2 n - 1, a multiple of 4 (so that grids can be halved) with small prime factors."""
+    return n if kind == "periodic" else 4 * fft.next_fast_len(-(-(2 * n - 1) // 4), real=True)
 
 
 def _symbol(shape, spacing, e_prime, boundary, padded) -> np.ndarray:
@@ -177,16 +150,3 @@ def _symbol(shape, spacing, e_prime, boundary, padded) -> np.ndarray:
         return np.ascontiguousarray(even_transform(flipped, padded[1]).T)
     partial = even_transform(love_coefficients(shape, spacing, e_prime), padded[0])
     return even_transform(partial, padded[1], axis=1)
-
-
-def reciprocity_error(operator, seed: int = 0) -> float:
-    """Relative difference of q·Kp and p·Kq for random p, q (Maxwell-Betti): 0 up to rounding.
-
-    ``|q·Kp - p·Kq| / (|q| |Kp| + |p| |Kq|)`` for any object with ``shape`` and ``apply``. About 1e-16
-    in double and 1e-8 in single precision.
-    """
-    random = np.random.default_rng(validate.integer("seed", seed, minimum=0))
-    p, q = random.standard_normal((2, *operator.shape))
-    kp, kq = (np.asarray(operator.apply(f), dtype=float) for f in (p, q))
-    scale = np.linalg.norm(q) * np.linalg.norm(kp) + np.linalg.norm(p) * np.linalg.norm(kq)
-    return float(abs(np.vdot(q, kp) - np.vdot(p, kq)) / scale) if scale > 0 else 0.0

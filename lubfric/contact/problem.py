@@ -43,9 +43,14 @@ class Problem:
         )
         if fx == fy == 1:
             return None
-        gap0 = sum(self.gap0[i::fx, j::fy] for i in range(fx) for j in range(fy)) / (fx * fy)
-        limits = {"tolerance": COARSE_TOLERANCE, "max_iterations": COARSE_ITERATIONS}
-        return replace(self, gap0=gap0, operator=operator.coarsened((fx, fy)), **limits)
+        parts = [self.gap0[i::fx, j::fy] for i in range(fx) for j in range(fy)]
+        return replace(
+            self,
+            gap0=np.mean(parts, axis=0),
+            operator=operator.coarsened((fx, fy)).single,
+            tolerance=COARSE_TOLERANCE,
+            max_iterations=COARSE_ITERATIONS,
+        )
 
 
 def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations) -> Problem:

@@ -83,8 +83,8 @@ def length_scale(pressure, displacement, gap0, operator, roughness: float | None
     return float(max(min(dot(pressure, displacement) / total, larger), smaller, 1e-9 * ripple))
 
 
-def contact_residuals(pressure, gap, scale: float, hardness: float, mean_pressure: float) -> dict[str, float]:
-    """Complementarity, penetration and load residuals, dimensionless; see `ContactResult` for formulas."""
+def contact_residuals(pressure, gap, scale: float, hardness: float) -> dict[str, float]:
+    """Complementarity and penetration residuals, dimensionless; see `ContactResult` for formulas."""
     apart, total = np.abs(gap), float(pressure.sum())
     lowest = float(gap.min())
     if hardness < np.inf:
@@ -92,24 +92,20 @@ def contact_residuals(pressure, gap, scale: float, hardness: float, mean_pressur
         np.maximum(gap, 0.0, out=apart, where=yielded)
         lowest = float(gap.min(where=~yielded, initial=0.0))
     if total == 0:
-        return {"complementarity": 0.0, "penetration": math.inf if lowest < 0 else 0.0, "load": 0.0}
-    return {
-        "complementarity": dot(pressure, apart) / (total * scale),
-        "penetration": max(0.0, -lowest) / scale,
-        "load": float(abs(total / pressure.size - mean_pressure) / mean_pressure),
-    }
+        return {"complementarity": 0.0, "penetration": math.inf if lowest < 0 else 0.0}
+    return {"complementarity": dot(pressure, apart) / (total * scale), "penetration": max(0.0, -lowest) / scale}
 
 
 def zero_level(height, elastic, yielded, otherwise: float = 0.0) -> float:
     """The approach [m] at which the mean gap over the ``elastic`` cells is zero, from the ``height`` of the gap.
 
     If no cell is elastic, it is halfway between the highest ``yielded`` cell and the lowest other one; if no cell is
-    loaded at all, ``otherwise``. elastic, yielded: flags (yielded None: no hardness).
+    loaded at all, ``otherwise``. elastic, yielded: flags.
     """
     count = np.count_nonzero(elastic)
     if count:
         return dot(height, elastic.astype(height.dtype)) / count
-    if yielded is None or not yielded.any():
+    if not yielded.any():
         return otherwise
     highest = float(height[yielded].max())
     return 0.5 * (highest + (highest if yielded.all() else float(height[~yielded].min())))

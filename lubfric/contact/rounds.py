@@ -7,13 +7,15 @@ solve as stagnated.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED
+from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
 from .cells import Cells, rescaled
-from .result import contact_residuals, length_scale, zero_level
+from .result import ContactResult, contact_residuals, length_scale, zero_level
 from .search import FIRST_PACE, Search
 
 REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into touch
@@ -43,6 +45,11 @@ class State:
         """The worst."""
         return max(self.residuals.values())
 
+    @property
+    def mean_gap(self) -> float:
+        """Mean of the gap [m] over all cells, zero where bodies overlap."""
+        return float(np.maximum(self.gap, 0.0).mean())
+
 
 @dataclass(frozen=True)
 class Found:
@@ -53,28 +60,26 @@ class Found:
     status: str
     iterations: int
     convolutions: float
-    history: tuple[float, ...]
-    pace: float
+    history: Sequence[float] = ()
+    pace: float = FIRST_PACE
     solver: str = "preconditioned conjugate gradient, candidates in single precision"
-    notes: tuple[str, ...] = ()
-
-    @property
-    def pressure(self) -> np.ndarray:
-        """[Pa] (nx, ny)"""
-        return self.state.pressure
+    notes: Sequence[str] = ()
 
 
 def look(problem, operator, pressure, level=None) -> State:
     """The `State` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed approach."""
-    displacement = operator.apply(pressure)
+    return state_of(problem, pressure, operator.apply(pressure), level)
+
+
+def state_of(problem, pressure, displacement, level=None) -> State:
+    """The `State` of ``pressure``, the ``displacement`` [m] of which is known."""
     gap = (problem.gap0 + displacement).astype(displacement.dtype, copy=False)
     if level is None:
         yielded = pressure >= problem.hardness
         level = zero_level(gap, (pressure > 0) & ~yielded, yielded)
     gap -= level
-    scale = length_scale(pressure, displacement, problem.gap0, operator, problem.roughness)
-    residuals = contact_residuals(pressure, gap, scale, problem.hardness, 1.0)
-    del residuals["load"]
+    scale = length_scale(pressure, displacement, problem.gap0, problem.operator, problem.roughness)
+    residuals = contact_residuals(pressure, gap, scale, problem.hardness)
     return State(pressure, displacement, gap, level, scale, residuals)
 
 
@@ -108,19 +113,36 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
     return Found(state, status, iterations, convolutions, (*history, state.residual), pace)
 
 
-def approximate(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> tuple[np.ndarray, float, float]:
-    """A start for a finer grid, by one round in single precision without a check: pressure [Pa], its pace, and the
-    number of convolutions."""
-    state = look(problem, problem.operator.single, pressure, level)
-    if not state.residual:
-        return pressure, pace, 1.0
-    search = _begun(problem, state, load, pace)
-    search.run(MARGIN * problem.tolerance, problem.max_iterations)
-    found = _carrying(search.found(pressure, problem.hardness), pressure, load, problem.hardness)
-    return found, search.pace, 1.0 + search.convolutions
+def concluded(problem, found: Found, control: dict[str, float], failed: str) -> ContactResult:
+    """The result of a solve, judged by the residuals of its state and of its ``control``, that of what was prescribed.
+    If it ended for another reason than a limit with one of them above the tolerance, its status is ``failed``."""
+    state, residuals = found.state, found.state.residuals | control
+    pressure, worst = state.pressure, max(residuals.values())
+    status = CONVERGED if worst <= problem.tolerance else failed if found.status == CONVERGED else found.status
+    return ContactResult(
+        pressure=pressure,
+        gap=state.gap,
+        displacement=state.displacement,
+        approach=float(state.approach) + problem.offset,
+        mean_pressure=float(pressure.mean()),
+        mean_gap=state.mean_gap,
+        contact_area_fraction=np.count_nonzero(pressure) / pressure.size,
+        plastic_area_fraction=np.count_nonzero(pressure >= problem.hardness) / pressure.size,
+        report=Report(
+            found.solver,
+            status,
+            found.iterations,
+            worst if math.isfinite(worst) else math.inf,
+            problem.tolerance,
+            residuals,
+            tuple(found.history),
+            found.convolutions,
+            tuple(found.notes),
+        ),
+    )
 
 
-def _begun(problem, state: State, load, pace: float, exact: bool = False) -> Search:
+def _begun(problem, state: State, load, pace: float, exact: bool) -> Search:
     """A search from ``state`` on the cells that are loaded, or may come into touch."""
     operator, flags, overlap = problem.operator.single, state.pressure > 0, max(0.0, -float(state.gap.min()))
     if np.isfinite(state.scale):

@@ -24,7 +24,7 @@ import numpy as np
 
 from .cells import with_load
 from .result import dot, zero_level
-from .stencil import LEAST, Stencil
+from .stencil import Stencil
 from .transforms import filtered, wavenumber
 
 FIRST_PACE = 0.35  # of the step that the preconditioner would take were it the inverse
@@ -32,13 +32,8 @@ LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, 
 LEARNING = 0.3  # power of the relative length of a step in the next pace
 STEPS = (0.3, 2.0)  # of the way to the trial
 SHIFTS = 12  # of a trial at most
-TRANSFORMED = 0.7  # share of contact from which, on short axes, the preconditioner is the transform, not nine points
-NARROWINGS = (4, 8, 12, 16, 24, 32)  # iterations after which cells are left out
-NEAR, WORTH = 0.7, 0.6  # of the deepest overlap: gaps of cells that are kept; of the cells: most to be kept
-FORGOTTEN = 1e-6  # of the mean pressure in contact: less is not waited for
 PATIENCE = 8  # iterations without a tenth off the best residual
 CAPACITY = 0.999  # of the hardness times the free cells, beyond which the exact search frees more
-FIELDS = ("lower", "upper", "gap", "change", "known", "direction", "weight", "residue", "before", "trial")
 
 
 class Search:
@@ -49,7 +44,7 @@ class Search:
 
     Pressures are in units of the mean one in contact, gaps in units of the scale of ``state``. One value a cell:
 
-    - ``lower``, ``upper`` (None: no hardness): least and largest change of the pressure.
+    - ``lower``, ``upper``: least and largest change of the pressure (to zero, and to the hardness).
     - ``gap``: that under the ``known`` change; ``change``: the known change and the part that is still to be convolved.
     - ``weight``: 1 on free cells, else 0; ``residue``: that of the gap on them; ``before``: the residue from which the
       ``direction`` was made.
@@ -70,7 +65,7 @@ class Search:
         self.hardness, self.plastic = problem.hardness / self.unit, math.isfinite(problem.hardness)
         base /= self.unit
         self.lower = np.negative(base, dtype=np.float32)
-        self.upper = (self.hardness - base).astype(np.float32) if self.plastic else None
+        self.upper = np.subtract(self.hardness, base, dtype=np.float32)
         del base
         self.gap = cells.take(state.gap, np.float32, 1 / scale)
         self.change, self.known, self.direction, self.before = (np.zeros_like(self.gap) for _ in range(4))
@@ -78,9 +73,8 @@ class Search:
         self.power = self.level = self.overlap = 0.0
         self.iterations = self.convolutions = 0
         self.history: list[float] = []
-        factor, short = operator.e_prime / 4 / self.compliance, min(cells.shape) < LEAST
-        self.stiffness = self.stencil = None
-        if exact or short and loaded > TRANSFORMED * state.pressure.size:
+        factor = operator.e_prime / 4 / self.compliance
+        if exact:
             self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
         else:
             self.stencil = Stencil(cells.shape, operator.spacing, operator.boundary, cells.index, factor)
@@ -96,8 +90,6 @@ class Search:
             if worst <= tolerance or waiting > PATIENCE or self.iterations == limit:
                 return
             self.iterations += 1
-            if self.iterations in NARROWINGS and not self.exact:
-                self._narrow()
             self._turn()
             if self.exact:
                 self._exact_step()
@@ -111,32 +103,27 @@ class Search:
         values += np.multiply(self.change, self.unit, dtype=float)
         values *= self.change > self.lower
         np.maximum(values, 0.0, out=values)
-        if self.plastic:
-            np.copyto(values, hardness, where=self.change >= self.upper)
+        np.copyto(values, hardness, where=self.change >= self.upper)
         return self.cells.spread(values)
 
     def _look(self) -> None:
         """Find the zero level of the gap, the free cells, the residue on them and the deepest overlap."""
-        inside, limited = self.change > self.lower, None
-        if self.plastic:
-            limited = self.change >= self.upper
-            inside &= ~limited
+        yielded = self.change >= self.upper
+        inside = (self.change > self.lower) & ~yielded
         if self.given:
-            self.level = zero_level(self.gap, inside, limited, self.level)
+            self.level = zero_level(self.gap, inside, yielded, self.level)
         free = self.gap < np.float32(self.level)
-        if self.plastic:
-            free ^= limited
+        free ^= yielded
         free |= inside
-        if self.exact and self.plastic and self.given:
+        if self.exact and self.given:
             capacity = CAPACITY * self.hardness * np.count_nonzero(free)
             if self._share(free) > capacity:  # all that has not yielded for good has to help
-                free = ~limited | (self.gap > self.level)
+                free = ~yielded | (self.gap > self.level)
         self.weight[:] = free
         self.count = np.count_nonzero(free)
         np.subtract(self.gap, np.float32(self.level), out=self.residue)
         self.residue *= self.weight
-        self.overlap = -float(self.residue.min(where=~limited, initial=0.0) if self.plastic else self.residue.min())
-        self.overlap = max(self.overlap, 0.0)
+        self.overlap = max(0.0, -float(self.residue.min()))
 
     def _share(self, free) -> float:
         """The load that the free cells have to carry."""
@@ -153,31 +140,11 @@ class Search:
         excess = abs(total - self.load) / self.load if self.given else 0.0
         return max(self.overlap, misfit, excess)
 
-    def _narrow(self) -> None:
-        """Leave out the cells that are not in contact and did not come near it, if they are many."""
-        near = self.gap < self.level + NEAR * self.overlap
-        near |= self.weight > 0
-        near |= self.change > self.lower
-        near |= (
-            np.abs(self.known - self.lower) > FORGOTTEN
-        )  # a part of the known pressure that is still to be taken off
-        if not 0 < np.count_nonzero(near) <= WORTH * near.size:
-            return
-        kept = np.flatnonzero(near)
-        self.cells = self.cells.narrowed(kept)
-        self.target -= float(self.change.sum()) - float(self.change.take(kept).sum())
-        for name in FIELDS:  # one after the other, so that old ones are freed soon
-            if getattr(self, name) is not None:
-                setattr(self, name, getattr(self, name).take(kept))
-        if self.stencil is not None:
-            self.stencil.move(self.cells.index)
-        self._look()
-
     def _turn(self) -> None:
         """Conjugate direction on the free cells (Polak-Ribiere, never negative), along which a given load does not
         change. The residue becomes the one before."""
         turned = self.trial
-        if self.stencil is not None:
+        if not self.exact:
             self.stencil.apply(self.residue, turned)
         else:
             field = self.cells.field(self.residue)
@@ -204,10 +171,9 @@ class Search:
         self.pace *= max(step, STEPS[0]) ** LEARNING
         self.known += np.multiply(way, np.float32(step), out=asked)
         self.gap += np.multiply(answer, np.float32(step * self.compliance), out=asked)
-        np.maximum(self.known, self.lower, out=self.change)
+        self._limit(self.known, self.change)
         np.copyto(self.change, self.lower, where=self.trial <= self.lower)  # cells that the trial unloads stay so
         if self.plastic:
-            np.minimum(self.change, self.upper, out=self.change)
             np.copyto(self.change, self.upper, where=self.trial >= self.upper)
 
     def _try(self) -> None:
@@ -215,7 +181,7 @@ class Search:
         load."""
         aim = np.multiply(self.direction, np.float32(self.pace), out=self.residue)
         aim += self.change
-        self._limit(aim)
+        self._limit(aim, self.trial)
         shift = 0.0
         for _ in range(SHIFTS if self.given else 0):
             missing = self.target - float(self.trial.sum())
@@ -223,22 +189,22 @@ class Search:
                 return
             movable = self.trial > self.lower
             if self.plastic:
-                movable &= (self.trial < self.upper) & (self.weight > 0)
+                movable &= self.trial < self.upper
             count = np.count_nonzero(movable)
             if not count:
                 break
             shift += missing / count
             np.multiply(self.weight, np.float32(shift), out=self.trial)
             self.trial += aim
-            self._limit(self.trial)
+            self._limit(self.trial, self.trial)
         if self.given:
             self._project(aim)
 
-    def _limit(self, aim) -> None:
-        """Set the trial to ``aim`` within the limits."""
-        np.maximum(aim, self.lower, out=self.trial)
+    def _limit(self, values, out) -> None:
+        """``values`` within the limits, into ``out``; `numpy.clip` with arrays takes six times as long."""
+        np.maximum(values, self.lower, out=out)
         if self.plastic:
-            np.minimum(self.trial, self.upper, out=self.trial)
+            np.minimum(out, self.upper, out=out)
 
     def _project(self, aim) -> None:
         """Make the trial by a bracketed shift of all cells, in double precision.
@@ -271,7 +237,7 @@ class Search:
     def _rounded(self, pressure, base, cells) -> np.ndarray:
         """Change of the pressure on ``cells`` in single precision, the limits met to the last digit."""
         change = np.where(pressure <= 0, self.lower[cells], (pressure - base).astype(np.float32))
-        return np.where(pressure >= self.hardness, self.upper[cells], change) if self.plastic else change
+        return np.where(pressure >= self.hardness, self.upper[cells], change)
 
     def _answer(self, way) -> np.ndarray:
         """Deflection under a change of pressure, to be multiplied by the compliance."""

@@ -8,17 +8,15 @@ from dataclasses import replace
 import numpy as np
 
 from .._base import increasing_root, validate
-from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, InputError
 from .cells import rescaled, shifted
 from .problem import Problem, make_problem, starting_pressure
 from .result import ContactResult
-from .rounds import Found, State, approximate, refine
+from .rounds import Found, concluded, refine, state_of
 from .search import FIRST_PACE
 
 HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than what the old ones bear
 FLATTENED = 10.0  # times E' height/spacing: 1.1 would do for a periodic ripple
-LOOSEST = 1e-2  # tolerance of a solve whose mean gap is far off
-CERTAIN = 20.0  # a surplus so many times its uncertainty away from zero has a certain sign
 
 
 def solve_contact(
@@ -77,7 +75,12 @@ def solve_contact(
         found = _solved(problem, start, float(mean_pressure), mean_pressure=float(mean_pressure))
     else:
         found = _gap_controlled(problem, float(mean_gap), start)
-    result = _result(problem, found, mean_pressure, mean_gap)
+    state = found.state
+    if mean_gap is None:
+        control = {"load": float(abs(state.pressure.mean() - mean_pressure) / (mean_pressure or 1.0))}
+    else:
+        control = {"volume": abs(state.mean_gap - mean_gap) / min(state.scale, mean_gap)}
+    result = concluded(problem, found, control, ITERATION_LIMIT)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
@@ -118,12 +121,10 @@ def _coarse_start(problem: Problem, uniform, mean_pressure, approach) -> tuple[n
     coarse = problem.coarsened()
     if coarse is None:
         return np.full(problem.gap0.shape, uniform), FIRST_PACE, 0.0
-    start, pace, spent = _coarse_start(coarse, uniform, mean_pressure, approach)
-    load = None if mean_pressure is None else mean_pressure * coarse.gap0.size
-    pressure, pace, more = approximate(coarse, start, load=load, level=approach, pace=pace)
+    found = _solved(coarse, None, uniform, mean_pressure=mean_pressure, approach=approach)
     fx, fy = (n // m for n, m in zip(problem.gap0.shape, coarse.gap0.shape))
-    share = coarse.gap0.size / problem.gap0.size
-    return pressure.repeat(fx, axis=0).repeat(fy, axis=1), pace, share * (spent + more)
+    pressure = found.state.pressure.repeat(fx, axis=0).repeat(fy, axis=1)
+    return pressure, found.pace, found.convolutions * coarse.gap0.size / problem.gap0.size
 
 
 def _gap_controlled(problem: Problem, mean_gap: float, start) -> Found:
@@ -145,34 +146,25 @@ def _gap_controlled(problem: Problem, mean_gap: float, start) -> Found:
     if found.status == CONVERGED:
         return found
     note = f"at the known approach: {found.status} after {found.iterations} iterations; load searched instead"
-    again = _load_searched(problem, mean_gap, guess, found.pressure if found.pressure.any() else start)
+    again = _load_searched(problem, mean_gap, guess, found.state.pressure if found.state.pressure.any() else start)
     return replace(again, notes=(note,), convolutions=again.convolutions + found.convolutions)
 
 
 def _load_searched(problem: Problem, mean_gap: float, guess: float, start) -> Found:
     """Find the load with that mean gap, by one bracketed root in the logarithm of the pressure.
 
-    The mean gap falls with the load, so there is one root. Each solve starts from the last, and is only as exact as the
-    sign of the remaining gap requires. No load exceeds the one that flattens the whole height as if it were the
-    shortest ripple that the grid resolves.
+    The mean gap falls with the load, so there is one root. Each solve starts from the last. No load exceeds the one
+    that flattens the whole height as if it were the shortest ripple that the grid resolves.
     """
-    finest = 0.2 * problem.tolerance
-    pressure, spent, iterations = start, 0.0, 0
+    exact = replace(problem, tolerance=0.2 * problem.tolerance)
+    spent, iterations = 0.0, 0
 
-    def surplus(log_pressure, _):
-        nonlocal pressure, spent, iterations
-        tolerance = max(finest, LOOSEST)
-        while True:
-            mean = math.exp(log_pressure)
-            found = _solved(replace(problem, tolerance=tolerance), pressure, mean, mean_pressure=mean)
-            pressure = found.pressure
-            spent, iterations = spent + found.convolutions, iterations + found.iterations
-            smaller = min(mean_gap, found.state.scale)
-            value = (mean_gap - _volume(found.state.gap)) / smaller
-            doubt = CERTAIN * tolerance * found.state.scale / smaller
-            if tolerance == finest or abs(value) > doubt:
-                return value, found
-            tolerance = max(finest, tolerance * min(0.1, abs(value) / doubt))
+    def surplus(log_pressure, last: Found | None):
+        nonlocal spent, iterations
+        mean = math.exp(log_pressure)
+        found = _solved(exact, last.state.pressure if last else start, mean, mean_pressure=mean)
+        spent, iterations = spent + found.convolutions, iterations + found.iterations
+        return (mean_gap - found.state.mean_gap) / min(mean_gap, found.state.scale), found
 
     if start is not None and start.any():
         guess = float(start.mean())
@@ -184,49 +176,14 @@ def _load_searched(problem: Problem, mean_gap: float, guess: float, start) -> Fo
         found,
         iterations=iterations,
         convolutions=spent,
-        history=tuple(root.history),
+        history=root.history,
         status=root.status if found.status == CONVERGED else found.status,
         solver="bracketed load, preconditioned conjugate gradient",
     )
 
 
-def _volume(gap) -> float:
-    """Mean of the gap [m] where it is open, over all cells: overlap counts zero."""
-    return float(np.maximum(gap, 0.0).mean())
-
-
 def _separated(problem: Problem, mean_gap: float) -> Found:
     """Bodies that carry no load."""
-    approach, zero = float(problem.gap0.mean()) - mean_gap, np.zeros_like(problem.gap0)
-    residuals = {"complementarity": 0.0, "penetration": 0.0}
-    state = State(zero, zero.copy(), problem.gap0 - approach, approach, math.inf, residuals)
-    return Found(state, CONVERGED, 0, 0.0, (), FIRST_PACE, "none", ("the bodies carry no load",))
-
-
-def _result(problem: Problem, found: Found, mean_pressure, mean_gap) -> ContactResult:
-    state, tolerance, status = found.state, problem.tolerance, found.status
-    pressure, carried, volume = state.pressure, float(state.pressure.mean()), _volume(state.gap)
-    residuals = dict(state.residuals)
-    if mean_gap is None:
-        residuals["load"] = abs(carried - mean_pressure) / (mean_pressure or 1.0)
-    else:
-        residuals["volume"] = abs(volume - mean_gap) / min(state.scale, mean_gap)
-    worst = max(residuals.values())
-    if worst <= tolerance:
-        status = CONVERGED
-    elif status == CONVERGED:
-        status = ITERATION_LIMIT
-    worst = worst if math.isfinite(worst) else math.inf
-    cost, said = (found.history, found.convolutions), found.notes
-    report = Report(found.solver, status, found.iterations, worst, tolerance, residuals, *cost, said)
-    return ContactResult(
-        pressure,
-        state.gap,
-        state.displacement,
-        float(state.approach) + problem.offset,
-        carried,
-        volume,
-        np.count_nonzero(pressure) / pressure.size,
-        np.count_nonzero(pressure >= problem.hardness) / pressure.size,
-        report,
-    )
+    zero = np.zeros_like(problem.gap0)
+    state = state_of(problem, zero, zero.copy(), float(problem.gap0.mean()) - mean_gap)
+    return Found(state, CONVERGED, 0, 0.0, solver="none", notes=("the bodies carry no load",))

@@ -17,7 +17,6 @@ from .transforms import filtered, wavenumber
 
 POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
 BLOCK = 16384  # cells that stay in the cache from one pass to the next
-SPARSE = 0.15  # share of the cells below which their neighbours are gathered one by one
 FACTOR = 4  # cells, each way, that are one for long waves
 LEAST = 64  # cells along an axis: on shorter ones long waves cost more than they save
 
@@ -50,59 +49,36 @@ class Stencil:
             )  # free axes are padded to twice their length
             missed = _series(nearest, self.coarse) - wavenumber(self.coarse, tuple(FACTOR * d for d in spacing))
             self.long_waves = (factor / FACTOR**2 * np.maximum(missed, 0.0)).astype(np.float32)
-        self.move(cells)
-
-    def move(self, cells) -> None:
-        """Apply to other ``cells`` from now on."""
-        self.padded.fill(0)
-        self.cells = np.arange(self.shape[0] * self.shape[1]) if cells is None and 1 in self.shape else cells
-        if self.cells is not None:
-            row, column = np.divmod(self.cells, self.shape[1])
-            self.corner = self.cells + 2 * row  # flat number of the lower left point
-            self.owner = row // FACTOR * -(-self.shape[1] // FACTOR) + column // FACTOR  # of the cell for long waves
+        self.cells = cells
+        if cells is not None:
+            row, column = np.divmod(cells, shape[1])
+            self.points = (row + 1) * (shape[1] + 2) + column + 1  # their flat numbers in ``padded``
+            self.owner = row // FACTOR * -(-shape[1] // FACTOR) + column // FACTOR  # of the cell for long waves
 
     def apply(self, values: np.ndarray, sums: np.ndarray) -> None:
         """Write the sums at the cells into ``sums``."""
-        padded, width = self.padded, self.padded.shape[1]
+        padded, cells = self.padded, self.cells
         inner = padded[1:-1, 1:-1]
-        if self.cells is None:
+        if cells is None:
             inner[:] = values.reshape(self.shape)
         else:
-            padded.ravel()[width + 1 :][self.corner] = values
+            padded.ravel()[self.points] = values
         if self.boundary[0] == "periodic":
             padded[0], padded[-1] = padded[-2], padded[1]
         if self.boundary[1] == "periodic":
             padded[:, 0], padded[:, -1] = padded[:, -2], padded[:, 1]
-        if self.cells is None:
+        if cells is None:
             self._sweep(sums.reshape(self.shape))
-        elif 1 in self.shape or self.cells.size < SPARSE * inner.size:
-            self._gather(values, sums)
         else:
             self._sweep(whole := np.empty(self.shape, np.float32))
-            whole.ravel().take(self.cells, out=sums, mode="clip")
+            whole.ravel().take(cells, out=sums, mode="clip")
         if self.long_waves is not None:
             found = filtered(_summed(inner), self.long_waves, self.coarse, None)
-            if self.cells is None:
+            if cells is None:
                 whole = found.repeat(FACTOR, axis=1)[:, : inner.shape[1]].repeat(FACTOR, axis=0)[: inner.shape[0]]
                 sums -= whole.ravel()
             else:
                 sums -= found.ravel().take(self.owner)
-
-    def _gather(self, values, sums) -> None:
-        """The sums at the cells, one neighbour after the other."""
-        flat, width = self.padded.ravel(), self.padded.shape[1]
-        own, along_x, along_y, across = self.coefficients
-        np.multiply(values, own, out=sums)
-        for coefficient, offsets in (
-            (along_x, (1, 2 * width + 1)),
-            (along_y, (width, width + 2)),
-            (across, (0, 2, 2 * width, 2 * width + 2)),
-        ):
-            part = flat[offsets[0] :].take(self.corner)
-            for offset in offsets[1:]:
-                part += flat[offset:].take(self.corner)
-            part *= coefficient
-            sums += part
 
     def _sweep(self, sums) -> None:
         """The sums for all cells, some rows at a time, within the cache."""

@@ -17,7 +17,7 @@ from ..errors import InputError
 from ..scene import Roughness, Scene
 from ..surface import Surface, generate_surface
 from .height_map import extended, measured, rough_bodies, whole_map
-from .hertz_strip import centred_axis
+from .rough_contract import centred_axis
 from .strip_cells import EVEN, Cells, cells_of_a_box, choose_cells, correlation_lengths, length_or_half, reach_of
 
 STRIP, PIECE = 90.0, 42.0  # correlation lengths: of a strip, of a piece on the scene's own cells
@@ -169,7 +169,7 @@ class OnePatch(Strips):
 
 def strips_of(scene: Scene) -> Strips:
     """Strips of the scene's surface, generated or measured; on the scene's own cells if ``numerics.grid`` is given."""
-    found = measured_strips(scene, whole_map(scene)) if measured(scene) else generated_strips(scene)
+    found: Strips = measured_strips(scene, whole_map(scene)) if measured(scene) else generated_strips(scene)
     while scene.numerics.grid == "given" and not found.cells.own:
         found = found.halved()
     return found

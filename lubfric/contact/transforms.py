@@ -59,45 +59,41 @@ def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -
 
 
 class Strip:
-    """The deflection of ``rows`` of a patch of ``ny`` columns under pressure on ``count`` neighbouring rows, at most
-    ``farthest`` rows apart, in the precision ``dtype``.
+    """The deflection of neighbouring rows of a patch of ``ny`` columns under pressure on them, in the precision
+    ``dtype``.
 
-    ``kernel`` [m/Pa]: lags along the free axis, waves along the periodic one. Each of the ``groups`` has the columns of
-    the spectrum, the number of rows that its waves reach at most, the number of rows to transform, and the symbol.
+    ``kernel`` [m/Pa]: one lag for each row, waves along the periodic axis. Each of the ``groups`` has the columns of
+    the spectrum, the number of rows to transform, and the symbol.
     """
 
-    def __init__(self, kernel, ny: int, count: int, rows: int, farthest: int, dtype, workers=None):
-        self.shape, self.rows, self.workers, self.groups = (count, ny), rows, workers, []
-        reaches, begin = _reaches(kernel, NEGLIGIBLE[np.dtype(dtype)], farthest), 0
-        sides = 1 if rows == count else 2
-        while begin < reaches.size:
+    def __init__(self, kernel, ny: int, dtype, workers=None):
+        count, waves = kernel.shape
+        self.shape, self.workers, self.groups = (count, ny), workers, []
+        reaches, begin = _reaches(kernel, NEGLIGIBLE[np.dtype(dtype)]), 0
+        while begin < waves:
             reach = int(reaches[begin])
             short = np.flatnonzero(reaches[begin:] <= reach // 2)
-            few = not short.size or min(short[0], reaches.size - begin - short[0]) * count < WORTH
-            end = reaches.size if few else begin + int(short[0])
-            length = fft.next_fast_len(min(count + sides * reach, 2 * farthest + 1))
-            lags = min(reach, farthest, (length - 1) // 2) + 1
-            symbol = even_transform(kernel[:lags, begin:end], length).astype(dtype)
-            self.groups.append((slice(begin, end), reach, length, symbol))
+            few = not short.size or min(short[0], waves - begin - short[0]) * count < WORTH
+            end = waves if few else begin + int(short[0])
+            length = fft.next_fast_len(min(count + reach, 2 * count - 1))
+            lags = min(reach, count - 1, (length - 1) // 2) + 1
+            self.groups.append(
+                (slice(begin, end), length, even_transform(kernel[:lags, begin:end], length).astype(dtype))
+            )
             begin = end
 
-    def apply(self, pressure: np.ndarray, first: int = 0) -> np.ndarray:
-        """Deflection [m] (rows, ny) under ``pressure`` [Pa] on the rows from ``first`` on."""
+    def apply(self, pressure: np.ndarray) -> np.ndarray:
+        """Deflection [m] (count, ny) under ``pressure`` [Pa] (count, ny)."""
         count, ny = self.shape
         spectrum = fft.rfft(pressure, axis=1, workers=self.workers)
-        total = np.zeros((self.rows, spectrum.shape[1]), spectrum.dtype)
-        for columns, reach, length, symbol in self.groups:
-            part = _multiplied(spectrum[:, columns], symbol, length, self.workers)
-            before, after = min(first, reach), min(self.rows, first + count + reach) - first
-            total[first : first + after, columns] = part[:after]
-            if before:
-                total[first - before : first, columns] = part[-before:]
-        return fft.irfft(total, n=ny, axis=1, workers=self.workers, overwrite_x=True)
+        for columns, length, symbol in self.groups:
+            spectrum[:, columns] = _multiplied(spectrum[:, columns], symbol, length, self.workers)[:count]
+        return fft.irfft(spectrum, n=ny, axis=1, workers=self.workers, overwrite_x=True)
 
 
-def _reaches(kernel, negligible: float, farthest: int) -> np.ndarray:
+def _reaches(kernel, negligible: float) -> np.ndarray:
     """Number of rows beyond which a wave and all shorter ones do not deflect; it never rises from wave to wave."""
-    felt = np.abs(kernel[: farthest + 1]) > negligible * np.abs(kernel[0])
+    felt = np.abs(kernel) > negligible * np.abs(kernel[0])
     last = felt.shape[0] - 1 - np.argmax(felt[::-1], axis=0)
     return np.maximum.accumulate(last[::-1])[::-1]
 

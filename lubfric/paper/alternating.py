@@ -63,12 +63,9 @@ class _Inner:
     def solve(self, offset: float) -> float:
         """Solve at this epsilon and return (film - volume)/min(L, film), which rises with epsilon."""
         found = refine(self.tight, self.pressure.copy(), level=offset)
-        problem, self.pressure = self.contact.problem, found.pressure
-        self.displacement = problem.operator.apply(self.pressure)
-        self.convolutions += found.convolutions + 1
-        volume = self.contact.mean(np.maximum(problem.gap0 + self.displacement - offset, 0.0))
-        scale = self.contact.scale(self.pressure, self.displacement)
-        return (self.contact.mean_film - volume) / min(scale, self.contact.mean_film)
+        self.pressure, self.displacement = found.state.pressure, found.state.displacement
+        self.convolutions += found.convolutions
+        return self.contact.surplus(found.state)
 
 
 def _by_repetition(contact: ImposedFilm, pressure) -> Outcome:

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._base import validate
-from ..contact import ContactResult, Problem, contact_residuals, length_scale, make_problem
-from ..errors import CONVERGED, STAGNATED, InputError, Report
+from ..contact import ContactResult, Found, Problem, State, concluded, look, make_problem, state_of
+from ..errors import CONVERGED, STAGNATED, InputError
 
 
 @dataclass(frozen=True)
@@ -56,10 +56,6 @@ class ImposedFilm:
         """
         return self.mean(self.problem.gap0 + displacement + overlap) - self.mean_film
 
-    def scale(self, pressure, displacement) -> float:
-        """The length [m] to which gaps are compared, as in `lubfric.solve_contact`."""
-        return length_scale(pressure, displacement, self.problem.gap0, self.problem.operator)
-
     def first_pressure(self) -> np.ndarray:
         """A first pressure, proportional to the overlap at the offset of the undeformed surfaces, with the best
         factor."""
@@ -67,48 +63,36 @@ class ImposedFilm:
         stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))
         return np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
 
-    def residuals(self, pressure, displacement, offset) -> dict[str, float]:
-        """Complementarity, penetration and volume, as in `lubfric.paper.single_loop`."""
-        gap = self.problem.gap0 + displacement - offset
-        scale = self.scale(pressure, displacement)
-        found = contact_residuals(pressure, gap, scale, self.problem.hardness, 1.0)
-        del found["load"]
-        volume = abs(self.mean(np.maximum(gap, 0.0)) - self.mean_film)
-        return found | {"volume": volume / min(scale, self.mean_film)}
+    def surplus(self, state: State) -> float:
+        """By how much the film exceeds the volume between the surfaces: their difference over A, in the smaller of the
+        mean film and the length in which `lubfric.solve_contact` measures residuals."""
+        return (self.mean_film - self.mean(np.maximum(state.gap, 0.0))) / min(state.scale, self.mean_film)
+
+    def residual(self, pressure, displacement, offset) -> float:
+        """The worst of complementarity, penetration and volume, as in `lubfric.paper.single_loop`."""
+        state = state_of(self.problem, pressure, displacement, offset)
+        return max(state.residual, abs(self.surplus(state)))
 
     def solved(self, iterate: Iteration, solver: str, raise_on_failure: bool) -> ContactResult:
         """The contact by ``iterate``, with residuals computed anew from the pressure alone."""
         if self.separated:
             zero, note = np.zeros_like(self.problem.gap0), "the film clears the surface: no contact"
-            solver, state = "none", Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], [note])
+            solver, end = "none", Outcome(zero, self.offset(zero), CONVERGED, 0, 0, [], [note])
         else:
-            state = iterate(self, self.first_pressure())
-        problem, p = self.problem, state.pressure
-        u = problem.operator.apply(p)
-        gap = problem.gap0 + u - state.offset
-        residuals = self.residuals(p, u, state.offset)
-        worst = max(residuals.values())
-        worst = worst if math.isfinite(worst) else math.inf
-        status = state.status
-        if worst <= problem.tolerance:
-            status = CONVERGED
-        elif status == CONVERGED:
-            status = STAGNATED
-        effort = tuple(state.history), state.convolutions + 1, tuple(state.notes)
-        report = Report(solver, status, state.iterations, worst, problem.tolerance, residuals, *effort)
-        result = ContactResult(
-            p,
-            gap,
-            u,
-            float(state.offset) + problem.offset,
-            float(p.mean()),
-            float(np.maximum(gap, 0.0).mean()),
-            np.count_nonzero(p) / p.size,
-            np.count_nonzero(p >= problem.hardness) / p.size,
-            report,
+            end = iterate(self, self.first_pressure())
+        state = look(self.problem, self.problem.operator, end.pressure, end.offset)
+        found = Found(
+            state,
+            end.status,
+            end.iterations,
+            end.convolutions + 1,
+            end.history,
+            solver=solver,
+            notes=end.notes,
         )
+        result = concluded(self.problem, found, {"volume": abs(self.surplus(state))}, STAGNATED)
         if raise_on_failure:
-            report.raise_if_failed(result)
+            result.report.raise_if_failed(result)
         return result
 
 

@@ -95,7 +95,7 @@ def _loop(contact: ImposedFilm, step, stop: str, separation_tolerance: float) ->
         if iteration > 0 and not step.advance():
             status = DIVERGED
             break
-        error = max(contact.residuals(step.pressure, step.displacement, step.offset).values())
+        error = contact.residual(step.pressure, step.displacement, step.offset)
         error = error if np.isfinite(error) else np.inf
         history.append(error)
         if error < best[0]:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ..contact import RoughContact, Strips
+from ..contact import RoughContact, Strips, weighted_mean
 from ..errors import LubfricError
 from ..scene import budget
 from ..sharing import (
@@ -20,7 +20,6 @@ from ..sharing import (
     grown,
     on_piece,
     on_stack,
-    quantities,
     solve_balance,
 )
 from .cells import CellEffect, effect_of_cells, lost_summits
@@ -253,7 +252,7 @@ def _corrected(prepared: Prepared, speed: float, found: Found) -> Found:
     by_load = response.slopes.area_factor(loads[1] - solved.contact_load, scene.bodies.width, area)
     plastic = max(state.plastic_area_fraction + effect.plastic, 0.0)
     state = grown(replace(state, plastic_area_fraction=plastic), effect.area * by_load)
-    mean = quantities(scene, found.contact, film, state, loads[1])["mean_gap"] + effect.film
+    mean = weighted_mean(film.film_at(found.contact.x), found.contact.weight) + effect.film
     state = replace(state, mean_gap=mean, mean_film=mean)
     there = forces(scene, film, state, loads[1])
     balance = replace(solved, film_load=loads[0], contact_load=loads[1], film=film, contact=state, forces=there)

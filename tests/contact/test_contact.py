@@ -279,11 +279,10 @@ def test_each_residual_sees_its_fault():
     good = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8)
     p, g = good.pressure, good.gap
     scale = length_scale(p, good.displacement, gap0, half_space((32, 32), DX, E_PRIME))
-    assert max(contact_residuals(p, g, scale, np.inf, 5e8).values()) < 1e-6
-    assert contact_residuals(1.1 * p, g, scale, np.inf, 5e8)["load"] > 1e-3
-    assert contact_residuals(p, g - 1e-8, scale, np.inf, 5e8)["penetration"] > 1e-3
-    assert contact_residuals(p, g + 1e-8, scale, np.inf, 5e8)["complementarity"] > 1e-3
-    assert contact_residuals(0 * p, g - 1e-8, scale, np.inf, 5e8)["penetration"] > 1e-3
+    assert max(contact_residuals(p, g, scale, np.inf).values()) < 1e-6
+    assert contact_residuals(p, g - 1e-8, scale, np.inf)["penetration"] > 1e-3
+    assert contact_residuals(p, g + 1e-8, scale, np.inf)["complementarity"] > 1e-3
+    assert contact_residuals(0 * p, g - 1e-8, scale, np.inf)["penetration"] > 1e-3
 
 
 GOOD = {"gap0": np.zeros((4, 4)), "spacing": 1.0, "e_prime": 1.0, "mean_pressure": 1.0}

@@ -83,6 +83,9 @@ def test_what_is_left_out_is_part_of_the_numerical_error(model):
     assert auto.uncertainty.numerical >= abs(on.coefficient / auto.coefficient - 1) > 1e-3
     for name in ("shear_force", "couette_force"):
         assert getattr(auto.errors, name) >= abs(getattr(on, name) / getattr(auto, name) - 1), name
+    for name in ("flash_temperature_rise", "film_temperature_rise"):  # none was computed: nothing is known of its error
+        assert getattr(auto, name) == 0 and auto.errors.reasons[name] == "heat was left out"
+        assert getattr(on, name) > 0 and 0 < getattr(on.errors, name) < 0.1
 
 
 def test_every_thermal_key_reaches_the_number(model):

@@ -132,7 +132,7 @@ def test_a_given_map_is_a_sample_and_its_mirror_image_no_more_of_it():
     half = lubfric.Surface(rough.heights, rough.spacing, periodic_axes=(False, False))
     once, twice = (
         lubfric.friction(lubfric.prepare(scene, surface), 0.01).uncertainty
-        for surface in (rough, half.periodic("mirror", axes=(False, True)))
+        for surface in (rough, half.periodic(axes=(False, True)))
     )
     assert 0.01 < once.sampling < 0.1 and once.length == pytest.approx(512 * 1.2e-6)
     assert twice.length == pytest.approx(once.length) and twice.sampling == pytest.approx(once.sampling, rel=0.3)

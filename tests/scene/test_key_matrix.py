@@ -477,7 +477,6 @@ SOLVED_OTHERWISE = [
 ]
 STEADY_ONLY = [  # a run in time refuses them by name
     {"model": "deterministic"},
-    {"film_deflection": "total"},
     {"cavitated_shear": "striated"},
 ]
 

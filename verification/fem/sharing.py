@@ -102,8 +102,7 @@ class FlatBodies:
 
 @dataclass(frozen=True)
 class Under:
-    """What a film leaves to the contact: mean gap (m), share in contact of the cells along x, and the strip
-    as pressed."""
+    """What a film leaves to the contact: mean gap (m), share in contact along x, the strip as pressed."""
 
     gap: np.ndarray
     touching: np.ndarray
@@ -222,8 +221,8 @@ def divided(bodies: Bodies | FlatBodies, split: float, refinements: int) -> Shar
     couette, rolling = (bodies.width * f for f in shear(film, bodies.sliding, bodies.edges, 1 - under.touching))
     boundary = bodies.boundary_friction * contact_load * np.sign(bodies.sliding)
     f = float(math.copysign(1.0, bodies.sliding) * (boundary + couette + rolling) / bodies.load)
-    means = (float(weight @ values) for values in (under.gap, shape, under.touching))
-    return Shared(film_load, contact_load, couette, rolling, f, *means, film, under.pressed, film.report)
+    gap, mean_film, area = (float(weight @ values) for values in (under.gap, shape, under.touching))
+    return Shared(film_load, contact_load, couette, rolling, f, gap, mean_film, area, film, under.pressed, film.report)
 
 
 def cell_means(film: ehl.Solution, edges: np.ndarray) -> np.ndarray:
@@ -240,8 +239,8 @@ def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray
     """
     c, dofs = film.contact, film.body.line.doflocs[0]
     start, end = dofs.min() * c.half_width, rupture(film)
-    ends = film.body.line.mesh.p[0][film.body.line.mesh.t] * c.half_width
-    x = np.unique([*np.linspace(*ends, PARTS, endpoint=False).ravel(), *edges, end])
+    left, right = film.body.line.mesh.p[0][film.body.line.mesh.t] * c.half_width
+    x = np.unique([*np.linspace(left, right, PARTS, endpoint=False).ravel(), *edges, end])
     x = x[(x > start) & (x <= end)]
     middle = 0.5 * (x[1:] + x[:-1])
     p, h = film.at(middle)

@@ -1,7 +1,5 @@
 """Wiring of the transient: what does not change leaves the steady state alone, and what changes ends in the new one."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 
