@@ -37,7 +37,7 @@ SCENES = {
     "measured": None,
 }
 CHEAP = LINE.with_(numerics={"tolerance": 0.05, "sampling_tolerance": 0.3}, surface={"correlation_length": 4e-6})
-QUICK, REST = list(SCENES)[:3], list(SCENES)[3:]
+QUICK, REST = list(SCENES)[1:3], [name for name in SCENES if name not in ("patch", "summits")]
 
 
 @pytest.fixture(scope="session")
@@ -115,7 +115,7 @@ def test_another_process_moves_no_bit(scene_of):
             assert pool.submit(at, scene_of(name), speeds[0]).result() == expected[speeds[0]], name
 
 
-@settings(max_examples=4)
+@settings(max_examples=3)
 @given(st.lists(st.sampled_from([0.0, -0.01, *SPEEDS]), min_size=2, max_size=2, unique=True))
 def test_speeds_in_any_order_and_number(order):
     prepared = lubfric.prepare(CHEAP)

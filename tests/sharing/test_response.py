@@ -15,7 +15,7 @@ SCENE = lubfric.load_scene("paper").with_(
 )
 
 
-@pytest.mark.parametrize("load, speed, near", [(5.5, 0.003, 0.05), (5.5, 0.03, 0.05), (110.0, 0.03, 0.2)])
+@pytest.mark.parametrize("load, speed, near", [(5.5, 0.01, 0.05), (110.0, 0.03, 0.2)])
 def test_it_is_what_a_rougher_surface_does(load, speed, near):
     """Heights 1 % larger open the gap at given load; the balance is then solved again. The response takes the gap at a
     given shape of the film; under 110 N the film changes its shape with its load."""
