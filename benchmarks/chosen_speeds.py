@@ -1,11 +1,11 @@
 """Curves at speeds of their own choice beside curves at 25 even ones: points, processor time, largest error between.
 
-    python benchmarks/chosen_speeds.py [--line] [--seed SEED] [--scenes COUNT] [--points POINTS]
+    python benchmarks/chosen_speeds.py [--strips] [--seed SEED] [--scenes COUNT] [--points POINTS]
         [--docs docs]
 
-Random scenes (loads, viscosities, roughness, moduli of slip and hardness, seeds) on one patch, or, with --line, on a
-line at a sampling tolerance of 5 %. The error is that of ``curve.at`` beside a curve of 100 even speeds, solved to
-0.2 %, and three speeds about lift-off. Prints one table.
+Random scenes (loads, viscosities, roughness, moduli of slip and hardness, seeds) on one patch, or, with --strips, on
+strips of the surface at a sampling tolerance of 5 %. The error is that of ``curve.at`` beside a curve of 100 even
+speeds, solved to 0.2 %, and three speeds about lift-off. Prints one table.
 """
 
 import os
@@ -29,10 +29,10 @@ from benchmarks import page
 COLUMNS = ("scene", "speeds", "stated error", "largest error", "of 25 even speeds", "time over that of 25")
 
 
-def scenes(count: int, line: bool, sequence: int):
+def scenes(count: int, strips: bool, sequence: int):
     """``count`` scenes of the Sobol ``sequence`` of that number."""
     base = lubfric.load_scene("paper")
-    numerics = {"sampling_tolerance": 0.05} if line else {"sampling": "patch"}
+    numerics = {"sampling_tolerance": 0.05} if strips else {"sampling": "patch"}
     for seed, u in enumerate(qmc.Sobol(5, seed=sequence).random(count), start=100 * (sequence - 1) + 1):
         yield base.with_(
             bodies={"load": float(np.exp(np.interp(u[0], [0, 1], np.log([2, 20])))), "hardness": [None, 6e9][seed % 2]},
@@ -56,7 +56,7 @@ def timed(work):
 def main() -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--line", action="store_true")
+    parser.add_argument("--strips", action="store_true")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--scenes", type=int, default=16)
     parser.add_argument("--points", type=int, default=100)
@@ -64,7 +64,7 @@ def main() -> None:
     arguments = parser.parse_args()
     print(" | ".join(COLUMNS))
     rows = []
-    for number, scene in enumerate(scenes(arguments.scenes, arguments.line, arguments.seed), start=1):
+    for number, scene in enumerate(scenes(arguments.scenes, arguments.strips, arguments.seed), start=1):
         prepared = lubfric.prepare(scene)
         lubfric.stribeck(prepared, [0.1])  # whatever is imported at first is
         auto, spent = timed(lambda: lubfric.stribeck(prepared, "auto", raise_on_failure=False))

@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 import numpy as np
 
 from benchmarks import page
-from benchmarks.contact_before_after import E_PRIME, surface
+from benchmarks.rough import E_PRIME, surface
 from lubfric import solve_contact
 from lubfric.contact import cells, half_space, problem, rounds, search, solve, stencil
 

@@ -31,7 +31,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 import numpy as np
 
 from benchmarks import page
-from benchmarks.contact_before_after import E_PRIME, surface
+from benchmarks.rough import E_PRIME, surface
 from verification.opponents import aspher_solver, lubfric_solver, tamaas_solver
 
 LADDER = [10 ** (-k / 2) for k in range(4, 25)]

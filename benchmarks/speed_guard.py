@@ -29,7 +29,8 @@ def timed(job, repeat):
     print((time.process_time() - begun) / repeat)
 rng = np.random.default_rng(1)
 paper, flat = lubfric.load_scene("paper"), lubfric.load_scene("flat")
-if hasattr(paper.numerics, "sampling"):  # the same work as before there were lines
+long = paper
+if hasattr(paper.numerics, "sampling"):  # the same work as in version 0.1
     paper = paper.with_(numerics={"sampling": "patch"})
 small = flat.with_(contact={"shape": (96, 96), "spacing": 2e-6}, surface={"correlation_length": 8e-6, "sq": 1e-7})
 film = dict(radius=0.01, e_prime=2.2e11, viscosity=0.0358, pressure_viscosity_coefficient=2.2e-8, entrainment_speed=1.0)
@@ -55,7 +56,7 @@ JOBS = {  # name: (made ready, job, repetitions)
     "film heavy": ("", "lubfric.solve_ehl(load_per_width=5e5, **film)", 3),
     "friction": ("m = lubfric.prepare(paper)", "lubfric.friction(m, 0.001)", 3),
     "sweep": ("m = lubfric.prepare(paper)", "lubfric.stribeck(m, np.geomspace(1e-4, 0.05, 6))", 1),
-    "line": ("m = lubfric.prepare(paper.with_(numerics={'sampling': 'line'}))", "lubfric.friction(m, 0.01)", 2),
+    "strips": ("m = lubfric.prepare(long)", "lubfric.friction(m, 0.01)", 2),
     "flat": ("", "lubfric.friction(small, 0.01)", 1),
     "transient": (
         "s = small.with_(transient=lubfric.Transient(1e-3, outputs=2), motion={'entrainment_speed': 0.05})",

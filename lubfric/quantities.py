@@ -1,7 +1,7 @@
 """Every number of a result and every number of a scene, once: unit, long name, symbol, and what its error depends on.
 
 Results, their errors, tables, pages and pictures take names, units and words from here. A new number of a result is a
-line of `PointQuantities` (of `Quantities` if its error is estimated), and the line that computes it.
+line of `PointQuantities` (of `Quantities` if its error is estimated), and the line that computes it (CONTRIBUTING.md).
 """
 
 from __future__ import annotations
@@ -96,6 +96,12 @@ class PointQuantities(Quantities[T]):
     speed: T = quantity("m/s", "entrainment speed", "U")
     load_residual: T = quantity("-", "relative residual of the load balance", note="(F_C + F_H - F_T)/F_T")
     volume_residual: T = quantity("-", "relative residual of the volume balance", note="(gap - film)/(gap + film)")
+    clearance: T = quantity(
+        "-", "gap between the film and the highest summits over Sq", note="NaN where they touch, or without a film"
+    )
+    steepness: T = quantity(
+        "-", "d ln(film_load/contact_load) over d ln(speed)", note="NaN where film and contact do not share the load"
+    )
     seconds: T = quantity("s", "processing time")
 
 
@@ -134,11 +140,8 @@ class UncertaintyQuantities(Generic[T]):
 
 _OF_POINT = quantities(PointQuantities)
 NUMBERS = ("speed", *(name for name in _OF_POINT if name != "speed"))  # of a result, in the order of its tables
-DECIDED = {  # of ``decision``, in the tables of studies
-    "clearance": Quantity("-", "gap between the film and the highest summits over Sq, where they do not touch"),
-    "steepness": Quantity("-", "d ln(film_load/contact_load) over d ln(speed)"),
-}
-QUANTITIES = {name: _OF_POINT[name] for name in NUMBERS[1:]} | DECIDED
+QUANTITIES = {name: _OF_POINT[name] for name in NUMBERS[1:]}
+ESTIMATED = tuple(quantities(Quantities))  # those with an error of their own
 OF_UNCERTAINTY = quantities(UncertaintyQuantities)
 INTERVAL = {
     "interval_low": Quantity("-", "lower end of the 95 % interval of f"),
@@ -188,7 +191,14 @@ KEYS |= {
     for key, (unit, label, *_) in KEYS.items()
     if key.startswith("surface.")
 }
-COLUMNS = KEYS | QUANTITIES | INTERVAL | {q.column or n: q for n, q in OF_UNCERTAINTY.items()}
+OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | {  # columns of the tables of studies
+    "uncertainty_low": INTERVAL["interval_low"],
+    "uncertainty_high": INTERVAL["interval_high"],
+    "uncertainty_freedom": Quantity("-", "degrees of freedom of the standard error of f"),
+    "uncertainty_tolerance": Quantity("-", "relative standard error of f that was asked for"),
+}
+COLUMNS = KEYS | QUANTITIES | INTERVAL | {q.column or n: q for n, q in OF_UNCERTAINTY.items()} | OF_STUDY
+COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
 
 
 def depending_on(error: str) -> tuple[str, ...]:
@@ -204,8 +214,8 @@ def described(name: str, table: dict[str, Quantity] = COLUMNS) -> dict[str, str]
 
 
 def heading(name: str) -> str:
-    """The heading of a column: its name, and its unit in brackets."""
-    return f"{name} [{COLUMNS[name].unit if name in COLUMNS else '-'}]"
+    """The heading of a column: its name, and its unit in brackets; of words, the name alone."""
+    return f"{name} [{COLUMNS[name].unit}]" if name in COLUMNS else name
 
 
 def axis_label(name: str) -> str:

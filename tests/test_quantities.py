@@ -7,8 +7,9 @@ import pytest
 
 import lubfric
 from lubfric import quantities as q
-from lubfric.sampling import FIELDS, Uncertainty
+from lubfric.sampling import Uncertainty
 from lubfric.scene import SECTIONS, short_keys
+from lubfric.time import UNITS
 
 
 def test_results_have_the_numbers_of_the_table_and_no_others():
@@ -16,8 +17,13 @@ def test_results_have_the_numbers_of_the_table_and_no_others():
     assert numbers == set(q.NUMBERS)
     assert set(q.NUMBERS) <= {f.name for f in fields(lubfric.FrictionResult)}
     assert set(q.NUMBERS) <= {f.name for f in fields(lubfric.StribeckResult)}
-    assert set(FIELDS) == {name for name, row in q.QUANTITIES.items() if row.error}
+    assert set(q.ESTIMATED) == {name for name, row in q.QUANTITIES.items() if row.error}
     assert set(q.OF_UNCERTAINTY) <= {f.name for f in fields(Uncertainty)}
+
+
+def test_a_number_has_one_unit_in_steady_motion_and_in_time():
+    for name in set(UNITS) & set(q.QUANTITIES):
+        assert UNITS[name] == q.QUANTITIES[name].unit, name
 
 
 def test_every_key_of_the_table_is_a_key_of_a_scene():

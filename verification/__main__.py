@@ -1,7 +1,5 @@
 """``python -m verification``: run the studies, show the verdict, write the report."""
 
-from __future__ import annotations
-
 import importlib
 import sys
 

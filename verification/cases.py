@@ -1,7 +1,5 @@
 """Smooth line contacts as arguments of the film solvers, in SI units: by their Moes numbers, or of a scene."""
 
-from __future__ import annotations
-
 import math
 
 ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11

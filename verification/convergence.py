@@ -1,7 +1,5 @@
 """Observed orders of convergence: measured, checked and drawn."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -27,8 +25,6 @@ def fitted_order(sizes, errors) -> float:
 class Series:
     """Errors on ever finer meshes.
 
-    Attributes
-    ----------
     label : in the picture
     sizes, errors : of every mesh
     order : expected; None where none is known
@@ -65,8 +61,7 @@ def convergence(name: str, caption: str, series: Sequence[Series], size: str, er
 
 
 def picture(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Figure:
-    """Errors against mesh size, log-log, each with its fitted order over all meshes and a dotted line of the expected
-    one."""
+    """Errors against mesh size, log-log, each with its fitted order and a dotted line of the expected one."""
     canvas, ax = axes(height=3.6 + 0.2 * ((len(series) + 1) // 2))
     for one in series:
         sizes, errors = np.asarray(one.sizes, dtype=float), np.asarray(one.errors, dtype=float)

@@ -4,8 +4,6 @@ They are written from the equations, with nothing from `lubfric` nor from `verif
 speed, the mean of the two surface speeds, so that d/dx(h^3/(12 eta) dp/dx) = U dh/dx.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -5,8 +5,6 @@ E* = E'/2 with 2/E' = sum (1 - nu^2)/E. Hertz (1882) line and point contact: K. 
 (1939) A49-A53, doi:10.1115/1.4008919.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -74,8 +72,7 @@ class Sphere:
 
 @dataclass(frozen=True)
 class Wave:
-    """The surface ``amplitude cos(2 pi x/length)`` on a plane. The share s is p/p*, p* the pressure that closes the
-    gap."""
+    """The surface ``amplitude cos(2 pi x/length)`` on a plane. The share s is p/p*, p* closing the gap."""
 
     e_prime: float
     amplitude: float
@@ -94,8 +91,7 @@ class Wave:
 
     @property
     def mean_gap(self) -> float:
-        """``amplitude (1 - s + s ln s)`` [m], because the pressure is minus the derivative of the energy by the mean
-        gap."""
+        """``amplitude (1 - s + s ln s)`` [m]: the pressure is minus the derivative of the energy by it."""
         return self.amplitude * (1 - self.share + self.share * math.log(self.share))
 
     def pressure(self, x):

@@ -5,8 +5,6 @@ A command is a list of studies and little else (`Command`). Its studies hand ove
 in the folder of the report (`kept.Run`).
 """
 
-from __future__ import annotations
-
 import argparse
 import difflib
 import sys
@@ -29,8 +27,6 @@ LEVELS = ("default", "quick", "full")
 class Command:
     """What makes one command different from the others.
 
-    Attributes
-    ----------
     name : "" for the plain command; summary : for ``--help``
     studies : what there is to run; out : default folder of its files
     levels : those it offers, the default one first
@@ -70,9 +66,6 @@ def main(command: Command, argv: list[str]) -> int:
     if options.list:
         print("\n".join(f"{s.name:<16} {s.title} [{', '.join(s.levels)}]" for s in studies))
         return 0
-    if options.go_on:
-        for file in sorted(options.out.rglob("*.jsonl")):
-            kept.adopt(file)
     return run_all(command, tuple(_prepared(command, s, options) for s in studies), options)
 
 
@@ -116,7 +109,6 @@ def parser(command: Command) -> argparse.ArgumentParser:
                 level.add_argument(f"--{name}", dest="level", action="store_const", const=name, help=words)
     p.add_argument("--only", nargs="+", metavar="NAME", help="run only these")
     p.add_argument("--out", type=Path, default=Path(command.out), metavar="DIR", help="folder (default: %(default)s)")
-    p.add_argument("--go-on", action="store_true", help="go on with rows that other code has kept in the folder")
     p.add_argument("--list", action="store_true", help="name the parts and stop")
     if command.workers:
         p.add_argument("--workers", type=int, default=command.workers, help="processes (default: %(default)s)")

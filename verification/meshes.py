@@ -1,6 +1,4 @@
-"""Meshes and fields in files. The only module that knows meshio."""
-
-from __future__ import annotations
+"""Fields on meshes, in files. The only module that knows meshio."""
 
 from pathlib import Path
 
@@ -9,45 +7,6 @@ import numpy as np
 from .check import Field
 
 CELL_NAMES = dict(MeshLine="line", MeshTri="triangle", MeshQuad="quad", MeshTet="tetra", MeshHex="hexahedron")
-
-
-def read_gmsh(path) -> tuple[np.ndarray, dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Read a Gmsh mesh (.msh, format 2.2 or 4.1).
-
-    Returns
-    -------
-    points : (n, 3) coordinates
-    cells : connectivity by meshio cell name, each (m, nodes); blocks of one kind are joined
-    groups : physical group number of every cell by cell name, 0 where the file gives none
-
-    Raises
-    ------
-    FileNotFoundError, ValueError : no such file; not a Gmsh mesh, or one without cells
-    """
-    import meshio
-
-    path = Path(path)
-    if not path.is_file():
-        raise FileNotFoundError(f"no mesh file {path}")
-    try:
-        mesh = meshio.read(path, file_format="gmsh")
-    except (meshio.ReadError, SystemExit, AssertionError, KeyError, ValueError, IndexError) as exc:
-        raise ValueError(f"{path} cannot be read as a Gmsh mesh: {exc or type(exc).__name__}") from exc
-    if not mesh.cells:
-        raise ValueError(f"{path} has no cells")
-    physical = mesh.cell_data.get("gmsh:physical", [np.zeros(len(b.data), dtype=int) for b in mesh.cells])
-    names = dict.fromkeys(block.type for block in mesh.cells)
-    cells = {n: np.concatenate([b.data for b in mesh.cells if b.type == n]) for n in names}
-    groups = {n: np.concatenate([g for b, g in zip(mesh.cells, physical, strict=True) if b.type == n]) for n in names}
-    return np.asarray(mesh.points, dtype=float), cells, groups
-
-
-def write_gmsh(path, points: np.ndarray, cells: dict[str, np.ndarray]) -> Path:
-    """Write a Gmsh 2.2 mesh; ``points`` (n, 1..3) in m, ``cells`` as in `read_gmsh`."""
-    import meshio
-
-    meshio.Mesh(in_space(points), list(cells.items())).write(path, file_format="gmsh22", binary=False)
-    return Path(path)
 
 
 def write_vtu(path, field: Field) -> Path:
@@ -69,14 +28,6 @@ def write_vtu(path, field: Field) -> Path:
     data = {"point_data": dict(field.point_data), "cell_data": dict(field.cell_data)}
     meshio.Mesh(in_space(field.points), list(field.cells.items()), **data).write(path, file_format="vtu")
     return Path(path)
-
-
-def read_vtu(path) -> Field:
-    """Read a VTU file back as a `Field` named like the file."""
-    import meshio
-
-    mesh = meshio.read(path, file_format="vtu")
-    return Field(Path(path).stem, "", mesh.points, mesh.cells_dict, mesh.point_data, mesh.cell_data)
 
 
 def in_space(points: np.ndarray) -> np.ndarray:

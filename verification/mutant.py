@@ -5,8 +5,6 @@ place that no longer exists is an AttributeError. `applied` counts the calls, so
 taken for one that was caught.
 """
 
-from __future__ import annotations
-
 import contextlib
 import functools
 import importlib
@@ -18,8 +16,6 @@ from dataclasses import dataclass
 class Mutant:
     """A mistake.
 
-    Attributes
-    ----------
     name, what : its name, and what it is in a sentence
     places : for each place "module:attribute" what replaces it
     suite : the studies that are asked to catch it

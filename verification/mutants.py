@@ -5,12 +5,12 @@ are options that are lost on their way to the number: each function works, but s
 arrive. The wiring checks have to catch these.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+
+from lubfric.contact import weighted_mean
 
 from .mutant import Mutant, with_keywords
 
@@ -48,6 +48,11 @@ def oil_without(place: int, **lost) -> Callable:
     return argument(place, lambda oil: replace(oil, **lost))
 
 
+def history_without(**lost) -> Callable:
+    """Replace a contact in time by one whose lubricant has lost something."""
+    return keywords(lubricant=lambda oil: replace(oil, **lost))
+
+
 def line_without(**lost) -> Callable:
     """Replace a film solver by one that gets the line contact with another oil."""
     return argument(0, lambda line: replace(line, lubricant=replace(line.lubricant, **lost)))
@@ -64,9 +69,16 @@ def reversed_couette(original):
     return residual
 
 
-def first_row(gap: np.ndarray) -> np.ndarray:
-    """Gap of the first row along y instead of the mean."""
-    return np.broadcast_to(gap[:, :1], gap.shape)
+def first_row(original):
+    """A contact whose mean gap is that of its first row along y."""
+
+    def close(contact, *args, **options):
+        found = original(contact, *args, **options)
+        if found.fields is None:
+            return found
+        return replace(found, mean_gap=weighted_mean(np.maximum(found.fields.gap[:, 0], 0.0), contact.weight))
+
+    return close
 
 
 def decadic_exponent(original):
@@ -129,7 +141,7 @@ def stale(original):
 
 def corner_axis(original):
     """Corners of cells in place of their centres."""
-    return lambda count, step: original(count, step) - step / 2
+    return lambda cells, factors=None: original(cells, factors) - cells.coarse[0] / 2
 
 
 def itself(original):
@@ -144,7 +156,7 @@ def same_cells(original):
 
 def not_mirrored(original):
     """A map that is called periodic without being made so."""
-    return lambda surface, edge="mirror", *, axes=(True, True): replace(
+    return lambda surface, *, axes=(True, True): replace(
         surface, periodic_axes=tuple(a or b for a, b in zip(axes, surface.periodic_axes))
     )
 
@@ -154,17 +166,9 @@ def from_the_corner(original):
     return lambda surface, shape, start=None: original(surface, shape, (0, 0))
 
 
-def subsampled(original):
-    """A coarse grid of every other height instead of the mean of the cells."""
-
-    def coarse(contact):
-        found = original(contact)
-        if found is None:
-            return None
-        fx, fy = (a // b for a, b in zip(contact.heights.shape, found.heights.shape))
-        return replace(found, heights=contact.heights[::fx, ::fy])
-
-    return coarse
+def from_the_first(original):
+    """Coarse cells with the heights of their first own cells, not of those at their x."""
+    return lambda cells, heights, factors: heights[:: factors[0], :: factors[1]]
 
 
 def half_a_column(original):
@@ -193,14 +197,14 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         "lubfric.oil.lubricant:Lubricant.roelands_exponent": (
             ("viscosity_exponent", "Roelands' exponent with the decadic logarithm", decadic_exponent),
         ),
-        "lubfric.contact.half_space:HalfSpaceContact._state": (
-            ("missing_y_mean", "volume balance on one row instead of the mean along y", argument(2, first_row)),
+        "lubfric.contact.half_space:HalfSpaceContact.close": (
+            ("missing_y_mean", "volume balance on one row instead of the mean along y", first_row),
         ),
         "lubfric.contact.half_space:solve_contact": (
             ("half_the_load", "rough contact carries half of F_C", keywords(mean_pressure=lambda p: p / 2)),
             ("stale_warm_start", "contact of the neighbouring load returned for this one", stale),
         ),
-        "lubfric.contact.half_space:centred_axis": (
+        "lubfric.contact.strip_cells:Cells.axis": (
             ("half_cell", "film and strip half a cell off the roughness", corner_axis),
         ),
         "lubfric.sharing.forces:shear_force": (("shear_side", "shear taken on the lower surface", lower_side),),
@@ -238,8 +242,8 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         "lubfric.contact.half_space:area_weight": (
             ("region", "area A is the whole patch, whatever was asked", whole_patch),
         ),
-        "lubfric.contact.half_space_grid:HalfSpaceGrid.coarsened": (
-            ("subsampled_grids", "coarse grids take every other height instead of means", subsampled),
+        "lubfric.contact.strip_cells:Cells.thinned": (
+            ("coarse_heights", "coarse cells with heights from another x", from_the_first),
         ),
     },
     ("wiring_maps",): {
@@ -267,14 +271,14 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         ),
     },
     ("wiring_time",): {
-        "lubfric.time.film_shear:shear_stress": (
+        "lubfric.time.moment:shear_stress": (
             ("transient_newtonian", "Eyring's law dropped in a transient", oil_without(0, eyring_stress=None)),
             ("transient_no_limit", "limiting stress dropped", oil_without(0, limiting_stress_coefficient=None)),
         ),
-        "lubfric.time.setup:ContactHistory": (
-            ("transient_density", "density law dropped in a transient", oil_without(-4, density_law="constant")),
-            ("transient_viscosity_law", "always Roelands' law in time", oil_without(-4, viscosity_law="roelands")),
-            ("transient_load", "load of a transient taken as load per width", argument(-1, lambda width: 1.0)),
+        "lubfric.time.begin:ContactHistory": (
+            ("transient_density", "density law dropped in a transient", history_without(density_law="constant")),
+            ("transient_viscosity_law", "always Roelands' law in time", history_without(viscosity_law="roelands")),
+            ("transient_load", "load of a transient taken as load per width", with_keywords(width=1.0)),
         ),
         "lubfric.scene.history:Ramp.at": (
             ("ramp_ignored", "ramps of a transient stay at their start", argument(1, lambda time: 0.0)),
@@ -300,7 +304,7 @@ MUTANTS = (
     Mutant(
         "transient_sliding",
         "sliding speed of a transient twice what it is",
-        {"lubfric.time.at_a_time:sliding_at": times(2.0), "lubfric.time.moment:sliding_at": times(2.0)},
+        {"lubfric.time.scene_now:sliding_at": times(2.0), "lubfric.time.moment:sliding_at": times(2.0)},
         ("wiring_time",),
     ),
 )

@@ -5,8 +5,6 @@ or when a study is stopped by an error that `lubfric` raises on purpose. Any oth
 catch. The unbroken library runs the same studies and has to pass them all.
 """
 
-from __future__ import annotations
-
 from argparse import Namespace
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, nullcontext

@@ -4,8 +4,6 @@ Each factory returns ``solve(load, tolerance) -> pressure`` [Pa], or None where 
 different things to each: compare them by one measured error, never by tolerance.
 """
 
-from __future__ import annotations
-
 import importlib.metadata
 import os
 from collections.abc import Callable

@@ -4,8 +4,6 @@ A core is as fast as it transforms a field of 816 x 816 numbers of single precis
 core that the limits are stated for.
 """
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable
 from typing import Any

@@ -1,7 +1,5 @@
 """The report as one HTML page. It has no script, fetches nothing, and can be read on a phone and without a network."""
 
-from __future__ import annotations
-
 import base64
 from html import escape
 
@@ -79,7 +77,7 @@ def overview(report) -> str:
     rows = []
     for name in report.selected:
         if name not in done:
-            rows.append((escape(name), "not run", "", "", ""))
+            rows.append((escape(name), "not run", "", ""))
             continue
         o = done[name]
         judged = [c for c in o.checks if c.decisive]
@@ -90,10 +88,9 @@ def overview(report) -> str:
                 mark(o.passed),
                 f"{ok} of {len(judged)}",
                 seconds(o.seconds),
-                f"{o.peak_memory / 2**30:.2f} GiB",
             )
         )
-    return html_table(("Study", "Verdict", "Checks", "Time", "Peak memory"), rows)
+    return html_table(("Study", "Verdict", "Checks", "Time"), rows)
 
 
 def section(outcome) -> str:

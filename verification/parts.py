@@ -1,13 +1,11 @@
 """Parts of a result and of a model that a study counts on. A part that is missing ends the study in words."""
 
-from __future__ import annotations
-
 from typing import TypeVar
 
-from lubfric.contact import HalfSpaceContact
-from lubfric.contact.result import ContactResult
+from lubfric.contact import ContactResult, ContactState, HalfSpaceContact
+from lubfric.film import EHLResult
 from lubfric.sampling import FrictionResult
-from lubfric.sharing import Decision, Lubricated, Prepared
+from lubfric.sharing import Prepared
 
 T = TypeVar("T")
 
@@ -19,19 +17,19 @@ def the(part: T | None, name: str) -> T:
     return part
 
 
-def balance(result: FrictionResult) -> Lubricated:
-    """The balance of a point with entrainment, which has a film."""
-    return the(the(result.balance, "balance").lubricated, "film")
+def film(result: FrictionResult) -> EHLResult:
+    """The smooth film of a point with entrainment."""
+    return the(the(result.balance, "balance").film, "film")
+
+
+def contact(result: FrictionResult) -> ContactState:
+    """The rough contact of a point."""
+    return the(result.balance, "balance").contact
 
 
 def contact_fields(result: FrictionResult) -> ContactResult:
-    """Pressure and gap on the contact grid, of a point that was solved with ``fields=True``."""
-    return the(the(result.balance, "balance").contact.fields, "contact with fields")
-
-
-def decision(result: FrictionResult) -> Decision:
-    """What was modelled, and how far."""
-    return the(result.decision, "decision")
+    """Pressure and gap on the contact grid, of a point in contact."""
+    return the(contact(result).fields, "contact with fields")
 
 
 def half_space(model: Prepared) -> HalfSpaceContact:

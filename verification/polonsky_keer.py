@@ -6,8 +6,6 @@ pressure is rescaled to the load. The contact is elastic and its load is given. 
 preconditioner and no nested grids.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """A run as a whole: its verdict, its text on the terminal and its files. `page` makes the HTML."""
 
-from __future__ import annotations
-
 import csv
 import importlib.metadata
 import json
@@ -25,8 +23,6 @@ PACKAGES = ("lubfric", "numpy", "scipy", "scikit-fem", "meshio", "pyamg", "matpl
 class Report:
     """Everything a run found.
 
-    Attributes
-    ----------
     level, selected : what was asked for: the level, and the names of the studies
     outcomes : the studies finished so far
     complete : False while studies are still to come, or never came because the run was stopped
@@ -80,7 +76,6 @@ def outcome_dict(outcome: Outcome) -> dict:
         "description": outcome.description,
         "passed": outcome.passed,
         "seconds": outcome.seconds,
-        "peak_memory_bytes": outcome.peak_memory,
         "error": outcome.error,
         "traceback": outcome.trace,
         "checks": [c.as_dict() for c in outcome.checks],

@@ -1,13 +1,9 @@
 """Run studies one after another, or each in a process of its own. A study that raises is a failed check, and stops no
 other."""
 
-from __future__ import annotations
-
 import importlib
 import inspect
 import multiprocessing
-import resource
-import sys
 import time
 import traceback
 from collections.abc import Callable, Iterable, Iterator
@@ -27,13 +23,10 @@ INSTALL = 'pip install "lubfric[verification]"'
 class Outcome:
     """What came of one study.
 
-    Attributes
-    ----------
     study, level : what was run
     description : docstring of the study
     checks, tables, figures, fields : all that was handed over, also before a failure
     seconds : wall time of the study with its imports
-    peak_memory : largest resident memory of the process so far, in bytes
     error : one line for a study that raised, else ""
     trace : the whole traceback, else ""
     """
@@ -46,7 +39,6 @@ class Outcome:
     figures: tuple[Figure, ...] = ()
     fields: tuple[Field, ...] = ()
     seconds: float = 0.0
-    peak_memory: int = 0
     error: str = ""
     trace: str = ""
 
@@ -57,8 +49,7 @@ class Outcome:
 
 
 def collected(items: Iterable[Item], timed: bool, found: dict[type, list], progress: Progress) -> None:
-    """Put every item of a study with its kind in ``found``. The time since the one before belongs to a check that
-    brings no time of its own."""
+    """Put every item of a study with its kind in ``found``; a check has the time since the item before it."""
     last = time.perf_counter()
     for item in items:
         now, kind = time.perf_counter(), type(item)
@@ -122,8 +113,8 @@ def run_one(study: Study, level: str, progress: Progress) -> Outcome:
         progress(raised(study, error))
         found[Check].append(raised(study, error))
     checks, tables, figures, fields = (tuple(items) for items in found.values())
-    seconds, memory = time.perf_counter() - start, peak_memory()
-    return Outcome(study, level, description, checks, tables, figures, fields, seconds, memory, error, trace)
+    seconds = time.perf_counter() - start
+    return Outcome(study, level, description, checks, tables, figures, fields, seconds, error, trace)
 
 
 def load(study: Study) -> Callable[..., Iterable[Item]]:
@@ -144,9 +135,3 @@ def explain(exc: BaseException) -> str:
 def raised(study: Study, error: str) -> Check:
     """The failed check that stands for a study that did not reach its end."""
     return Check(f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error)
-
-
-def peak_memory() -> int:
-    """Largest resident memory of this process so far, in bytes."""
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    return peak if sys.platform == "darwin" else 1024 * peak

@@ -1,7 +1,5 @@
 """Numbers, times and tolerances in words, the same on the terminal and on the page."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 

@@ -4,13 +4,11 @@ python docs/examples/ground_lay.py path/to/ground-77nm.x3p [figure.png]
 """
 
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 import lubfric
-from lubfric.sharing import prepare
 
 HERE = Path(__file__).parent
 SPEEDS = np.geomspace(1e-4, 1.0, 17)
@@ -21,16 +19,14 @@ def solve(surface_file, places=5):
     curves = {}
     for direction in ("along", "across"):
         scene = lubfric.load_scene(HERE / f"ground_{direction}.toml", surface_file=surface_file)
-        model = prepare(scene)
+        scene = scene.with_(numerics={"sampling": "patch"})
         full = lubfric.read_surface(surface_file)
         full = (full.transposed() if direction == "along" else full).resampled(spacing=scene.contact.spacing)
-        nx, ny = model.surface.shape[0], full.shape[1]
+        nx, ny = lubfric.prepare(scene).surface.shape[0], full.shape[1]
         rows = []
         for first in np.linspace(0, full.shape[0] - nx, places).astype(int):
-            piece = full.cropped((nx, ny), (first, 0)).periodic("mirror", axes=(False, True))
-            heights = piece.heights - piece.heights.mean()
-            place = replace(model, surface=piece, contact=replace(model.contact, heights=heights))
-            rows.append(lubfric.stribeck(place, SPEEDS).coefficient)
+            piece = full.cropped((nx, ny), (first, 0)).periodic(axes=(False, True))
+            rows.append(lubfric.stribeck(lubfric.prepare(scene, piece), SPEEDS).coefficient)
         curves[direction] = np.array(rows)
     return curves
 

@@ -3,7 +3,7 @@ How sure is a friction coefficient?
 ===================================
 
 A finite piece of a rough surface is a sample. Where film and summits share the load, few summits carry their part, and
-one small patch can be far off. The library takes a line of the surface as long as the asked error needs, and says what
+one small patch can be far off. The library joins as many strips of the surface as the asked error needs, and says what
 error is left.
 """
 
@@ -17,7 +17,7 @@ point = lubfric.friction(scene, 0.03)
 print(point.uncertainty.text)
 
 # %%
-# Ten patches of the paper's size, 90 µm wide, scatter widely about the line. No single one tells where it is.
+# Ten patches of the paper's size, 90 µm wide, scatter widely about it. No single one shows where it is.
 
 patches = []
 for seed in range(10):
@@ -27,7 +27,7 @@ for seed in range(10):
 low, high = point.uncertainty.interval
 figure, axes = plt.subplots(figsize=(6.4, 3.6), layout="constrained")
 axes.plot(range(10), patches, "o", color="#555555", label="one patch each")
-axes.axhspan(low, high, color="#1f5a94", alpha=0.2, label="95 % interval of the line")
-axes.axhline(point.coefficient, color="#1f5a94", label="the line")
+axes.axhspan(low, high, color="#1f5a94", alpha=0.2, label="95 % interval of the strips")
+axes.axhline(point.coefficient, color="#1f5a94", label="the strips")
 axes.set(xlabel="seed of the patch", ylabel="friction coefficient (-)", ylim=(0, None), xticks=np.arange(10))
 axes.legend(frameon=False, loc="lower right")

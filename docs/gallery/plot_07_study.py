@@ -20,7 +20,7 @@ vary = {"bodies.load": [2.0, 5.5, 11.0], "lubricant.viscosity": [0.1, 0.2, 0.4, 
 speeds = np.geomspace(3e-3, 0.3, 4)
 
 # %%
-# The plan tells what it will cost before anything is solved.
+# The plan says what it will cost before anything is solved.
 
 print(lubfric.plan_study(scene, vary, speeds).explain())
 

@@ -1,4 +1,5 @@
-"""Independent asperities instead of a half-space, under a cylinder: nothing deforms outside the single contacts.
+"""Independent asperities instead of a half-space, under a cylinder and on a flat: nothing deforms outside the single
+contacts.
 
 The film h(x) less an offset epsilon is the separation, as in the paper's Eq. (7): asperities above it are in contact.
 Since only the contacts deform, the volume balance of Eq. (8) loses its deflection u and becomes
@@ -17,11 +18,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import ConvergenceError
+from ..errors import ConvergenceError, InputError
 from ..scene import Scene
 from .asperity import AsperityResult, find_asperities
-from .hertz_strip import area_weight, centred_axis, weighted_mean
-from .rough_contract import ContactState, Grid, RoughContact
+from .contact_curve import ContactCurve, errors_between
+from .rough_contract import ContactState, Grid, RoughContact, area_weight, centred_axis, weighted_mean
+
+APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])  # of the height range
 
 
 @dataclass(frozen=True)
@@ -49,31 +52,37 @@ class AsperityContact(RoughContact):
         The load of patches jumps where two of them join. Then the offset of the jump is taken, at which the gap is
         continuous. Raises `ConvergenceError` if the load cannot be reached.
         """
+        under = (film if shape is None else shape)[:, None]
+        touch = float((under - self.heights).min())
+        if load == 0:
+            return self._state(film, under - touch, None)
+        law = find_asperities(
+            self.heights,
+            self.spacing,
+            self.e_prime,
+            definition=self.definition,
+            hardness=self.hardness,
+            periodic=(False, True),
+        ).at
+        separation = under - touch - self._approach(film, load, lambda a: law(under - touch - a).load)
+        return self._state(film, separation, law(separation))
+
+    def _approach(self, film, load, carried) -> float:
+        """The approach [m] from first touch at which ``carried(approach)`` [N] of the map is ``load`` of the width."""
         from scipy.optimize import brentq
 
-        under = self._under(film, shape)
-        law, touch = self._law(), float((under[:, None] - self.heights).min())
         target = load * self.heights.shape[1] * self.spacing[1] / self.width
-        if load == 0:
-            return self._state(film, under, touch, None)
-        span, approach = float(np.ptp(self.heights)), 0.02 * float(np.ptp(self.heights))
-        last = 0.0
-        while law(under[:, None] - touch - approach).load < target:
+        span = float(np.ptp(self.heights))
+        last, approach = 0.0, 0.02 * span
+        while carried(approach) < target:
             last, approach = approach, 1.5 * approach
             if approach > 20 * span:
                 raise ConvergenceError(
                     f"{self.definition} cannot carry {load:.4g} N on a width of {self.width:.3g} m: below the deepest "
                     "valley at the end of the search"
                 )
-        mean_film = weighted_mean(film, self.weight)
-        root = brentq(
-            lambda a: law(under[:, None] - touch - a).load / target - 1,
-            last,
-            approach,
-            xtol=0.1 * self.tolerance * max(mean_film, 1e-3 * span),
-            rtol=1e-12,
-        )
-        return self._state(film, under, touch + root, law(under[:, None] - touch - root))
+        nearest = 0.1 * self.tolerance * max(weighted_mean(film, self.weight), 1e-3 * span)
+        return brentq(lambda a: carried(a) / target - 1, last, approach, xtol=nearest, rtol=1e-12)
 
     @property
     def name(self) -> str:
@@ -83,41 +92,23 @@ class AsperityContact(RoughContact):
     def grid(self) -> Grid:
         return Grid(self.heights.shape, self.spacing)
 
-    def _law(self):
-        return find_asperities(
-            self.heights,
-            self.spacing,
-            self.e_prime,
-            definition=self.definition,
-            hardness=self.hardness,
-            periodic=(False, True),
-        ).at
-
-    @staticmethod
-    def _under(film, shape) -> np.ndarray:
-        return film if shape is None else shape
-
-    def _gap(self, under, offset) -> float:
-        gap = under[:, None] - offset - self.heights
+    def _state(self, film, separation, found: AsperityResult | None) -> ContactState:
+        gap = separation - self.heights
         if self.reading == "volume":
             gap = np.maximum(gap, 0.0)
-        return float(np.dot(gap.mean(axis=1), self.weight) / self.weight.sum())
-
-    def _state(self, film, under, offset, found: AsperityResult | None) -> ContactState:
-        weight = self.weight / self.weight.sum()
-        fraction = np.zeros(self.x.size) if found is None else self._contact_fraction(found)
-        plastic = (
-            0.0
-            if found is None or found.contact_area == 0
-            else found.plastic_area_fraction * (fraction @ weight) / found.contact_area_fraction
-        )
+        fraction, plastic = np.zeros(self.x.size), 0.0
+        if found is not None:
+            fraction = self._contact_fraction(found)
+        touching = weighted_mean(fraction, self.weight)
+        if found is not None and found.contact_area > 0:
+            plastic = found.plastic_area_fraction * touching / found.contact_area_fraction
         return ContactState(
-            mean_gap=self._gap(under, offset),
-            mean_film=float(film @ weight),
+            mean_gap=weighted_mean(gap.mean(axis=1), self.weight),
+            mean_film=weighted_mean(film, self.weight),
             x=self.x,
             contact_fraction=fraction,
-            real_contact_area_fraction=float(fraction @ weight),
-            plastic_area_fraction=float(plastic),
+            real_contact_area_fraction=touching,
+            plastic_area_fraction=plastic,
         )
 
     def _contact_fraction(self, found: AsperityResult) -> np.ndarray:
@@ -147,3 +138,38 @@ def asperities_under_cylinder(scene: Scene, heights, spacing) -> AsperityContact
         reading=contact.asperity_separation,
         tolerance=numerics.tolerances.contact,
     )
+
+
+def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None) -> ContactCurve:
+    """Mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
+
+    ``reading``: "volume" or "mean-plane" (see the module) of heights [m] about their mean. The flat comes
+    down until it carries ``heaviest`` [Pa]. If the model cannot carry that, the flat comes down to the deepest valley
+    (to the mean plane for "mean-plane"), and the curve ends at the largest pressure. Patches that grow together carry
+    less than before; such nodes are left out, so that the pressure rises along the curve. The search ends below half of
+    the largest pressure.
+    """
+    asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness)
+    top, span = float(heights.max()), float(np.ptp(heights))
+    nodes: list[tuple[float, float, float, float]] = []
+    for approach in span * APPROACHES:
+        found = asperities.at(top - approach)
+        gap = _curve_gap(heights, top - approach, reading)
+        if gap <= 0:
+            break
+        if found.load > 0 and (not nodes or found.mean_pressure > nodes[-1][0]):
+            nodes.append((found.mean_pressure, gap, min(found.contact_area_fraction, 1.0), found.plastic_area_fraction))
+        if nodes and (nodes[-1][0] >= heaviest or found.mean_pressure < 0.5 * nodes[-1][0]):
+            break
+    if not nodes:
+        raise InputError(
+            f"contact.model = {definition!r}: none on the map of {heights.shape[0]} x {heights.shape[1]} points; give "
+            "a map with points above all of their neighbours, or contact.model = 'half-space'"
+        )
+    pressure, gap, area, plastic = np.array(nodes[::-1]).T
+    errors = errors_between(pressure, gap), errors_between(pressure, area)
+    return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0, *errors)
+
+
+def _curve_gap(heights, separation, reading) -> float:
+    return float(np.maximum(separation - heights, 0.0).mean()) if reading == "volume" else float(separation)

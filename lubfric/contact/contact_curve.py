@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from .._base import FieldsOnly, validate
-from .left_out import left_out
+from .result import ContactResult
 from .solve import solve_contact
 
 LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used,
@@ -29,8 +29,8 @@ class ContactCurve(FieldsOnly):
     """Nodes of the curve, heaviest first: mean_pressure [Pa], mean_gap [m], area fractions [-].
 
     touching_gap [m]: mean gap at first contact. ``evaluations``: convolutions spent on all nodes. gap_error [m] (n -
-    1,) and area_error [-] (n - 1,): estimated errors of the gap and of the contact area interpolated between two nodes;
-    empty if there is no interpolation error.
+    1,) and area_error [-] (n - 1,): estimated errors of the gap and of the contact area interpolated between two
+    nodes.
     """
 
     mean_pressure: np.ndarray
@@ -39,8 +39,8 @@ class ContactCurve(FieldsOnly):
     plastic_area_fraction: np.ndarray
     touching_gap: float
     evaluations: int
-    gap_error: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    area_error: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    gap_error: np.ndarray
+    area_error: np.ndarray
 
     def error_at(self, mean_pressure: float) -> float:
         """Estimated error [m] of the gap read at a mean pressure [Pa]."""
@@ -102,46 +102,48 @@ def contact_curve(
     validate.positive("heaviest", heaviest, "Pa")
     validate.positive("accuracy", accuracy, "(-)")
     gap0 = np.max(heights) - heights
-    touching_gap, solved = float(gap0.mean()), {}
+    touching_gap, small = float(gap0.mean()), gap0.size <= SMALL
+    options = {"hardness": hardness, "tolerance": tolerance, "operator": operator}
+    solved: dict[float, ContactResult] = {}
 
-    def add(pressure, start):
-        solved[pressure] = solve_contact(
-            gap0,
-            spacing,
-            e_prime,
-            mean_pressure=pressure,
-            hardness=hardness,
-            tolerance=tolerance,
-            operator=operator,
-            start=start,
-        )
+    def add(pressure: float, start: ContactResult | None) -> ContactResult:
+        solved[pressure] = solve_contact(gap0, spacing, e_prime, mean_pressure=pressure, start=start, **options)
         return solved[pressure]
 
-    pressure, start = float(heaviest), None
+    pressure, last = float(heaviest), None
     while pressure >= LIGHTEST * heaviest:
-        start = add(pressure, start)
-        if len(solved) > 2 and touching_gap - start.mean_gap <= ENOUGH * accuracy * touching_gap:
+        last = add(pressure, last)
+        if len(solved) > 2 and touching_gap - last.mean_gap <= ENOUGH * accuracy * touching_gap:
             break
-        one_by_one = gap0.size <= SMALL and pressure > FEW * heaviest
-        pressure /= math.sqrt(SPACING) if one_by_one else SPACING
+        pressure /= math.sqrt(SPACING) if small and pressure > FEW * heaviest else SPACING
     for _ in range(ROUNDS):
-        pressures = sorted(solved, reverse=True)
-        gap, area = np.array([(solved[p].mean_gap, solved[p].contact_area_fraction) for p in pressures]).T
-        wide = _inaccurate(np.array(pressures), gap, area, accuracy, 0.5 if gap0.size <= SMALL else HALVED)
-        for heavier, lighter in zip(np.array(pressures)[:-1][wide], np.array(pressures)[1:][wide]):
+        nodes, gap, area, *_ = _table(solved)
+        wide = _inaccurate(nodes, gap, area, accuracy, 0.5 if small else HALVED)
+        for heavier, lighter in zip(nodes[:-1][wide], nodes[1:][wide]):
             add(float(np.sqrt(heavier * lighter)), solved[heavier])
         if not wide.any():
             break
-    return _curve(solved, touching_gap, CELLS / gap0.size)
+    nodes, gap, area, plastic, work = _table(solved)
+    errors = errors_between(nodes, gap), errors_between(nodes, area) + CELLS / gap0.size
+    return ContactCurve(nodes, gap, area, plastic, touching_gap, int(work.sum()), *errors)
+
+
+def _table(solved: dict[float, ContactResult]) -> np.ndarray:
+    """Pressures, gaps, area and plastic fractions, and convolutions of all that was ``solved``, heaviest first."""
+    return np.array(
+        [
+            (pressure, r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations)
+            for pressure, r in sorted(solved.items(), reverse=True)
+        ]
+    ).T
 
 
 def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
     """Intervals in which the interpolated gap, the load at that gap, or the area that is left to the film may be off by
     more than ``accuracy``. ``halved``: the error between two nodes, over that when one of them is left out."""
     log_pressure = np.log(pressure)
-    error, of_area = (
-        halved * np.maximum(missed[1:], missed[:-1]) for missed in (_missed(pressure, v) for v in (gap, area))
-    )
+    missed = [np.pad(left_out(log_pressure, values), 1) for values in (gap, area)]
+    error, of_area = (halved * np.maximum(off[1:], off[:-1]) for off in missed)
     middle, rate = np.sqrt(gap[1:] * gap[:-1]), -np.diff(gap) / np.diff(log_pressure)
     share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
     felt = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
@@ -151,37 +153,49 @@ def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
     return off & ~deep & (-np.diff(log_pressure) > FINEST)
 
 
-def _missed(pressure, values) -> np.ndarray:
-    """Error of the interpolated ``values`` at each node when that node is left out."""
-    missed = np.zeros(pressure.size)
-    missed[1:-1] = left_out(np.log(pressure[::-1]), values[::-1])[::-1]
-    return missed
-
-
 def errors_between(pressure, values) -> np.ndarray:
     """Estimated error of ``values`` between neighbouring nodes: the largest error at the four nodes around when each is
     left out. A curve of few summits has kinks, next to which the interpolation may meet a single node by chance."""
-    missed = _missed(pressure, values)
-    near = np.maximum(missed[1:], missed[:-1])
-    return np.maximum(near, np.maximum(np.append(missed[2:], 0.0), np.append(0.0, missed[:-2])))
+    missed = np.zeros(pressure.size + 2)
+    missed[2:-2] = left_out(np.log(pressure), values)
+    return np.max([missed[i : missed.size - 3 + i] for i in range(4)], axis=0)
 
 
-def _curve(solved: dict, touching_gap: float, steps: float) -> ContactCurve:
-    """The curve through what was ``solved``, by pressure. ``steps``: in which the contact area grows, a few cells at a
-    time."""
-    pressures = sorted(solved, reverse=True)
-    results = [solved[p] for p in pressures]
-    gap, area, plastic, work = np.array(
-        [(r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations) for r in results]
-    ).T
-    nodes = np.array(pressures)
-    return ContactCurve(
-        nodes,
-        gap,
-        area,
-        plastic,
-        touching_gap,
-        int(work.sum()),
-        errors_between(nodes, gap),
-        errors_between(nodes, area) + steps,
-    )
+def left_out(x, y) -> np.ndarray:
+    """Error |y - cubic without that node| at the inner nodes (n - 2,) of ``x`` (n,), which rises or falls, and ``y``
+    (n,).
+
+    The cubic keeps the shape: F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304,
+    doi:10.1137/0905021, as in `scipy.interpolate.PchipInterpolator`. A slope depends on the neighbours alone. So
+    leaving out one node changes one piece, and all of these pieces are found at once.
+    """
+    if x.size < 3:
+        return np.zeros(0)
+    step, rate = np.diff(x), np.diff(y) / np.diff(x)
+    wide, mean = x[2:] - x[:-2], (y[2:] - y[:-2]) / (x[2:] - x[:-2])
+    left, right = mean.copy(), mean.copy()
+    if x.size > 3:
+        left[1:] = _slope(step[:-2], rate[:-2], wide[1:], mean[1:])
+        right[:-1] = _slope(wide[:-1], mean[:-1], step[2:], rate[2:])
+        left[0] = _end_slope(wide[0], mean[0], step[2], rate[2])
+        right[-1] = _end_slope(wide[-1], mean[-1], step[-3], rate[-3])
+    t = step[:-1] / wide
+    found = y[:-2] + (y[2:] - y[:-2]) * t**2 * (3 - 2 * t) + wide * t * (1 - t) * (left * (1 - t) - right * t)
+    return np.abs(found - y[1:-1])
+
+
+def _slope(step, rate, next_step, next_rate) -> np.ndarray:
+    """Slope between two pieces: the weighted harmonic mean of their ``rate``, zero where y turns."""
+    weight, next_weight = 2 * next_step + step, next_step + 2 * step
+    same = rate * next_rate > 0
+    safe, next_safe = np.where(same, rate, 1.0), np.where(same, next_rate, 1.0)
+    return np.where(same, (weight + next_weight) / (weight / safe + next_weight / next_safe), 0.0)
+
+
+def _end_slope(step: float, rate: float, next_step: float, next_rate: float) -> float:
+    """Slope at an end, where a piece has one neighbour: from three points, as far as the shape allows."""
+    slope = ((2 * step + next_step) * rate - step * next_rate) / (step + next_step)
+    if np.sign(slope) != np.sign(rate):
+        return 0.0
+    turns = np.sign(rate) != np.sign(next_rate)
+    return 3 * rate if turns and abs(slope) > 3 * abs(rate) else slope

@@ -8,11 +8,10 @@ import numpy as np
 
 from ..errors import ConvergenceError
 from ..scene import Scene, budget
-from .asperity_curve import asperity_curve
+from .asperities import asperity_curve
 from .contact_curve import ContactCurve, contact_curve
-from .hertz_strip import centred_axis, weighted_mean
 from .operator import half_space
-from .rough_contract import ContactState, RoughContact
+from .rough_contract import ContactState, RoughContact, centred_axis, weighted_mean
 
 POINTS = 512  # across the strip, where the film is averaged
 COLUMNS = 2  # of the strip that say where it touches: evenly
@@ -58,39 +57,25 @@ class FlatContact(RoughContact):
     def capacity(self) -> float:
         return float(self.curve.mean_pressure[0] * self.area)
 
-    @property
-    def nominally_flat(self) -> bool:
-        return True
-
 
 def flat_contact(scene: Scene, heights, spacing) -> FlatContact:
     """The contact of ``scene``, with a curve for periodic ``heights`` [m] (nx, ny) about their mean."""
     bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
-    heaviest = bodies.load / (2 * bodies.half_width * bodies.width)
+    half_width = bodies.half_width
+    area = 2 * half_width * bodies.width
+    given, limits = (heights, spacing, bodies.e_prime), {"heaviest": bodies.load / area, "hardness": bodies.hardness}
     if contact.model == "half-space":
         curve = contact_curve(
-            heights,
-            spacing,
-            bodies.e_prime,
-            heaviest=heaviest,
-            hardness=bodies.hardness,
+            *given,
+            **limits,
             tolerance=numerics.tolerances.contact,
             accuracy=budget.CURVE * numerics.tolerance,
             operator=half_space(heights.shape, spacing, bodies.e_prime, workers=numerics.workers),
         )
     else:
-        curve = asperity_curve(
-            heights,
-            spacing,
-            bodies.e_prime,
-            heaviest=heaviest,
-            definition=contact.model,
-            reading=contact.asperity_separation,
-            hardness=bodies.hardness,
-        )
+        curve = asperity_curve(*given, **limits, definition=contact.model, reading=contact.asperity_separation)
     # The film is averaged over points that are even in the angle t, x = -b cos(t): a thin film opens over less than a
     # hundredth of the strip, at its ends.
     angle = (np.arange(POINTS) + 0.5) * (np.pi / POINTS)
-    half_width = bodies.half_width
     columns = centred_axis(COLUMNS, 2 * half_width / COLUMNS)
-    return FlatContact(curve, -half_width * np.cos(angle), np.sin(angle), 2 * half_width * bodies.width, columns)
+    return FlatContact(curve, -half_width * np.cos(angle), np.sin(angle), area, columns)

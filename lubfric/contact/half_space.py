@@ -10,9 +10,8 @@ import numpy as np
 
 from .._base import FieldsOnly
 from ..scene import Scene
-from .hertz_strip import area_weight, centred_axis, weighted_mean
 from .operator import HalfSpace, half_space
-from .rough_contract import ContactState, Grid, RoughContact
+from .rough_contract import ContactState, Grid, RoughContact, area_weight, centred_axis, weighted_mean
 from .solve import solve_contact
 
 BOUNDARY = ("free", "periodic")

@@ -12,10 +12,13 @@ from .._base import validate
 from ..errors import InputError
 from ..scene import ContactDomain, Roughness, Scene, named
 from ..surface import Surface, generate_surface, outliers, read_surface, rms_slope
-from .hertz_strip import TOO_SHORT, check_strip
 
 REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths each side
 STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
+TOO_SHORT = (
+    "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "
+    "spread over the strip)"
+)
 
 
 def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
@@ -27,18 +30,15 @@ def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
     tell everything that was done.
     """
     if surface is None:
-        surface = _of_the_scene(scene)
+        surface = whole_map(scene)
+        if measured(scene):
+            surface = _cut_to_contact(scene, surface)
     validate.instance("surface", surface, Surface, "a lubfric.Surface")
     if not np.isfinite(surface.heights).all():
         missing = f"{100 * surface.missing_fraction:.3g} % of the heights are unmeasured (NaN)"
         raise InputError(f"surface: {missing}; call level() and fill() first")
     check_grid(scene, surface)
     return surface
-
-
-def _of_the_scene(scene: Scene) -> Surface:
-    surface = whole_map(scene)
-    return _cut_to_contact(scene, surface, extended(scene)) if measured(scene) else surface
 
 
 def rough_bodies(scene: Scene) -> list[tuple[Roughness, str]]:
@@ -109,7 +109,20 @@ def check_grid(scene: Scene, surface: Surface) -> None:
         )
     if scene.contact.geometry == "flat":
         return
-    check_strip(scene, surface.spacing[0], surface.size[0])
+    half_width, step, length = scene.bodies.half_width, surface.spacing[0], surface.size[0]
+    if step > half_width:
+        raise InputError(
+            f"contact.spacing = {step:.3g} m along x does not resolve the Hertz strip; allowed: at most "
+            f"its half-width {half_width:.3g} m"
+        )
+    if length < 2 * half_width:
+        generated = scene.surface.file is None
+        what = "the patch (contact.shape x contact.spacing)" if generated else "the map"
+        ways = "a larger contact.shape" if generated else f"a longer map, {TOO_SHORT}"
+        raise InputError(
+            f"{what} is {length:.3g} m long in x, the direction of motion; allowed: at least the Hertz strip, "
+            f"{2 * half_width:.3g} m: {ways}"
+        )
 
 
 def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface") -> Surface:
@@ -127,7 +140,7 @@ def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface"
     )
     if rough.oversize == 1:
         return surface
-    surface = surface.cropped(domain.shape).periodic("mirror", axes=(domain.geometry == "flat", True))
+    surface = surface.cropped(domain.shape).periodic(axes=(domain.geometry == "flat", True))
     return surface if rough.sq is None else surface.scaled(sq=rough.sq)
 
 
@@ -172,21 +185,21 @@ def refuse_outliers(surface: Surface, name: str) -> None:
         )
 
 
-def _cut_to_contact(scene: Scene, surface: Surface, continued: bool) -> Surface:
+def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
     """The middle of a map, cut to the contact grid, and made periodic on the axes on which the contact is."""
-    domain, reach = scene.contact, 2 * REACH * scene.bodies.half_width
+    domain, cylinder, mirrored = scene.contact, scene.contact.geometry == "cylinder", extended(scene)
+    reach = REACH * scene.bodies.half_width
     if domain.spacing is not None:
         surface = surface.resampled(spacing=domain.spacing)
-    if continued:
-        length = reach if domain.shape is None else domain.shape[0] * surface.spacing[0]
-        surface = surface.continued(length) if domain.shape or domain.geometry == "cylinder" else surface
+    if mirrored and (domain.shape or cylinder):
+        surface = surface.continued(domain.shape[0] * surface.spacing[0] if domain.shape else 2 * reach)
     nx, ny = domain.shape or surface.shape
-    if domain.shape is None and domain.geometry == "cylinder":
-        nx = min(nx, 2 * int(REACH * scene.bodies.half_width / surface.spacing[0]) + 1)
+    if domain.shape is None and cylinder:
+        nx = min(nx, 2 * int(reach / surface.spacing[0]) + 1)
     if nx > surface.shape[0] or ny > surface.shape[1]:
         raise InputError(
             f"contact.shape = {nx} x {ny} cells of {surface.spacing[0]:.3g} x {surface.spacing[1]:.3g} m is larger "
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
-            f"{'' if continued else '; ' + TOO_SHORT if nx > surface.shape[0] else ''}"
+            f"{'' if mirrored or nx <= surface.shape[0] else '; ' + TOO_SHORT}"
         )
-    return surface.cropped((nx, ny)).periodic("mirror", axes=(domain.geometry == "flat", True))
+    return surface.cropped((nx, ny)).periodic(axes=(not cylinder, True))

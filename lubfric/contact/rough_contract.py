@@ -1,7 +1,7 @@
 """What every rough contact under a film must offer: all that you need to know to write one.
 
 `RoughContact` is the contract. `close` has to be written; the rest has defaults. `lubfric.prepare` takes one from
-outside (``contact``), and the balance needs nothing else.
+outside (``contact``), and the balance needs nothing else. Means are taken over the area A of Eq. (8), by weights.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import InputError
+from ..scene import Scene
 from .result import ContactResult
 
 
@@ -45,15 +46,6 @@ class ContactState:
     def volume_residual(self) -> float:
         """(gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
         return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
-
-    def along_y(self, weight, stretches: int) -> tuple[np.ndarray, np.ndarray]:
-        """Share of the load [-] and mean gap [m] over the area A, of ``weight`` (nx,), on equal sections of the width.
-        Needs ``fields``; ``stretches``, the number of sections, divides the number of cells along y."""
-        if self.fields is None:
-            raise InputError("a contact without fields has nothing along y; solve a half-space contact with fields")
-        load, gap = self.fields.pressure.sum(axis=0), np.maximum(self.fields.gap, 0.0)
-        gap = weight @ gap / np.sum(weight)
-        return load.reshape(stretches, -1).sum(axis=1) / load.sum(), gap.reshape(stretches, -1).mean(axis=1)
 
     def touching(self, x) -> np.ndarray:
         """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either
@@ -95,11 +87,6 @@ class RoughContact:
         raise NotImplementedError
 
     @property
-    def nominally_flat(self) -> bool:
-        """Whether the load is spread evenly over the Hertz strip, without a distribution along x."""
-        return False
-
-    @property
     def capacity(self) -> float:
         """The largest load [N] that it can carry under any film; infinite if `close` has to tell."""
         return math.inf
@@ -121,3 +108,30 @@ class RoughContact:
     def on_the_ends(self, state: ContactState) -> float:
         """Share of the load on the edge columns, whose ends cut a contact off; ``state`` is on this contact."""
         return 0.0
+
+
+def centred_axis(count: int, step: float) -> np.ndarray:
+    """Cell centres [m] of ``count`` cells around zero."""
+    return (np.arange(count) - 0.5 * (count - 1)) * step
+
+
+def area_weight(scene: Scene, x: np.ndarray, step: float) -> np.ndarray:
+    """Part of each cell inside the area A of Eq. (8) that the scene asks for: the whole patch, or the Hertz strip."""
+    return np.ones(x.size) if scene.contact.region == "box" else strip_weight(x, step, scene.bodies.half_width)
+
+
+def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
+    """Part of each cell within |x| <= half_width; cells that its edge cuts count by their share."""
+    inside = np.minimum(x + step / 2, half_width) - np.maximum(x - step / 2, -half_width)
+    weight = np.clip(inside / step, 0.0, 1.0)
+    if not weight.any():
+        raise InputError(
+            f"contact.spacing: no cell of the contact grid lies in the Hertz strip of half-width {half_width:g} m; "
+            "give finer ones"
+        )
+    return weight
+
+
+def weighted_mean(values, weight) -> float:
+    """Mean over the area A."""
+    return float(np.dot(values, weight) / weight.sum())

@@ -17,7 +17,7 @@ from ..errors import InputError
 from ..scene import Roughness, Scene
 from ..surface import Surface, generate_surface
 from .height_map import extended, measured, rough_bodies, whole_map
-from .hertz_strip import centred_axis
+from .rough_contract import centred_axis
 from .strip_cells import EVEN, Cells, cells_of_a_box, choose_cells, correlation_lengths, length_or_half, reach_of
 
 STRIP, PIECE = 90.0, 42.0  # correlation lengths: of a strip, of a piece on the scene's own cells

@@ -50,14 +50,15 @@ class Inlet:
 
 
 def inlet(problem: Problem, pressure, film) -> Inlet:
-    """The `Inlet` upstream of the first face, where the film is ``film`` [m] (ny,); ``pressure`` [Pa] (ny,): of the
-    first cells."""
-    lubricant, speed = problem.lubricant, problem.speed
+    """The `Inlet` upstream of the first cells, whose ``pressure`` [Pa] and ``film`` [m] are given (ny,). To the face
+    before them the film continues up the parabola."""
+    lubricant, speed, radius = problem.lubricant, problem.speed, problem.radius
     t, weight, integral = _rule()
-    dx = problem.spacing[0]
-    start = -(problem.x[0] - dx / 2)
+    x, dx = problem.x[0], problem.spacing[0]
+    film = film - x * dx / (2 * radius) + dx**2 / (8 * radius)
+    start = -(x - dx / 2)
     stretch = start / t**2
-    shape = (start / t) ** 2 / (2 * problem.radius) - start**2 / (2 * problem.radius) + problem.edge_log * np.log(t)
+    shape = (start / t) ** 2 / (2 * radius) - start**2 / (2 * radius) + problem.edge_log * np.log(t)
     gap = film[:, None] + shape
     thin = _ambient_thinning(problem, gap)
     viscous = 12 * lubricant.viscosity
@@ -66,37 +67,35 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
     )
     A, B, A_h, B_h = (f @ weight for f in (a, b, a_h, b_h))
     reduced, reduced_slope = _reduced(lubricant, np.maximum(pressure, 0.0))
-    T = 2 * film**3 * _ambient_thinning(problem, film[:, None])[:, 0] / (viscous * dx)
+    T = 2 * film**3 * _ambient_thinning(problem, film) / (viscous * dx)
     T_h = 3 * T / film
     top, below = speed * film + T * (A - reduced), 1 + T * B
     flow = top / below
     by_film = (speed + T_h * (A - reduced) + T * A_h - flow * (T_h * B + T * B_h)) / below
     by_pressure = -T / below * reduced_slope
-    Q = a @ integral.T - flow[:, None] * (b @ integral.T)
+    up_to = b @ integral.T
+    Q = a @ integral.T - flow[:, None] * up_to
     p = true_pressure(lubricant)(np.clip(Q, 0.0, MOST / max(lubricant.pressure_viscosity_coefficient, 1e-30)))
     slope = np.exp(cell_fluid(lubricant, p).log_viscosity)
-    by_flow = -(slope * (b @ integral.T)) @ (weight * stretch)
+    by_flow = -(slope * up_to) @ (weight * stretch)
     by_gap = (slope * (a_h @ integral.T - flow[:, None] * (b_h @ integral.T))) @ (weight * stretch)
-    rows = film.size
     return Inlet(
         flow,
         by_pressure,
         by_film,
-        float((p @ (weight * stretch)).mean()),
-        by_flow * by_pressure / rows,
-        (by_gap + by_flow * by_film) / rows,
-        float(((slope * stretch / gap) @ weight).mean()),
-        float((0.5 * gap * slope * (a - flow[:, None] * b) @ weight).mean()),
+        load=float((p @ (weight * stretch)).mean()),
+        load_by_pressure=by_flow * by_pressure / film.size,
+        load_by_film=(by_gap + by_flow * by_film) / film.size,
+        shearing=float(((slope * stretch / gap) @ weight).mean()),
+        rolling=float((0.5 * gap * slope * (a - flow[:, None] * b) @ weight).mean()),
     )
 
 
-def _ambient_thinning(problem: Problem, gap) -> np.ndarray:
+def _ambient_thinning(problem: Problem, gap):
     lubricant = problem.lubricant
-    limit = None if lubricant.limiting_stress_coefficient is None else lubricant.limiting_stress_offset
-    if limit == 0.0:
-        limit = None
-    found = thinning(lubricant, lubricant.viscosity * problem.sliding / gap, limit, along=True)
-    return np.ones_like(gap) if found is None else found.factor
+    limited = lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset > 0
+    stress = lubricant.viscosity * problem.sliding / gap
+    return thinning(lubricant, stress, lubricant.limiting_stress_offset if limited else None, along=True).factor
 
 
 def _reduced(lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:

@@ -7,105 +7,104 @@ every cell depends on every pressure. ``R_p + R_h diag(K)`` is sparse, and near 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
-from scipy.sparse import diags
+from scipy.sparse import csr_matrix, diags
 from scipy.sparse.linalg import splu
 
-from .dissection import nested_dissection
-from .problem import Problem
-from .reynolds import derivatives
-from .state import RUPTURED, TOUCHING, Look, Past, load_error
+from .flow import derivatives
+from .state import RUPTURED, TOUCHING, Iterate, State
 
 ACCURACY = 1e-3  # of the residual of the linear system
 KRYLOV, CYCLES = 40, 3
+SMALL = 24  # cells that nested dissection does not cut again
 
 
 @dataclass(frozen=True)
-class Step:
-    """Solution of the linear system: changes of pressure [Pa], fill [-], dent [m], h0 [m] and gap [m]; ``iterations``
-    of GMRES, and the relative residual reached."""
+class Change:
+    """Changes of pressure [Pa], fill [-], dent [m], gap [m] (nx, ny) and h0 [m]."""
 
     pressure: np.ndarray
     fill: np.ndarray
     dent: np.ndarray
-    approach: float
     gap: np.ndarray
-    iterations: int
-    residual: float
+    approach: float
+
+    def added(self, state: State, part: float) -> State:
+        """``state`` with this ``part`` of the changes."""
+        return replace(
+            state,
+            pressure=state.pressure + part * self.pressure,
+            fill=state.fill + part * self.fill,
+            dent=state.dent + part * self.dent,
+            approach=state.approach + part * self.approach,
+        )
 
 
 class System:
     """The linear system at a state. Rows are scaled by U and a film, columns by a pressure, so that both have no
     dimension."""
 
-    def __init__(self, problem: Problem, at: Look, past: Past | None = None):
-        self.problem, self.at = problem, at
-        state = at.state
-        self.shape = state.pressure.shape
-        self.film = max(float(np.mean(np.abs(at.balance.inlet.flow))) / problem.speed, problem.floor)
+    def __init__(self, at: Iterate):
+        problem, state = at.problem, at.state
+        self.at = at
+        self.film = max(at.mean_flow / problem.speed, problem.floor)
         self.row = 1.0 / (problem.speed * self.film / problem.spacing[0])
         self.touching = (state.kind == TOUCHING).ravel()
         ruptured, dented = (state.kind == RUPTURED).ravel(), state.yielded.ravel()
-        stress = problem.load / (problem.spacing[0] * 64)
-        self.to_pressure = np.where(ruptured | dented, 0.0, stress)
+        self.to_pressure = np.where(ruptured | dented, 0.0, problem.load / (problem.spacing[0] * 64))
         self.to_dent = np.where(dented, self.film, 0.0)
         self.to_fill = np.where(ruptured, 1.0, 0.0)
-        self.by_p, self.by_h, self.by_fill = self._rows(past)
-        self._weights()
+        self.by_p, self.by_h, self.by_fill = self._rows()
+        inlet = at.balance.inlet
+        by_p = np.full(at.gap.shape, problem.spacing[0] / at.gap.shape[1])
+        by_p[0] += inlet.load_by_pressure
+        self.load_by_p, self.load_by_h = by_p / problem.load, inlet.load_by_film / problem.load  # relative to the load
         self._factorise()
 
-    def _rows(self, past):
+    def _rows(self) -> tuple[csr_matrix, csr_matrix, csr_matrix]:
         """d(equation)/dp, d/dh and d/dfill of every cell over all cells."""
-        problem, at = self.problem, self.at
+        at, fluid, fill = self.at, self.at.balance.fluid, self.at.state.fill
         open_ = at.state.kind != TOUCHING  # also where h is still the floor: it is about to rise
-        by_p, by_h, by_fill = derivatives(problem, at.balance, at.state.pressure, open_)
-        if past is not None:
-            fluid, film, fill = at.balance.fluid, at.balance.film, at.state.fill
-            by_p = by_p + diags((fill * fluid.density_slope * film).ravel() / past.step)
-            by_h = by_h + diags((fill * fluid.density * open_).ravel() / past.step)
-            by_fill = by_fill + diags((fluid.density * film).ravel() / past.step)
+        by_p, by_h, by_fill = derivatives(at.problem, at.balance, open_)
+        if at.past is not None:
+            film, step = at.balance.film, at.past.step
+            by_p = by_p + diags((fill * fluid.density_slope * film).ravel() / step)
+            by_h = by_h + diags((fill * fluid.density * open_).ravel() / step)
+            by_fill = by_fill + diags((fluid.density * film).ravel() / step)
         flowing = diags(np.where(self.touching, 0.0, self.row))
         closed = diags(self.touching / self.film)
         return (flowing @ by_p).tocsr(), (flowing @ by_h + closed).tocsr(), (flowing @ by_fill).tocsr()
 
-    def _weights(self):
-        """The load row: by p and by h of all cells, relative to the load."""
-        problem, inlet = self.problem, self.at.balance.inlet
-        by_p = np.full(self.shape, problem.spacing[0] / self.shape[1])
-        by_p[0] += inlet.load_by_pressure
-        self.load_by_p, self.load_by_h = by_p / problem.load, inlet.load_by_film / problem.load
-
     def _factorise(self):
-        lifted = self.to_pressure * self.problem.self_deflection + self.to_dent
+        lifted = self.to_pressure * self.at.problem.self_deflection + self.to_dent
         matrix = self.by_p @ diags(self.to_pressure) + self.by_h @ diags(lifted) + self.by_fill @ diags(self.to_fill)
-        self.order = nested_dissection(*self.shape)
+        self.order = nested_dissection(*self.at.gap.shape)
         matrix = matrix.tocsr()[self.order][:, self.order].tocsc()
         self.lu = splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
-        self.column = self.by_h @ np.full(self.at.gap.size, self.film)  # by h0
-        self.corner = float(self.load_by_h.sum()) * self.film
         self.load_row = self.load_by_p.ravel() * self.to_pressure
-        self.solved_column = self._inner(self.column)
-        self.schur = self.corner - float(self.load_row @ self.solved_column)
+        self.solved_column = self._inner(self.by_h @ np.full(self.at.gap.size, self.film))  # of h0
+        self.schur = float(self.load_by_h.sum()) * self.film - float(self.load_row @ self.solved_column)
 
     def _inner(self, rows):
         inner = np.empty_like(rows)
         inner[self.order] = self.lu.solve(rows[self.order])
         return inner
 
-    def fields(self, unknowns):
-        """Changes (pressure, fill, dent, h0) of scaled unknowns (n + 1,)."""
-        parts = (unknowns[:-1] * scale for scale in (self.to_pressure, self.to_fill, self.to_dent))
-        return *(part.reshape(self.shape) for part in parts), float(unknowns[-1] * self.film)
+    def change(self, unknowns) -> Change:
+        """The `Change` of scaled ``unknowns`` (n + 1,)."""
+        shape, approach = self.at.gap.shape, float(unknowns[-1] * self.film)
+        scales = self.to_pressure, self.to_fill, self.to_dent
+        pressure, fill, dent = ((unknowns[:-1] * scale).reshape(shape) for scale in scales)
+        return Change(pressure, fill, dent, self.at.problem.operator.apply(pressure) + dent + approach, approach)
 
     def apply(self, unknowns):
         """The Jacobian times scaled unknowns."""
-        pressure, fill, dent, approach = self.fields(unknowns)
-        gap = self.problem.operator.apply(pressure) + dent + approach
-        rows = self.by_p @ pressure.ravel() + self.by_h @ gap.ravel() + self.by_fill @ fill.ravel()
-        load = float((self.load_by_p * pressure).sum() + self.load_by_h @ gap[0])
-        return np.append(rows, load)
+        by = self.change(unknowns)
+        rows = self.by_p @ by.pressure.ravel() + self.by_h @ by.gap.ravel() + self.by_fill @ by.fill.ravel()
+        return np.append(rows, float((self.load_by_p * by.pressure).sum() + self.load_by_h @ by.gap[0]))
 
     def precondition(self, rows):
         """The inverse of the sparse part, bordered by h0 and the load."""
@@ -113,32 +112,28 @@ class System:
         approach = (rows[-1] - float(self.load_row @ inner)) / self.schur
         return np.append(inner - approach * self.solved_column, approach)
 
-    def right_side(self) -> np.ndarray:
-        """Minus the equations at the state: mass of fluid cells, gap of touching ones, load."""
-        problem, at = self.problem, self.at
-        gap = (at.gap.ravel() - problem.floor) / self.film
+    def solve(self) -> tuple[Change, int]:
+        """The Newton step, and the iterations of GMRES. The right side is minus the equations at the state: mass of
+        fluid cells, gap of touching ones, load."""
+        at = self.at
+        gap = (at.gap.ravel() - at.problem.floor) / self.film
         rows = np.where(self.touching, gap, at.residual.ravel() * self.row)
-        return -np.append(rows, load_error(problem, at) / problem.load)
-
-    def solve(self) -> Step:
-        """The Newton step."""
-        unknowns, iterations, left = gmres(self.apply, self.precondition, self.right_side())
-        pressure, fill, dent, approach = self.fields(unknowns)
-        gap = self.problem.operator.apply(pressure) + dent + approach
-        return Step(pressure, fill, dent, approach, gap, iterations, left)
+        right = -np.append(rows, at.load_error / at.problem.load)
+        unknowns, iterations = gmres(self.apply, self.precondition, right)
+        return self.change(unknowns), iterations
 
 
-def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYCLES) -> tuple[np.ndarray, int, float]:
+def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYCLES) -> tuple[np.ndarray, int]:
     """Solve ``apply(x) = right`` by right-preconditioned GMRES until |residual| <= accuracy |right|; restarted after
     ``most`` iterations, in all ``cycles`` times begun.
 
-    Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869, doi:10.1137/0907058. Returns x, the
-    iterations, and the relative residual reached.
+    Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869, doi:10.1137/0907058. Returns x and the
+    iterations.
     """
     size = np.linalg.norm(right)
     x, count = np.zeros_like(right), 0
     if size == 0:
-        return x, 0, 0.0
+        return x, 0
     rest = right.copy()
     for _ in range(cycles):
         beta = np.linalg.norm(rest)
@@ -162,4 +157,47 @@ def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYC
         rest = right - apply(x)
         if np.linalg.norm(rest) <= accuracy * size:
             break
-    return x, count, float(np.linalg.norm(rest) / size)
+    return x, count
+
+
+@lru_cache(maxsize=8)
+def nested_dissection(nx: int, ny: int) -> np.ndarray:
+    """Numbers of the cells (i ny + j) of a grid (nx, ny), free along x and periodic along y, in the order of
+    elimination.
+
+    A line of cells cuts the grid in two and comes last. Each half is cut again, and so on (A. George, SIAM J. Numer.
+    Anal. 10 (1973) 345-363, doi:10.1137/0710032). A cell depends on two cells upstream, so a cut across x is two cells
+    wide. y is periodic, and is cut twice first. The order follows from the grid at no cost. It fills in less than a
+    minimum degree order that is found anew for every matrix.
+    """
+    order = np.concatenate(_ring(np.arange(nx * ny).reshape(nx, ny)))
+    order.flags.writeable = False
+    return order
+
+
+def _ring(cells: np.ndarray) -> list[np.ndarray]:
+    """The order for a part that is periodic along y. It is cut across x while it is longer than wide, then twice
+    along x."""
+    nx, ny = cells.shape
+    if nx > ny and nx > 3:
+        return _cut_across(cells, _ring)
+    if ny < 4:
+        return _box(cells)
+    half = ny // 2
+    return [*_box(cells[:, :half]), *_box(cells[:, half + 1 : -1]), cells[:, half], cells[:, -1]]
+
+
+def _box(cells: np.ndarray) -> list[np.ndarray]:
+    nx, ny = cells.shape
+    if cells.size <= SMALL:
+        return [cells.ravel()]
+    if nx >= 2 * ny:
+        return _cut_across(cells, _box)
+    middle = ny // 2
+    return [*_box(cells[:, :middle]), *_box(cells[:, middle + 1 :]), cells[:, middle]]
+
+
+def _cut_across(cells: np.ndarray, order) -> list[np.ndarray]:
+    middle = cells.shape[0] // 2
+    cut = cells[middle - 1 : middle + 1].T.ravel()
+    return [*order(cells[: middle - 1]), *order(cells[middle + 1 :]), cut]

@@ -1,32 +1,52 @@
-"""Newton's method with active sets and a line search, steady or for one implicit step in time."""
+"""Newton's method with active sets and a line search; and implicit steps in time towards the steady state, for starts
+from which it does not converge."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from .linear import System
+from .linear import Change, System
 from .problem import Problem
-from .state import TOUCHING, Look, Past, State, load_error, look, residuals, settled
+from .state import TOUCHING, Iterate, Past, State, evaluated, residuals, settled
 
 KEEP, BELOW = 0.2, 3.0  # of h that a step must leave, and floors it may go below that
 SHORTEST = 0.1  # step, whatever the gap says
 HALVINGS, GROWTH, SURGE = 10, 1.05, 2.0
 PATIENCE, PROGRESS = 20, 0.95  # steps in which the residual has to fall to that part of what it was
+FIRST = 3.0  # times dx/U: the first step in time
+SHRINK, GROW, EASY = 0.5, (2.0, 1.5), 5  # the first growth after so many Newton steps and fewer
+LEAST, LAST = 1e-3, 1e5  # times dx/U: shorter, the steps in time have failed; longer, they have arrived
+INNER = 8  # Newton steps in a step in time
+LOOSE, PART = 0.1, 0.3  # how well they solve it: at most, and of the imbalance that is left to settle
+SETTLED = 1e-5  # of that imbalance: the film is steady
+
+
+@dataclass
+class Work:
+    """What the attempts at one point cost: LU factorisations, ``most`` at most, GMRES iterations, steps in time; and
+    the largest residual before every Newton step."""
+
+    most: int
+    factorisations: int = 0
+    krylov: int = 0
+    steps: int = 0
+    history: list[float] = field(default_factory=list)
+
+    @property
+    def left(self) -> int:
+        """Factorisations that may still be done."""
+        return max(self.most - self.factorisations, 0)
 
 
 @dataclass(frozen=True)
 class Found:
-    """The end of Newton's method: state, residuals, their history, and the work (LU factorisations, GMRES
-    iterations)."""
+    """The end of Newton's method, and its residuals."""
 
-    look: Look
+    at: Iterate
     residuals: dict[str, float]
-    history: tuple[float, ...]
-    factorisations: int
-    krylov: int
 
     @property
     def residual(self) -> float:
@@ -34,7 +54,7 @@ class Found:
         return max(self.residuals.values())
 
 
-def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None = None) -> Found:
+def newton(problem: Problem, state: State, work: Work, *, tolerance, most, past: Past | None = None) -> Found:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Before every step each cell gets the equation that its state asks for (`settled`). A step leaves every cell at least
@@ -44,74 +64,83 @@ def newton(problem: Problem, state: State, *, tolerance, most, past: Past | None
     """
     history: list[float] = []
     promised: list[float] = []
-    krylov = 0
-    at = look(problem, state, past)
-    for count in range(most + 1):
-        at = settled(problem, at, past)
-        found = residuals(problem, at)
-        worst = max(found.values())
-        history.append(worst)
-        best = Found(at, found, tuple(history), count, krylov)
-        if not math.isfinite(worst) or worst <= tolerance or count == most:
-            return best
+    most = min(most, work.left)
+    at = evaluated(problem, state, past)
+    while True:
+        at = settled(at)
+        found = Found(at, residuals(at))
+        history.append(found.residual)
+        work.history.append(found.residual)
+        if not math.isfinite(found.residual) or found.residual <= tolerance or len(history) > most:
+            return found
         if _stalled(history) and _stalled(promised):
-            return best
+            return found
         try:
-            step = System(problem, at, past).solve()
+            step, iterations = System(at).solve()
         except RuntimeError:  # the LU is singular
-            return best
-        krylov += step.iterations
+            return found
+        work.factorisations += 1
+        work.krylov += iterations
         if not np.all(np.isfinite(step.gap)):
-            return best
-        at, whole = _advanced(problem, at, step, past)
+            return found
+        at, whole = _advanced(at, step)
         promised.append(whole)
-    raise AssertionError("the last step returns")
 
 
 def _stalled(history) -> bool:
-    if len(history) <= PATIENCE:
-        return False
-    return not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
+    return len(history) > PATIENCE and not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
 
 
-def _advanced(problem: Problem, at: Look, step, past) -> tuple[Look, float]:
+def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float]:
     """The state after the longest part of ``step`` that is accepted, and the merit of the longest part that was
     tried."""
-    length = _longest(problem, at, step)
-    before = _merit(problem, at, at.state.kind != TOUCHING)
+    apart = at.state.kind != TOUCHING
+    length, before = _longest(at, step), _merit(at, apart)
     merits: list[float] = []
     for _ in range(HALVINGS):
-        new = _moved(problem, at, step, length, past)
-        merits.append(_merit(problem, new, at.state.kind != TOUCHING))
+        new = evaluated(at.problem, step.added(at.state, length), at.past)
+        merits.append(_merit(new, apart))
         if merits[-1] <= (GROWTH if length > SHORTEST else SURGE) * before:
             break
         length /= 2
     return new, merits[0]
 
 
-def _longest(problem: Problem, at: Look, step) -> float:
-    lost = -step.gap - BELOW * problem.floor
-    falling = (lost > 0) & (at.gap > problem.floor)
-    if not falling.any():
-        return 1.0
-    return float(max(SHORTEST, min(1.0, ((1 - KEEP) * at.gap[falling] / lost[falling]).min())))
+def _longest(at: Iterate, step: Change) -> float:
+    lost = -step.gap - BELOW * at.problem.floor
+    falling = (lost > 0) & (at.gap > at.problem.floor)
+    return float(max(SHORTEST, ((1 - KEEP) * at.gap[falling] / lost[falling]).min(initial=1.0)))
 
 
-def _moved(problem: Problem, at: Look, step, length: float, past) -> Look:
-    state = at.state
-    moved = replace(
-        state,
-        pressure=state.pressure + length * step.pressure,
-        fill=state.fill + length * step.fill,
-        dent=state.dent + length * step.dent,
-        approach=state.approach + length * step.approach,
-    )
-    return look(problem, moved, past)
-
-
-def _merit(problem: Problem, at: Look, apart) -> float:
+def _merit(at: Iterate, apart) -> float:
     """Σ |r| over the cells that were ``apart``, and the load error, both relative."""
-    value = float(np.abs(at.residual[apart]).sum())
-    flow = float(np.mean(np.abs(at.balance.inlet.flow))) * apart.shape[1] / problem.spacing[0]
-    merit = value / flow + abs(load_error(problem, at)) / problem.load
+    flow = at.mean_flow * apart.shape[1] / at.problem.spacing[0]
+    merit = float(np.abs(at.residual[apart]).sum()) / flow + abs(at.load_error) / at.problem.load
     return merit if math.isfinite(merit) else math.inf
+
+
+def march(problem: Problem, state: State, work: Work, *, most: int) -> State:
+    """Let the film settle from ``state`` in implicit Euler steps, which grow while they are solved; at most ``most``
+    factorisations.
+
+    Each step is solved to a part of the steady imbalance of mass that it begins with: the way there need not be exact.
+    Behind closed furrows it is long, because valleys fill by what leaks in.
+    """
+    unit = problem.spacing[0] / problem.speed
+    step, last = FIRST * unit, work.factorisations + min(most, work.left)
+    at = evaluated(problem, state)
+    while work.factorisations < last and LEAST * unit <= step <= LAST * unit:
+        left = residuals(settled(at))["mass"]
+        if left <= SETTLED:
+            break
+        goal = max(SETTLED, min(LOOSE, PART * left))
+        begun = work.factorisations
+        most = min(INNER, last - begun)
+        found = newton(problem, at.state, work, tolerance=goal, most=most, past=Past(at.mass, step))
+        work.steps += 1
+        if found.residual <= goal:
+            at = evaluated(problem, found.at.state)
+            step *= GROW[work.factorisations - begun > EASY]
+        else:
+            step *= SHRINK
+    return at.state

@@ -1,4 +1,17 @@
-"""What a deterministic solve returns."""
+"""What a deterministic solve returns: its fields, its friction, and the split of the load between asperity spots and
+the film between them.
+
+With one pressure, no equation tells film and contact apart, so the split is a rule:
+
+    A cell belongs to an asperity spot where the bodies touch (h = floor), or where p > 50 MPa, a Newtonian film would
+    be sheared above the boundary friction, eta Δu/h > f_b p, and h is less than half its mean over the section.
+
+The second condition finds the summits of a light contact, which carry films of nanometres. Alone it would also mark the
+whole of a thick film at high pressure, whose stress is at its limit for another reason. The third condition leaves that
+to the film. `LoadSplit` has the load by other rules. The friction coefficient hardly depends on the rule, because the
+stress is f_b p on spots, follows the lubricant's law in the film, and is limited to f_b p in a Newtonian film above 50
+MPa too.
+"""
 
 from __future__ import annotations
 
@@ -7,9 +20,21 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import Report
-from .forces import Forces, LoadSplit, forces
-from .problem import Problem
-from .state import TOUCHING, Look, State
+from ..oil import shear_stress, viscosity
+from .state import FLUID, TOUCHING, Iterate, State
+
+PRESSED = 50e6  # Pa
+CLOSE = 0.5  # of the mean gap of the section
+
+
+@dataclass(frozen=True)
+class LoadSplit:
+    """Load [N/m] on the cells that three rules select, from the narrowest: ``touching`` (h = floor); ``spots`` (the
+    rule of this module); ``saturated``: p > 50 MPa and eta Δu/h > f_b p, or touching."""
+
+    touching: float
+    spots: float
+    saturated: float
 
 
 @dataclass(frozen=True)
@@ -18,10 +43,11 @@ class DeterministicResult:
 
     - pressure [Pa]: of film and contact together. gap [m]: between the rough surfaces, at least the floor. fill [-]:
       the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. spots (bool):
-      the asperity spots of `lubfric.deterministic.forces`. wet (bool): fluid under pressure outside the spots. shear
-      [Pa]: on the moving surface. dent [m]: plastic depth.
-    - coefficient: (boundary + couette + rolling)/load. split: the load by four rules; ``split.spots`` is the one used.
-    - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over ``strip``, the columns with |x| <=
+      the asperity spots of this module. wet (bool): fluid under pressure outside the spots. shear [Pa]: on the moving
+      surface. dent [m]: plastic depth.
+    - boundary: f_b p over the spots. couette, rolling: shear of the film, with that upstream of the grid. coefficient:
+      (boundary + couette + rolling)/load. split: the load by three rules; ``split.spots`` is the one used.
+    - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
       b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
     - drawn: of the lubricant in the film, the share that touching cells of the strip give off, because their floor is
       kept full; the rest enters from upstream.
@@ -58,46 +84,63 @@ class DeterministicResult:
     state: State = field(repr=False)
 
 
-def assemble(problem: Problem, at: Look, report: Report) -> DeterministicResult:
-    """The result at a solved state."""
-    found: Forces = forces(problem, at)
+def assemble(at: Iterate, report: Report, pressed=PRESSED, close=CLOSE) -> DeterministicResult:
+    """The result at a solved state; ``pressed`` [Pa] and ``close`` [-] are the two numbers of the rule for spots."""
+    problem, state, h, inlet = at.problem, at.state, at.balance.film, at.balance.inlet
+    p, touching, fluid = state.pressure, state.kind == TOUCHING, state.kind == FLUID
+    f_b, rate, cell = problem.boundary_friction, problem.sliding / h, problem.spacing[0] / p.shape[1]
+    with np.errstate(over="ignore"):
+        saturated = fluid & (p > pressed) & (viscosity(problem.lubricant, p) * rate > f_b * p)
+        law = shear_stress(problem.lubricant, p, rate)
+    if problem.lubricant.newtonian:
+        law = np.where(saturated, np.minimum(law, f_b * p), law)
+    spots = touching | saturated & (h < close * h.mean(axis=1)[:, None])
+    wet = fluid & ~spots
+    shear = np.where(spots, f_b * p, np.where(fluid, law, 0.0))
+    split = LoadSplit(*(float(p[where].sum()) * cell for where in (touching, spots, touching | saturated)))
+    couette = float(shear[wet].sum()) * cell + problem.lubricant.viscosity * problem.sliding * inlet.shearing
+    rolling = _rolling(p, h, wet) + inlet.rolling
     strip = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
-    state = at.state
-    yielded = state.yielded & (state.dent > 0)
     return DeterministicResult(
         x=problem.x,
         spacing=problem.spacing,
-        pressure=state.pressure,
-        gap=at.balance.film,
+        pressure=p,
+        gap=h,
         fill=state.fill,
-        shear=found.shear,
-        touching=state.kind == TOUCHING,
-        spots=found.spots,
-        wet=found.wet,
+        shear=shear,
+        touching=touching,
+        spots=spots,
+        wet=wet,
         dent=state.dent,
-        coefficient=(found.boundary + found.couette + found.rolling) / problem.load,
-        boundary=found.boundary,
-        couette=found.couette,
-        rolling=found.rolling,
-        split=found.split,
+        coefficient=(f_b * split.spots + couette + rolling) / problem.load,
+        boundary=f_b * split.spots,
+        couette=couette,
+        rolling=rolling,
+        split=split,
         load=problem.load,
         speed=problem.speed,
-        flow_film=float(at.balance.inlet.flow.mean()) / problem.speed,
-        min_gap=float(at.balance.film.min()),
-        mean_gap=float(at.balance.film[strip].mean()),
-        spot_fraction=float(found.spots[strip].mean()),
-        plastic_fraction=float(yielded[strip].mean()),
-        drawn=_drawn(problem, at, strip),
-        central_gap=float(np.interp(0.0, problem.x, at.balance.film.mean(axis=1))),
+        flow_film=float(inlet.flow.mean()) / problem.speed,
+        min_gap=float(h.min()),
+        mean_gap=float(h[strip].mean()),
+        spot_fraction=float(spots[strip].mean()),
+        plastic_fraction=float((state.yielded & (state.dent > 0))[strip].mean()),
+        drawn=_drawn(at, touching, strip),
+        central_gap=float(np.interp(0.0, problem.x, h.mean(axis=1))),
         approach=state.approach,
-        inlet_load=at.balance.inlet.load,
+        inlet_load=inlet.load,
         report=report,
         state=state,
     )
 
 
-def _drawn(problem: Problem, at: Look, strip) -> float:
-    source = np.where(at.state.kind == TOUCHING, np.maximum(at.residual, 0.0), 0.0)[strip]
-    given = float(source.sum()) * problem.spacing[0] / source.shape[1]
+def _rolling(p, h, wet) -> float:
+    """∫ (h/2) dp/dx [N/m] on the grid, between cells that are ``wet`` or without pressure."""
+    both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
+    return float((0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]))[both].sum()) / p.shape[1]
+
+
+def _drawn(at: Iterate, touching, strip) -> float:
+    source = np.where(touching, np.maximum(at.residual, 0.0), 0.0)[strip]
+    given = float(source.sum()) * at.problem.spacing[0] / source.shape[1]
     entering = max(float(at.balance.inlet.flow.mean()), 0.0)
     return given / (given + entering) if given > 0 else 0.0

@@ -53,33 +53,29 @@ def mean_fluidity(left, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     both."""
     d = right - left
     small = np.abs(d) < 1e-3
-    e = np.where(small, 1.0, d)
-    low = np.minimum(left, right)
-    size = np.abs(e)
-    decay = np.exp(-size)
+    size = np.abs(np.where(small, 1.0, d))
     mean = np.where(small, 1.0 - np.abs(d) / 2 + d * d / 6, -np.expm1(-size) / size)  # of exp(-(l - low))
-    by_size = np.where(small, -0.5 + np.abs(d) / 12, decay / -np.expm1(-size) - 1 / size)  # d ln(mean)/d|d|
-    higher = by_size
-    lower = -1.0 - by_size
-    by_left = np.where(left > right, higher, lower)
-    by_right = np.where(left > right, lower, higher)
-    return np.log(mean) - low, by_left, by_right
+    higher = np.where(small, -0.5 + np.abs(d) / 12, np.exp(-size) / -np.expm1(-size) - 1 / size)  # d ln(mean)/d|d|
+    lower = -1.0 - higher
+    falling = left > right
+    log_mean = np.log(mean) - np.minimum(left, right)
+    return log_mean, np.where(falling, higher, lower), np.where(falling, lower, higher)
 
 
 @dataclass(frozen=True)
 class Thinning:
     """Φ [-], its derivative d ln Φ/d ln s, and the part of the derivative that belongs to the limiting stress."""
 
-    factor: np.ndarray
-    exponent: np.ndarray
-    limit_exponent: np.ndarray
+    factor: float | np.ndarray = 1.0
+    exponent: float | np.ndarray = 0.0
+    limit_exponent: float | np.ndarray = 0.0
 
 
-def thinning(lubricant: Lubricant, newtonian_stress, limit, along: bool) -> Thinning | None:
-    """Φ at the Newtonian stress eta Δu/h [Pa] on faces, with ``limit`` [Pa] their tau_0 + Λ p; None if Φ = 1."""
+def thinning(lubricant: Lubricant, newtonian_stress, limit, along: bool) -> Thinning:
+    """Φ at the Newtonian stress eta Δu/h [Pa] on faces, with ``limit`` [Pa] their tau_0 + Λ p, or None."""
     eyring = lubricant.eyring_stress
     if eyring is None and limit is None:
-        return None
+        return Thinning()
     factor, slope = np.ones_like(newtonian_stress), np.zeros_like(newtonian_stress)
     if eyring is not None:
         s = newtonian_stress / eyring

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .flow import Balance, balance
 from .problem import Problem
-from .reynolds import Balance, balance
 
 FLUID, RUPTURED, TOUCHING = 0, 1, 2
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
@@ -29,21 +29,6 @@ class State:
 
 
 @dataclass(frozen=True)
-class Look:
-    """A state with its gap h [m] (nx, ny) and the mass balance of its cells."""
-
-    state: State
-    gap: np.ndarray
-    balance: Balance
-    stored: np.ndarray | None = None  # m/s, of an implicit step in time
-
-    @property
-    def residual(self) -> np.ndarray:
-        """Outflow minus inflow plus, in time, what the cell stores [m/s]."""
-        return self.balance.residual if self.stored is None else self.balance.residual + self.stored
-
-
-@dataclass(frozen=True)
 class Past:
     """The mass rho h [m] of the cells, one time ``step`` [s] ago."""
 
@@ -51,43 +36,66 @@ class Past:
     step: float
 
 
-def look(problem: Problem, state: State, past: Past | None = None) -> Look:
+@dataclass(frozen=True)
+class Iterate:
+    """A state with its gap h [m] (nx, ny) and the mass balance of its cells. ``past``: of an implicit step in time.
+    residual [m/s]: outflow minus inflow plus, in time, what the cell stores."""
+
+    problem: Problem
+    state: State
+    gap: np.ndarray
+    balance: Balance
+    past: Past | None
+    residual: np.ndarray
+
+    @property
+    def mass(self) -> np.ndarray:
+        """rho h [m] of the lubricant in the gap."""
+        return self.state.fill * self.balance.fluid.density * self.balance.film
+
+    @property
+    def mean_flow(self) -> float:
+        """Mean size of the flow into the grid [m²/s]."""
+        return float(np.mean(np.abs(self.balance.inlet.flow)))
+
+    @property
+    def load_error(self) -> float:
+        """∫ p dx, with the load carried upstream of the grid, minus the load [N/m]."""
+        carried = self.state.pressure.sum() * self.problem.spacing[0] / self.gap.shape[1]
+        return float(carried + self.balance.inlet.load - self.problem.load)
+
+
+def evaluated(problem: Problem, state: State, past: Past | None = None) -> Iterate:
     """Gap and mass balance of ``state``; with ``past``, of an implicit step in time."""
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
     found = balance(problem, state.pressure, gap, state.fill)
-    stored = None if past is None else (mass(state, found) - past.mass) / past.step
-    return Look(state, gap, found, stored)
+    at = Iterate(problem, state, gap, found, past, found.residual)
+    return at if past is None else replace(at, residual=found.residual + (at.mass - past.mass) / past.step)
 
 
-def mass(state: State, at: Balance) -> np.ndarray:
-    """rho h [m] of the lubricant in the gap."""
-    return state.fill * at.fluid.density * at.film
-
-
-def settled(problem: Problem, at: Look, past: Past | None = None) -> Look:
+def settled(at: Iterate) -> Iterate:
     """``at``, with every cell given the equation that its state asks for."""
-    new = look(problem, _resorted(problem, at), past)
+    new = evaluated(at.problem, _resorted(at), at.past)
     fluid = (new.state.kind == FLUID) & (at.state.kind == FLUID)  # cells that just opened begin at the floor
-    closed = fluid & (new.gap < problem.floor)  # by a pressure that was cut to P_u
+    closed = fluid & (new.gap < at.problem.floor)  # by a pressure that was cut to P_u
     kind = np.where(closed, TOUCHING, new.state.kind).astype(np.int8)
     return replace(new, state=replace(new.state, kind=kind))
 
 
-def _resorted(problem: Problem, at: Look) -> State:
+def _resorted(at: Iterate) -> State:
     """Give every cell the equation that its pressure, gap and residual ask for.
 
     - A fluid cell under suction ruptures. A ruptured cell that is full carries pressure again.
     - A fluid cell closer than the floor touches. A touching cell under suction opens (`_opened`).
     - A cell with a pressure above P_u yields. One whose dent would vanish stops yielding.
     """
-    state, r = at.state, at.residual
+    problem, state = at.problem, at.state
     p, kind = state.pressure, state.kind.copy()
     fluid, ruptured, touching = (kind == k for k in (FLUID, RUPTURED, TOUCHING))
     kind[ruptured & (state.fill > 1)] = FLUID
     kind[fluid & (p < 0)] = RUPTURED
-    kind[fluid & (p >= 0) & (at.gap < problem.floor)] = TOUCHING
-    kind[ruptured & (at.gap < problem.floor)] = TOUCHING
-    kind[_opened(touching, -r, _pull(problem))] = FLUID
+    kind[(fluid & (p >= 0) | ruptured) & (at.gap < problem.floor)] = TOUCHING
+    kind[_opened(touching, -at.residual, _pull(problem))] = FLUID
     kind[touching & (p <= 0)] = RUPTURED
     beyond = (p > problem.hardness) & ~state.yielded
     yielded = (state.yielded & (state.dent >= 0) | beyond) & (kind != RUPTURED)
@@ -119,13 +127,7 @@ def _pull(problem: Problem) -> float:
     return PULL * problem.speed * problem.floor / problem.spacing[0]
 
 
-def load_error(problem: Problem, at: Look) -> float:
-    """∫ p dx, with the load carried upstream of the grid, minus the load [N/m]."""
-    carried = at.state.pressure.sum() * problem.spacing[0] / at.gap.shape[1]
-    return float(carried + at.balance.inlet.load - problem.load)
-
-
-def residuals(problem: Problem, at: Look) -> dict[str, float]:
+def residuals(at: Iterate) -> dict[str, float]:
     """How far a state is from a solution; all dimensionless.
 
     - mass: Σ |r| over fluid and ruptured cells, relative to the flow that enters;
@@ -135,21 +137,17 @@ def residuals(problem: Problem, at: Look) -> dict[str, float]:
     - fill: the largest amount by which the fill of a ruptured cell is below 0 or above 1;
     - pressure: the largest of -p and p - P_u over the largest pressure.
     """
-    state, r = at.state, at.residual
-    dx, _ = problem.spacing
-    ny = r.shape[1]
-    flow = float(np.mean(np.abs(at.balance.inlet.flow))) * ny / dx
+    problem, state, r = at.problem, at.state, at.residual
+    flow = at.mean_flow * r.shape[1] / problem.spacing[0]
     touching = state.kind == TOUCHING
-    mean_gap = float(np.maximum(at.gap, 0).mean())
     closed = np.abs(at.gap[touching] - problem.floor).max(initial=0.0)
     pierced = (problem.floor - at.gap[~touching]).max(initial=0.0)
-    top = max(float(state.pressure.max()), 1.0)
-    outside = max(-float(state.pressure.min()), float(state.pressure.max()) - problem.hardness, 0.0)
+    top = float(state.pressure.max())
     return {
         "mass": float(np.abs(r[~touching]).sum()) / flow,
-        "load": abs(load_error(problem, at)) / problem.load,
-        "gap": float(max(closed, pierced)) / mean_gap,
+        "load": abs(at.load_error) / problem.load,
+        "gap": float(max(closed, pierced) / np.maximum(at.gap, 0).mean()),
         "suction": float(np.maximum(-r[touching] - _pull(problem), 0.0).sum()) / flow,
         "fill": float(max(-state.fill.min(), state.fill.max() - 1, 0.0)),
-        "pressure": outside / top,
+        "pressure": max(-float(state.pressure.min()), top - problem.hardness, 0.0) / max(top, 1.0),
     }

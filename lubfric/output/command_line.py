@@ -13,7 +13,8 @@ from .console import INTERRUPTED, Interrupted, interruptible, put, say
 CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
 OPTIONS = {"ratios": RATIOS, "animation": IN_TIME}  # of ``lubfric run``, and what they are for
 OPTIONS |= dict.fromkeys(("speeds", "fields", "workers", "report", "vtk"), CURVE)
-SCENE = "TOML file, or a built-in scene: paper, flat"
+SPEED = "heading of its column of entrainment speeds, with the unit: 'U [mm/s]'"
+F = "heading of its column of friction coefficients"
 
 
 def main(argv=None) -> int:
@@ -47,16 +48,14 @@ def parser() -> argparse.ArgumentParser:
         return added
 
     _add_run(command("run", _run, "compute the Stribeck curve of a scene and write it to a folder"))
-    info = command("info", _info, "say what a scene is and what will be solved, without solving it")
-    info.add_argument("scene", help=SCENE)
-    _add_maps(info)
+    _add_scene(command("info", _info, "say what a scene is and what will be solved, without solving it"))
     _add_study(command("study", _study, "vary anything in a scene: many points, kept as they end"))
     _add_fit(command("fit", _fit, "find numbers of a scene from a measured curve"))
     plot = command("plot", _plot, "draw stribeck.png, traction.png or history.png again from its table")
     plot.add_argument("folder", type=Path, help="folder written by 'lubfric run'")
-    plot.add_argument("--measured", help="text file of a measured curve to draw among the computed one")
-    plot.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")
-    plot.add_argument("--coefficient", help="heading of its column of friction coefficients")
+    _add_texts(
+        plot, measured="text file of a measured curve to draw among the computed one", speed=SPEED, coefficient=F
+    )
     init = command("init", _init, "write a commented scene to start from")
     init.add_argument("file", type=Path, nargs="?", default=Path("scene.toml"), help="(default: scene.toml)")
     oils = command("oils", _oils, "list the named oils, or show one: 'lubfric oils show mineral-100'")
@@ -66,63 +65,69 @@ def parser() -> argparse.ArgumentParser:
 
 
 def _add_run(run: argparse.ArgumentParser) -> None:
-    run.add_argument("scene", help=SCENE)
-    run.add_argument("--out", type=Path, default=Path("out"), help="folder for the results (default: out)")
-    run.add_argument("--speeds", help="entrainment speeds in m/s: '0.001,0.01,0.1', 'low:high:count' or 'auto'")
-    run.add_argument(
-        "--fields", help="speeds in m/s whose fields go to fields.npz and contact.png (default: the scene's own speed)"
+    _add_scene(run)
+    _add_out(run, "out")
+    _add_texts(
+        run,
+        speeds="entrainment speeds in m/s: '0.001,0.01,0.1', 'low:high:count' or 'auto'",
+        fields="speeds in m/s whose fields go to fields.npz and contact.png (default: the scene's own speed)",
+        ratios="the traction curve instead: slide-roll ratios '0.01,0.1,1' or 'low:high:count'",
     )
-    run.add_argument("--ratios", help="the traction curve instead: slide-roll ratios '0.01,0.1,1' or 'low:high:count'")
-    _add_maps(run)
-    run.add_argument(
-        "--sampling-tolerance",
-        type=float,
-        help="relative standard error of f that a finite rough surface may leave (default: of the scene, 0.02)",
+    tolerance = "relative standard error of f that a finite rough surface may leave (default: of the scene, 0.02)"
+    run.add_argument("--sampling-tolerance", type=float, help=tolerance)
+    workers = "processes that share the speeds of a curve (default: 2 where that pays, else 1)"
+    run.add_argument("--workers", type=int, help=workers)
+    _add_switches(
+        run,
+        animation="also draw film and pressure of a scene with [transient] as animation.gif",
+        accept="keep results outside the range of the model, marked, instead of refusing them",
+        report="also write report.html, one page that needs nothing else",
+        vtk="also write the contacts of --fields for ParaView",
     )
-    _add_switch(run, "animation", "also draw film and pressure of a scene with [transient] as animation.gif")
-    _add_switch(run, "accept", "keep results outside the range of the model, marked, instead of refusing them")
-    run.add_argument(
-        "--workers", type=int, help="processes that share the speeds of a curve (default: 2 where that pays, else 1)"
-    )
-    _add_switch(run, "report", "also write report.html, one page that needs nothing else")
-    _add_switch(run, "vtk", "also write the contacts of --fields for ParaView")
 
 
 def _add_study(study: argparse.ArgumentParser) -> None:
     study.add_argument("study", help="TOML file that says what is varied")
-    study.add_argument("--out", type=Path, default=Path("study"), help="folder of the study (default: study)")
+    _add_out(study, "study")
     study.add_argument("--workers", type=int, default=1, help="processes that share the points (default: 1)")
-    _add_switch(study, "explain", "say points, predicted time and disk, and solve nothing")
-    _add_switch(study, "netcdf", "also write study.nc (needs the 'study' extra)")
-    _add_switch(study, "parquet", "also write study.parquet (needs the 'study' extra)")
+    _add_switches(
+        study,
+        explain="say points, predicted time and disk, and solve nothing",
+        netcdf="also write study.nc (needs the 'study' extra)",
+        parquet="also write study.parquet (needs the 'study' extra)",
+    )
 
 
 def _add_fit(fit: argparse.ArgumentParser) -> None:
-    fit.add_argument("scene", help=SCENE)
+    _add_scene(fit)
     fit.add_argument("--measured", required=True, help="text file of the measured curve")
-    fit.add_argument("--coefficient", required=True, help="heading of its column of friction coefficients")
+    fit.add_argument("--coefficient", required=True, help=F)
     axis = fit.add_mutually_exclusive_group(required=True)
-    axis.add_argument("--speed", help="heading of its column of entrainment speeds, with the unit: 'U [mm/s]'")
-    axis.add_argument("--ratio", help="heading of its column of slide-roll ratios: 'SRR [%%]'")
-    fit.add_argument("--deviation", help="heading of its column of standard deviations")
-    fit.add_argument(
-        "--parameter",
-        action="append",
-        required=True,
-        metavar="KEY=LOW:HIGH",
-        help="what is sought, between bounds in SI units: 'lubricant.viscosity=0.05:1'; again for another",
-    )
-    _add_maps(fit)
-    fit.add_argument("--out", type=Path, default=Path("fit"), help="folder for the results (default: fit)")
+    _add_texts(axis, speed=SPEED, ratio="heading of its column of slide-roll ratios: 'SRR [%%]'")
+    _add_texts(fit, deviation="heading of its column of standard deviations")
+    sought = "what is sought, between bounds in SI units: 'lubricant.viscosity=0.05:1'; again for another"
+    fit.add_argument("--parameter", action="append", required=True, metavar="KEY=LOW:HIGH", help=sought)
+    _add_out(fit, "fit")
 
 
-def _add_switch(command: argparse.ArgumentParser, name: str, about: str) -> None:
-    command.add_argument(f"--{name}", action="store_true", help=about)
-
-
-def _add_maps(command: argparse.ArgumentParser) -> None:
+def _add_scene(command: argparse.ArgumentParser) -> None:
+    command.add_argument("scene", help="TOML file, or a built-in scene: paper, flat")
     for body in ("surface", "counterface"):
         command.add_argument(f"--{body}", metavar="FILE", help=f"height map to use instead of the scene's {body}")
+
+
+def _add_out(command: argparse.ArgumentParser, folder: str) -> None:
+    command.add_argument("--out", type=Path, default=Path(folder), help=f"folder for the results (default: {folder})")
+
+
+def _add_texts(command, **options: str) -> None:
+    for name, about in options.items():
+        command.add_argument(f"--{name}", help=about)
+
+
+def _add_switches(command, **options: str) -> None:
+    for name, about in options.items():
+        command.add_argument(f"--{name}", action="store_true", help=about)
 
 
 def _scene(arguments):
@@ -132,34 +137,23 @@ def _scene(arguments):
 
 
 def _run(arguments) -> None:
-    scene = _scene(arguments)
-    if arguments.sampling_tolerance is not None:
-        from ..sharing import takes_strips
+    from ..sharing import takes_strips
+    from . import run_curve, run_history
 
-        if not takes_strips(scene):
-            raise InputError(
-                "--sampling-tolerance is for a rough cylinder on strips (numerics.sampling = 'strips'), "
-                f"and {scene.name} is solved on one patch, as it is; leave it out"
-            )
-        scene = scene.with_(numerics={"sampling_tolerance": arguments.sampling_tolerance})
-    if arguments.accept:
-        scene = scene.with_(numerics={"accept": True})
+    scene = _scene(arguments)
+    changed = {} if arguments.sampling_tolerance is None else {"sampling_tolerance": arguments.sampling_tolerance}
+    if changed and not takes_strips(scene):
+        raise InputError(
+            "--sampling-tolerance is for a rough cylinder on strips of its roughness (numerics.sampling = 'strips'), "
+            f"and {scene.name} is solved on one patch, as it is; leave it out"
+        )
+    scene = scene.with_(numerics=changed | ({"accept": True} if arguments.accept else {}))
     what = IN_TIME if scene.transient is not None else RATIOS if arguments.ratios else CURVE
     for option, of in OPTIONS.items():
         if getattr(arguments, option) not in (None, False) and of != what:
             raise InputError(f"--{option} is for {of}, and this is {what}; leave it out")
-    if what == RATIOS:
-        from .run_traction import run_traction
-
-        run_traction(scene, arguments.out, arguments.ratios)
-    elif what == IN_TIME:
-        from .run_history import run_history
-
-        run_history(scene, arguments.out, arguments.animation)
-    else:
-        from .run_sweep import run_sweep
-
-        run_sweep(scene, arguments)
+    solve = {RATIOS: run_curve.run_traction, IN_TIME: run_history.run_history, CURVE: run_curve.run_sweep}[what]
+    solve(scene, arguments)
 
 
 def _info(arguments) -> None:
@@ -177,11 +171,11 @@ def _study(arguments) -> None:
 def _fit(arguments) -> None:
     from .run_fit import run_fit
 
-    run_fit(arguments)
+    run_fit(_scene(arguments), arguments)
 
 
 def _plot(arguments) -> None:
-    from . import run_history, run_sweep, run_traction
+    from . import run_curve, run_history
 
     given = [name for name in ("measured", "speed", "coefficient") if getattr(arguments, name) is not None]
     if given and "measured" not in given:
@@ -189,8 +183,8 @@ def _plot(arguments) -> None:
     for table, what in (("history.csv", "a run in time"), ("traction.csv", "a traction curve")):
         if given and (arguments.folder / table).is_file():
             raise InputError(f"--measured is drawn beside a Stribeck curve, and {arguments.folder} holds {what}")
-    if not (run_history.plot_again(arguments.folder) or run_traction.plot_again(arguments.folder)):
-        run_sweep.plot_again(arguments)
+    again = run_history if (arguments.folder / "history.csv").is_file() else run_curve
+    again.plot_again(arguments)
 
 
 def _init(arguments) -> None:

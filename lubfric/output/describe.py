@@ -33,10 +33,9 @@ def describe_scene(scene: Scene) -> str:
             *_section("motion", _motion(scene)),
             *_section("surface", [surface.describe()]),
             *_map_rows(scene, surface),
-            *_film_rows(scene, surface.sq, sorted({speeds[0], scene.motion.entrainment_speed, speeds[-1]})),
             *_section("contact", [f"{_plan(scene, surface)}; {len(speeds)} speeds"]),
             *_section("validity", _validity(scene, surface if first is None else first, sorted(set(speeds)))),
-            *_sample_rows(scene, strips, surface, speeds),
+            *_speed_rows(scene, strips, surface, speeds),
         ]
     )
 
@@ -66,36 +65,27 @@ def _validity(scene: Scene, surface: Surface, speeds: list[float]) -> list[str]:
     return found or ["no assumption of the model fails by what is known before the solve"]
 
 
-def _sample_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
-    """Whether the summits touch, and what the sample costs, at some speeds of the scene."""
-    some = sorted({*speeds[:: max(1, len(speeds) // 6)], scene.motion.entrainment_speed, speeds[-1]})
+def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
+    """At some speeds of the scene: Moes numbers and Moes' film under the whole load, whether the summits touch, and
+    what the sample costs."""
     summit = float(surface.heights.max() - surface.heights.mean())
-    expected = [forecast(scene, strips, surface.sq, summit, speed) for speed in some]
-    rows = [f"  {'U (m/s)':<12} {'summits':<22} {'clearance (Sq)':>14}"]
+    head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (um)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
+    rows = ["  film of the whole load by Moes, and whether it clears the summits", head]
     if strips is not None:
         dx, dy = strips.cells.coarse
-        asked = 100 * scene.numerics.sampling_tolerance
-        head = f"strips of the roughness for f within {asked:g} %, on cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um"
-        rows = [f"  {head} (orders of magnitude)", f"{rows[0]} {'strips':>8} {'length (mm)':>12} {'time (s)':>9}"]
-    for one in expected:
-        row = f"  {one.speed:<12.4g} {one.touching:<22} {one.clearance:>14.2g}"
+        asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um"
+        rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
+        rows[-1] += f" {'strips':>8} {'length (mm)':>12} {'time (s)':>9}"
+    for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], scene.motion.entrainment_speed, speeds[-1]}):
+        one, film = forecast(scene, strips, surface.sq, summit, speed), f"{'no entrainment: all contact':<38}"
+        if speed != 0:
+            line = scene.line_contact(abs(speed))
+            ratio = line.moes_film / surface.sq if surface.sq > 0 else math.inf
+            film = f"{line.M:9.3g} {line.L:8.3g} {line.moes_film * 1e6:10.4f} {ratio:8.3g}"
+        row = f"  {speed:<12.4g} {film}  {one.touching:<22} {one.clearance:>14.2g}"
         if strips is not None:
             row += f" {one.strips:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
         rows.append(row)
-    return rows
-
-
-def _film_rows(scene: Scene, sq: float, speeds: list[float]) -> list[str]:
-    """Moes numbers and Moes' film under the whole load [m]."""
-    rows = [f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (um)':>10} {'lambda':>8}   film of the whole load, by Moes"]
-    for speed in speeds:
-        if speed == 0:
-            rows.append(f"  {0:<12} no entrainment: all contact")
-            continue
-        line = scene.line_contact(abs(speed))
-        film = line.moes_film
-        ratio = film / sq if sq > 0 else math.inf
-        rows.append(f"  {speed:<12.4g} {line.M:9.3g} {line.L:8.3g} {film * 1e6:10.4f} {ratio:8.3g}")
     return rows
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 
 from ..sampling import FrictionResult
 from ..sharing import Prepared
-from .record import npz_bytes
 
 OF_ONE_GAP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a DeterministicResult
 
@@ -25,7 +26,11 @@ def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
         return npz_bytes(arrays)
     arrays |= _map_of(prepared, points[0])
     for i, point in enumerate(points):
-        found = _film_and_contact(point)
+        film, found = point.balance.film if point.balance else None, {}
+        if film is not None:
+            found = {"film_x": film.x, "film_thickness": film.film_thickness, "film_pressure": film.pressure}
+        if point.shows_contact:
+            found |= {"contact_pressure": point.pressure, "gap": point.gap}
         if point.heights is not None and point.heights.shape != arrays["heights"].shape:
             found |= _map_of(prepared, point)
         arrays |= {f"{name}_{i}": array for name, array in found.items()}
@@ -33,19 +38,12 @@ def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
 
 
 def _map_of(prepared: Prepared, point: FrictionResult) -> dict[str, np.ndarray]:
+    """Heights, cells and x of the contact of ``point``; those that were solved first where it shows none."""
     if point.heights is None or not point.shows_contact:
         surface = prepared.surface
         return {"heights": surface.heights, "spacing": np.array(surface.spacing), "contact_x": prepared.contact.x}
     spacing = np.array([point.x[1] - point.x[0], point.y[1] - point.y[0]])
     return {"heights": point.heights, "spacing": spacing, "contact_x": point.x}
-
-
-def _film_and_contact(point: FrictionResult) -> dict[str, np.ndarray]:
-    """Those of film and contact that ``point`` has."""
-    film, found = point.balance.film if point.balance else None, {}
-    if film is not None:
-        found = {"film_x": film.x, "film_thickness": film.film_thickness, "film_pressure": film.pressure}
-    return found | ({"contact_pressure": point.pressure, "gap": point.gap} if point.shows_contact else {})
 
 
 def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
@@ -84,3 +82,10 @@ def grid_bytes(x: np.ndarray, y: np.ndarray, fields: dict[str, np.ndarray], titl
 
 def _big_endian(values: np.ndarray) -> bytes:
     return np.ascontiguousarray(values, dtype=">f8").tobytes()
+
+
+def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:
+    """``arrays`` as a compressed ``.npz`` file."""
+    file = io.BytesIO()
+    np.savez_compressed(file, **arrays)  # type: ignore[arg-type]  # NumPy types allow_pickle, not the arrays
+    return file.getvalue()

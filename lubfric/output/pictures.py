@@ -10,16 +10,19 @@ import numpy as np
 
 from .._base import (
     BLUE,
+    FRICTION,
     GREEN,
     GREY,
     RED,
     field_image,
-    friction_over_speed,
+    friction_lines,
     load_shares,
+    log_if_wide,
     new_figure,
     plain_ticks,
     speed_label,
 )
+from ..studies import friction_over_speed, interval_band
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
 NEAR = 4.0  # half-widths of the Hertz strip around which a gap is drawn
@@ -57,6 +60,32 @@ def plot_stribeck(
     bottom.set(ylabel="λ = central film / Sq (-)", xlabel=speed_label(c["speed"]))
     for axis in (bottom.xaxis, bottom.yaxis):
         plain_ticks(axis)
+    figure.savefig(path, dpi=150)
+
+
+def plot_traction(
+    path: Path, columns: dict[str, np.ndarray], title: str, entries: Sequence[Sequence[Any]], measured=None
+) -> None:
+    """Friction over the slide-roll ratio, and temperatures below. Arguments as of `plot_stribeck`."""
+    good = np.flatnonzero(np.isfinite(columns["coefficient"]))
+    order = good[np.argsort(columns["ratio"][good])]
+    c = type(columns)((name, column[order]) for name, column in columns.items())
+    ratio, load = c["ratio"], c["contact_load"] + c["film_load"]
+    figure = new_figure(figsize=(7, 6.5))
+    top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2]})
+    interval_band(top, ratio, c)
+    friction_lines(
+        top, ratio, (c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load), marker="o", ms=4
+    )
+    _mark(figure, top, ratio, c["coefficient"], [entries[i] for i in order])
+    top.set(title=title, ylabel=FRICTION)
+    top.legend(framealpha=0.8, edgecolor="none")
+    bottom.plot(ratio, c["flash_temperature_rise"], "-", color=RED, label="surfaces (flash)")
+    bottom.plot(ratio, c["film_temperature_rise"], "-", color=GREEN, label="film above the surfaces")
+    bottom.set(xlabel="slide-roll ratio (-)", ylabel="largest temperature rise (K)")
+    bottom.legend(frameon=False)
+    log_if_wide(bottom, "x", ratio)
+    plain_ticks(bottom.xaxis)
     figure.savefig(path, dpi=150)
 
 

@@ -26,7 +26,7 @@ COLUMNS = (
 def report_page(prepared, curve, record: dict, images: dict[str, bytes]) -> bytes:
     """The page of a curve. ``record``: what result.json holds; ``images``: PNG files by their captions."""
     scene, solved = prepared.scene, [p for p in curve.points if p is not None]
-    decided = [(f"{p.speed:.4g} m/s", p.decision) for p in solved if p.decision is not None]
+    decided = [(f"{p.speed:.4g} m/s", p.decision) for p in solved]
     notes = {note: speed for speed, decision in decided for note in decision.notes}
     sections = [
         f"<h1>{escape(scene.name)}: friction of a mixed-lubricated line contact</h1>",

@@ -4,34 +4,29 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable
 from pathlib import Path
 
-from .._base import FolderLock, new_figure, plain, shown, write_whole
+from .._base import FolderLock, new_figure, plain, shown, whole_file, write_whole
 from ..errors import InputError
-from ..scene import load_scene
+from ..scene import Scene
 from ..studies import FitResult, explain_fit, fit, read_measured
 from .console import Pace, say, say_written
-from .run_folder import drawn
 
 
-def run_fit(arguments) -> int:
-    """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json; returns the exit code."""
-    bounds = _bounds(arguments.parameter)
-    scene = load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
-    measured = read_measured(
-        arguments.measured,
-        coefficient=arguments.coefficient,
-        speed=arguments.speed,
-        slide_roll_ratio=arguments.ratio,
-        deviation=arguments.deviation,
-    )
+def run_fit(scene: Scene, arguments) -> None:
+    """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json."""
+    bounds, begun, pace = _bounds(arguments.parameter), time.perf_counter(), Pace()
+    columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
+    measured = read_measured(arguments.measured, coefficient=arguments.coefficient, **columns)
     say(explain_fit(scene, measured, bounds))
-    begun = time.perf_counter()
-    found = fit(scene, measured, bounds, on_progress=_progress(begun))
+
+    def on_progress(curve: int, done: int, total: int) -> None:
+        if pace.due(done == total):
+            say(f"curve {curve}: [{done}/{total}] {time.perf_counter() - begun:.0f} s")
+
+    found = fit(scene, measured, bounds, on_progress=on_progress)
     say(found.explain())
     say_written(_write(found, arguments.out), arguments.out, begun)
-    return 0
 
 
 def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
@@ -48,16 +43,6 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
     return found
 
 
-def _progress(begun: float) -> Callable[[int, int, int], None]:
-    pace = Pace()
-
-    def on_progress(curve: int, done: int, total: int) -> None:
-        if pace.due(done == total):
-            say(f"curve {curve}: [{done}/{total}] {time.perf_counter() - begun:.0f} s")
-
-    return on_progress
-
-
 def _write(found: FitResult, folder: Path) -> list[str]:
     names = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
     record = {name: getattr(found, name) for name in names} | {
@@ -67,20 +52,13 @@ def _write(found: FitResult, folder: Path) -> list[str]:
         "fitted": found.predicted,
         "report": found.report.as_dict(),
     }
-    files = {
-        "fitted.toml": found.scene.to_toml().encode(),
-        "fit.png": drawn(_draw, found),
-        "fit.json": json.dumps(plain(record), indent=1).encode(),
-    }
-    with FolderLock(folder):
-        for name, content in files.items():
-            write_whole(folder / name, content)
-    return list(files)
-
-
-def _draw(file, found: FitResult) -> None:
     figure = new_figure(figsize=(7, 6.5))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
     found.plot(top).set_xlabel("")
     found.plot_residuals(bottom)
-    figure.savefig(file, dpi=150)
+    with FolderLock(folder):
+        write_whole(folder / "fitted.toml", found.scene.to_toml().encode())
+        with whole_file(folder / "fit.png") as part:
+            figure.savefig(part, dpi=150)
+        write_whole(folder / "fit.json", json.dumps(plain(record), indent=1).encode())
+    return ["fitted.toml", "fit.png", "fit.json"]

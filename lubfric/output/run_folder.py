@@ -3,15 +3,22 @@ has saved is kept apart."""
 
 from __future__ import annotations
 
-import io
 import json
+import platform
 import shutil
+import time
 from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
 
-from .._base import FolderLock, clear_parts, plain, saying, whole_file, write_whole
+import numpy as np
+
+from .._base import FolderLock, __version__, clear_parts, plain, saying, whole_file, write_whole
 from ..errors import InputError
+from ..scene import Scene, scene_as_dict
+from ..sharing import Prepared, prepare
+from ..surface import rms_slope
+from .console import say, say_written
 
 RESULT, UNFINISHED, CHECKPOINT = "result.json", "unfinished", "checkpoint"
 # of sweeps and of runs in time; the result, which says that a folder is complete, first to go and last to come
@@ -22,26 +29,33 @@ OUTPUTS = (
 )
 
 
-def drawn(plot: Callable, *arguments) -> bytes:
-    """The figure of ``plot(file, *arguments)``."""
-    buffer = io.BytesIO()
-    plot(buffer, *arguments)
-    return buffer.getvalue()
+def ready(scene: Scene) -> Prepared:
+    """``scene`` made ready, which is said."""
+    say(f"{scene.name}: preparing the height map and the contact")
+    prepared = prepare(scene)
+    say(prepared.surface.describe())
+    return prepared
 
 
-def run_name(folder: Path) -> str:
-    """Name of the scene of a run; that of its folder if the record of the run is missing or damaged."""
+def read_record(folder: Path) -> dict:
+    """What result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
+    path = folder / RESULT
+    if not path.is_file():
+        raise InputError(f"{folder} holds no {RESULT}; give a folder that 'lubfric run' wrote")
     try:
-        return str(json.loads((folder / RESULT).read_text(encoding="utf-8"))["scene"]["name"])
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
-        return folder.resolve().name
+        record = json.loads(path.read_text(encoding="utf-8"))
+        str(record["scene"]["name"])
+    except (ValueError, KeyError, TypeError, RecursionError) as problem:
+        raise InputError(f"{path} is torn, or no record of a run ({problem})") from None
+    return record
 
 
 class RunFolder:
-    """``path`` and the names of the files ``written`` to it. Made by `run_folder`."""
+    """``path`` and the names of the files ``written`` to it, by a run that has ``begun`` (`time.perf_counter`). Made by
+    `run_folder`."""
 
-    def __init__(self, path: Path, name: str):
-        self.path = path
+    def __init__(self, path: Path, name: str, begun: float):
+        self.path, self.begun = path, begun
         self.unfinished = path / UNFINISHED / name[:16]
         self.written: list[str] = []
 
@@ -57,29 +71,47 @@ class RunFolder:
         self.written.append(name)
 
     def draw(self, name: str, plot: Callable, *arguments) -> None:
-        """Write the figure that ``plot(file, *arguments)`` draws."""
-        self.write(name, drawn(plot, *arguments))
-
-    def make(self, name: str, save: Callable, *arguments) -> None:
-        """Write a file by ``save(path, *arguments)``, if it can only be written by name."""
+        """Write the picture that ``plot(path, *arguments)`` saves."""
         with whole_file(self.path / name) as part:
-            save(part, *arguments)
+            plot(part, *arguments)
         self.written.append(name)
 
-    def finish(self, record: dict) -> None:
-        """Write ``record`` as result.json, which names the files that belong to it. Then the run is complete, and what
-        was saved for a resume is removed."""
+    def record(self, prepared: Prepared, result, **numbers: object) -> dict:
+        """The record of a run: resolved input, map, versions, timing, report, violated assumptions, ``numbers``."""
+        import scipy
+
+        surface, versions = prepared.surface, {"lubfric": __version__, "numpy": np.__version__}
+        statistics = {name: getattr(surface, name) for name in ("sq", "sa", "ssk", "sku", "missing_fraction")}
+        statistics["rms_slope"] = dict(zip(("x", "y", "total"), rms_slope(surface)))
+        map_ = {"shape": surface.shape, "spacing": surface.spacing, "statistics": statistics, "notes": surface.notes}
+        return {
+            "scene": scene_as_dict(prepared.scene),
+            "surface": map_,
+            "versions": versions | {"scipy": scipy.__version__, "python": platform.python_version()},
+            "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
+            "seconds": time.perf_counter() - self.begun,
+            "report": result.report.as_dict(),
+            "validity": result.validity,
+            **numbers,
+        }
+
+    def finish(self, record: dict, *doubts: str) -> None:
+        """Write ``record`` as result.json, which names the files that belong to it. Then the run is complete, what was
+        saved for a resume is removed, and violated assumptions, ``doubts`` and files are said."""
         whole = plain({"files": sorted([*self.written, RESULT])} | record)
         self.write(RESULT, json.dumps(whole, indent=1, allow_nan=False).encode())
         shutil.rmtree(self.unfinished, ignore_errors=True)
         with saying(f"{self.unfinished.parent} was not removed"):
             if self.unfinished.parent.is_dir() and not any(self.unfinished.parent.iterdir()):
                 self.unfinished.parent.rmdir()
+        for text in (*record["validity"], *doubts):
+            say(text)
+        say_written(self.written, self.path, self.begun)
 
 
 @contextmanager
-def run_folder(path, fingerprint: str):
-    """Open ``path`` for the run with that ``fingerprint``, as a `RunFolder`.
+def run_folder(path, fingerprint: str, begun: float):
+    """Open ``path`` for the run with that ``fingerprint``, as a `RunFolder`. ``begun``: when the run did.
 
     ``.unfinished`` has what an interrupted run of the same fingerprint saved. What other runs saved is left alone.
     Raises `InputError` if ``path`` is a file, or a folder to which another process writes, and `OutputError` if it
@@ -90,4 +122,4 @@ def run_folder(path, fingerprint: str):
         raise InputError(f"--out {path} is a file; give a folder, existing or not")
     with FolderLock(path):
         clear_parts(path)
-        yield RunFolder(path, fingerprint)
+        yield RunFolder(path, fingerprint, begun)

@@ -2,40 +2,33 @@
 
 from __future__ import annotations
 
+import sys
 import time
 from pathlib import Path
 
 from .._base import validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, Report
-from ..studies import (
-    MOST_WORKERS,
-    check_tools,
-    in_words,
-    load_study,
-    open_study,
-    pool,
-    study,
-)
+from ..studies import MOST_WORKERS, check_tools, in_words, load_study, open_study, pool, study
 from .console import Pace, keeping, put, say, say_written
 
 
-def run_study(arguments) -> int:
-    """Plan, solve and write study.csv (and study.nc, study.parquet); returns the exit code."""
-    import sys
-
+def run_study(arguments) -> None:
+    """Plan, solve and write study.csv (and study.nc, study.parquet)."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=MOST_WORKERS)
     plan = load_study(arguments.study)
     if arguments.explain:
         put(sys.stdout, plan.explain(arguments.out) + "\n")
-        return 0
+        return
     check_tools(arguments.netcdf, arguments.parquet)
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
         result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
     tables = {"study.csv": result.to_csv}
-    tables |= {"study.nc": result.to_netcdf} if arguments.netcdf else {}
-    tables |= {"study.parquet": result.to_parquet} if arguments.parquet else {}
+    if arguments.netcdf:
+        tables["study.nc"] = result.to_netcdf
+    if arguments.parquet:
+        tables["study.parquet"] = result.to_parquet
     for name, write in tables.items():
         write(arguments.out / name)
     if result.cautioned:
@@ -43,10 +36,8 @@ def run_study(arguments) -> int:
     say_written(tables, arguments.out, begun)
     if result.failed:
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
-        raise ConvergenceError(
-            f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}", report, result
-        )
-    return 0
+        said = f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}"
+        raise ConvergenceError(said, report, result)
 
 
 def _kept(folder) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -30,22 +29,6 @@ COARSEST, FINEST = 64, 32768  # cells
 FEWEST = 3  # grids to judge an error by: two may agree by chance
 RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pressure rise
 STATE_CELLS = 96  # of the graded grid from which `lubfric.solve_ehl` may start
-
-
-@dataclass(frozen=True)
-class UniformEffort(Effort):
-    """The accuracy asked, the nodes (None: doubled until accurate), at most how many, and the bandwidth."""
-
-    nodes: int | None = None
-    most_nodes: int = FINEST + 1
-    bandwidth: int = 8
-
-    def __post_init__(self):
-        super().__post_init__()
-        if self.nodes is not None:
-            integer("nodes", self.nodes, minimum=COARSEST + 1)
-        integer("most_nodes", self.most_nodes, minimum=COARSEST + 1)
-        integer("bandwidth", self.bandwidth, minimum=0)
 
 
 def solve_differential_deflection(
@@ -96,18 +79,18 @@ def solve_differential_deflection(
     """
     lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
     contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant)
-    effort = UniformEffort(tolerance, 0, max_iterations, nodes, most_nodes, bandwidth)
+    Effort(tolerance, 0, max_iterations)  # checks both
+    if nodes is not None:
+        integer("nodes", nodes, minimum=COARSEST + 1)
+    integer("most_nodes", most_nodes, minimum=COARSEST + 1)
+    integer("bandwidth", bandwidth, minimum=0)
     if domain is not None and inlet_length is not None:
         raise InputError("domain and inlet_length both say where the grid begins; give one of them")
     problem = make_problem(contact, inlet_length)
-    return solve_differential(problem, effort, domain_ends(problem, domain), raise_on_failure)
-
-
-def solve_differential(
-    problem: Problem, effort: UniformEffort, ends: tuple[float, float], raise_on_failure: bool = True
-) -> EHLResult:
-    """`solve_differential_deflection` for a `Problem` on a grid between ``ends`` [units of x]."""
-    result = assemble(problem, _ascend(problem, effort, ends), effort.tolerance)
+    ends = domain_ends(problem, domain)
+    cells = _cells(problem, ends, nodes, most_nodes)
+    levels = _ascend(problem, ends, cells, bandwidth, tolerance, max_iterations, doubled=nodes is None)
+    result = assemble(problem, levels, tolerance)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
@@ -126,33 +109,34 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
     return first, rupture_guess(problem) + 0.2 * b + rise
 
 
-def _cells(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) -> list[int]:
+def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None, most_nodes: int) -> list[int]:
     """Numbers of cells of the nested grids. If the finest resolves the rise of the pressure, the coarsest does too."""
     film, b = math.sqrt(2.0 * problem.film_guess), problem.half_width
     enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
-    if effort.nodes is None:
-        cells = [min(2 ** math.ceil(math.log2(enough)), effort.most_nodes - 1)]
-        while 2 * cells[-1] < effort.most_nodes:
+    if nodes is None:
+        cells = [min(2 ** math.ceil(math.log2(enough)), most_nodes - 1)]
+        while 2 * cells[-1] < most_nodes:
             cells.append(2 * cells[-1])
         return cells
-    cells = [effort.nodes - 1]
-    while cells[0] // 2 >= min(enough, max(COARSEST, (effort.nodes - 1) // 2)):
+    cells = [nodes - 1]
+    while cells[0] // 2 >= min(enough, max(COARSEST, (nodes - 1) // 2)):
         cells.insert(0, cells[0] // 2)
     return cells
 
 
-def _ascend(problem: Problem, effort: UniformEffort, ends: tuple[float, float]) -> list[Solution]:
-    """Solutions on grids of doubling size, up to the nodes asked for, or until two of them agree to the tolerance."""
-    cells = _cells(problem, effort, ends)
+def _ascend(
+    problem: Problem, ends: tuple[float, float], cells: list[int], bandwidth: int, tolerance, max_iterations, doubled
+) -> list[Solution]:
+    """Solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the tolerance."""
     levels: list[Solution] = []
     for n in cells:
-        mesh = make_mesh(*ends, n + 1, effort.bandwidth, problem.inlet_length is None)
+        mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet_length is None)
         P, H = _transferred(mesh, levels[-1]) if levels else cold_start(mesh, problem)
-        levels.append(newton(mesh, problem, P, H, 1e-3 * effort.tolerance, effort.max_iterations))
+        levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_iterations))
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
             levels.pop()  # too coarse to start on
             continue
-        enough = effort.nodes is None and len(levels) >= FEWEST and grid_error(levels) <= effort.tolerance
+        enough = doubled and len(levels) >= FEWEST and grid_error(levels) <= tolerance
         if levels[-1].status != CONVERGED or enough:
             break
     return levels

@@ -33,7 +33,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..film import Problem, log_mean_fluidity, moes_film
+from ..time import Memory
 
+STEADY = Memory(0.0, np.zeros(()))
 NEAR = 20  # distance in nodes from which the second difference of the kernel is a series
 
 
@@ -114,17 +116,6 @@ def _transform(kernel: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True)
-class Squeeze:
-    """Storage in an implicit step in time at the nodes: d(rho H)/dT = rate rho H - past, with T = U t in units of x."""
-
-    rate: float
-    past: np.ndarray
-
-
-STEADY = Squeeze(0.0, np.zeros(()))
-
-
-@dataclass(frozen=True)
 class Terms:
     """One evaluation of the equations.
 
@@ -156,8 +147,9 @@ class Terms:
     slope: np.ndarray
 
 
-def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, squeeze: Squeeze = STEADY) -> Terms:
-    """Fluxes, balances and defects at pressures P and films H."""
+def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, memory: Memory = STEADY) -> Terms:
+    """Fluxes, balances and defects at pressures P and films H. ``memory``: of rho H in a step in time, T = U t in units
+    of x."""
     log_eta, slope = problem.log_viscosity(P)
     rho, rho_slope = problem.density(P)
     fluidity, by_left, by_right = log_mean_fluidity(log_eta)
@@ -172,7 +164,7 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, squeeze
             -conductance - cube * gradient * by_right * slope[1:] + 0.5 * flow * rho_slope[1:],
         ]
     )
-    stored = mesh.step * (squeeze.rate * rho * H - squeeze.past)
+    stored = mesh.step * memory.rate * (rho * H - memory.film)
     through = face_rho * flow + np.cumsum(stored)[:-1]
     balance = np.zeros_like(P)
     balance[1:-1] = np.diff(through)
@@ -192,8 +184,8 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, squeeze
         scale,
         face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient),
         by_P,
-        mesh.step * squeeze.rate * rho,
-        mesh.step * squeeze.rate * rho_slope * H,
+        mesh.step * memory.rate * rho,
+        mesh.step * memory.rate * rho_slope * H,
         slope,
     )
 

@@ -13,10 +13,10 @@ import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ..film import Problem, step_length
+from ..time import Memory
 from .differential_equations import (
     STEADY,
     Mesh,
-    Squeeze,
     Terms,
     convolve,
     evaluate,
@@ -153,13 +153,13 @@ def newton(
     H: np.ndarray,
     tolerance: float,
     max_steps: int,
-    squeeze: Squeeze = STEADY,
+    memory: Memory = STEADY,
 ) -> Solution:
     """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film ruptures inside
     the grid."""
     history, solves, status = [], 0, ITERATION_LIMIT
     for step in range(max_steps + 1):
-        t = evaluate(mesh, problem, P, H, squeeze)
+        t = evaluate(mesh, problem, P, H, memory)
         residuals = measure(t, P, H)
         history.append(max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else np.inf)
         ruptured = t.last < mesh.size - 2 and P[t.last] > 0.0 and not np.any(P[t.last + 1 :])

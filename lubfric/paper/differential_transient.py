@@ -14,11 +14,10 @@ import numpy as np
 from .._base import validate
 from ..errors import CONVERGED, ConvergenceError
 from ..film import LineContact, Problem, cubic, smallest
-from ..oil import Lubricant
 from ..scene import History, checked_history
-from ..time import FIRST_STEP, WET, Memory, Plan, Step, TransientFilm, checked_times, marched, plan_of, report_of
-from .differential import UniformEffort, domain_ends, solve_differential
-from .differential_equations import NEAR, Squeeze, make_mesh
+from ..time import FIRST_STEP, WET, Memory, Step, TransientFilm, checked_times, marched, plan_of, report_of
+from .differential import solve_differential_deflection
+from .differential_equations import NEAR, make_mesh
 from .differential_newton import newton
 
 TOLERANCE, MOST_STEPS = 1e-6, 40  # of Newton's method in a step
@@ -27,7 +26,7 @@ TOLERANCE, MOST_STEPS = 1e-6, 40  # of Newton's method in a step
 @dataclass(frozen=True)
 class UniformSetting:
     """A contact whose load and speed change, on a uniform grid between the ends of ``domain`` [m] (a
-    `lubfric.time.march.Solver`). In SI units; z holds pressures and films."""
+    a solver of `lubfric.time.march`). In SI units; z holds pressures and films."""
 
     contact: LineContact  # as it is before t = 0
     load: History
@@ -48,13 +47,12 @@ class UniformSetting:
         )
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: None = None) -> Step:
-        """One implicit step (`lubfric.time.march.Solver`)."""
+        """One implicit step (a solver of `lubfric.time.march`)."""
         problem, n = self.problem(time), self.nodes
         unit, film, pressure = problem.length_unit, problem.film_unit, problem.pressure_unit
         mesh = make_mesh(self.domain[0] / unit, self.domain[1] / unit, n, self.bandwidth, True)
-        rate = memory.rate * unit / problem.contact.entrainment_speed
-        squeeze = Squeeze(rate, rate * memory.film / film)
-        found = newton(mesh, problem, z[:n] / pressure, z[n:] / film, TOLERANCE, MOST_STEPS, squeeze)
+        memory = Memory(memory.rate * unit / problem.contact.entrainment_speed, memory.film / film)
+        found = newton(mesh, problem, z[:n] / pressure, z[n:] / film, TOLERANCE, MOST_STEPS, memory)
         stored = problem.density(found.P)[0] * found.H * film
         z = np.concatenate([found.P * pressure, found.H * film])
         return Step(status=found.status, film=stored, z=z)
@@ -102,43 +100,41 @@ def solve_differential_transient(
     load = checked_history("load_per_width", load_per_width, "N/m", duration)
     speed = checked_history("entrainment_speed", entrainment_speed, "m/s", duration)
     validate.number("time_tolerance", time_tolerance, "(-)", minimum=1e-10, maximum=0.1)
-    lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
-    contact = LineContact(load.before(0.0), radius, e_prime, speed.before(0.0), lubricant)
+    steady = solve_differential_deflection(
+        load_per_width=load.before(0.0),
+        radius=radius,
+        e_prime=e_prime,
+        entrainment_speed=speed.before(0.0),
+        viscosity=viscosity,
+        pressure_viscosity_coefficient=pressure_viscosity_coefficient,
+        viscosity_law=viscosity_law,
+        density_law=density_law,
+        nodes=nodes,
+        domain=domain,
+        raise_on_failure=False,
+    )
+    contact = steady.contact
     setting = UniformSetting(contact, load, speed, domain, nodes, bandwidth)
-    first = _start(setting)
+    x = setting.x
+    z = np.concatenate([np.interp(x, steady.x, steady.pressure), cubic(steady.x, steady.film_thickness, x)])
+    first = setting.solve(0.0, Memory(0.0, np.zeros(nodes)), z)
+    if first.status != CONVERGED:
+        raise ConvergenceError("differential deflection: no steady film to start from", steady.report, steady)
     width = math.hypot(setting.problem(0.0).half_width, 3.0) * contact.length_unit
     plan = plan_of(times, (load, speed), FIRST_STEP * width / speed.range(duration)[1], time_tolerance)
-    result = _march(setting, first, plan)
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result
-
-
-def _start(setting: UniformSetting) -> Step:
-    """The steady state before t = 0 on the grid of the run."""
-    problem = setting.problem(0.0)
-    ends = domain_ends(problem, setting.domain)
-    start = solve_differential(problem, UniformEffort(nodes=setting.nodes), ends, raise_on_failure=False)
-    x = setting.x
-    z = np.concatenate([np.interp(x, start.x, start.pressure), cubic(start.x, start.film_thickness, x)])
-    first = setting.solve(0.0, Memory(0.0, np.zeros(setting.nodes)), z)
-    if first.status != CONVERGED:
-        raise ConvergenceError("differential deflection: no steady film to start from", start.report, start)
-    return first
-
-
-def _march(setting: UniformSetting, first: Step, plan: Plan) -> TransientFilm:
-    now, times, states = marched(setting, plan, first)
-    x, n = setting.x, setting.nodes
-    P, H = (np.array([state.z[part] for state in states]).reshape(-1, n) for part in (slice(None, n), slice(n, None)))
-    parabola = x**2 / (2.0 * setting.contact.radius)
-    return TransientFilm(
-        np.array(times),
+    now, found, states = marched(setting, plan, first)
+    P, H = (np.array([state.z[part] for state in states]).reshape(-1, nodes) for part in np.s_[:nodes, nodes:])
+    parabola = x**2 / (2.0 * radius)
+    result = TransientFilm(
+        np.array(found),
         x,
         P,
         H,
         np.array([smallest(x, h) for h in H]),
         np.array([float(cubic(x, h - parabola, np.zeros(1))[0]) for h in H]),
         np.trapezoid(P, x, axis=1) - 0.5 * x[0] * P[:, 0],  # with the tail |x|^-3
-        report_of("transient by differential deflection, BDF2", plan, now, f"{n} nodes", {}),
+        report_of("transient by differential deflection, BDF2", plan, now, f"{nodes} nodes", {}),
     )
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result

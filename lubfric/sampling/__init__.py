@@ -11,4 +11,4 @@ from .outlook import forecast
 from .result import FrictionResult
 from .sample import sampled
 from .scatter import moment_error
-from .uncertainty import FIELDS, Uncertainty, UncertaintyCurve, curve_of, percent, student
+from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, percent, student

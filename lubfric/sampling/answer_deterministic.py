@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..deterministic import Refined, deterministic_point
+from ..quantities import NUMBERS
 from ..scene import Scene
 from ..sharing import Prepared, Validity, inlet_at, of_error, of_motion, of_pressure, of_thickness
 from .decision import Decision
@@ -25,53 +26,45 @@ def deterministic_answer(prepared: Prepared, speed: float, begun: float) -> Fric
     film is isothermal."""
     scene, surface = prepared.scene, prepared.surface
     found = deterministic_point(scene, surface, speed)
-    width, forces, numbers = scene.bodies.width, _per_width(prepared, found), _numbers(prepared, found)
-    tolerance, central = scene.numerics.tolerance, numbers["central_film"]
+    tolerance, numbers = scene.numerics.tolerance, _numbers(prepared, speed, found)
     decision = Decision("deterministic", _words(found), "asperity spots", tolerance, notes=_notes(found))
-    entries = (*_entries(prepared, speed, found), *_heat_left_out(scene, speed, forces["couette_force"], central))
+    hot = _heat_left_out(scene, speed, found.result.couette, numbers["central_film"])
+    entries = (*_entries(prepared, speed, found), *hot)
     return FrictionResult(
-        speed=speed,
-        **{name: force * width for name, force in forces.items()},
-        shear_force=(forces["couette_force"] + forces["rolling_force"]) * width,
-        **numbers,
-        film_to_roughness_ratio=central / surface.sq if surface.sq > 0 else math.inf,
-        inlet_film_factor=1.0,
-        flash_temperature_rise=0.0,
-        film_temperature_rise=0.0,
-        volume_residual=math.nan,
-        seconds=time.perf_counter() - begun,
+        **(numbers | {"seconds": time.perf_counter() - begun}),
         report=replace(found.result.report, notes=(decision.text, *(entry.text for entry in entries))),
+        uncertainty=not_sampled(found.error, scene, surface.size[1], NO_PLACES),
+        errors=field_errors_of({} if found.error is None else {"coefficient": found.error}, NO_PLACES),
         decision=decision,
         validity=entries,
         deterministic=found,
-        uncertainty=not_sampled(found.error, scene, surface.size[1], NO_PLACES),
-        errors=field_errors_of({} if found.error is None else {"coefficient": found.error}, NO_PLACES),
     )
 
 
-def _per_width(prepared: Prepared, found: Refined) -> dict[str, Any]:
-    bodies, result = prepared.scene.bodies, found.result
-    return {
-        "contact_load": result.split.spots,
-        "film_load": bodies.load / bodies.width - result.split.spots,
-        "boundary_force": result.boundary,
-        "couette_force": result.couette,
-        "rolling_force": result.rolling,
-    }
-
-
-def _numbers(prepared: Prepared, found: Refined) -> dict[str, Any]:
-    result, width = found.result, prepared.scene.bodies.width
+def _numbers(prepared: Prepared, speed: float, found: Refined) -> dict[str, Any]:
+    """All numbers of the point but the time, by name; NaN where the model has no such number."""
+    result, bodies, sq = found.result, prepared.scene.bodies, prepared.surface.sq
     dx, dy = result.spacing
     area = float(result.spots.sum()) * dx * dy
-    return {
+    return dict.fromkeys(NUMBERS, math.nan) | {
+        "speed": speed,
         "coefficient": result.coefficient,
+        "contact_load": result.split.spots * bodies.width,
+        "film_load": bodies.load - result.split.spots * bodies.width,
+        "shear_force": (result.couette + result.rolling) * bodies.width,
+        "couette_force": result.couette * bodies.width,
+        "rolling_force": result.rolling * bodies.width,
+        "boundary_force": result.boundary * bodies.width,
         "real_contact_area_fraction": result.spot_fraction,
-        "real_contact_area": area * width / prepared.surface.size[1],
+        "real_contact_area": area * bodies.width / prepared.surface.size[1],
         "plastic_area_fraction": result.plastic_fraction,
         "min_film": result.min_gap,
         "central_film": result.central_gap,
         "mean_gap": result.mean_gap,
+        "film_to_roughness_ratio": result.central_gap / sq if sq > 0 else math.inf,
+        "inlet_film_factor": 1.0,
+        "flash_temperature_rise": 0.0,
+        "film_temperature_rise": 0.0,
         "load_residual": result.report.residuals["load"],
     }
 

@@ -89,9 +89,18 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, strips: 
         return sum(getattr(step, name) for step in steps) / len(steps)
 
     names = ("gap", "rest", "beyond", "film", "area", "plastic", "ends")
-    spread = mean("area_error") / math.sqrt(len(steps))
     values = {name: mean(name) for name in names}
-    return CellEffect(error=error, area_error=spread, contact_load=balance.contact_load, **values)
+    return CellEffect(error=error, area_error=_error_of_area(steps), contact_load=balance.contact_load, **values)
+
+
+def _error_of_area(steps: Sequence[CellStep]) -> float:
+    """Relative error of the mean factor on the contact area; from the differences between pieces where they are too
+    short for blocks (NaN: too few of them)."""
+    within = sum(step.area_error for step in steps) / len(steps) / math.sqrt(len(steps))
+    if math.isfinite(within):
+        return within
+    factors = np.array([step.area for step in steps])
+    return float(factors.std(ddof=1) / factors.mean() / math.sqrt(factors.size)) if factors.size >= FEWEST else math.nan
 
 
 def _settled(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
@@ -124,6 +133,8 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
     own, step, length = len(places) == len(ladder), coarse.coarse[1], strips.lengths[1]
     difference = places[-1][0] - places[0][0]
     area, area_error = _ratio(places[-1][1], places[0][1], step, length)
+    if strips.whole:
+        area_error = 0.0
     if not own:
         area_error = math.hypot(area_error, _ratio(places[-1][1], places[-2][1], step, length)[0] - 1)
     return CellStep(

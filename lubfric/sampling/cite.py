@@ -8,9 +8,6 @@ PAPERS = {  # in the order in which they are cited, by what was used
     "load sharing": "A. Akchurin, R. Bosman, P. M. Lugt, M. van Drogen, Tribology Letters 59:19 (2015), "
     "doi:10.1007/s11249-015-0536-z: load sharing between film and rough contact",
     "one gap": "lubfric, docs/deterministic.md: one rough gap with one pressure, solved whole",
-    "one-way": "lubfric, docs/deterministic.md: one-way closure, the film in the gap of the dry contact",
-    "film under spots": "J. A. Greenwood, Lubricants 8 (2020) 51, doi:10.3390/lubricants8050051: the "
-    "condition of Ertel and Grubin",
     "half-space contact": "I. A. Polonsky, L. M. Keer, Wear 231 (1999) 206-219, doi:10.1016/S0043-1648(99)00113-1: "
     "contact of rough surfaces by conjugate gradients",
     "summits": "J. A. Greenwood, J. B. P. Williamson, Proceedings of the Royal Society A 295 (1966) 300-319, "

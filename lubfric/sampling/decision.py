@@ -16,9 +16,8 @@ class Decision:
 
     - ``model``: "load sharing" or "deterministic"; ``film``, ``contact``: in words.
     - ``tolerance``: the one asked for, on f; ``film_tolerance``: of the film (0: no film).
-    - ``clearance`` [Sq]: between the film and the highest summits (None: in contact).
-    - ``cells``: (nx, ny) of the contact; ``coarsening``: length of its cells in cells of the scene's map, along each
-      axis; ``strips``: number of strips of the surface that were solved.
+    - ``cells``: (nx, ny) of the contact (None: none was solved on cells); ``coarsening``: length of its cells in cells
+      of the scene's map, along each axis; ``strips``: number of strips of the surface that were solved.
     - ``change_by_cells``: relative change of f by the scene's own cells, for which it is corrected.
     - ``heat``: which heat was modelled, in words ("": none can be).
     """
@@ -28,7 +27,6 @@ class Decision:
     contact: str
     tolerance: float
     film_tolerance: float = 0.0
-    clearance: float | None = None
     cells: tuple[int, int] | None = None
     coarsening: tuple[int, int] = (1, 1)
     strips: int = 1
@@ -40,13 +38,11 @@ class Decision:
     def text(self) -> str:
         """The decision in words."""
         film = f"film: {self.film}" + (f", tolerance {_percent(self.film_tolerance)}" if self.film_tolerance else "")
-        contact = f"contact: {self.contact}"
-        if self.clearance is not None:
-            contact += f", clearance {self.clearance:.2g} Sq"
-        return "; ".join(part for part in (film, contact, self._cells(), self.heat, *self.notes) if part)
+        parts = film, f"contact: {self.contact}", self._cells(), self.heat, *self.notes
+        return "; ".join(part for part in parts if part)
 
     def _cells(self) -> str:
-        if self.cells is None or self.clearance is not None:
+        if self.cells is None:
             return ""
         text = f"{self.strips} strip{'s' if self.strips > 1 else ''} of {self.cells[0]} x {self.cells[1]} cells in all"
         if self.coarsening == (1, 1):
@@ -55,25 +51,23 @@ class Decision:
         return f"{text}, each {fx} x {fy} of the map's own, by which f is corrected ({_percent(self.change_by_cells)})"
 
 
-def decided(scene: Scene, contact: RoughContact, balance: Balance, sq: float, **sample) -> Decision:
-    """The decision behind ``balance`` on ``contact``. ``sample``: further fields of `Decision`."""
+def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, **sample) -> Decision:
+    """The decision behind ``balance`` on ``contact``. ``clearance`` [Sq]: between the film and the highest summits, NaN
+    in contact; ``sample``: further fields of `Decision`."""
     tolerance, film, grid = scene.numerics.tolerance, balance.film, contact.grid
-    clearance, notes, heat = None, balance.notes, ""
+    touching, notes, heat = math.isnan(clearance), balance.notes, ""
     if film is not None:
         heat = balance.forces.heat.text(tolerance)
-        if balance.contact_load == 0:
-            clearance = (balance.contact.mean_film - balance.contact.mean_gap) / max(sq, 1e-12)
         if (missed := balance.forces.quadrature) > budget.SHEAR_SUM * tolerance:
             text = f"the film's friction is not resolved (a pressure spike?): estimated error {100 * missed:.1g} % of f"
             notes = (*notes, text)
     return Decision(
         model="load sharing",
         film="none, no entrainment" if film is None else "full EHL",
-        contact="none" if clearance is not None else contact.name,
+        contact=contact.name if touching else f"none, clearance {clearance:.2g} Sq",
         tolerance=tolerance,
         film_tolerance=0.0 if balance.settings is None else balance.settings.film_tolerance,
-        clearance=clearance,
-        cells=None if grid is None else grid.cells,
+        cells=grid.cells if touching and grid is not None else None,
         heat=heat,
         notes=notes,
         **sample,

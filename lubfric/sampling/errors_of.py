@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..quantities import depending_on
 from ..scene import Scene, budget
 from ..sharing import Balance, Forces
 from .sample import Found
 from .scatter import BlockError, Scatter
 from .uncertainty import FEW, FieldErrors, Uncertainty, field_errors_of, interval, load_sharing_error, percent, too_few
 
-FILMS = ("min_film", "central_film", "mean_gap", "film_to_roughness_ratio")
-SHEAR = ("shear_force", "couette_force", "rolling_force")
-HEAT = ("inlet_film_factor", "flash_temperature_rise", "film_temperature_rise")
-AREAS = ("real_contact_area_fraction", "real_contact_area")
+NO_HEAT = "heat was left out"
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
 NO_CELLS = "not known: this contact has no places along y to compare"
@@ -73,7 +71,8 @@ def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
         model_form=_model_form(scene, found),
         notes=notes,
     )
-    return known, field_errors_of(errors | {"coefficient": both}, why)
+    left_out = dict.fromkeys(depending_on("heat"), NO_HEAT) if balance.film is not None else {}
+    return known, field_errors_of(errors | {"coefficient": both}, why, left_out)
 
 
 def _numerical(found: Found) -> Numerical:
@@ -111,12 +110,8 @@ def _contact_errors(scene: Scene, found: Found, numerical: Numerical) -> dict[st
     gap = math.hypot(scattered, numerical.gap + film * balance.contact.mean_film)
     errors = {name: response.relative(name, gap) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
-    for name in FILMS:
-        errors[name] = errors.get(name, 0.0) + film
-    for name in HEAT:
-        errors[name] = errors.get(name, 0.0) + film
-    for name, of_sums in _shear_errors(balance.forces, film).items():
-        errors[name] = errors.get(name, 0.0) + of_sums
+    for name, at_given_load in _given_load(balance.forces, film).items():
+        errors[name] = errors.get(name, 0.0) + at_given_load
     by_load = errors.get("contact_load", 0.0)
     for name, error in _area_errors(scene, balance, found.scatter).items():
         errors[name] = math.hypot(by_load, error, numerical.area)
@@ -133,18 +128,29 @@ def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, 
     length = float(balance.contact.contact_fraction.sum() * (balance.contact.x[1] - balance.contact.x[0]))
     pairs = (fraction, scatter.area.error), (length, scatter.touched.error)
     finite = [(value, error if math.isfinite(error) else 0.0) for value, error in pairs]
-    return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(AREAS, finite)}
+    return {
+        name: error / value if value > 0 else math.nan for name, (value, error) in zip(depending_on("area"), finite)
+    }
 
 
 def _dry_errors(balance: Balance, scatter: Scatter, scene: Scene) -> dict[str, float]:
     """Errors without entrainment: the contact carries the whole load, so only the areas scatter."""
-    none = dict.fromkeys(("contact_load", "film_load", "boundary_force", *SHEAR), 0.0)
+    none = dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     return _area_errors(scene, balance, scatter) | none
 
 
 def _film_errors(film: float, found: Forces) -> dict[str, float]:
     """Errors without contact: everything depends on the film, whose relative error is ``film``."""
-    return dict.fromkeys((*FILMS, *HEAT), film) | _shear_errors(found, film) | {"film_load": 0.0}
+    return _given_load(found, film) | {"film_load": 0.0}
+
+
+def _given_load(found: Forces, film: float) -> dict[str, float]:
+    """Errors of what depends on a film at a given load, whose relative error is ``film``. Where the heat of the inlet
+    is left out, its factor is off by what is known of it; a temperature rise that was left out has no error (NaN)."""
+    heat = found.heat
+    of_heat = dict.fromkeys(depending_on("heat"), film if heat.heated else math.nan)
+    of_heat["inlet_film_factor"] = math.nan if heat.inlet is None else film + heat.film_factor - heat.inlet.factor
+    return dict.fromkeys(depending_on("film"), film) | of_heat | _shear_errors(found, film)
 
 
 def _shear_errors(found: Forces, film: float) -> dict[str, float]:

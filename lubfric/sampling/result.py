@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from .._base import Shown
+from .._base import Shown, axes_or_new, field_image
 from ..deterministic import Refined
 from ..errors import InputError, Report
+from ..quantities import PointQuantities, described_in_doc, in_words
 from ..sharing import Balance, Validity
 from .cite import cited
 from .decision import Decision
 from .uncertainty import FieldErrors, Uncertainty
 
 
-@dataclass(frozen=True, repr=False)
-class FrictionResult(Shown):
-    """One operating point.
+@described_in_doc
+@dataclass(frozen=True, repr=False, kw_only=True)
+class FrictionResult(PointQuantities[float], Shown):
+    """One operating point (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
 
     The residuals are relative. ``balance`` holds the fields: the film (``balance.film``, an `EHLResult`)
     and, for a cylinder in contact, the dry contact (``balance.contact.fields``, a `ContactResult`). On strips of
@@ -27,77 +28,34 @@ class FrictionResult(Shown):
 
     Attributes
     ----------
-    speed : entrainment speed U [m/s]
-    coefficient : f = (f_b F_C + F_sh)/F_T [-] (Akchurin et al. 2015, Eq. 9, doi:10.1007/s11249-015-0536-z)
-    contact_load, film_load : F_C and F_H [N]
-    shear_force : F_sh [N] = couette_force + rolling_force [N]
-    boundary_force : f_b F_C [N], zero in pure rolling
-    real_contact_area_fraction, plastic_area_fraction : shares of the area A that touch, and that yield [-]
-    real_contact_area : area in contact on the whole line [m²]
-    min_film, central_film : thickness of the smooth film that carries F_H [m]; NaN without entrainment
-    mean_gap : mean distance between the rough surfaces [m]; the film thickness when they are separated
-    film_to_roughness_ratio : central_film/Sq [-]
-    inlet_film_factor : film thickness over that without the heat of the inlet [-]; 1 where heat is left out
-    flash_temperature_rise : largest temperature rise of the surfaces [K]; 0 where heat is left out
-    film_temperature_rise : largest rise of the film, mean across it, over the surfaces [K]; 0 where heat is left out
-    load_residual : (F_C + F_H - F_T)/F_T [-]
-    volume_residual : (gap - film)/(gap + film) [-]
-    seconds : time of the solve [s]
-    decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
-    validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
+    report : of the solve
     uncertainty : of the coefficient: from solvers and grids, and because a finite surface stands for all of it
         (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
+    decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
+    validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
     methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
     heights : of the cells of the contact that was solved [m], (nx, ny), about their mean; None if there are none
-    steepness : d ln(F_H/F_C)/d ln U [-]; NaN where film and contact do not share the load
     """
 
-    speed: float
-    coefficient: float
-    contact_load: float
-    film_load: float
-    shear_force: float
-    couette_force: float
-    rolling_force: float
-    boundary_force: float
-    real_contact_area_fraction: float
-    real_contact_area: float
-    plastic_area_fraction: float
-    min_film: float
-    central_film: float
-    mean_gap: float
-    film_to_roughness_ratio: float
-    inlet_film_factor: float
-    flash_temperature_rise: float
-    film_temperature_rise: float
-    load_residual: float
-    volume_residual: float
-    seconds: float
     report: Report
+    uncertainty: Uncertainty
+    errors: FieldErrors
+    decision: Decision
+    validity: tuple[Validity, ...] = ()
+    methods: tuple[str, ...] = ()
     balance: Balance | None = None
     heights: np.ndarray | None = None
-    decision: Decision | None = None
-    validity: tuple[Validity, ...] = ()
     deterministic: Refined | None = None
-    uncertainty: Uncertainty = Uncertainty()
-    errors: FieldErrors = FieldErrors()
-    methods: tuple[str, ...] = ()
-    steepness: float = math.nan
 
     def without_fields(self) -> FrictionResult:
         """A copy with its numbers alone."""
         return replace(self, balance=None, heights=None, deterministic=None)
 
     def _facts(self) -> dict[str, str]:
-        facts = {
-            "U": f"{self.speed:.4g} m/s",
-            "f": f"{self.coefficient:.5g}{_interval(self.uncertainty.interval)}",
-            "F_C": f"{self.contact_load:.4g} N",
-            "F_H": f"{self.film_load:.4g} N",
-            "lambda": f"{self.film_to_roughness_ratio:.3g}",
-            "": self.report.status,
-        }
+        facts = in_words(self, ("speed", "coefficient", "contact_load", "film_load", "film_to_roughness_ratio"))
+        facts["f"] = f"{self.coefficient:.5g}{_interval(self.uncertainty.interval)}"
+        facts[""] = self.report.status
         if self.validity:
             facts["cautions"] = "; ".join(entry.what for entry in self.validity)
         return facts
@@ -142,9 +100,10 @@ class FrictionResult(Shown):
 
     def plot_contact(self, ax=None):
         """The pressure of the rough contact in the plane; returns the axes. Needs ``fields=True``, and contact."""
-        from .._base import pressure_axes
-
-        return pressure_axes(self, ax)
+        axes = axes_or_new(ax)
+        field_image(axes, self.x, self.y, self.pressure / 1e9, "magma_r", "contact pressure (GPa)", vmin=0)
+        axes.set_title(f"U = {self.speed:g} m/s, $F_C$ = {self.contact_load:.4g} N, $F_H$ = {self.film_load:.4g} N")
+        return axes
 
     def _kept(self, name: str, found: np.ndarray | None) -> np.ndarray:
         if found is None:

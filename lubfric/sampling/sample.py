@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from ..contact import RoughContact, Strips
+from ..contact import RoughContact, Strips, weighted_mean
 from ..errors import LubfricError
 from ..scene import budget
 from ..sharing import (
@@ -20,7 +20,6 @@ from ..sharing import (
     grown,
     on_piece,
     on_stack,
-    quantities,
     solve_balance,
 )
 from .cells import CellEffect, effect_of_cells, lost_summits
@@ -31,6 +30,7 @@ from .uncertainty import FEW, MATTERS, too_few
 SAFETY = 1.3  # of the length that a standard error asks for
 LEAST, GROWTH = 1.5, 4.0  # times the length so far: a standard error from few blocks is no guide further
 FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
+LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
 CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
 REFERENCES = (0.05, 0.4, 1.6)  # Moes' film of the whole load over Sq, at the speeds of reference points
 
@@ -215,14 +215,17 @@ def _missed(prepared: Prepared, found: Found, strips: Strips) -> float:
 
 
 def _too_coarse(prepared: Prepared, speed: float, found: Found) -> bool:
-    """Whether the cells change the division of the load by more than can be corrected, or f by more than is allowed
-    beyond first order; where the film clears the summits, whether the cells cut off a summit that would touch."""
+    """Whether the cells change the division of the load or the gap by more than can be corrected, or f by more than is
+    allowed beyond first order; where the film clears the summits, whether the cells cut off a summit that would
+    touch."""
     response, strips, scene = found.response, found.strips, prepared.scene
     if strips is None or strips.cells.own or found.solved.film is None:
         return False
     allowed = budget.CONTACT_GRID * scene.numerics.tolerance
     if response is not None:
         moved = abs(response.split * found.corrected)
+        if max(abs(found.corrected), abs(found.effect.film)) > LARGEST * found.solved.contact.mean_gap:
+            return True
         return moved > FARTHEST or response.relative("coefficient", found.second_order) > allowed
     clearance = found.solved.contact.mean_film - found.solved.contact.mean_gap
     if found.count > strips.first or clearance > CLOSE * prepared.surface.sq:
@@ -249,7 +252,7 @@ def _corrected(prepared: Prepared, speed: float, found: Found) -> Found:
     by_load = response.slopes.area_factor(loads[1] - solved.contact_load, scene.bodies.width, area)
     plastic = max(state.plastic_area_fraction + effect.plastic, 0.0)
     state = grown(replace(state, plastic_area_fraction=plastic), effect.area * by_load)
-    mean = quantities(scene, found.contact, film, state, loads[1])["mean_gap"] + effect.film
+    mean = weighted_mean(film.film_at(found.contact.x), found.contact.weight) + effect.film
     state = replace(state, mean_gap=mean, mean_film=mean)
     there = forces(scene, film, state, loads[1])
     balance = replace(solved, film_load=loads[0], contact_load=loads[1], film=film, contact=state, forces=there)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
+
+from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 
 CONFIDENCE = 0.95
 MOST_MODEL, LEAST_MODEL = 0.3, 0.02  # error of load sharing: about lift-off, and at least
@@ -15,35 +17,25 @@ FEW = 10.0  # participation below which an interval covers less often than it sa
 MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 
 
-@dataclass(frozen=True)
-class Uncertainty:
+@described_in_doc
+@dataclass(frozen=True, kw_only=True)
+class Uncertainty(UncertaintyQuantities[float]):
     """How sure the friction coefficient of one operating point is. docs/uncertainty.md says what is not included.
+
+    A number that is not known is NaN, and ``text`` says why. ``line_scatter`` is between lines at different places on
+    the surface; ``model_form`` (`load_sharing_error`) is not in the interval.
 
     Attributes
     ----------
-    numerical : estimated relative error from film, grids and solvers
-    sampling : relative standard error because a finite length of rough surface stands for all of it. NaN: not known,
-        and ``text`` says why
-    interval : 95 % interval of f, (low, high), from both, by Student's t with ``freedom`` degrees of freedom
-    line_scatter : relative standard deviation of f between lines as wide as that of the scene, each at another place on
-        the surface
-    participation : number of equally loaded spots that would carry the load as unevenly
-    length : of the line used [m]
-    area_needed : how many times more of a measured map would be needed (1: enough; NaN: ``sampling`` is not known)
-    model_form : estimated relative error of load sharing itself (`load_sharing_error`), not in the interval;
-        NaN if it is not known
+    interval : 95 % interval of f, (low, high), from ``numerical`` and ``sampling``, by Student's t with ``freedom``
+        degrees of freedom
+    tolerance : relative standard error asked for
+    notes : what a reader should know of these errors
     """
 
-    numerical: float = math.nan
-    sampling: float = math.nan
     interval: tuple[float, float] = (math.nan, math.nan)
-    line_scatter: float = math.nan
-    participation: float = math.nan
-    length: float = math.nan
     freedom: float = 0.0
     tolerance: float = math.nan
-    area_needed: float = 1.0
-    model_form: float = math.nan
     notes: tuple[str, ...] = ()
 
     @property
@@ -93,63 +85,42 @@ def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> 
     return min(MOST_MODEL, FULL_FILM / film_to_roughness_ratio**2)
 
 
-NUMBERS = ("numerical", "sampling", "line_scatter", "participation", "length", "area_needed", "model_form")
+@described_in_doc
+@dataclass(frozen=True, kw_only=True)
+class UncertaintyCurve(UncertaintyQuantities[np.ndarray]):
+    """`Uncertainty` of many operating points: arrays (n,), NaN where a point failed.
 
+    Attributes
+    ----------
+    interval : (n, 2)
+    text : of each point
+    """
 
-@dataclass(frozen=True)
-class UncertaintyCurve:
-    """`Uncertainty` of many operating points: arrays over them, NaN where a point failed; interval (n, 2)."""
-
-    numerical: np.ndarray
-    sampling: np.ndarray
     interval: np.ndarray
-    line_scatter: np.ndarray
-    participation: np.ndarray
-    length: np.ndarray
-    area_needed: np.ndarray
-    model_form: np.ndarray
     text: tuple[str, ...]
 
 
 def curve_of(points) -> UncertaintyCurve:
     """The `UncertaintyCurve` of ``points``, each an `Uncertainty` or None."""
-    columns = {name: np.array([math.nan if p is None else getattr(p, name) for p in points]) for name in NUMBERS}
+    columns = {name: np.array([math.nan if p is None else getattr(p, name) for p in points]) for name in OF_UNCERTAINTY}
     both = np.array([(math.nan, math.nan) if p is None else p.interval for p in points]).reshape(len(points), 2)
     return UncertaintyCurve(**columns, interval=both, text=tuple("" if p is None else p.text for p in points))
 
 
-@dataclass(frozen=True)
-class FieldErrors:
+@dataclass(frozen=True, kw_only=True)
+class FieldErrors(Quantities[float]):
     """Estimated relative error of every reported quantity: one standard error, where the surface is part of it. NaN
     where it is not known; ``reasons`` then has the name and why."""
 
-    coefficient: float = math.nan
-    contact_load: float = math.nan
-    film_load: float = math.nan
-    shear_force: float = math.nan
-    couette_force: float = math.nan
-    rolling_force: float = math.nan
-    boundary_force: float = math.nan
-    real_contact_area_fraction: float = math.nan
-    real_contact_area: float = math.nan
-    plastic_area_fraction: float = math.nan
-    min_film: float = math.nan
-    central_film: float = math.nan
-    mean_gap: float = math.nan
-    film_to_roughness_ratio: float = math.nan
-    inlet_film_factor: float = math.nan
-    flash_temperature_rise: float = math.nan
-    film_temperature_rise: float = math.nan
-    reasons: dict[str, str] = field(default_factory=dict)
+    reasons: dict[str, str]
 
 
-FIELDS = tuple(name for name in FieldErrors.__dataclass_fields__ if name != "reasons")
-
-
-def field_errors_of(known: dict[str, float], why: str) -> FieldErrors:
-    """`FieldErrors` of the errors ``known`` by name; ``why`` of those that are not."""
-    found = {name: float(value) for name, value in known.items() if math.isfinite(value)}
-    return FieldErrors(**found, reasons={name: why for name in FIELDS if name not in found})
+def field_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] | None = None) -> FieldErrors:
+    """`FieldErrors` of the errors ``known`` by name; ``why`` of those that are not, unless ``reasons`` has another."""
+    errors = {name: float(known.get(name, math.nan)) for name in ESTIMATED}
+    errors = {name: value if math.isfinite(value) else math.nan for name, value in errors.items()}
+    unknown = [name for name, value in errors.items() if math.isnan(value)]
+    return FieldErrors(**errors, reasons={name: (reasons or {}).get(name, why) for name in unknown})
 
 
 def not_sampled(numerical: float | None, scene, length: float, why: str) -> Uncertainty:

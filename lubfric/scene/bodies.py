@@ -162,20 +162,17 @@ class ContactDomain(Brief):
             said = f" = {self.asperity_separation!r} does nothing with model = 'half-space'"
             raise InputError(said, "contact.asperity_separation", "'volume', or model = 'summits' or 'patches'")
         if self.shape is not None:
-            object.__setattr__(self, "shape", _cells(self.shape))
+            if not isinstance(self.shape, (tuple, list)) or len(self.shape) != 2:
+                said = f" = {validate.shown(self.shape)}"
+                raise InputError(said, "contact.shape", "a pair (nx, ny) of whole numbers >= 1")
+            cells = "contact.shape (cells of contact.spacing)"
+            nx, ny = (validate.integer(cells, n, minimum=1) for n in self.shape)
+            if nx * ny > LARGEST:
+                said = f" = {validate.shown(self.shape)} has {float(min(nx * ny, 10**300)):.3g} cells"
+                raise InputError(said, "contact.shape", f"up to {LARGEST:.3g}")
+            object.__setattr__(self, "shape", (nx, ny))
         if self.spacing is not None:
             object.__setattr__(self, "spacing", lengths("contact.spacing", self.spacing))
-
-
-def _cells(shape: Any) -> tuple[int, int]:
-    """The numbers of cells along x and y, checked."""
-    if not isinstance(shape, (tuple, list)) or len(shape) != 2:
-        raise InputError(f" = {validate.shown(shape)}", "contact.shape", "a pair (nx, ny) of whole numbers >= 1")
-    nx, ny = (validate.integer("contact.shape (cells of contact.spacing)", n, minimum=1) for n in shape)
-    if nx * ny > LARGEST:
-        cells = float(min(nx * ny, 10**300))
-        raise InputError(f" = {validate.shown(shape)} has {cells:.3g} cells", "contact.shape", f"up to {LARGEST:.3g}")
-    return nx, ny
 
 
 def lengths(name: str, value: Any) -> float | tuple[float, float]:

@@ -113,20 +113,15 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
     for section in SECTIONS:
         given = dict(table.get(section, {}))
         if section in ROUGH and section in table:
-            _check_roughness(section, given, folder)
+            if isinstance(given.get("file"), str):
+                given["file"] = str(_map_path(f"{section}.file", given["file"], folder.resolve()))
+            with named(section):
+                check_fields(given)  # refuses keys that do not apply, whatever their value
         if section != "transient" and (section in table or section != "counterface"):
             parts[section] = made_section(section, given)
     if not isinstance(table.get("name", name), str):
         raise InputError(f"name = {validate.shown(table['name'])}; write words in quotes")
     return Scene(**parts, name=table.get("name", name), transient=plan)
-
-
-def _check_roughness(section: str, given: dict, folder: Path) -> None:
-    """Make the path of a file absolute, and refuse keys that do not apply, whatever their value."""
-    if isinstance(given.get("file"), str):
-        given["file"] = str(_map_path(f"{section}.file", given["file"], folder.resolve()))
-    with named(section):
-        check_fields(given)
 
 
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:

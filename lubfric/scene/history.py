@@ -109,9 +109,6 @@ class Table(History):
         object.__setattr__(self, "repeat", validate.boolean("history repeat", self.repeat))
         object.__setattr__(self, "times", tuple(times.tolist()))
         object.__setattr__(self, "values", tuple(values.tolist()))
-        self._check_times(times)
-
-    def _check_times(self, times: np.ndarray) -> None:
         name, first, last = "history times", times[0], times[-1]
         falls = np.flatnonzero(np.diff(times) < 0.0)
         if falls.size:

@@ -12,7 +12,7 @@ from . import budget
 MOST_THREADS = 1024
 OPTIONS = {
     "model": ("auto", "load-sharing", "deterministic"),
-    "film_deflection": ("hydrodynamic", "scaled", "total"),
+    "film_deflection": ("scaled", "hydrodynamic"),
     "grid": ("auto", "given"),
     "sampling": ("strips", "patch"),
     "heat": ("auto", "on", "off"),
@@ -26,7 +26,8 @@ DROPPED = {  # keys, and values of keys, that there were before: what to do inst
     "contact_level": "leave it out: contact.geometry says which contact is solved",
     "ehl_tolerance": "its name is numerics.film_tolerance",
     "model = 'full'": "leave it out, and give numerics.tolerance a smaller value",
-    "film_deflection = 'auto'": "leave it out, or give 'hydrodynamic', 'scaled' or 'total'",
+    "film_deflection = 'auto'": "leave it out, or give 'scaled' or 'hydrodynamic'",
+    "film_deflection = 'total'": "leave it out: with 'scaled' too the whole load deflects the film",
     "sampling = 'line'": "leave it out, or give 'strips'",
 }
 
@@ -53,11 +54,11 @@ class Numerics(Brief):
     sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance``
         needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
     sampling_tolerance : standard error of f that a finite surface may leave
-    film_deflection : which pressure deforms the film: its own ("hydrodynamic", the paper); the whole load, by Johnson's
-        scaled modulus E' F_H/F_T ("scaled"); film and contact pressure ("total")
+    film_deflection : which pressure deforms the film: the whole load, by Johnson's scaled modulus E' F_H/F_T
+        ("scaled"); its own ("hydrodynamic", the paper)
     model : "load-sharing": film and contact share the load, Eq. (8); "deterministic": one gap and one pressure
         (docs/deterministic.md); "auto": load sharing
-    grid : "auto": the coarsest contact grid and shortest patch that the tolerance allows; "given": the scene's own
+    grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
     heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how
         its viscosity falls with the temperature), "on", "off"
     accept : True: results outside the range of the model are returned and marked, instead of refused

@@ -67,8 +67,9 @@ class Scene(Shown):
         new = {}
         for section, values in sections.items():
             if section not in self.__dataclass_fields__:
-                near = validate.nearest(section, self.__dataclass_fields__)
-                raise InputError(f"scene has no section {section!r}{near}{_dotted(section, values)}")
+                near, (first, _, key) = validate.nearest(section, self.__dataclass_fields__), section.partition(".")
+                way_out = f"; write with_({first}={{{key!r}: {validate.shown(values)}}})" if key else ""
+                raise InputError(f"scene has no section {section!r}{near}{way_out}")
             new[section] = changed_section(section, getattr(self, section), values)
         return replace(self, **new)
 
@@ -129,12 +130,6 @@ def _text_of(value: Any) -> str:
         shown = ", ".join(_text_of(part) for part in value[:MANY])
         return f"{shown}, ... ({len(value)} values)" if len(value) > MANY else shown
     return str(getattr(value, "name", value))  # an oil by its name
-
-
-def _dotted(key: str, value) -> str:
-    """How to write what a dotted key, such as ``numerics.tolerance``, was meant to say."""
-    section, _, name = key.partition(".")
-    return f"; write with_({section}={{{name!r}: {validate.shown(value)}}})" if name else ""
 
 
 def scene_as_dict(scene: Scene) -> dict:

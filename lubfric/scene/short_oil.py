@@ -32,7 +32,12 @@ def resolve_oil(given: dict, old) -> dict:
     The oil is given by ``viscosity_index`` with ``grade`` or ``nu40`` [m²/s], by ``nu40`` and ``nu100``, by
     ``viscosity_table`` (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
     """
-    _check_limit(given, old)
+    limit = given.get("limiting_stress_coefficient", getattr(old, "limiting_stress_coefficient", None))
+    if limit is None and given.get("limiting_stress_offset", OFFSET) != OFFSET:
+        raise InputError(
+            "[lubricant] limiting_stress_offset does nothing without limiting_stress_coefficient (some 0.05 to 0.1); "
+            "give both, or neither"
+        )
     before = getattr(old, "oil", None)
     if given.get("oil", "") is None or not any(key in given for key in (*SOURCES, *PROPERTIES)):
         if before is None:
@@ -50,17 +55,10 @@ def resolve_oil(given: dict, old) -> dict:
     temperature = given.pop("temperature", getattr(old, "temperature", None))
     if temperature is None:
         raise InputError("[lubricant] with an oil needs its temperature in K, or temperature_celsius")
-    return fields_of(oil.with_(**changed), temperature) | _own_coefficient(old) | given
-
-
-def _check_limit(given: dict, old) -> None:
-    """Raise `InputError` for an offset of a limiting stress where there is none: it would do nothing."""
-    limit = given.get("limiting_stress_coefficient", getattr(old, "limiting_stress_coefficient", None))
-    if limit is None and given.get("limiting_stress_offset", OFFSET) != OFFSET:
-        raise InputError(
-            "[lubricant] limiting_stress_offset does nothing without limiting_stress_coefficient (some 0.05 to 0.1); "
-            "give both, or neither"
-        )
+    found = fields_of(oil.with_(**changed), temperature)
+    if before is not None and old.temperature_coefficient != before.temperature_coefficient(old.temperature):
+        found["temperature_coefficient"] = old.temperature_coefficient  # it was given
+    return found | given
 
 
 def _check_temperature(given: dict, old) -> None:
@@ -86,14 +84,6 @@ def fields_of(oil: Oil, temperature: float) -> dict:
         "conductivity": oil.thermal_conductivity,
         "oil": oil,
     }
-
-
-def _own_coefficient(old) -> dict:
-    """The temperature coefficient of the lubricant before, if it was given and is not that of its oil."""
-    if getattr(old, "oil", None) is None:
-        return {}
-    of_oil = old.oil.temperature_coefficient(old.temperature)
-    return {} if old.temperature_coefficient == of_oil else {"temperature_coefficient": old.temperature_coefficient}
 
 
 def of_celsius(celsius, *_) -> dict:

@@ -6,7 +6,6 @@ import json
 from dataclasses import fields
 from importlib import resources
 from pathlib import Path
-from typing import Any
 
 from .._base import changed, write_whole
 from ..errors import InputError
@@ -32,24 +31,24 @@ def scene_as_toml(scene) -> str:
         if keys.get("limiting_stress_coefficient", 0.0) is None:
             del keys["limiting_stress_offset"]  # refused where it does nothing
         if keys.get("oil") is not None:
-            keys = _with_oil(keys)
+            oil = keys.pop("oil")  # in place of the numbers that follow from it
+            followed = fields_of(oil, keys["temperature"])
+            own = {key: value for key, value in keys.items() if key == "temperature" or followed.get(key, ...) != value}
+            keys = oil.said | own
         if "file" in keys:
             keys["file"] = str(Path(keys["file"]).absolute())
         lines += [f"{key} = {_text(value)}" for key, value in keys.items() if value is not None and value != ()]
     return "\n".join(lines) + "\n"
 
 
-def _with_oil(keys: dict[str, Any]) -> dict[str, Any]:
-    """The ``keys`` of a lubricant with those of its oil in place of the numbers that follow from it."""
-    oil = keys.pop("oil")
-    followed = fields_of(oil, keys["temperature"])
-    own = {key: value for key, value in keys.items() if key == "temperature" or followed.get(key, ...) != value}
-    return oil.said | own
-
-
 def _text(value) -> str:
     if isinstance(value, History):
-        return _history(value)
+        kind = next((kind for kind, known in KINDS.items() if type(value) is known), None)
+        if kind is None:
+            said = f"a history of type {type(value).__name__} has no form in a scene file"
+            raise InputError(said, allowed=", ".join(KINDS))
+        inner = ", ".join(f"{name} = {_text(part)}" for name, part in vars(value).items())
+        return f'{{ kind = "{kind}", {inner} }}'
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
@@ -57,15 +56,6 @@ def _text(value) -> str:
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)
     return f"[{', '.join(_text(part) for part in value)}]"
-
-
-def _history(value: History) -> str:
-    kind = next((kind for kind, known in KINDS.items() if type(value) is known), None)
-    if kind is None:
-        said = f"a history of type {type(value).__name__} has no form in a scene file"
-        raise InputError(said, allowed=", ".join(KINDS))
-    inner = ", ".join(f"{name} = {_text(part)}" for name, part in vars(value).items())
-    return f'{{ kind = "{kind}", {inner} }}'
 
 
 def write_template(path: Path) -> None:

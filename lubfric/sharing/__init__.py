@@ -10,7 +10,7 @@ from .checks import judged, of_deflection, of_ends, of_error, of_film, of_motion
 from .checks_before import expected
 from .forces import Forces, forces
 from .heat import Heat, film_lubricant, inlet_at, point_heat
-from .point import Point, Settings, exponents
+from .point import Point, exponents
 from .prepared import Prepared, at_tolerance, on_piece, on_stack, prepare, scene_of, takes_strips
-from .response import Response, divided, grown, quantities
+from .response import Response, Slopes, divided, grown, quantities, touched_length
 from .validity import Validity, entries_of, gathered, in_a_cell, refused

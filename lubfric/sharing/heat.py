@@ -1,4 +1,4 @@
-"""Heat of one operating point, as a level: modelled if leaving it out would change f by more than its share of the
+"""Heat of one operating point: modelled if leaving it out would change f by more than its share of the
 tolerance."""
 
 from __future__ import annotations

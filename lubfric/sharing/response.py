@@ -122,9 +122,10 @@ def respond(
     split = math.log(film_load / load)
 
     def at(s: float) -> dict[str, float]:
-        film_load, contact_load = divided(total, s)
-        factor = slopes.area_factor(contact_load - load, width, state.real_contact_area_fraction)
-        return quantities(scene, contact, film_of(film_load), grown(state, factor), contact_load)
+        loads = divided(total, s)
+        shared, factor = film_of(loads[0]), slopes.area_factor(loads[1] - load, width, state.real_contact_area_fraction)
+        mean_film = weighted_mean(shared.film_at(contact.x), contact.weight)  # the film fills the gap
+        return quantities(forces(scene, shared, grown(state, factor), loads[1]), shared, loads, mean_film)
 
     low, high = at(split - STEP), at(split + STEP)
     film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)
@@ -132,26 +133,23 @@ def respond(
     return Response(slopes, ds_dgap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
 
 
-def quantities(
-    scene: Scene, contact: RoughContact, film: EHLResult, state: ContactState, contact_load: float
-) -> dict[str, float]:
-    """The reported numbers of ``film`` and a contact in ``state``, by the names of `FrictionResult`. ``mean_gap`` is
-    the mean film over A, since the film fills the gap."""
-    found = forces(scene, film, state, contact_load)
+def quantities(found: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float) -> dict[str, float]:
+    """The numbers of a point that a balance determines, by name (`lubfric.quantities`). ``found``: forces of the
+    ``film`` (None: none), which carries the first of ``loads`` [N], and of the contact, which carries the second."""
     return {
         "coefficient": found.coefficient,
-        "contact_load": contact_load,
-        "film_load": scene.bodies.load - contact_load,
+        "contact_load": loads[1],
+        "film_load": loads[0],
         "shear_force": found.shear.total,
         "couette_force": found.shear.couette,
         "rolling_force": found.shear.rolling,
         "boundary_force": found.boundary,
-        "min_film": film.min_film,
-        "central_film": film.central_film,
+        "min_film": math.nan if film is None else film.min_film,
+        "central_film": math.nan if film is None else film.central_film,
+        "mean_gap": mean_gap,
         "inlet_film_factor": found.heat.film_factor,
         "flash_temperature_rise": found.heat.flash,
         "film_temperature_rise": found.heat.film,
-        "mean_gap": weighted_mean(film.film_at(contact.x), contact.weight),
     }
 
 

@@ -2,7 +2,8 @@
 
 from .choose import AUTO
 from .codec import classes_of, decode, encode
-from .curve import QUANTITIES, csv_bytes, curve_table, uncertainty_columns
+from .curve import CurveResult, csv_bytes
+from .draw import friction_over_speed, interval_band, plot_map
 from .executor import MOST_WORKERS, pool, processors
 from .explain import in_words
 from .fit import explain_fit, fit

@@ -12,7 +12,8 @@ from ..errors import InputError
 from ..sampling import FrictionResult
 from ..scene import Scene
 from ..sharing import Prepared
-from .interpolate import FEWEST, Interpolant, Samples, numbers_of, through
+from .curve import columns_of
+from .interpolate import FEWEST, Interpolant, through
 
 AUTO = "auto"
 CHOSEN, MOST = 12, 25  # speeds that a curve chooses, about, and at most
@@ -42,7 +43,7 @@ def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Itera
         failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
         wanted = None
         if len(good) >= FEWEST:
-            wanted = next_speed(through(numbers_of(good)), tolerance_between(prepared), failed)[0]
+            wanted = next_speed(through(columns_of(good)), tolerance_between(prepared), failed)[0]
         ahead = [] if wanted is None else [wanted]
 
 
@@ -71,28 +72,19 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
     taken = np.append(speeds, np.array([*tried], dtype=float))
     error = np.where(_free(at, taken), curve.error(at), 0.0)
     largest = float(error.max())
-    for wanted in (*_about_the_knee(samples, knee), *_between_films(samples)):
+    wanting, films = [], speeds[samples.contacts :]
+    if knee is not None:
+        fastest, slowest = speeds[samples.contacts - 1], films[0]
+        wanting += [ABOVE * knee] if slowest > CLOSE * knee else []
+        wanting += [BELOW * knee] if fastest < TOUCHING * knee else []
+    wanting += [float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > WIDE * a]  # too wide to judge
+    for wanted in wanting:
         about = np.count_nonzero(np.abs(np.log(taken / wanted)) < 0.1)
         if about < ENOUGH and _free(np.array([wanted]), taken)[0]:
             return wanted, largest
     if largest <= (tolerance if speeds.size >= MANY else SHARE * tolerance):
         return None, largest
     return float(at[error.argmax()]), largest
-
-
-def _about_the_knee(samples: Samples, knee: float | None) -> list[float]:
-    """Speeds [m/s] that are needed to enclose the knee."""
-    if knee is None:
-        return []
-    fastest, slowest = samples.speed[samples.contacts - 1], samples.speed[samples.contacts]
-    above = [ABOVE * knee] if slowest > CLOSE * knee else []
-    return [*above, BELOW * knee] if fastest < TOUCHING * knee else above
-
-
-def _between_films(samples: Samples) -> list[float]:
-    """Speeds [m/s] in the middle of intervals that are too wide to be judged from their ends."""
-    films = samples.speed[samples.contacts :]
-    return [float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > WIDE * a]
 
 
 def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:

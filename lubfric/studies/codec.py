@@ -74,20 +74,15 @@ def _plain(value, arrays: list, field) -> Any:
     if isinstance(value, dict) and all(isinstance(key, str) for key in value):
         return {"dict": {key: _plain(item, arrays, field) for key, item in value.items()}}
     if isinstance(value, np.ndarray) and not value.dtype.hasobject:
-        return {"array": _placed(value, arrays)}
+        order = "F" if value.flags.f_contiguous and not value.flags.c_contiguous else "C"
+        flat = np.ascontiguousarray(value.T if order == "F" else value).reshape(-1)
+        place = sum(len(part) for part in arrays)
+        arrays.append(flat.view(np.uint8).data)
+        return {"array": [value.dtype.str, value.shape, order, place]}
     if is_dataclass(value) and not isinstance(value, type):
         parts = {f.name: _plain(field(value, f.name), arrays, field) for f in fields(value)}
         return {"class": _name(type(value))} | parts
     raise TypeError(f"a {type(value).__name__} cannot be stored: {value!r}")
-
-
-def _placed(array: np.ndarray, arrays: list) -> list:
-    """[dtype, shape, order, place in bytes] of ``array``, whose bytes are added to ``arrays``."""
-    place = sum(len(part) for part in arrays)
-    order = "F" if array.flags.f_contiguous and not array.flags.c_contiguous else "C"
-    flat = np.ascontiguousarray(array.T if order == "F" else array).reshape(-1)
-    arrays.append(flat.view(np.uint8).data)
-    return [array.dtype.str, array.shape, order, place]
 
 
 def _value(plain, classes: dict[str, type], content: memoryview) -> Any:
@@ -97,27 +92,23 @@ def _value(plain, classes: dict[str, type], content: memoryview) -> Any:
     if not isinstance(plain, dict):
         return plain
     if "class" in plain:
-        return _rebuilt(classes[plain["class"]], plain, classes, content)
+        kind = classes[plain["class"]]
+        new: Any = object.__new__(kind)  # as it was: checks and conversions of its constructor had their turn
+        for field in fields(kind):
+            part = _value(plain[field.name], classes, content)
+            if isinstance(part, np.ndarray):
+                part.flags.writeable = False
+            object.__setattr__(new, field.name, part)
+        return new
     ((mark, inner),) = plain.items()
     if mark == "float":
         return float(inner)
     if mark == "array":
-        kind, shape, order, place = inner
-        flat = np.frombuffer(content, kind, math.prod(shape), place) if math.prod(shape) else np.empty(0, kind)
+        dtype, shape, order, place = inner
+        flat = np.frombuffer(content, dtype, math.prod(shape), place) if math.prod(shape) else np.empty(0, dtype)
         return flat.copy().reshape(shape, order=order)
     if mark == "list":
         return list(_value(inner, classes, content))
     if mark == "dict":
         return {key: _value(item, classes, content) for key, item in inner.items()}
     return SCALARS[mark](_value(inner, classes, content))
-
-
-def _rebuilt(kind: type, plain: dict, classes, content):
-    """An object of ``kind`` as it was: checks and conversions of its constructor had their turn."""
-    new: Any = object.__new__(kind)
-    for field in fields(kind):
-        part = _value(plain[field.name], classes, content)
-        if isinstance(part, np.ndarray):
-            part.flags.writeable = False
-        object.__setattr__(new, field.name, part)
-    return new

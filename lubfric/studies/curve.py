@@ -9,8 +9,7 @@ import numpy as np
 
 from .._base import Shown, table_bytes, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError
-from ..quantities import NUMBERS as QUANTITIES
-from ..quantities import heading
+from ..quantities import NUMBERS, OF_UNCERTAINTY, heading
 from ..sampling import FrictionResult, UncertaintyCurve, curve_of, together
 from ..sharing import Validity, entries_of, gathered, in_a_cell
 
@@ -29,7 +28,7 @@ class CurveResult(Shown):
     report: Report
 
     def __getitem__(self, name: str) -> np.ndarray:
-        return columns_of(self.points)[validate.choice("column", name, QUANTITIES)]
+        return columns_of(self.points)[validate.choice("column", name, NUMBERS)]
 
     @property
     def uncertainty(self) -> UncertaintyCurve:
@@ -67,7 +66,7 @@ class CurveResult(Shown):
 
 def columns_of(points) -> dict[str, np.ndarray]:
     """Every number of ``points`` by name, NaN where one is None."""
-    return {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in QUANTITIES}
+    return {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in NUMBERS}
 
 
 def report_of(solver: str, names: list[str], plural: str, points, errors: dict[int, Exception]) -> Report:
@@ -101,27 +100,12 @@ def judged(result: R, raise_on_failure: bool) -> R:
     return result
 
 
-def csv_bytes(curve) -> bytes:
-    """The table of a `StribeckResult`: one row a speed, one column a quantity, the unit in the heading. The last
-    columns say which assumptions are violated there, and how sure f is."""
-    return curve_table(curve, columns_of(curve.points) | {"speed": curve.speed})
-
-
-def curve_table(curve: CurveResult, columns: dict[str, np.ndarray]) -> bytes:
-    """``columns`` of a curve under their headings, how sure f is, and the violated assumptions at each point."""
-    named = {heading(name): values for name, values in (columns | uncertainty_columns(curve.uncertainty)).items()}
-    return table_bytes(named | {"validity": curve.told, "uncertainty": list(curve.uncertainty.text)})
-
-
-def uncertainty_columns(found: UncertaintyCurve) -> dict[str, np.ndarray]:
-    """The numbers of an `UncertaintyCurve` as columns of a table, the interval as its two ends."""
-    return {
-        "interval_low": found.interval[:, 0],
-        "interval_high": found.interval[:, 1],
-        "numerical_error": found.numerical,
-        "sampling_error": found.sampling,
-        "line_scatter": found.line_scatter,
-        "participation": found.participation,
-        "line_length": found.length,
-        "model_form_error": found.model_form,
-    }
+def csv_bytes(curve: CurveResult) -> bytes:
+    """The table of a curve: one row a point, one column a quantity, the unit in the heading; then how sure f is, and in
+    words which assumptions are violated there."""
+    found, swept = curve.uncertainty, {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
+    low, high = found.interval.T
+    columns = swept | columns_of(curve.points) | swept | {"interval_low": low, "interval_high": high}
+    columns |= {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}
+    named = {heading(name): values for name, values in columns.items()}
+    return table_bytes(named | {"validity": curve.told, "uncertainty": list(found.text)})

@@ -12,7 +12,6 @@ import numpy as np
 from ..errors import InputError
 from ..scene import Scene
 from ..sharing import prepare
-from ..surface import Surface
 from .choose import CHOSEN, film_ratio, first_speeds
 from .rows import stored_rows
 from .store import Store
@@ -31,17 +30,12 @@ def curve_seconds(scene: Scene, speeds: Sequence[float]) -> float:
     surface = prepare(scene).surface
     at = speeds or first_speeds(scene, surface.sq)
     touching = [u for u in at if surface.sq > 0 and (u == 0 or film_ratio(scene, surface.sq, abs(u)) < LIFTED)]
-    seconds = FILM * len(at) + CELL * _cells(scene, surface) * len(touching)
+    cells, given = surface.heights.size, scene.surface.correlation_length
+    if given is not None:  # a contact is solved on fewer cells than the map has
+        for step, length in zip(surface.spacing, np.broadcast_to(given, 2)):
+            cells *= min(1.0, FINE * step / length)
+    seconds = FILM * len(at) + CELL * cells * len(touching)
     return seconds if speeds else seconds * CHOSEN / len(at)
-
-
-def _cells(scene: Scene, surface: Surface) -> float:
-    """Cells on which a contact is solved: those of the map, or fewer where its correlation length is known."""
-    given = scene.surface.correlation_length
-    if given is None:
-        return surface.heights.size
-    steps = [FINE * step / length for step, length in zip(surface.spacing, np.broadcast_to(given, 2))]
-    return surface.heights.size * min(1.0, steps[0]) * min(1.0, steps[1])
 
 
 def in_words(seconds: float) -> str:
@@ -75,13 +69,8 @@ def explain(plan, store=None) -> str:
     if held:
         total, what = len(rows.points) * max(len(plan.speeds), 1), "points" if plan.speeds else "curves"
         lines.append(f"  kept     {held} of {total} {what} are in {store} already")
-    return "\n".join([*lines, *_time(left)])
-
-
-def _time(left: list[tuple[Scene, tuple[float, ...]]]) -> list[str]:
-    """About how long the scenes that are ``left`` will take at their speeds, and why some of them cannot be solved."""
     if not left:
-        return ["  time     nothing is left to solve"]
+        return "\n".join([*lines, "  time     nothing is left to solve"])
     some = left[:: -(-len(left) // SAMPLED)]
     seconds, failed = 0.0, []
     for scene, speeds in some:
@@ -89,7 +78,8 @@ def _time(left: list[tuple[Scene, tuple[float, ...]]]) -> list[str]:
             seconds += curve_seconds(scene, speeds) * len(left) / len(some)
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
-    return [f"  time     about {in_words(seconds)} on one core (an order of magnitude)", *dict.fromkeys(failed)]
+    lines.append(f"  time     about {in_words(seconds)} on one core (an order of magnitude)")
+    return "\n".join([*lines, *dict.fromkeys(failed)])
 
 
 def _range(values: tuple) -> str:

@@ -88,6 +88,10 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     ----------
     scene, measured, parameters : as for `lubfric.fit`
 
+    Returns
+    -------
+    str : lines of text
+
     Raises
     ------
     InputError : a parameter is not one
@@ -136,7 +140,9 @@ class Search:
 
     def __init__(self, scene: Scene, measured: Measured, parameters: Parameters, executor=None, on_progress=None):
         self.scene, self.measured, self.parameters = scene, measured, parameters
-        self.tolerance = tolerance_of(scene, measured)
+        deviation = measured.deviation
+        scatter = 0.05 if deviation is None else float(np.median(deviation / np.abs(measured.coefficient)))
+        self.tolerance = min(scene.numerics.tolerance, max(0.2 * scatter, 1e-3))  # as tight as the measurement requires
         self._executor, self._on_progress = executor, on_progress
         self._curves = 0
         self._last: Curve | None = None
@@ -194,12 +200,6 @@ def _point(prepared: Prepared, speeds: bool, place: tuple[int, float]) -> Iterat
     else:
         moved = prepared.scene.with_(motion={"slide_roll_ratio": x})
         yield index, friction(prepare(moved, like=prepared)).without_fields()
-
-
-def tolerance_of(scene: Scene, measured: Measured) -> float:
-    """The tolerance on f of a fit: as tight as the scatter of the measurement requires."""
-    shares = 0.05 if measured.deviation is None else float(np.median(measured.deviation / np.abs(measured.coefficient)))
-    return min(scene.numerics.tolerance, max(0.2 * shares, 1e-3))
 
 
 def _numerical_variance(points, tolerance: float, relative: np.ndarray) -> float:

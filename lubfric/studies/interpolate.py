@@ -13,14 +13,11 @@ are compared with them to estimate the error.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
 
 import numpy as np
 
 from ..errors import InputError
 
-NEEDED = ("speed", "contact_load", "film_load", "boundary_force", "coefficient", "film_to_roughness_ratio")
-DECIDED = ("clearance", "steepness")  # what is needed of the decision of a point
 FEWEST = 3  # solved speeds
 EXPONENT = 0.6
 HERTZ, OTHERS = 1.5, (1.0, 2.0)  # powers of the remaining speed with which a contact ends: expected, and in question
@@ -97,33 +94,23 @@ class Interpolant:
         share of the error at the neighbouring points when the curve goes through the other points only."""
         value = self.at(speed)
         spread = np.abs(self.at(speed, smooth=False) - value)
-        for other in self._others:
+        s, others = self.samples, []
+        if self.lift_off is not None:
+            others = [replace(self, lift_off=knee) for knee in knee_range(s) if knee != self.lift_off]
+            others += [replace(self, end=power) for power in OTHERS]
+        for other in others:
             spread = np.maximum(spread, np.abs(other.at(speed) - value))
-        return np.maximum(spread / np.maximum(np.abs(value), 1e-300), self._missed_beside(speed))
-
-    def _missed_beside(self, speed) -> np.ndarray:
-        """Relative error at each point when that point is left out. Each speed gets `CLOSER` times the larger error of
-        the two points around it."""
-        s = self.samples
-        missed = np.zeros(s.speed.size)
+        missed = np.zeros(s.speed.size)  # at each point, when that is left out
         for i in range(1, s.speed.size - 1):
-            others = s.without(i)
-            knee = self.lift_off if 0 < others.contacts < others.speed.size else None
-            found = Interpolant(others, knee).at(s.speed[i : i + 1])[0]
+            left = s.without(i)
+            knee = self.lift_off if 0 < left.contacts < left.speed.size else None
+            found = Interpolant(left, knee).at(s.speed[i : i + 1])[0]
             missed[i] = abs(found / (s.boundary[i] + s.film[i]) - 1.0)
         right = np.clip(np.searchsorted(s.speed, speed), 1, s.speed.size - 1)
         low, high, at = (u**EXPONENT for u in (s.speed[right - 1], s.speed[right], speed))
         between = 4.0 * (at - low) * (high - at) / (high - low) ** 2  # an error that is none at the points
-        return CLOSER * between * np.maximum(missed[right - 1], missed[right])
-
-    @cached_property
-    def _others(self) -> tuple[Interpolant, ...]:
-        """The same curve with the extreme positions of the knee, and the extreme powers with which the contact may end
-        there."""
-        if self.lift_off is None:
-            return ()
-        knees = tuple(replace(self, lift_off=knee) for knee in knee_range(self.samples) if knee != self.lift_off)
-        return (*knees, *(replace(self, end=power) for power in OTHERS))
+        beside = CLOSER * between * np.maximum(missed[right - 1], missed[right])
+        return np.maximum(spread / np.maximum(np.abs(value), 1e-300), beside)
 
     def boundary(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
         """The part of f from the contact spots."""
@@ -169,21 +156,9 @@ class Interpolant:
         return np.where(at < knee, slow, alone[:-1])
 
 
-def numbers_of(points) -> dict[str, np.ndarray]:
-    """What an interpolation needs of ``points``, arrays by name; NaN where one is None."""
-    found = {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in NEEDED}
-    return found | {name: np.array([decided(p, name) for p in points]) for name in DECIDED}
-
-
-def decided(point, name: str) -> float:
-    """``clearance`` or ``steepness`` of a point; NaN where it has none."""
-    found = getattr(point, name, getattr(getattr(point, "decision", None), name, None))
-    return np.nan if found is None else float(found)
-
-
 def through(numbers: dict[str, np.ndarray]) -> Interpolant:
-    """The curve through points with these ``numbers`` (`numbers_of`). Raises `InputError` for speeds of both directions
-    and for fewer than three different ones."""
+    """The curve through points with these ``numbers``, as `lubfric.quantities` names them. Raises `InputError` for
+    speeds of both directions and for fewer than three different ones."""
     speed = numbers["speed"]
     if (speed > 0).any() and (speed < 0).any():
         raise InputError("speeds run both ways; a curve between them has those of one direction: solve two curves")

@@ -61,11 +61,18 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
     """
     validate.instance("scene", scene, Scene, "a scene to vary: what lubfric.load_scene returned, not lubfric.prepare")
     axes = axes_of(scene, {} if vary is None else vary)
-    scenes = []
+    scenes, keys = [], []
+    maps: dict[str, str] = {}  # a map is read once, however many scenes it serves
     for index in product(*(range(len(axis.values)) for axis in axes)):
         values = {key: value for axis, i in zip(axes, index) for key, value in axis.at(i).items()}
-        scenes.append(replace(scene.with_keys(values), transient=None))
-    return StudyPlan(scene, axes, _speeds(scene, speeds), tuple(scenes), _keys(scenes))
+        one = replace(scene.with_keys(values), transient=None)
+        rough = repr((one.surface, one.counterface))
+        if rough not in maps:
+            maps[rough] = fingerprint(one.surface, one.counterface)
+        others = [getattr(one, f.name) for f in fields(one) if f.name not in ("name", "surface", "counterface")]
+        scenes.append(one)
+        keys.append(fingerprint(maps[rough], *others))
+    return StudyPlan(scene, axes, _speeds(scene, speeds), tuple(scenes), tuple(keys))
 
 
 def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
@@ -82,16 +89,3 @@ def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
     if np.unique(speeds).size < speeds.size:
         raise InputError("speeds hold a value twice; give each once, in m/s")
     return tuple(speeds.tolist())
-
-
-def _keys(scenes: list[Scene]) -> tuple[str, ...]:
-    """Hashes of ``scenes``. A map is read once, however many of them it serves."""
-    maps: dict[str, str] = {}
-    keys = []
-    for scene in scenes:
-        rough = repr((scene.surface, scene.counterface))
-        if rough not in maps:
-            maps[rough] = fingerprint(scene.surface, scene.counterface)
-        others = [getattr(scene, f.name) for f in fields(scene) if f.name not in ("name", "surface", "counterface")]
-        keys.append(fingerprint(maps[rough], *others))
-    return tuple(keys)

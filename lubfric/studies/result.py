@@ -12,7 +12,7 @@ from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import scene_as_dict
 from .choose import AUTO
-from .interpolate import DECIDED, Interpolant, through
+from .interpolate import Interpolant, through
 from .plan import StudyPlan
 from .rows import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, stored_rows
 from .store import Store
@@ -55,7 +55,7 @@ class StudyResult(Shown):
         """The result of the ``rows``, in the order of a plan (`plan_as_dict`)."""
         chosen, shape = plan["speeds"] == AUTO, tuple(plan["shape"])
         table = (len(plan["keys"]), shape[-1])
-        columns = {name: np.full(table, np.nan) for name in (*NUMBERS, *DECIDED) if chosen or name != SPEED}
+        columns = {name: np.full(table, np.nan) for name in NUMBERS if chosen or name != SPEED}
         status = np.full(table, UNUSED if chosen else MISSING, dtype=object)
         validity = np.full(table, "", dtype=object)
         words = {STATUS: status, VALIDITY: validity}

@@ -8,7 +8,6 @@ from typing import Any, NamedTuple
 from ..quantities import NUMBERS
 from ..sampling import FrictionResult
 from ..sharing import in_a_cell
-from .interpolate import DECIDED, decided
 from .points import Outcome
 from .store import Store, digest, point_key
 
@@ -33,7 +32,6 @@ def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
     numbers |= {f"uncertainty_{n}": v for n, v in vars(outcome.uncertainty).items() if isinstance(v, float)}
     numbers |= zip(("uncertainty_low", "uncertainty_high"), outcome.uncertainty.interval)
-    numbers |= {name: decided(outcome, name) for name in DECIDED}
     return {STATUS: outcome.report.status, VALIDITY: in_a_cell(outcome.validity), **numbers}
 
 

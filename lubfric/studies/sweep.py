@@ -7,16 +7,17 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base import curve_axes, validate, write_whole
+from .._base import validate, write_whole
 from ..errors import ITERATION_LIMIT, InputError, Report
-from ..quantities import PointQuantities, described_in_doc
-from ..sampling import FIELDS, FrictionResult
+from ..quantities import ESTIMATED, PointQuantities, described_in_doc
+from ..sampling import FrictionResult
 from ..scene import FASTEST, Scene
 from ..sharing import Prepared
 from .choose import AUTO, next_speed, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, report_of
+from .draw import curve_axes
 from .executor import checked_executor, spread
-from .interpolate import FEWEST, Interpolant, numbers_of, through
+from .interpolate import FEWEST, Interpolant, through
 from .points import Outcome, Piece, key_of, made_ready, solved
 from .store import opened
 
@@ -48,7 +49,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     @property
     def field_errors(self) -> dict[str, np.ndarray]:
         """Relative errors of the other numbers, arrays (n,) by name."""
-        return {n: np.array([np.nan if p is None else getattr(p.errors, n) for p in self.points]) for n in FIELDS}
+        return {n: np.array([np.nan if p is None else getattr(p.errors, n) for p in self.points]) for n in ESTIMATED}
 
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.studies.interpolate`). They
@@ -73,7 +74,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     @cached_property
     def _curve(self) -> Interpolant:
-        return through(numbers_of(self.points))
+        return through(columns_of(self.points))
 
     def plot(self, ax=None, **style):
         """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
@@ -107,7 +108,7 @@ def stribeck(
     ----------
     scene : from `lubfric.load_scene` or `lubfric.prepare`
     speeds : entrainment speeds [m/s], (n,); None: the scene's own; "auto": at most 25, so that ``curve.at(speed)`` is
-        within the tolerance on f everywhere between, and ``curve.lift_off`` is enclosed. On a line of the surface that
+        within the tolerance on f everywhere between, and ``curve.lift_off`` is enclosed. On strips of the surface that
         is the root sum of squares of the tolerance and the sampling tolerance
     executor : any `concurrent.futures.Executor`
     tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept
@@ -179,7 +180,7 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
 
 def _with_interpolation(curve: StribeckResult, tolerance: float) -> Report:
     """The report of a curve that chose its speeds: its residual is the estimated error between the points."""
-    report, error = curve.report, next_speed(through(numbers_of(curve.points)), tolerance)[1]
+    report, error = curve.report, next_speed(through(columns_of(curve.points)), tolerance)[1]
     return replace(
         report,
         status=report.status if error <= tolerance else ITERATION_LIMIT,

@@ -9,18 +9,17 @@ import numpy as np
 
 from .._base import axes_or_new, table_bytes, whole_file, write_whole
 from ..errors import InputError
-from ..quantities import COLUMNS, KEYS, described, heading
+from ..quantities import KEYS, described, heading
 from .rows import SPEED, STATUS, UNUSED, VALIDITY
 
 MOST, NAMED, FINE = 50, 10, 200  # lines, lines with a label, points of a line between solved ones
-UNCERTAINTY, LENGTH = "uncertainty_", "uncertainty_length"  # columns of the uncertainty, and the one in m
 
 
 def to_xarray(result):
     """An `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the ``study``
     extra."""
     xarray = _tool("xarray")
-    data = {name: (result.dims, values, _attributes(name)) for name, values in result.columns.items()}
+    data = {name: (result.dims, values, described(name)) for name, values in result.columns.items()}
     data[STATUS] = (result.dims, result.status.astype(str), {"long_name": "converged, or why there are no numbers"})
     data[VALIDITY] = (result.dims, result.validity.astype(str), {"long_name": "assumptions that do not hold"})
     coords = {key: (dim, values, described(key)) for key, (dim, values) in result.coords.items()}
@@ -51,7 +50,7 @@ def to_netcdf(result, path) -> None:
 
 def to_csv(result, path) -> None:
     """One row a point, the unit in the heading; nothing beyond the standard library needed."""
-    write_whole(path, table_bytes({_heading(name): values for name, values in _table(result).items()}))
+    write_whole(path, table_bytes({heading(name): values for name, values in _table(result).items()}))
 
 
 def _table(result) -> dict[str, np.ndarray]:
@@ -103,19 +102,6 @@ def _label(result, index) -> str:
             text = f"{value:.4g}" if isinstance(value, float) else str(value)
             words.append(f"{key.rpartition('.')[2]} {text}{'' if unit == '-' else ' ' + unit}")
     return ", ".join(words)
-
-
-def _attributes(name: str) -> dict[str, str]:
-    part = name.removeprefix(UNCERTAINTY)
-    if part == name:
-        return described(name)
-    return {"units": "m" if name == LENGTH else "1", "long_name": f"uncertainty of the friction coefficient: {part}"}
-
-
-def _heading(name: str) -> str:
-    if name.startswith(UNCERTAINTY):
-        return f"{name} [m]" if name == LENGTH else f"{name} [-]"
-    return heading(name) if name in COLUMNS else name
 
 
 def check_tools(netcdf: bool, parquet: bool) -> None:

@@ -52,6 +52,8 @@ def generate_surface(
     InputError : before generating, when the expected length is more than 10 % off the one asked (a map shorter than
         about 10 lengths for "exponential", 5 for "gaussian"), or when the grid has fewer than 2 cells per length at 1/e
     """
+    from scipy import fft
+
     shape, spacing = pair("shape", shape), validate.spacing("spacing", spacing)
     points("shape", shape)
     sq = validate.nonnegative("sq", sq, "m", maximum=1.0)
@@ -59,21 +61,17 @@ def generate_surface(
     validate.choice("acf", acf, ACFS)
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
     seed = validate.integer("seed", seed, minimum=0, maximum=LARGEST_SEED)
-    scales = _decay_scales(lengths, level, acf)
+    decay = -math.log(level) if acf == "exponential" else math.sqrt(-math.log(level))
+    scales = lengths[0] / decay, lengths[1] / decay  # where the ACF is 1/e
     _check_grid(shape, spacing, scales)
     spectrum = _spectrum(shape, spacing, scales, acf, cutoff)
     expected = _expected_lengths(spectrum, shape, spacing, lengths, level)
-    heights = _filtered_noise(spectrum, shape, seed) * sq
+    noise = np.random.default_rng(seed).standard_normal(shape)
+    heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(spectrum), shape)
+    heights = heights / heights.std() * sq
     source, note = f"generated, {acf} ACF", f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {sq:.4e} m exactly"
     surface = Surface(heights, spacing, periodic_axes=(True, True), source=source, seed=seed, notes=(note,))
     return surface if sq == 0 else _with_lengths(surface, lengths, expected, level)
-
-
-def _decay_scales(lengths, level, acf) -> tuple[float, float]:
-    """Lengths at which the ACF is 1/e."""
-    decay = -math.log(level)
-    factor = decay if acf == "exponential" else math.sqrt(decay)
-    return lengths[0] / factor, lengths[1] / factor
 
 
 def _check_grid(shape, spacing, scales) -> None:
@@ -126,15 +124,6 @@ def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
             raise InputError(said, f"correlation_length along {'xy'[axis]}", allowed)
         found.append(length)
     return found
-
-
-def _filtered_noise(spectrum, shape, seed) -> np.ndarray:
-    """Zero mean, unit variance."""
-    from scipy import fft
-
-    noise = np.random.default_rng(seed).standard_normal(shape)
-    heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(spectrum), shape)
-    return heights / heights.std()
 
 
 def _with_lengths(surface, asked, expected, level) -> Surface:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FrozenArrays, Shown, validate
+from .._base import FrozenArrays, Shown, axes_or_new, field_image, validate
 from ..errors import InputError
 from . import prepare, regrid, statistics
 
@@ -92,9 +92,11 @@ class Surface(FrozenArrays, Shown):
 
     def plot(self, ax=None):
         """The heights in the plane, on ``ax`` or new axes, which are returned."""
-        from .._base import surface_axes
-
-        return surface_axes(self, ax)
+        axes = axes_or_new(ax)
+        x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
+        field_image(axes, x, y, (self.heights - np.nanmean(self.heights)) * 1e9, "cividis", "height (nm)")
+        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm")
+        return axes
 
     def _facts(self) -> dict[str, str]:
         return {"": self.describe()}
@@ -170,18 +172,13 @@ class Surface(FrozenArrays, Shown):
         turned = {"spacing": self.spacing[::-1], "mask": mask, "periodic_axes": self.periodic_axes[::-1]}
         return self._with(self.heights.T, "x and y exchanged", **turned)
 
-    def periodic(self, edge: str = "mirror", *, axes: tuple[bool, bool] = (True, True)) -> Surface:
-        """Make the map periodic along the chosen axes; see `regrid.close_axis`.
-
-        edge "mirror": the map and its mirror image, twice as long (even number of points; heights and slopes keep their
-        statistics, the lay is reflected). edge "window": the last tenth is blended over the first, so the map gets one
-        tenth shorter (no mirror image, Sq kept for independent ends).
-        """
-        validate.choice("edge", edge, regrid.EDGES)
+    def periodic(self, *, axes: tuple[bool, bool] = (True, True)) -> Surface:
+        """Make the map periodic along the chosen axes: the map and its mirror image, twice as long. Heights and slopes
+        keep their statistics, the lay is reflected."""
         new = self._filled("periodic")
         for axis in range(2):
             if axes[axis] and not new.periodic_axes[axis]:
-                new = regrid.closed(new, axis, edge)
+                new = regrid.mirrored(new, axis)
         return new
 
     def cropped(self, shape, start=None) -> Surface:
@@ -210,18 +207,14 @@ class Surface(FrozenArrays, Shown):
             new = regrid.resampled(new, axis, shape[axis], spacing[axis])
         return new
 
-    def patch(self, shape, spacing=None, *, edge=(None, None)) -> Surface:
-        """Exactly ``shape`` points at ``spacing`` [m] (default: its own) for a contact grid.
-
-        Axes that are periodic are repeated as often as needed; others must be long enough. ``edge``
-        per axis: "mirror" or "window" makes the patch periodic along it, None leaves it cut.
-        """
+    def patch(self, shape, spacing=None) -> Surface:
+        """Exactly ``shape`` points at ``spacing`` [m] (default: its own) for a contact grid. Axes that are periodic are
+        repeated as often as needed; others are cut, and must be long enough."""
         shape, new = regrid.pair("shape", shape), self._filled("patch")
-        edge = (edge, edge) if edge is None or isinstance(edge, str) else tuple(edge)
         if spacing is not None:
             new = new.resampled(spacing=spacing)
         for axis in range(2):
-            new = regrid.fitted(new, axis, shape[axis], edge[axis])
+            new = regrid.fitted(new, axis, shape[axis])
         return new
 
     def _with(self, heights, note: str, **changed) -> Surface:
@@ -243,10 +236,10 @@ class Surface(FrozenArrays, Shown):
         and is periodic along x then."""
         if self.size[0] * (1 + 1e-9) >= validate.positive("length", length, "m"):
             return self
-        new = self.periodic("mirror", axes=(True, False))
+        new = self.periodic(axes=(True, False))
         count = new.shape[0] * math.ceil(length / new.size[0] * (1 - 1e-9))
         regrid.points("continued", (count, new.shape[1]))
-        return regrid.fitted(new, 0, count, None)
+        return regrid.fitted(new, 0, count)
 
     # statistics of the measured points, by the functions of lubfric.surface.statistics
     largest_ratio = property(statistics.largest_ratio)

@@ -91,7 +91,10 @@ def harmonic_fill(heights, mask, spacing) -> np.ndarray:
     right, rows, columns, entries = np.zeros(count), [], [], []
     for axis in range(2):
         weight = 1 / spacing[axis] ** 2
-        for here, there in _neighbours(axis):
+        first, last = [slice(None)] * 2, [slice(None)] * 2
+        first[axis], last[axis] = slice(None, -1), slice(1, None)
+        before, behind = tuple(first), tuple(last)  # the points that have a neighbour behind them, and before them
+        for here, there in ((before, behind), (behind, before)):
             from_missing = missing[here]
             row, other = number[here][from_missing], missing[there][from_missing]
             np.add.at(right, row[~other], weight * heights[there][from_missing][~other])
@@ -103,13 +106,6 @@ def harmonic_fill(heights, mask, spacing) -> np.ndarray:
     filled = heights.copy()
     filled[missing] = spsolve(matrix.tocsc(), right)
     return filled
-
-
-def _neighbours(axis):
-    """Slices of each point that has a neighbour before or after it along ``axis``, and of that neighbour."""
-    first, last = [slice(None)] * 2, [slice(None)] * 2
-    first[axis], last[axis] = slice(None, -1), slice(1, None)
-    return (tuple(first), tuple(last)), (tuple(last), tuple(first))
 
 
 def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool, bool]) -> np.ndarray:

@@ -19,7 +19,8 @@ from .text import DECIMALS, read_matrix, read_points
 from .x3p import read_x3p
 
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz")
-SUFFIXES = (".npy", *TEXT, ".x3p")
+OWN_GRID = {".x3p": read_x3p}  # formats that carry their grid and their units, and their readers
+SUFFIXES = (".npy", *TEXT, *OWN_GRID)
 MOST_BYTES = 2**30  # of a file of text
 
 
@@ -70,9 +71,9 @@ def read_surface(
         validate.choice("decimal", decimal, DECIMALS)
     suffix = path.suffix.lower()
     by_instrument = suffix in TEXT and _binary(path) or suffix not in SUFFIXES and suffix in instrument.SUFFIXES
-    if by_instrument or suffix == ".x3p":
+    if by_instrument or suffix in OWN_GRID:
         _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)
-        surface = instrument.read_instrument(path, 0, None) if by_instrument else read_x3p(path)
+        surface = instrument.read_instrument(path, 0, None) if by_instrument else OWN_GRID[suffix](path)
     elif suffix in SUFFIXES:
         surface = _plain(path, suffix, spacing, unit, decimal, missing_value)
     else:

@@ -13,8 +13,6 @@ import numpy as np
 from .._base import validate
 from ..errors import InputError
 
-EDGES = ("mirror", "window")
-BLEND = 0.1  # share of a map's length that the window blends
 MOST_POINTS = 2**26  # of any map, 512 MiB of heights
 SAME = 1e-9  # relative difference of lengths that are equal
 
@@ -44,12 +42,13 @@ def changed(surface, axis, heights, note, *, step=None, closed=None, mask=None):
     )
 
 
-def closed(surface, axis: int, edge: str, count: int | None = None):
-    """``surface`` made periodic along ``axis``; see `close_axis`."""
-    heights = close_axis(surface.heights, axis, edge, count)
-    mask = None if surface.mask is None else close_axis(surface.mask, axis, edge, count)
-    note = f"made periodic along {'xy'[axis]}: {edge}"
-    return changed(surface, axis, heights, note, closed=True, mask=mask)
+def mirrored(surface, axis: int):
+    """``surface`` made periodic along ``axis``: its points, followed by their mirror image."""
+    heights, mask = (
+        None if values is None else np.concatenate([values, np.flip(values, axis)], axis)
+        for values in (surface.heights, surface.mask)
+    )
+    return changed(surface, axis, heights, f"made periodic along {'xy'[axis]}: mirror", closed=True, mask=mask)
 
 
 def resampled(surface, axis: int, count: int | None, step: float | None):
@@ -74,27 +73,24 @@ def resampled(surface, axis: int, count: int | None, step: float | None):
     return changed(surface, axis, heights, note, step=step, closed=closed)
 
 
-def fitted(surface, axis: int, count: int, edge: str | None):
+def fitted(surface, axis: int, count: int):
     """``surface`` on exactly ``count`` points of its own spacing along ``axis``: repeated where periodic, else cut."""
-    if edge is not None:
-        validate.choice("edge", edge, EDGES)
     n = surface.shape[axis]
-    if count == n and (edge is None or surface.periodic_axes[axis]):
+    if count == n:
         return surface
-    if surface.periodic_axes[axis] and (edge is None or count % n == 0):
+    if surface.periodic_axes[axis]:
         pick = np.arange(count) % n
         mask = None if surface.mask is None else np.take(surface.mask, pick, axis)
         note = f"{'repeated' if count > n else 'cut'} along {'xy'[axis]} from {n} to {count} points"
         return changed(surface, axis, np.take(surface.heights, pick, axis), note, closed=count % n == 0, mask=mask)
-    need = count if edge is None else points_to_close(count, edge)
-    if need > n:
-        said = f"patch of {count} points along {'xy'[axis]} needs {need} points of the map"
-        length = f"({need * surface.spacing[axis]:g} m)"
-        raise InputError(f"{said} {length}", allowed=f"up to {n} ({surface.size[axis]:g} m), or a periodic map")
+    if count > n:
+        said = (
+            f"patch of {count} points along {'xy'[axis]} ({count * surface.spacing[axis]:g} m) needs as many of the map"
+        )
+        raise InputError(said, allowed=f"up to {n} ({surface.size[axis]:g} m), or a periodic map")
     shape = list(surface.shape)
-    shape[axis] = need
-    cut = surface.cropped(shape)
-    return cut if edge is None else closed(cut, axis, edge, count)
+    shape[axis] = count
+    return surface.cropped(shape)
 
 
 def combined(first, second):
@@ -138,34 +134,6 @@ def _common(axis: int, first, second) -> tuple[int, bool]:
     return int(min(open_lengths or lengths) / first.spacing[axis] * (1 + SAME)), False
 
 
-def points_to_close(count: int, edge: str) -> int:
-    """How many points of an open map make ``count`` points of a closed one."""
-    return (count + 1) // 2 if edge == "mirror" else count + max(1, round(BLEND * count / (1 - BLEND)))
-
-
-def close_axis(values, axis, edge, count=None) -> np.ndarray:
-    """Make an open array, of heights or a mask, periodic along ``axis``; ``count`` points come out (default: below).
-
-    "mirror": n points followed by their mirror image, 2 n points (2 n - 1 when ``count`` is odd).
-    "window": the last w points are laid over the first w with weights cos and sin of an angle
-    rising from 0 to pi/2 (their squares add to 1), n - w points with w one tenth of n. A blended point counts as
-    measured where both of its heights were.
-    """
-    z = np.moveaxis(values, axis, 0)
-    if edge == "mirror":
-        return np.moveaxis(np.concatenate([z, z[::-1]])[:count], 0, axis)
-    width = max(1, round(BLEND * len(z))) if count is None else len(z) - count
-    if 2 * width > len(z):
-        raise InputError(f"{len(z)} points along axis {axis} are too few to blend; allowed: at least 2")
-    closed = z[:-width].copy()
-    if z.dtype == bool:
-        closed[:width] &= z[-width:]
-    else:
-        angle, mean = (0.5 * np.pi / width * np.arange(width))[:, None], z.mean()
-        closed[:width] = mean + np.sin(angle) * (z[:width] - mean) + np.cos(angle) * (z[-width:] - mean)
-    return np.moveaxis(closed, 0, axis)
-
-
 def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
     """``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map.
 
@@ -175,7 +143,17 @@ def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
     """
     z = np.moveaxis(heights, axis, 0)
     if periodic:
-        new = _fourier(z, count)
+        from scipy import fft
+
+        n, keep = len(z), min(len(z), count) // 2 + 1
+        spectrum = np.zeros((count // 2 + 1, z.shape[1]), complex)
+        spectrum[:keep] = fft.rfft(z, axis=0)[:keep]
+        shift = 0.5 * (n / count - 1) / n  # from old to new cell centres, in periods
+        spectrum *= np.exp(2j * np.pi * shift * np.arange(len(spectrum)))[:, None]
+        even = min(n, count)
+        if even % 2 == 0 and n != count:  # the highest mode is shared by +k and -k
+            spectrum[even // 2] *= 2.0 if count < n else 0.5
+        new = fft.irfft(spectrum, count, axis=0) * (count / n)
     else:
         from scipy.interpolate import CubicSpline
 
@@ -183,18 +161,3 @@ def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
         edges = np.minimum(ratio * np.arange(count + 1), len(z))
         new = np.diff(CubicSpline(np.arange(len(z) + 1), integral)(edges), axis=0) / ratio
     return np.moveaxis(new, 0, axis)
-
-
-def _fourier(z, count) -> np.ndarray:
-    """Fourier series of n cell centres evaluated at ``count`` cell centres of the same period."""
-    from scipy import fft
-
-    n, keep = len(z), min(len(z), count) // 2 + 1
-    spectrum = np.zeros((count // 2 + 1, z.shape[1]), complex)
-    spectrum[:keep] = fft.rfft(z, axis=0)[:keep]
-    shift = 0.5 * (n / count - 1) / n  # from old to new cell centres, in periods
-    spectrum *= np.exp(2j * np.pi * shift * np.arange(len(spectrum)))[:, None]
-    even = min(n, count)
-    if even % 2 == 0 and n != count:  # the highest mode is shared by +k and -k
-        spectrum[even // 2] *= 2.0 if count < n else 0.5
-    return fft.irfft(spectrum, count, axis=0) * (count / n)

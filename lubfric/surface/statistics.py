@@ -48,36 +48,16 @@ def _moment(surface, power) -> float:
     return float(np.mean((z / rms) ** power))
 
 
-def rms_slope(surface, method: str = "difference") -> tuple[float, float, float]:
-    """(x, y, total) root mean square slopes [-].
-
-    "difference": between neighbouring measured points, one cell apart. "spectral": exact derivative
-    of the Fourier series, for maps periodic along both axes without unmeasured points.
-    """
-    validate.choice("method", method, ("difference", "spectral"))
-    slope = _difference_slope if method == "difference" else _spectral_slope
-    along_x, along_y = slope(surface, 0), slope(surface, 1)
-    return along_x, along_y, math.hypot(along_x, along_y)
-
-
-def _difference_slope(surface, axis) -> float:
-    z = np.moveaxis(surface.heights, axis, 0)
-    mask = np.isfinite(z) if surface.mask is None else np.moveaxis(surface.mask, axis, 0)
-    steps = len(z) if surface.periodic_axes[axis] else len(z) - 1
-    step, both = (np.roll(z, -1, 0) - z)[:steps], (np.roll(mask, -1, 0) & mask)[:steps]
-    return float(np.sqrt(np.mean(step[both] ** 2)) / surface.spacing[axis]) if both.any() else 0.0
-
-
-def _spectral_slope(surface, axis) -> float:
-    from scipy import fft
-
-    if not all(surface.periodic_axes) or surface.mask is not None:
-        said = " = 'spectral' needs a map that is periodic along both axes and fully measured"
-        raise InputError(said, "method", "here 'difference'")
-    z = np.moveaxis(surface.heights, axis, 0)
-    k = 2 * np.pi * fft.fftfreq(len(z), surface.spacing[axis])
-    power = np.abs(fft.fft(z, axis=0)) ** 2
-    return float(np.sqrt((power * k[:, None] ** 2).mean() / len(z)))
+def rms_slope(surface) -> tuple[float, float, float]:
+    """(x, y, total) root mean square slopes [-], between neighbouring measured points, one cell apart."""
+    slopes = []
+    for axis in range(2):
+        z = np.moveaxis(surface.heights, axis, 0)
+        mask = np.isfinite(z) if surface.mask is None else np.moveaxis(surface.mask, axis, 0)
+        steps = len(z) if surface.periodic_axes[axis] else len(z) - 1
+        step, both = (np.roll(z, -1, 0) - z)[:steps], (np.roll(mask, -1, 0) & mask)[:steps]
+        slopes.append(float(np.sqrt(np.mean(step[both] ** 2)) / surface.spacing[axis]) if both.any() else 0.0)
+    return slopes[0], slopes[1], math.hypot(*slopes)
 
 
 def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:

@@ -110,14 +110,21 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
     None makes a title that names another unit than metres an error. Raises `InputError` naming the line.
     """
     titles, lines = _split_titles(path, lines)
-    if unit is None:
-        _check_units(path, titles)
+    for number, text in titles if unit is None else ():
+        named = sorted({UNIT_WORDS[w] for w in re.findall(r"[a-zµμ]+", text.lower()) if w in UNIT_WORDS})
+        if named:
+            allowed = f"allowed: unit = {named[0]!r}, or 'm' if it is m after all"
+            said = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
+            raise _wrong(path, number, text, f"{said}; {allowed}")
     notes = tuple(f"line {number} skipped as a title: {text[:60]!r}" for number, text in titles)
     separator, comma = _marks(path, lines, decimal)
     if separator is not None and all(text.endswith(separator) for _, text in lines):
         lines = [(number, text[:-1].rstrip()) for number, text in lines]  # a separator behind every line
     if comma:
-        _refuse_points(path, lines)
+        for number, text in lines:
+            if "." in text:
+                allowed = "allowed: one decimal mark in the file, no mark for thousands"
+                raise _wrong(path, number, text, f"has a point where commas are the decimal mark; {allowed}")
         lines = [(number, re.sub(r",(?=\s)", " ", text).replace(",", ".")) for number, text in lines]
         notes += ("decimal comma",)
     try:
@@ -145,15 +152,6 @@ def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
     raise InputError(f"path = {str(path)!r} holds no numbers")
 
 
-def _check_units(path, titles: Lines) -> None:
-    for number, text in titles:
-        named = sorted({UNIT_WORDS[w] for w in re.findall(r"[a-zµμ]+", text.lower()) if w in UNIT_WORDS})
-        if named:
-            allowed = f"allowed: unit = {named[0]!r}, or 'm' if it is m after all"
-            said = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
-            raise _wrong(path, number, text, f"{said}; {allowed}")
-
-
 def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
     """(separator or None for blanks, whether the comma is the decimal mark)."""
     commas = [(number, text) for number, text in lines if "," in text]
@@ -174,13 +172,6 @@ def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
         said = "and all others have commas that can separate values or be decimal marks"
         raise _wrong(path, *commas[0], f"{said}; give {ways_out}")
     return ",", False
-
-
-def _refuse_points(path, lines: Lines) -> None:
-    for number, text in lines:
-        if "." in text:
-            allowed = "allowed: one decimal mark in the file, no mark for thousands"
-            raise _wrong(path, number, text, f"has a point where commas are the decimal mark; {allowed}")
 
 
 def _fault(lines: Lines, separator) -> str:

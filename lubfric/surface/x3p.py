@@ -53,7 +53,10 @@ def _read(archive, path) -> Surface:
     if nx * ny > MOST_POINTS:
         raise _bad("SizeX x SizeY", f"{nx} x {ny}", f"at most {MOST_POINTS} points")
     spacing = _increment(root, "CX"), _increment(root, "CY")
-    kind = _height_type(root)
+    axis, name = _text(root, "Record1/Axes/CZ/AxisType"), _text(root, "Record1/Axes/CZ/DataType")
+    if axis != "A" or name not in TYPES:
+        raise _bad("CZ AxisType, DataType", f"{axis}, {name}", "A with I, L, F or D")
+    kind = TYPES[name]
     raw = _linked(archive, root, "PointData", nx * ny * np.dtype(kind).itemsize, notes)
     heights = _heights(root, np.frombuffer(raw, kind)).reshape(ny, nx).T
     mask = ~np.isnan(heights)
@@ -132,13 +135,6 @@ def _safe(name) -> str:
     if name.startswith("/") or "\\" in name or ":" in name or ".." in name.split("/"):
         raise _bad("member path", repr(name), "a relative path inside the archive")
     return name
-
-
-def _height_type(root) -> str:
-    axis, kind = _text(root, "Record1/Axes/CZ/AxisType"), _text(root, "Record1/Axes/CZ/DataType")
-    if axis != "A" or kind not in TYPES:
-        raise _bad("CZ AxisType, DataType", f"{axis}, {kind}", "A with I, L, F or D")
-    return TYPES[kind]
 
 
 def _heights(root, values) -> np.ndarray:

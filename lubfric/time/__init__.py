@@ -1,6 +1,7 @@
 """What changes in time: the march, smooth films, contacts that share their load with a film."""
 
 from .checkpoint import STATE
+from .draw import animate, friction_over_time, plot_history
 from .film import TransientFilm, solve_transient_ehl
 from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import FIRST_STEP, WET, ContactHistory, make_setting

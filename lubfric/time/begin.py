@@ -10,11 +10,11 @@ import numpy as np
 
 from ..errors import CONVERGED, ConvergenceError, InputError
 from ..scene import Constant, Scene
-from ..sharing import Prepared, prepare, scene_of
+from ..sharing import Prepared, prepare, scene_of, solve_balance
 from .film_setting import FINER, ContactHistory, FilmStep, discretisation, make_setting, steady_start
 from .scene_now import changes, inlet_viscosity
 from .sharing import Contact, Sharing, make_sharing
-from .steady import steady_balance, strip_for
+from .steady import strip_for
 
 DONE = {  # what a run does of the steady options; the film is deflected by its own pressure, whatever the default says
     "model": ("auto", "load-sharing"),
@@ -127,7 +127,7 @@ def _steady(sharing: Sharing) -> tuple[FilmStep, float]:
         lubricant=replace(scene.lubricant, viscosity=cold),
         numerics={"film_deflection": "hydrodynamic", "accept": True},  # judged with the other moments
     )
-    balance = steady_balance(sharing.strip, values, c.speed.before(0.0))
+    balance = solve_balance(values, c.speed.before(0.0), sharing.patch, sharing.strip.prepared.surface.sq)
     film = steady_start(setting, balance.film_load)
     if film.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")

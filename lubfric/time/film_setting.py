@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
-from ..film import Effort, LineContact, Problem, solve_line_contact, step_length
+from ..film import Effort, LineContact, Problem, hertz, solve_line_contact, step_length
 from ..oil import Lubricant
 from ..scene import History
 from .film_equations import Conditions, Spring, StepEquations, StepTerms
@@ -85,7 +85,7 @@ class Setting:
         return StepEquations(self.grid, self.problem, self.conditions(time), memory, spring)
 
     def solve(self, time: float, memory: Memory | None, z: np.ndarray, spring: Spring | None = None) -> FilmStep:
-        """The step that ends at ``time`` [s] (`lubfric.time.march.Solver`). ``spring``: carries the rest of the
+        """The step that ends at ``time`` [s] (a solver of `lubfric.time.march`). ``spring``: carries the rest of the
         load."""
         return solve_step(self.equations(time, memory, spring), z)
 
@@ -122,7 +122,7 @@ def make_setting(
     load, radius = (history.range(contact.duration) for history in (contact.load, contact.radius))
 
     def edge(load: float, radius: float) -> float:
-        return math.sqrt(8.0 * load / contact.width * radius / (math.pi * contact.e_prime)) / problem.length_unit
+        return hertz.line_half_width(load / contact.width, radius, contact.e_prime) / problem.length_unit
 
     edges = edge(share * load[0], radius[0]), edge(load[1], radius[1])
     x = symmetric_nodes(finer * RESOLUTION * math.sqrt(3e-3 / tolerance), edges, films, reach / problem.length_unit)

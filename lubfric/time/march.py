@@ -4,13 +4,18 @@ BDF2 differentiates the parabola through the new value and the two before it. Fo
 another memory: y' = rate (y - memory) (`Memory`). Its local error is d³y/dt³ τ²(τ+τ')²/(6(2τ+τ')), with the third
 derivative from the divided difference of four values (τ' is the step before τ). A start, and every jump of a history,
 takes one step as two halves and as a whole; the difference is the error.
+
+A solver has the equations of one implicit step. ``solve(time, memory, z, payload)`` gives the `Step` that ends at
+``time`` [s] with a `Memory`, from the unknowns ``z``. ``error_of(step, difference)`` gives the relative size of a
+difference of films, which is compared with the tolerance of a step. The last unknown may have any sign; the others are
+0 or positive, and keep that when the start of a step is extrapolated.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -42,19 +47,6 @@ class Step:
     film: np.ndarray
     z: np.ndarray
     payload: Any = None
-
-
-class Solver(Protocol):
-    """The equations of one implicit step. The last of its unknowns z may have any sign; the others are 0 or positive,
-    and keep that when the start of a step is extrapolated."""
-
-    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any, /) -> Step:
-        """The state at ``time`` [s] with this memory, from the unknowns ``z``."""
-        ...
-
-    def error_of(self, solution: Any, difference: np.ndarray, /) -> float:
-        """Relative size of a difference of films, compared with the tolerance of a step."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -143,7 +135,7 @@ def begun(first: Step, plan: Plan) -> Progress:
     return Progress((Level(0.0, first.film, first.z),), plan.first_step, first.payload, solution=first)
 
 
-def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
+def steps(solver, plan: Plan, now: Progress) -> Iterator[Progress]:
     """The progress after every step from ``now`` on, until the end or until the shortest step fails. (Then the last
     time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing else."""
     for stop in plan.stops:
@@ -157,7 +149,7 @@ def steps(solver: Solver, plan: Plan, now: Progress) -> Iterator[Progress]:
             yield now
 
 
-def marched(solver: Solver, plan: Plan, first: Step) -> tuple[Progress, list[float], list[Any]]:
+def marched(solver, plan: Plan, first: Step) -> tuple[Progress, list[float], list[Any]]:
     """The last progress of a run from the state ``first``, and the times [s] and steps of its outputs."""
     now = begun(first, plan)
     times, outputs = ([0.0], [first]) if plan.times[0] == 0.0 else ([], [])
@@ -182,7 +174,7 @@ def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dic
     return Report(solver, status, now.steps, worst, 1.0, residuals, evaluations=tried, notes=tuple(notes))
 
 
-def advance(now: Progress, until: float, solver: Solver, tolerance: float, shortest: float) -> Progress | None:
+def advance(now: Progress, until: float, solver, tolerance: float, shortest: float) -> Progress | None:
     """One step towards ``until`` [s]. It is halved if it would leave a tiny last step. If its solve fails, or its error
     is above ``tolerance``, it is repeated with a shorter step. None: even the shortest step [s] failed."""
     rejected, step = now.rejected, now.step
@@ -207,12 +199,12 @@ def advance(now: Progress, until: float, solver: Solver, tolerance: float, short
 Attempt = tuple[tuple[Level, ...], Step, float, int]  # levels after the step, its solution, error, order
 
 
-def _solved(solver: Solver, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step | None:
+def _solved(solver, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step | None:
     solution = solver.solve(time, memory, z, payload)
     return solution if solution.status == CONVERGED else None
 
 
-def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
+def _pair(now: Progress, end: float, solver) -> Attempt | None:
     """Backward Euler over the whole step and over its halves."""
     start = now.levels[-1]
     step = end - start.time
@@ -226,7 +218,7 @@ def _pair(now: Progress, end: float, solver: Solver) -> Attempt | None:
     return levels, second, solver.error_of(second, whole.film - second.film), 1
 
 
-def _bdf2(now: Progress, end: float, solver: Solver) -> Attempt | None:
+def _bdf2(now: Progress, end: float, solver) -> Attempt | None:
     """BDF2 over the last two levels, from unknowns extrapolated along them, or from the last ones if that fails."""
     old, last = now.levels[-2:]
     step, before = end - last.time, last.time - old.time

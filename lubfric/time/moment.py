@@ -11,6 +11,7 @@ import numpy as np
 
 from ..film import ShearForce, rolling_error, smallest, spike_error
 from ..oil import carried_stress, shear_stress
+from ..sampling import moment_error
 from ..scene import Scene
 from ..sharing import Heat, Validity, inlet_at, of_deflection, of_ends, of_film, of_motion, point_heat
 from .film_equations import outside_shear
@@ -18,7 +19,7 @@ from .film_setting import WET, FilmStep
 from .march import Progress
 from .scene_now import scene_at, sliding_at
 from .sharing import Sharing
-from .steady import friction_error
+from .steady import film_thinning
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"
@@ -49,6 +50,8 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
     inlet, _ = inlet_at(scene, speed)
     heated_inlet = setting.contact.viscosity.before(time) != scene.lubricant.viscosity
     film_factor = inlet.factor if inlet is not None and heated_inlet else 1.0
+    length, thinning = strip.correlation_length, film_thinning(scene, film_load)
+    finite = moment_error(sharing.patch, state, loads, contact.softness, scene.bodies.width, length, parts, thinning)
     touches, wet = contact.load > 0.0, setting.grid.x[t.P > 0.0] * p.length_unit
     row = {
         "time": time,
@@ -62,7 +65,7 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
         "couette_force": shear.couette,
         "rolling_force": shear.rolling,
         "coefficient": force * sense / total,
-        "sampling_error": friction_error(strip, scene, state, loads, contact.softness, parts),
+        "sampling_error": finite,
         "shear_error": shear.quadrature / abs(force) if force else 0.0,
         "time_error": now.error,
         "inlet_film_factor": film_factor,
@@ -140,42 +143,34 @@ def film_shear(
     They act where the film is pressurised and not touched, and include the inlet tails. ``scene``: that of the moment.
     Film and surfaces are taken to be as hot as in steady motion at the speeds of the moment.
     """
-    lubricant, film, contact = scene.lubricant, _film_now(sharing, scene, solution), solution.payload
+    lubricant, contact, t, p = scene.lubricant, solution.payload, solution.terms, sharing.setting.problem
+    wet, speed = np.flatnonzero(t.P > 0.0), scene.motion.entrainment_speed
 
     def cold(x, pressure, thickness):
         return shear_stress(lubricant, pressure, sliding / thickness)
 
     isothermal = _summed(sharing, time, solution, cold, lubricant.viscosity * sliding)
-    if film is None:
-        return isothermal, Heat()
-    boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
-    heat, warm = point_heat(scene, film, contact.state, contact.load, abs(boundary + isothermal.total), isothermal)
-    if warm is None or warm.stress is None:
-        return isothermal, heat
-    along, heated = math.copysign(1.0, film.entrainment_speed), warm.stress
-
-    def hot(x, pressure, thickness):
-        return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))
-
-    return _summed(sharing, time, solution, hot), heat
-
-
-def _film_now(sharing: Sharing, scene: Scene, solution: FilmStep) -> SimpleNamespace | None:
-    """The pressurised film at its nodes, with all that `lubfric.sharing.point_heat` needs. None where nothing is
-    entrained, or hardly a node has pressure."""
-    t, p, speed = solution.terms, sharing.setting.problem, scene.motion.entrainment_speed
-    wet = np.flatnonzero(t.P > 0.0)
     if wet.size < 3 or speed == 0.0:
-        return None
+        return isothermal, Heat()
     inside = slice(wet[0], wet[-1] + 1)
     x = sharing.setting.grid.x[inside] * p.length_unit
-    return SimpleNamespace(
+    film = SimpleNamespace(  # all that `point_heat` needs of the pressurised film
         x=x,
         pressure=t.P[inside] * p.pressure_unit,
         film_thickness=t.H[inside] * p.film_unit,
         entrainment_speed=speed,
         rupture=float(x[-1] if speed > 0 else x[0]),
     )
+    boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
+    heat, warm = point_heat(scene, film, contact.state, contact.load, abs(boundary + isothermal.total), isothermal)
+    if warm is None or warm.stress is None:
+        return isothermal, heat
+    along, heated = math.copysign(1.0, speed), warm.stress
+
+    def hot(x, pressure, thickness):
+        return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))
+
+    return _summed(sharing, time, solution, hot), heat
 
 
 def _summed(

@@ -7,17 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import Shown, history_axes, loop_axes, validate
+from .._base import Shown, validate
 from ..errors import Report
-from ..sampling import UncertaintyCurve
+from ..sampling import UncertaintyCurve, percent, student
 from ..sharing import Validity, gathered
+from .draw import history_axes, loop_axes
 from .march import Plan, Progress, report_of
 from .moment import UNITS
 from .sharing import Sharing
-from .steady import strip_facts, uncertainty_in_time, worst_in_words
 
 # at an output time: numbers by name, assumptions that do not hold, pressures and films in the units of the setting
 Output = tuple[dict[str, float], tuple[Validity, ...], np.ndarray, np.ndarray]
+MANY = 30  # blocks less one: of a strip
 MASS = 1e-3  # largest residual of a step's mass
 
 
@@ -61,7 +62,7 @@ class TransientResult(Shown):
     report : how the run ended
     entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
-        surface moves until other spots carry the load [m]; NaN if not known
+        surface moves until other spots carry the load (the Hertz strip and a correlation length) [m]; NaN if not known
     """
 
     columns: dict[str, np.ndarray]
@@ -93,7 +94,19 @@ class TransientResult(Shown):
     @property
     def uncertainty(self) -> UncertaintyCurve:
         """Standard error and 95 % interval of f at every time, from the finite surface alone."""
-        return uncertainty_in_time(self.coefficient, self.sampling_error, self.line_length, self.width)
+        f, error = self.coefficient, self.sampling_error
+        half, unknown = student(MANY) * error * np.abs(f), np.full(f.size, math.nan)
+        return UncertaintyCurve(
+            numerical=unknown,
+            sampling=error,
+            interval=np.stack([f - half, f + half], axis=1),
+            line_scatter=error * math.sqrt(self.line_length / self.width),
+            participation=unknown,
+            length=np.full(f.size, self.line_length),
+            area_needed=unknown,
+            model_form=unknown,
+            text=tuple(f"surface {percent(each)}" for each in error),
+        )
 
     def plot(self, ax=None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
@@ -127,13 +140,19 @@ def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outp
     }
     if not math.isnan(grid_error):
         worst["grid"] = grid_error / sharing.scene.numerics.tolerances.film
-    cells = f"{x.size - 1} cells; surface: {worst_in_words(columns['sampling_error'])}"
+    sampling = float(np.max(columns["sampling_error"], initial=0.0))
+    surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
+    prepared, renewal = sharing.strip.prepared, math.nan
+    if prepared.strips is not None and not prepared.strips.whole:
+        renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
     return TransientResult(
         columns=columns,
         x=x * p.length_unit,
         pressure=P * p.pressure_unit,
         film_thickness=H * p.film_unit,
-        report=report_of("transient, BDF2", plan, now, cells, worst),
+        report=report_of("transient, BDF2", plan, now, f"{x.size - 1} cells; surface: {surface}", worst),
         entries=tuple(entries for _, entries, _, _ in outputs),
-        **strip_facts(sharing.strip.prepared),
+        line_length=prepared.surface.size[1],
+        width=prepared.scene.bodies.width,
+        renewal=renewal,
     )

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..scene import Scene, Transient
-from ..sharing import Prepared, Validity, refused, scene_of
+from ..sharing import Prepared, refused, scene_of
 from .begin import begin
 from .checkpoint import Checkpoint
 from .film import TIME_SHARE
@@ -74,7 +74,9 @@ def transient(
     result = collect(sharing, grid_error, course, now, outputs)
     if raise_on_failure:
         result.report.raise_if_failed(result)
-        refused(_severe(result), scene.numerics.accept, result)
+        severe = sorted((e for entries in result.entries for e in entries if e.severe), key=lambda e: e.value)
+        worst = {entry.what: entry for entry in severe}  # of each kind
+        refused(tuple(worst.values()), scene.numerics.accept, result)
     if store is not None and result.report.converged:
         store.clear()
     return result
@@ -103,19 +105,11 @@ def _marched(
 
 
 def _state(now: Progress) -> Progress:
-    """All that a resumed run needs: ``now``, without what the next step computes again."""
-    contact = now.payload
-    bare = replace(contact, state=replace(contact.state, fields=None, y=None))
-    return replace(now, payload=bare, solution=None)
-
-
-def _severe(result: TransientResult) -> tuple[Validity, ...]:
-    """The violated assumptions that make f meaningless at some time, the worst of each kind."""
-    worst: dict[str, Validity] = {}
-    for entry in (e for at_once in result.entries for e in at_once if e.severe):
-        if entry.what not in worst or entry.value > worst[entry.what].value:
-            worst[entry.what] = entry
-    return tuple(worst.values())
+    """All that a resumed run needs to give the same bits: ``now``, of the contact the pressure, from which the next one
+    is solved, and not what the next step computes again."""
+    state = now.payload.state
+    fields = state.fields and replace(state.fields, gap=np.empty(0), displacement=np.empty(0))
+    return replace(now, payload=replace(now.payload, state=replace(state, fields=fields, y=None)), solution=None)
 
 
 def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.ndarray]:

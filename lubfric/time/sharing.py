@@ -33,7 +33,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class Sharing:
-    """One implicit step of film and rough contact, which share the load of the moment (a `lubfric.time.march.Solver`).
+    """A solver of `lubfric.time.march`: film and rough contact share the load of the moment.
 
     ``setting``: of the film; ``to_patch`` gives the film [m] at the points of the contact's patch from H, and its
     ``mean_row`` the mean film over A; ``tolerance``: of the volume.

@@ -1,5 +1,4 @@
-"""What a run in time takes from the steady model: its strip of rough surface, its first balance, and the error of f
-because the strip is finite. No other module of this package knows how these are found."""
+"""The strip of rough surface of a run in time, from the needs of steady friction, and the softness of its film."""
 
 from __future__ import annotations
 
@@ -8,17 +7,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact import ContactState, Strips, length_or_half
+from ..contact import Strips, length_or_half
 from ..errors import LubfricError
-from ..sampling import UncertaintyCurve, moment_error, percent, sampled, student
+from ..sampling import sampled
 from ..scene import Constant, Scene
-from ..sharing import Balance, Prepared, on_stack, solve_balance
+from ..sharing import Prepared, on_stack
 from .scene_now import changes
 
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
 AT_REST, LOAD_STEP = 1e-6, 0.05  # m/s; of ln F_H
-MANY = 30  # blocks less one: of a strip
 
 
 @dataclass(frozen=True)
@@ -99,26 +97,6 @@ def _mean(factors: np.ndarray) -> float:
     return float(known.mean()) if known.size else math.nan
 
 
-def steady_balance(strip: Strip, scene: Scene, speed: float) -> Balance:
-    """The balance of ``scene`` in steady motion at ``speed`` [m/s], on the contact of the strip."""
-    return solve_balance(scene, speed, strip.prepared.contact, strip.prepared.surface.sq)
-
-
-def friction_error(
-    strip: Strip,
-    scene: Scene,
-    state: ContactState,
-    loads: tuple[float, float],
-    softness: float,
-    parts: tuple[float, float],
-) -> float:
-    """Relative standard error of f at one moment, because the strip is finite; NaN: not known. ``loads``: of contact
-    and film [N]; ``softness``: -d(gap)/d(ln contact load) [m]; ``parts``: boundary and viscous friction [N]."""
-    thinning, width = film_thinning(scene, loads[1]), scene.bodies.width
-    patch, length = strip.prepared.contact, strip.correlation_length
-    return moment_error(patch, state, loads, softness, width, length, parts, thinning)
-
-
 def film_thinning(scene: Scene, film_load: float) -> float:
     """-d ln h/d ln F_H [-] of Moes' film that carries ``film_load`` [N]. At rest, that of a film that was drawn in
     slowly; 1 without load."""
@@ -128,37 +106,3 @@ def film_thinning(scene: Scene, film_load: float) -> float:
     line = replace(line, load_per_width=film_load / scene.bodies.width)
     heavier = replace(line, load_per_width=more * line.load_per_width)
     return math.log(line.moes_film / heavier.moes_film) / LOAD_STEP
-
-
-def strip_facts(prepared: Prepared) -> dict[str, float]:
-    """Length, width and renewal of a `lubfric.TransientResult` [m]. The renewal is the Hertz strip and a correlation
-    length along the motion; NaN if not known."""
-    bodies, renewal = prepared.scene.bodies, math.nan
-    if prepared.strips is not None and not prepared.strips.whole:
-        renewal = 2 * bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
-    return {"line_length": prepared.surface.size[1], "width": bodies.width, "renewal": renewal}
-
-
-def worst_in_words(errors: np.ndarray) -> str:
-    """The largest of the standard errors of f over time."""
-    worst = float(np.max(errors, initial=0.0))
-    return "not known" if math.isnan(worst) else f"standard error of f at most {percent(worst)}"
-
-
-def uncertainty_in_time(
-    coefficient: np.ndarray, error: np.ndarray, line_length: float, width: float
-) -> UncertaintyCurve:
-    """Standard error and 95 % interval of f at every time, from the finite surface alone."""
-    unknown = np.full(error.size, math.nan)
-    half = student(MANY) * error * np.abs(coefficient)
-    return UncertaintyCurve(
-        numerical=unknown,
-        sampling=error,
-        interval=np.stack([coefficient - half, coefficient + half], axis=1),
-        line_scatter=error * math.sqrt(line_length / width),
-        participation=unknown,
-        length=np.full(error.size, line_length),
-        area_needed=unknown,
-        model_form=unknown,
-        text=tuple(f"surface {percent(each)}" for each in error),
-    )

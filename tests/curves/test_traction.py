@@ -10,7 +10,7 @@ import pytest
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.draw_curves import plot_map
+from lubfric.studies import plot_map
 
 SCENE = lubfric.load_scene("paper").with_(
     bodies={"radius": 0.01, "hertz_pressure": 1e9, "width": 0.01, "material": "steel"},
@@ -78,7 +78,7 @@ def test_command_writes_the_curve(tmp_path, capsys, monkeypatch):
     rows = list(csv.reader((out / "traction.csv").read_text().splitlines()))
     record = json.loads((out / "result.json").read_text())
     assert len(rows) == 5 and rows[0][0] == "ratio [-]" and rows[0][-2:] == ["validity", "uncertainty"]
-    assert float(rows[2][rows[0].index("coefficient [-]")]) == pytest.approx(record["columns"]["coefficient"][1])
+    assert float(rows[2][rows[0].index("coefficient [-]")]) == pytest.approx(record["points"][1]["coefficient"])
     low, high = (float(rows[2][rows[0].index(f"interval_{end} [-]")]) for end in ("low", "high"))
     alone = lubfric.friction(
         lubfric.load_scene(tmp_path / "s.toml").with_(motion={"slide_roll_ratio": float(rows[2][0])})
@@ -91,7 +91,7 @@ def test_command_writes_the_curve(tmp_path, capsys, monkeypatch):
     (out / "traction.png").unlink()
     assert main(["plot", str(out)]) == 0 and (out / "traction.png").read_bytes() == drawn
     with monkeypatch.context() as full:
-        full.setattr("lubfric.output.run_traction.plot_traction", full_disk)
+        full.setattr("lubfric.output.run_curve.plot_traction", full_disk)
         assert main(["plot", str(out)]) != 0 and (out / "traction.png").read_bytes() == drawn
     assert main(["plot", str(out), "--measured", "m.csv", "--speed", "u", "--coefficient", "f"]) == 2
     assert "holds a traction curve" in capsys.readouterr().err

@@ -14,12 +14,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lubfric.deterministic import Start
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import lay_out, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant, viscosity
-from lubfric.surface.height_map import Surface
+from lubfric.surface import Surface
 from verification.studies.waviness import STEEL, compared
 
 E_PRIME, SPEED, CELLS = 2e9, 0.5, 1024
@@ -42,7 +40,7 @@ def test_long_waves_are_pressed_flat_and_short_ones_stay(oil):
     for length, within in ((b / 2, 0.04), (b / 4, 0.01), (b / 8, 0.01)):
         k = 2 * np.pi / length
         wavy = replace(smooth, heights=0.01 * film * np.cos(k * x)[:, None])
-        found = solve_point(wavy, starts=[Start(lambda: base.state, SPEED)], tolerance=1e-8)
+        found = solve_point(wavy, start=base.state, tolerance=1e-8)
         waves = np.stack([np.cos(k * x), np.sin(k * x), np.ones_like(x), x], axis=1)[near] * weight[:, None]
         part = np.linalg.lstsq(waves, (found.gap - base.gap)[near, 0] * weight, rcond=None)[0]
         kept.append(np.hypot(part[0], part[1]) / (0.01 * film))

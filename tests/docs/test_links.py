@@ -1,9 +1,13 @@
 """No dead link: every file and every heading that a page points to exists; links to the outside are listed."""
 
+import re
+from pkgutil import resolve_name
+
 import pytest
 from pages import PAGES, ROOT, anchors, links
 
 LISTED = (ROOT / "tests" / "docs" / "external_links.txt").read_text(encoding="utf-8").split()
+TO_BE_WRITTEN = {"verification/studies/thinner_oil.py"}  # by who follows CONTRIBUTING
 MADE = ("auto_gallery/",)  # written by the build of the site from docs/gallery
 
 
@@ -32,3 +36,13 @@ def test_pictures_of_the_pages_are_used():
     pictures = {p.name for p in (ROOT / "docs" / "images").iterdir()}
     used = {target.rpartition("/")[2] for page in PAGES for target in inside(page)}
     assert not pictures - used
+
+
+@pytest.mark.parametrize("page", [p for p in PAGES if p.name != "CHANGELOG.md"], ids=lambda p: p.name)
+def test_files_and_names_of_the_code_exist(page):
+    """``room/file.py`` in or below the project, and dotted names of lubfric."""
+    text = page.read_text(encoding="utf-8")
+    for path in set(re.findall(r"(?<![\w/.])[\w]+/[\w/]*\.py\b", text)) - TO_BE_WRITTEN:
+        assert any((ROOT / folder / path).exists() for folder in ("", "lubfric", "verification")), path
+    for name in set(re.findall(r"`(lubfric\.[\w.]+)`", text)):
+        resolve_name(name)

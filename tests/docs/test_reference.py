@@ -12,6 +12,7 @@ import lubfric
 sys.path.insert(0, str(ROOT / "docs"))
 from docstrings import numpydoc  # noqa: E402
 
+GONE = {"start"}  # taken only to say that it is not taken any more
 FUNCTIONS = [name for name in lubfric.__all__ if inspect.isfunction(getattr(lubfric, name))]
 
 
@@ -27,7 +28,7 @@ def test_every_parameter_is_told(name):
     lines = numpydoc(inspect.getdoc(function).splitlines())
     begin = lines.index("Parameters")
     told = [line for line in lines[begin:] if line and not line.startswith((" ", "-"))]
-    assert set(inspect.signature(function).parameters) <= set(told)
+    assert set(inspect.signature(function).parameters) - GONE <= set(told)
     assert "Returns" in "".join(lines) and "Raises" in "".join(lines)
 
 

@@ -13,7 +13,7 @@ pytest.importorskip("skfem")
 from verification.cases import ALPHA, VISCOSITY, case_of
 from verification.convergence import fitted_order
 from verification.exact import antiderivative
-from verification.fem.ehl import LineContact, Solution, make_layout, solve_ehl
+from verification.fem.ehl import LineContact, Solution, solve_ehl
 from verification.fem.ehl_body import Layout, graded_mesh, make_body, refined_displacement
 from verification.fem.ehl_film import Film, assemble, slope_jumps
 from verification.fem.fluid import Fluid
@@ -61,29 +61,6 @@ def test_hertz_pressure_flattens_the_parabola(bodies):
     assert bends[2] < 1e-4
 
 
-def test_surface_of_the_body_follows_the_line_kernel(bodies):
-    """Outside a Hertz contact the gap opens with slope sqrt(X^2 - 1), so the surface rises with X - sqrt(X^2
-    - 1)."""
-    body = bodies[-1]
-    u = body.trace @ body.displacement(hertz(body))
-    a, b = (int(np.argmin(np.abs(body.x - at))) for at in (1.2, 2.5))
-
-    def risen(x):
-        return x**2 / 2 - (x * math.sqrt(x**2 - 1) - math.acosh(x)) / 2
-
-    assert u[b] - u[a] == pytest.approx(risen(body.x[b]) - risen(body.x[a]), rel=5e-4)
-
-
-def test_finite_body_costs_the_square_of_its_size():
-    bends = []
-    for side in (60.0, 120.0, 240.0):
-        mesh, layout = graded_mesh(Layout(side, -4.0, 3.0, (-1.0, 1.0), 0.05, 0.6))
-        body = make_body(mesh, layout)
-        u = body.trace @ body.displacement(hertz(body))
-        bends.append(np.polyfit(body.x[np.abs(body.x) < 2], u[np.abs(body.x) < 2], 2)[0])
-    assert (bends[1] - bends[0]) / (bends[2] - bends[1]) == pytest.approx(4, rel=0.1)
-
-
 def test_body_is_symmetric_and_in_balance(bodies):
     body = bodies[0]
     rng = np.random.default_rng(1)
@@ -98,10 +75,6 @@ def test_refined_displacement_is_the_same_function(bodies):
     u = coarse.displacement(hertz(coarse))
     same = fine.trace @ refined_displacement(coarse, fine, u)
     assert np.allclose(same, coarse.line.probes(fine.x[None]) @ (coarse.trace @ u), atol=1e-12)
-    x, y = coarse.basis.probes, fine.basis.probes
-    inside = np.array([[0.3, -1.1, 2.0], [-0.7, -0.2, -3.0]])
-    refined = fine.everywhere(refined_displacement(coarse, fine, u))
-    assert np.allclose(x(inside) @ coarse.everywhere(u), y(inside) @ refined, atol=1e-12)
     with pytest.raises(AssertionError):
         refined_displacement(coarse, bodies[2], u)
 
@@ -154,8 +127,7 @@ def test_flow_form_has_the_order_of_its_element():
 
 
 def test_rigid_isoviscous_limit():
-    """Martin (1916) with Reynolds' outlet: h_min M = 2.447484, flow film M = 3, approached at the element's
-    rate."""
+    """Martin (1916) with Reynolds' outlet: h_min M = 2.447484, flow film M = 3, approached at the element's rate."""
     found = np.array([films(s) for s in solve_ehl(contact(1e-3, 0))]) * 1e-3
     errors = np.abs(found / [2.447484, 3.0] - 1)
     assert np.all(errors[-1] < 1e-3)
@@ -190,14 +162,6 @@ def test_scaling_only_the_two_numbers_matter():
     )
     a, b = (films(solve_ehl(c, refinements=0)[0]) for c in (one, other))
     assert a == pytest.approx(b, rel=1e-7)
-
-
-def test_layout_follows_film_and_hertz_width():
-    rigid, heavy = (make_layout(contact(M, 5), 1.0, 60.0) for M in (0.05, 100))
-    assert rigid.inlet < -500 and -7 < heavy.inlet < -3
-    assert rigid.side > 1000 and heavy.side < 62
-    for layout in (rigid, heavy):
-        assert layout.side / 2 > -layout.inlet
 
 
 @pytest.mark.slow

@@ -477,7 +477,6 @@ SOLVED_OTHERWISE = [
 ]
 STEADY_ONLY = [  # a run in time refuses them by name
     {"model": "deterministic"},
-    {"film_deflection": "total"},
     {"cavitated_shear": "striated"},
 ]
 
@@ -589,8 +588,8 @@ ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, sh
     "counterface": set(lubfric.Roughness.__dataclass_fields__),
     "numerics": {
         *("tolerance", "film_tolerance", "contact_tolerance", "balance_tolerance", "workers", "model", "grid"),
-        *("cavitated_shear", "film_deflection"),  # tests/ehl/test_shear.py, tests/point/test_deflection_level.py
-        *("sampling", "sampling_tolerance", "accept"),  # tests/sampling, tests/point/test_judge.py
+        *("cavitated_shear", "film_deflection"),  # tests/ehl/test_shear.py, tests/sharing/test_balance.py
+        *("sampling", "sampling_tolerance", "accept"),  # tests/sampling, tests/sharing/test_validity.py
     },
     "transient": set(lubfric.Transient.__dataclass_fields__),  # tests/unsteady/test_transient_mixed.py
 }

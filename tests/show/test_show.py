@@ -8,8 +8,9 @@ import pytest
 from matplotlib.figure import Figure
 
 import lubfric
-from lubfric._base import friction_over_time, new_figure
+from lubfric._base import new_figure
 from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
+from lubfric.time import friction_over_time
 
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
@@ -85,8 +86,9 @@ def test_a_curve_is_drawn_on_given_axes(curve):
 
 
 def test_the_band_of_a_curve_is_that_of_its_intervals(curve):
-    interval = np.stack([0.9 * curve.coefficient, 1.2 * curve.coefficient], axis=1)
-    curve, ax = replace(curve, uncertainty=replace(curve.uncertainty, interval=interval)), axes()
+    wide = [replace(p.uncertainty, interval=(0.9 * p.coefficient, 1.2 * p.coefficient)) for p in curve.points]
+    points = tuple(replace(point, uncertainty=each) for point, each in zip(curve.points, wide))
+    curve, ax = replace(curve, points=points), axes()
     curve.plot(ax)
     corners = ax.collections[0].get_paths()[0].vertices
     for speed, ends in zip(curve.speed, curve.uncertainty.interval):

@@ -649,4 +649,4 @@ def test_micrometres_in_each_spelling(tmp_path, unit):
 
 def test_surface_of_a_reader_is_an_ordinary_surface(tmp_path):
     surface = read_surface(write_x3p(tmp_path / "a.x3p", heights((30, 20))))
-    assert isinstance(surface, Surface) and surface.patch((20, 20), edge=(None, "mirror")).periodic_axes[1]
+    assert isinstance(surface, Surface) and surface.periodic(axes=(False, True)).periodic_axes[1]

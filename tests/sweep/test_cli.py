@@ -87,7 +87,7 @@ def test_plot_redraws_from_the_csv(run):
 def test_info_names_the_regime(capsys):
     assert main(["info", "paper"]) == 0
     text = capsys.readouterr().out
-    for word in ("half-width 4.496", "102.0 MPa", "lambda", "on a line of the roughness", "25 speeds"):
+    for word in ("half-width 4.496", "102.0 MPa", "lambda", "on strips of the roughness", "25 speeds"):
         assert word in text, text
 
 

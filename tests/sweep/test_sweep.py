@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.studies import QUANTITIES, points
+from lubfric.quantities import NUMBERS
+from lubfric.studies import points
 from lubfric.studies.store import digest
 
 SCENE = lubfric.load_scene("paper").with_(
@@ -31,7 +32,7 @@ def curve(model):
 
 
 def same(one, other):
-    for name in set(QUANTITIES) - {"seconds"}:
+    for name in set(NUMBERS) - {"seconds"}:
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
 
 

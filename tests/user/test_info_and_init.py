@@ -59,12 +59,12 @@ def test_info_foretells_what_friction_refuses():
 def test_info_looks_at_what_is_solved():
     """A patch of few asperities is no doubt about a scene that is solved on a long line of its roughness."""
     small = lubfric.load_scene("paper").with_(contact={"shape": (100, 100)})
-    for sampling, told in (("line", False), ("patch", True)):
+    for sampling, told in (("strips", False), ("patch", True)):
         scene = small.with_(numerics={"sampling": sampling})
         known = [entry.what for entry in lubfric.prepare(scene).known]
         assert ("few asperities" in describe_scene(scene)) == told == any("width of the map" in what for what in known)
     smaller = small.with_(contact={"shape": (64, 64)})  # too small to be generated, which it need not be
-    assert lubfric.friction(smaller).coefficient > 0 and "line of the roughness" in describe_scene(smaller)
+    assert lubfric.friction(smaller).coefficient > 0 and "strips of the roughness" in describe_scene(smaller)
 
 
 def test_info_tells_a_likely_slip():

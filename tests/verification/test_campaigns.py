@@ -11,12 +11,10 @@ import lubfric
 from verification import kept
 from verification.__main__ import main
 from verification.charts import contact, draw
-from verification.charts.growth import exponent
-from verification.charts.measure import interleaved, point
+from verification.charts.measure import point
 from verification.check import Check
 from verification.kept import Run
-from verification.model import error, film, points
-from verification.opponents import CONTACT
+from verification.model import error, points
 from verification.sampling import coverage, others
 
 NAN = float("nan")
@@ -24,42 +22,33 @@ NAN = float("nan")
 
 def test_rows_come_in_order_from_several_processes_and_are_kept(tmp_path):
     run, cases = Run(tmp_path, 2), {str(k): k for k in range(4)}
-    assert list(run.solved(cases, math.factorial)) == [(0, 1), (1, 1), (2, 2), (3, 6)]
-    assert list(run.solved(cases, None)) == [(0, 1), (1, 1), (2, 2), (3, 6)]
+    assert list(run.solved(cases, math.factorial)) == list(run.solved(cases, None)) == [(0, 1), (1, 1), (2, 2), (3, 6)]
 
 
 def test_a_line_that_was_not_written_to_its_end_is_written_again(tmp_path):
-    file, solved = tmp_path / "rows.jsonl", []
+    solved = []
 
     def solve(case):
         solved.append(case)
         return [case, NAN]
 
     assert [row for _, row in Run(tmp_path).solved({"a": 1, "b": 2}, solve)] == [[1, None], [2, None]]
+    (file,) = tmp_path.rglob("rows.jsonl")
     file.write_text(file.read_text()[:-3])
     assert [row for _, row in Run(tmp_path).solved({"a": 1, "b": 2, "c": 3}, solve)][-1] == [3, None]
-    assert solved == [1, 2, 2, 3] and len(kept.read(file)) == 3
+    assert solved == [1, 2, 2, 3] and len(kept.rows_of(file)) == 3
 
 
-def test_rows_of_other_code_are_refused_unless_asked_for(tmp_path, monkeypatch):
-    file, run = tmp_path / "rows.jsonl", Run(tmp_path)
+def test_rows_of_other_code_are_not_used(tmp_path, monkeypatch):
+    run = Run(tmp_path)
     assert [row for _, row in run.solved({"a": "a"}, str.upper)] == ["A"]
-    ours = kept.code_of(file)
-    monkeypatch.setattr(kept, "code", lambda: "lubfric 9, source of tomorrow")
-    with pytest.raises(kept.OtherCode, match="--go-on"):
-        list(run.solved({"a": "a"}, str.upper))
-    kept.adopt(file)
-    kept.adopt(file)
-    assert [row for _, row in run.solved({"a": None, "b": "b"}, str.upper)] == ["A", "B"]
-    codes = [line for line in file.read_text().splitlines() if kept.CODE in line]
-    assert len(codes) == 2 and ours in codes[0] and kept.code_of(file) == kept.code()
+    monkeypatch.setattr(kept, "code", lambda: "of tomorrow")
+    assert [row for _, row in run.solved({"a": "b"}, str.upper)] == ["B"]
 
 
-def test_the_flag_goes_on_with_what_lies_in_the_folder(tmp_path, monkeypatch):
-    from verification import sampling
-
-    folder = tmp_path / "kept-quick"
-    folder.mkdir()
+def test_a_campaign_judges_what_lies_in_the_folder_and_puts_its_table(tmp_path):
+    folder = tmp_path / "kept-quick" / kept.code()
+    folder.mkdir(parents=True)
     rows = [[f"{case.name}, 7", [F, 1e-4]] for case in coverage.SPEEDS]
     (folder / "truths.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
     rows = [[f"{c.name}, {7 + k}", row] for c in coverage.SPEEDS for k, row in enumerate(trials(seed=5)[:16])]
@@ -67,8 +56,7 @@ def test_the_flag_goes_on_with_what_lies_in_the_folder(tmp_path, monkeypatch):
     page = tmp_path / "page.md"
     page.write_text("<!-- table: sampling-coverage -->\n<!-- end of table -->\n")
     asked = ["--quick", "--only", "coverage", "--seed", "7", "--out", str(tmp_path), "--docs", str(tmp_path)]
-    assert sampling.main(asked) == 1  # rows of other code
-    assert sampling.main([*asked, "--go-on"]) == 0
+    assert main(["sampling", *asked]) == 0
     text = page.read_text()
     assert text.count("| 16 |") == 4 and "sampling --quick --only coverage --docs docs`" in text
     assert (tmp_path / "coverage.png").stat().st_size > 1000
@@ -123,18 +111,9 @@ def test_pieces_that_miss_their_map_fail(monkeypatch, missed, passed):
     assert check.passed == passed
 
 
-def test_a_piece_is_its_part_of_the_map(tmp_path, monkeypatch):
-    seen = []
-    monkeypatch.setattr(others, "MAP", (192, 162))
-    monkeypatch.setattr(others, "solve", lambda scene, speed, asked: seen.append(np.load(scene.surface.file)))
-    for place in (None, *np.ndindex(2, 3)):
-        others.piece(("", 3, (2, 3), place))
-    assert np.array_equal(np.block([seen[1:4], seen[4:]]), seen[0])
-
-
 def test_a_number_beyond_its_stated_error_fails(monkeypatch):
     rows = {"f": (0.01, 0.02), "gap": (0.05, 0.02), "area": None}
-    monkeypatch.setattr(others, "FIELDS", tuple(rows))
+    monkeypatch.setattr(others, "ESTIMATED", tuple(rows))
     monkeypatch.setattr(others, "beside", lambda number: rows)
     *checks, table = others.quantities("quick")
     assert {c.name.split(":")[0]: c.passed for c in checks} == {"f": True, "gap": False}
@@ -166,20 +145,12 @@ def test_a_model_that_errs_more_than_its_results_state_fails(monkeypatch, f, fai
 
 
 def test_every_model_answers_the_same_scene_and_a_lost_reference_fails():
-    methods = tuple(m for m in points.METHODS if m != "hertz, total")
-    found = points.all_points([(SETTING, (0.01, 0.003))], Run(), methods)
+    found = points.all_points([(SETTING, (0.01, 0.003))], Run())
     assert not any(p.failure for p in found) and len(found) == 8
     f = {p.method: p.coefficient for p in found if p.speed == 0.003}
     assert max(f.values()) < 1.2 * min(f.values()) and len(set(f.values())) >= 3
     lost = [replace(p, failure="no") for p in found]
     assert [c.failed for c in error.failures(lost)] == [True, False, False, False]
-
-
-def test_grids_and_heavy_loads_say_what_they_found():
-    f, seconds, memory = film.on_cells((0.01, 1, 32))
-    assert 0.04 < f < 0.09 and seconds > 0 and 0 < memory < 6
-    fast, slow = (film.at_load(("27.5 N", 1, speed, 24)) for speed in (0.3, 0.001))
-    assert not fast["failure"] and not slow["failure"] and slow["share"] > fast["share"]
 
 
 def test_a_measured_map_is_slid_along_both_axes_of_its_file(tmp_path):
@@ -188,8 +159,7 @@ def test_a_measured_map_is_slid_along_both_axes_of_its_file(tmp_path):
     found = {}
     for name, heights in (("straight", map_.heights), ("turned", map_.heights.T)):
         np.save(tmp_path / f"{name}.npy", heights)
-        keys = {"file": str(tmp_path / f"{name}.npy"), "spacing": map_.spacing, "unit": "m"}
-        keys |= {"sq": None, "correlation_length": None}
+        keys = {"file": str(tmp_path / f"{name}.npy"), "spacing": map_.spacing, "sq": None, "correlation_length": None}
         scene = lubfric.load_scene("paper").with_(surface=keys, contact={"shape": None, "spacing": None})
         (tmp_path / f"{name}.toml").write_text(scene.to_toml())
         for axis in "xy":
@@ -198,29 +168,6 @@ def test_a_measured_map_is_slid_along_both_axes_of_its_file(tmp_path):
     assert found["straight", "x"] != pytest.approx(found["straight", "y"], rel=2e-3)
     for axis, other in ("xy", "yx"):
         assert found["straight", axis] == pytest.approx(found["turned", other], rel=2e-3)
-
-
-def sample(sizes, power=1.5):
-    at = [{"size": n, "memory": 8e3 * n, "work": 20.0} for n in sizes]
-    made = [point("contact", "contact", str(n), 1.0, (1e-6 * n**power,) * 3, **w) for n, w in zip(sizes, at)]
-    return [Check.from_dict(values) for values in made]
-
-
-@pytest.mark.parametrize("power", [1.0, 1.5, 2.9])
-def test_exponents(power):
-    measured = sample((16, 64, 256, 1024, 4096), power)
-    assert exponent(measured, "seconds") == pytest.approx(power)
-    assert exponent(measured, "memory") == pytest.approx(1.0)
-    assert exponent(measured, "work") == pytest.approx(0.0, abs=1e-12)
-    ((_, _, _, slope, memory, _),) = draw.growth_table(measured).rows
-    assert slope == f"N^{power:.2f}" and memory == "33 MB"
-
-
-def test_repeats_are_interleaved():
-    order = []
-    found = interleaved({name: lambda name=name: order.append(name) for name in "ab"}, 3)
-    median, low, high = found["a"][1]
-    assert order == list("ababab") and 0 <= low <= median <= high
 
 
 def test_methods_agree_and_errors_fall_with_the_tolerance():
@@ -245,14 +192,6 @@ def test_methods_are_compared_at_one_error():
     ]
     assert draw.methods_table(rows).rows == (("case", "20 ms", "4.0"),)
     assert draw.work_precision("contact", rows, "an abacus").data[:4] == b"\x89PNG"
-
-
-def test_opponents_give_none_where_they_are_not_installed(monkeypatch):
-    import sys
-
-    for name in ("aspher", "tamaas"):
-        monkeypatch.setitem(sys.modules, name, None)
-        assert CONTACT[name](contact.heights(64, "gaussian"), 1e-6, 231e9) is None
 
 
 @pytest.mark.slow

@@ -7,11 +7,10 @@ from itertools import product
 import numpy as np
 import pytest
 
-from lubfric import ConvergenceError, solve_contact, solve_differential_deflection, solve_ehl
+from lubfric import ConvergenceError, solve_contact, solve_ehl
 from lubfric.contact import half_space
 from lubfric.deterministic import solve_point
 from verification.cases import case_of
-from verification.polonsky_keer import polonsky_keer
 from verification.stability import contact_map, film_map, sharing_map, stability_map, whole_map
 from verification.stability.cell import FAILED, RIGHT, WRONG, Cell, judged, verdict
 from verification.stability.contact_check import contact_deviations, deflection
@@ -78,13 +77,6 @@ def test_deflection_of_the_judge_agrees_with_the_operator(boundary):
     assert u == pytest.approx(half_space(p.shape, (1e-6, 2e-6), 231e9, boundary).apply(p), rel=1e-10)
 
 
-def test_polonsky_keer_agrees_with_the_default():
-    z = contact_map.surface("gaussian", 48, 48)
-    p, converged = polonsky_keer(z.max() - z, half_space(z.shape, 1e-6, 231e9), 1e8, tolerance=1e-9)
-    ours = solve_contact(z.max() - z, 1e-6, 231e9, mean_pressure=1e8, tolerance=1e-9).pressure
-    assert converged and np.linalg.norm(p - ours) < 1e-6 * np.linalg.norm(ours)
-
-
 def test_quick_contact_map_has_no_wrong_cell_and_no_warning():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
@@ -114,17 +106,6 @@ def test_the_judge_of_load_sharing_sees_a_wrong_answer(speed):
     assert sharing_map.deviations(cell, (model, wrong))["friction"] > 1
 
 
-def test_bulk_deflection_does_not_hide_open_gaps():
-    # a rough flat that is free along x, pressed flat: the mean deflection is hundreds of roughness heights
-    z = contact_map.surface("exponential", 97, 12)
-    for aspect in (10.0, 50.0):
-        result = solve_contact(
-            z.max() - z, (aspect * 1e-6, 1e-6), 231e9, mean_pressure=3e10, boundary=("free", "periodic")
-        )
-        gap = np.abs(result.gap[result.pressure > 0])
-        assert gap.max() < 1e-3 * z.std()
-
-
 @pytest.mark.parametrize("boundary", [contact_map.MIXED, contact_map.FREE])
 @pytest.mark.parametrize("kind, hardness", [("noise", None), ("gaussian", 0.05 * 231e9)])
 def test_mean_gap_of_a_hundredth_without_periodicity(boundary, kind, hardness):
@@ -140,23 +121,6 @@ def test_a_load_below_rounding_rests_on_one_cell():
     assert np.count_nonzero(result.pressure) == 1 and result.mean_pressure == pytest.approx(1e-20, rel=1e-12)
 
 
-def test_contact_curve_holds_its_accuracy_near_full_contact():
-    from lubfric.rough.contact_curve import contact_curve
-
-    z = contact_map.surface("exponential", 48, 48, 1e-9)
-    heaviest = 0.7 * contact_map.full_contact(z)
-    curve = contact_curve(z, 1e-6, 231e9, heaviest=heaviest, tolerance=1e-6)
-    for share in (0.55, 0.3, 0.07, 0.01):
-        exact = solve_contact(z.max() - z, 1e-6, 231e9, mean_pressure=share * heaviest).mean_gap
-        assert curve.at(share * heaviest)[0] == pytest.approx(exact, rel=0.01)
-
-
-def test_two_discretisations_of_the_film_agree():
-    case = case_of(50, 10)
-    newton, other = solve_ehl(**case, tolerance=1e-3), solve_differential_deflection(**case, tolerance=1e-3)
-    assert newton.min_film == pytest.approx(other.min_film, rel=2e-3)
-
-
 def test_what_decides():
     """The default method may not be wrong anywhere, nor fail within its promise; another method may do both."""
     failing = {
@@ -166,17 +130,6 @@ def test_what_decides():
         if ended(solve, {"a": 2.0}, replace(HERE, inside=inside, default=default)).failed
     }
     assert failing == {(True, True, "fails"), (True, True, "wrong"), (False, True, "wrong")}
-
-
-@pytest.mark.parametrize("share", [0.3, 1.0])
-def test_badly_starved_light_contacts_are_solved(share):
-    case = case_of(1e-3, 10)
-    flooded = solve_ehl(**case)
-    case["inlet_length"] = flooded.half_width + share * np.sqrt(2 * case["radius"] * flooded.flow_film)
-    starved = solve_ehl(**case)
-    other = solve_differential_deflection(**case)
-    assert starved.flow_film < 0.6 * flooded.flow_film
-    assert starved.min_film == pytest.approx(other.min_film, rel=6e-3)
 
 
 def test_the_judge_of_one_gap_allows_what_its_cells_leave_open_and_sees_a_leak(monkeypatch):

@@ -8,11 +8,11 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from verification.rates import fitted_order, orders
 
 from verification import __main__ as command
 from verification import plotting
-from verification.check import ABSOLUTE, AT_LEAST, AT_MOST, KINDS, RELATIVE, Check, Field, Figure, StudyResult, Table
+from verification.check import ABSOLUTE, AT_LEAST, AT_MOST, KINDS, RELATIVE, Check, Field, Figure, Table
+from verification.convergence import fitted_order
 from verification.fem.report import SolveError, SolveReport
 from verification.studies import STUDIES, Study
 
@@ -33,7 +33,7 @@ def good(level):
 
 def wrong(level):
     """A check that fails."""
-    return StudyResult(checks=(Check("off by one", 2.0, 1.0, 0.1, "arithmetic"),))
+    return [Check("off by one", 2.0, 1.0, 0.1, "arithmetic")]
 
 
 def raises(level):
@@ -47,7 +47,7 @@ def leaves(level):
 
 
 def empty(level):
-    return StudyResult()
+    return []
 
 
 def no_extra(level):
@@ -208,9 +208,6 @@ def test_list_and_only(run, capsys, tmp_path):
     with pytest.raises(SystemExit) as stop:
         run(good, options=["--quick", "--only", "good"], levels=("full",))
     assert stop.value.code == 2 and "good (full)" in capsys.readouterr().err
-    with pytest.raises(SystemExit) as stop:
-        command.main(["--quick", "--full"])
-    assert stop.value.code == 2
 
 
 def test_list_names_every_real_study_and_each_can_be_found(capsys):
@@ -225,37 +222,23 @@ def test_list_names_every_real_study_and_each_can_be_found(capsys):
     assert "did you mean 'charts'" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(
-    ("kind", "right", "wrong"),
-    [
-        (RELATIVE, (2.19,), (2.21, 1.79, -2.0)),
-        (ABSOLUTE, (2.05,), (2.2,)),
-        (AT_MOST, (-50.0,), (2.2,)),
-        (AT_LEAST, (50.0,), (1.8,)),
-    ],
-)
-def test_what_passes(kind, right, wrong):
-    assert all(Check("c", measured, 2.0, 0.1, "s", kind).passed for measured in right)
-    assert not any(Check("c", measured, 2.0, 0.1, "s", kind).passed for measured in wrong)
+PASSES = {RELATIVE: ((2.19,), (2.21, 1.79, -2.0)), ABSOLUTE: ((2.05,), (2.2,))}
+PASSES |= {AT_MOST: ((-50.0,), (2.2,)), AT_LEAST: ((50.0,), (1.8,))}
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("measured", [math.nan, math.inf, -math.inf])
-def test_nothing_that_is_not_a_number_passes(kind, measured):
-    assert not Check("c", measured, 1.0, 1e300, "s", kind).passed
+def test_what_passes(kind):
+    right, wrong = PASSES.get(kind, ((), ()))
+    assert all(Check("c", measured, 2.0, 0.1, "s", kind).passed for measured in right)
+    wrong = (*wrong, math.nan, math.inf, -math.inf)
+    assert not any(Check("c", measured, 2.0, 0.1, "s", kind).passed for measured in wrong)
 
 
-@pytest.mark.parametrize(
-    "bad",
-    [
-        {"kind": "x"},
-        {"expected": math.nan},
-        {"tolerance": -1},
-        {"tolerance": math.inf},
-        {"source": ""},
-        {"expected": 0},
-    ],
-)
+BAD = [{"kind": "x"}, {"expected": math.nan}, {"expected": 0}, {"tolerance": -1}, {"tolerance": math.inf}]
+BAD += [{"source": ""}]
+
+
+@pytest.mark.parametrize("bad", BAD)
 def test_a_check_that_could_not_fail_is_refused(bad):
     with pytest.raises(ValueError, match="check 'c'"):
         Check(**({"name": "c", "measured": 1.0, "expected": 1.0, "tolerance": 0.1, "source": "s"} | bad))
@@ -268,31 +251,17 @@ def test_names_that_become_files_are_checked():
         Table("t", "", ("a",), ((1, 2),))
 
 
-def test_orders():
+def test_a_fitted_order():
     h = np.array([1, 0.5, 0.25])
-    assert np.allclose(orders(h, 3 * h**2.5), 2.5) and math.isclose(fitted_order(h, 3 * h**2.5), 2.5)
+    assert math.isclose(fitted_order(h, 3 * h**2.5), 2.5)
     for errors in ([1, 0, 1], [1, math.nan, 1], [1.0]):
         with pytest.raises(ValueError, match="finite values > 0"):
             fitted_order(h[: len(errors)], errors)
 
 
 def test_a_solve_report_raises_with_what_it_has():
-    report = SolveReport("s", "stagnated", 3, 1.0, 1e-6)
+    report = SolveReport("s", "stagnated", 3, 1e-6, {"load": 1.0})
     with pytest.raises(SolveError, match="stagnated after 3 iterations") as stop:
         report.raise_if_failed("result")
     assert stop.value.report is report and stop.value.result == "result"
-    SolveReport("s", "converged", 3, 1e-7, 1e-6).raise_if_failed()
-
-
-def test_processor_time_is_that_of_the_stated_core(monkeypatch):
-    """The same work on a core of half the speed: twice the seconds, the same time on the stated core."""
-    from verification import pace
-
-    now = [0.0]
-    monkeypatch.setattr(pace.time, "process_time", lambda: now[0])
-
-    def seconds_on(speed):
-        monkeypatch.setattr(pace, "_pair", lambda: pace.PAIR / speed)
-        return pace.paced(lambda: now.__setitem__(0, now[0] + 3.0 / speed))[1]
-
-    assert seconds_on(1.0) == seconds_on(0.5) == 3.0
+    SolveReport("s", "converged", 3, 1e-6, {"load": 1e-7}).raise_if_failed()

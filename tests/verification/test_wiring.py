@@ -9,7 +9,7 @@ from verification.run import load
 from verification.studies import STUDIES
 
 WIRING = [s for s in STUDIES if s.name.startswith("wiring")]
-QUICKEST = ("film_density_law", "flat_hardness", "half_a_column", "subsampled_grids", "motion_axis", "map_not_scaled")
+QUICKEST = ("film_density_law", "flat_hardness", "half_a_column", "coarse_heights", "motion_axis", "map_not_scaled")
 
 
 @pytest.mark.parametrize("study", WIRING, ids=lambda s: s.name)

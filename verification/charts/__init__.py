@@ -1,10 +1,8 @@
-"""``python -m verification charts``: error against time, and cost against size, measured on this machine.
+"""``python -m verification charts``: error against time, measured on this machine.
 
 Times are processor seconds, which another job on the machine changes less than it changes the time by the clock. What
 is measured is kept in the folder: the same command draws it again.
 """
-
-from __future__ import annotations
 
 import importlib
 from collections.abc import Iterator
@@ -17,7 +15,6 @@ CHARTS = {
     "contact": "Dry contact: error against time",
     "film": "Smooth film: error against time",
     "job": "The whole job: error against time per point",
-    "growth": "Cost growth",
 }
 
 
@@ -37,10 +34,6 @@ def chart(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
     points = [Check.from_dict(values) for _, row in rows for values in row]
     yield from points
     yield Table(f"{name}_machine", "Where and when the points were measured", ("machine",), ((where,),))
-    if name == "growth":
-        yield draw.growth_table(points)
-        yield draw.growth(points, where)
-        return
     if name == "contact":
         yield draw.methods_table(points)
     yield draw.work_precision(name, points, where)

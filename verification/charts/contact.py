@@ -1,8 +1,6 @@
 """The chart of the dry contact: error of the pressure against time, by method, tolerance, load, surface and
 boundary."""
 
-from __future__ import annotations
-
 from functools import lru_cache, partial
 
 import numpy as np
@@ -37,8 +35,7 @@ def _finest(acf: str, finest: int = 2048) -> np.ndarray:
 
 
 def cases(quick: bool) -> dict[str, tuple]:
-    """Panels for surfaces and loads where the contact is periodic, for the other boundaries at one load, and for
-    grids."""
+    """Panels for surfaces and loads of a periodic contact, for the other boundaries at one load, and for grids."""
     n, loads = (64, (200e6,)) if quick else (256, (50e6, 200e6, 1000e6))
     tolerances = (1e-2, 1e-4, 1e-6) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
     surfaces, repeats = (("gaussian",), 1) if quick else (("exponential", "gaussian"), 3)
@@ -114,8 +111,7 @@ def attempt(solve, tolerance: float):
 
 
 def grids(acf: str, sizes) -> list[dict]:
-    """Error of coarser grids: contact area and mean gap of one surface against the finest grid, with a solver error of
-    1e-6."""
+    """Contact area and mean gap of one surface on coarser grids against the finest, with a solver error of 1e-6."""
     solved, found = {}, []
     for n in sizes:
         z = heights(n, acf)

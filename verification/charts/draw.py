@@ -1,15 +1,11 @@
 """Draws charts from the points alone."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from .. import plotting
 from ..check import Check, Figure, Table
-from .growth import exponent
 
 LEAST = 1e-12  # of the reference: errors below are drawn there
-NOTICED = 2e5  # bytes: less is lost in what the process already had
 ORDER = ("lubfric", "default", "default, cold", "default, warm")
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C564B", "#7F7F7F", "#882255")
 EQUAL = 1e-5  # error of the pressure at which methods are compared
@@ -21,19 +17,18 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
     Where a solver is off by its whole answer it has failed: such points are left out.
     """
     points = [p for p in points if p.at.get("apart") or p.measured < 1]
-    names = list(dict.fromkeys(p.word("panel") for p in points))
+    names = list(dict.fromkeys(p.at["panel"] for p in points))
     columns = min(3, len(names))
     canvas, axes = plotting.panels(len(names), 3, width=3.9 * columns + 0.4, height=3.1)
     colours = palette(points)
     for ax, label in zip(axes, names):
-        chosen = [p for p in points if p.word("panel") == label]
-        for method in dict.fromkeys(p.word("method") for p in chosen):
-            curve(ax, [p for p in chosen if p.word("method") == method], colours[method])
+        chosen = [p for p in points if p.at["panel"] == label]
+        for method in dict.fromkeys(p.at["method"] for p in chosen):
+            curve(ax, [p for p in chosen if p.at["method"] == method], colours[method])
         apart = any(p.at.get("apart") for p in chosen)
         ylabel = "discretisation error" if apart else "solver error"
         ax.set(xscale="log", yscale="log", xlabel="CPU seconds", ylabel=ylabel)
         ax.set_title(label, fontsize=9)
-        readable(ax)
     handles = [axes[0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]
     handles.append(axes[0].plot([], [], "o", mfc="none", mec="k", ms=10, ls="", label="default setting")[0])
     canvas.legend(handles=handles, loc="outside lower center", ncols=3 if columns > 1 else 2, frameon=False, fontsize=8)
@@ -41,25 +36,9 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
     return plotting.compact(plotting.finish(name, canvas, "Error against time", format="png"))
 
 
-def readable(ax) -> None:
-    """Label the time axis at 1, 2 and 5 where it shows less than two powers of ten, in at least two places."""
-    from matplotlib.ticker import FixedLocator, FuncFormatter
-
-    low, high = ax.get_xlim()
-    if high < 30 * low:
-        ticks: list[float] = []
-        while len(ticks) < 2:
-            low, high = low / 1.3, high * 1.3
-            ticks = [m * 10.0**k for k in range(-9, 6) for m in (1, 2, 5) if low <= m * 10.0**k <= high]
-        ax.set_xlim(low, high)
-        ax.xaxis.set_major_locator(FixedLocator(ticks))
-        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    ax.xaxis.set_minor_formatter("")
-
-
 def palette(points: list[Check]) -> dict[str, str]:
     """A colour for each method, our default first."""
-    found = dict.fromkeys(p.word("method") for p in points)
+    found = dict.fromkeys(p.at["method"] for p in points)
     methods = [m for m in ORDER if m in found] + [m for m in found if m not in ORDER]
     return {m: COLOURS[i % len(COLOURS)] for i, m in enumerate(methods)}
 
@@ -67,58 +46,23 @@ def palette(points: list[Check]) -> dict[str, str]:
 def curve(ax, points: list[Check], colour: str) -> None:
     """One method, in the order in which its settings were given."""
     errors = [p.measured for p in points]
-    times = np.array([p.duration for p in points])
-    spread = np.abs([times - [p.number("low") for p in points], [p.number("high") for p in points] - times])
+    times = np.array([p.at["seconds"] for p in points])
+    spread = np.abs([times - [p.at["low"] for p in points], [p.at["high"] for p in points] - times])
     ax.errorbar(times, np.maximum(errors, LEAST), xerr=spread, fmt="o-", color=colour, ms=4, lw=1.3, elinewidth=0.8)
     for p, e in zip(points, errors):
         if p.at.get("default"):
-            ax.plot(p.duration, max(e, LEAST), "o", mfc="none", mec="k", ms=10)
-
-
-def growth(points: list[Check], machine: str) -> Figure:
-    """Time and peak memory over size, with the exponents of the larger half."""
-    panels = list(dict.fromkeys(p.word("panel") for p in points))
-    canvas, axes = plotting.axes(2, len(panels), width=3.3 * len(panels), height=6, squeeze=False)
-    for (above, below), label in zip(axes.T, panels):
-        chosen = [p for p in points if p.word("panel") == label]
-        unit = "points" if "sweep" in label else "cells" if label == "contact" else "nodes"
-        above.loglog([p.number("size") for p in chosen], [p.duration for p in chosen], "o-")
-        title = f"{label}\ntime ~ N^{exponent(chosen, 'seconds'):.2f}"
-        if label == "contact":
-            title += f", convolutions ~ N^{exponent(chosen, 'work'):.2f}"
-        above.set(title=title, ylabel="CPU seconds", xlabel=unit)
-        seen = [p for p in chosen if p.number("memory") > NOTICED]
-        memory = [p.number("memory") / 1e6 for p in seen]
-        below.loglog([p.number("size") for p in seen], memory, "o-", color="#D55E00")
-        below.set(title=f"memory ~ N^{exponent(seen, 'memory'):.2f}", ylabel="peak memory, MB", xlabel=unit)
-        below.set_xlim(above.get_xlim())
-        below.xaxis.set_minor_formatter("")
-    canvas.suptitle(machine.replace("; python", "\npython"), fontsize=6.5)
-    return plotting.compact(plotting.finish("growth", canvas, "Time and peak memory against size", format="png"))
+            ax.plot(p.at["seconds"], max(e, LEAST), "o", mfc="none", mec="k", ms=10)
 
 
 def methods_table(points: list[Check]) -> Table:
     """Contacts solved to a measured error of `EQUAL`: time of every method over that of the library."""
     good = [p for p in points if not p.at.get("apart") and p.measured <= EQUAL]
-    names = [name for name in dict.fromkeys(p.word("method") for p in good) if name != "lubfric"]
+    names = [name for name in dict.fromkeys(p.at["method"] for p in good) if name != "lubfric"]
     rows = []
-    for panel in dict.fromkeys(p.word("panel") for p in good):
+    for panel in dict.fromkeys(p.at["panel"] for p in good):
         best: dict[str, float] = {}
-        for p in (p for p in good if p.word("panel") == panel):
-            best[p.word("method")] = min(p.duration, best.get(p.word("method"), np.inf))
+        for p in (p for p in good if p.at["panel"] == panel):
+            best[p.at["method"]] = min(p.at["seconds"], best.get(p.at["method"], np.inf))
         ours = best["lubfric"]
         rows.append([panel, f"{1e3 * ours:.0f} ms", *(f"{best[n] / ours:.1f}" if n in best else "" for n in names)])
     return Table("contact-methods", f"Time to an error of {EQUAL:g}", ["contact", "lubfric", *names], rows)
-
-
-def growth_table(points: list[Check]) -> Table:
-    """Cost against size."""
-    rows = []
-    for panel in dict.fromkeys(p.word("panel") for p in points):
-        own = [p for p in points if p.word("panel") == panel]
-        times = [f"{1e3 * p.duration:.3g} ms" if p.duration < 1 else f"{p.duration:.3g} s" for p in own]
-        memory = f"{max(p.number('memory') for p in own) / 1e6:.0f} MB"
-        size, work = (f"{own[0].number(what):,.0f} to {own[-1].number(what):,.0f}" for what in ("size", "work"))
-        rows.append([panel, size, ", ".join(times), f"N^{exponent(own, 'seconds'):.2f}", memory, work])
-    columns = ["job", "cells, nodes or points", "CPU time of each size", "larger half", "memory at most"]
-    return Table("growth", "Cost against size", [*columns, "convolutions, steps or points"], rows)

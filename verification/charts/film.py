@@ -1,7 +1,5 @@
 """The chart of smooth films: error of smallest film, flow film and friction against time."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from functools import partial

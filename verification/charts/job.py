@@ -1,7 +1,5 @@
 """The chart of the whole job: error of the friction coefficient against time per point of a Stribeck curve."""
 
-from __future__ import annotations
-
 from functools import partial
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Measured points: how they are taken and where."""
 
-from __future__ import annotations
-
 import os
 import platform
 import time
@@ -27,10 +25,10 @@ def point(
     is drawn.
 
     ``at`` may say more: default (the setting that users get), apart (the error is that of the grid against a finer one,
-    not that of the solver), size (unknowns), memory (peak bytes above the start), work (convolutions or Newton steps).
+    not that of the solver), size (unknowns).
     """
     median, low, high = (float(s) for s in seconds)
-    where = at | {"panel": panel, "method": method, "setting": setting, "low": low, "high": high}
+    where = at | {"panel": panel, "method": method, "setting": setting, "seconds": median, "low": low, "high": high}
     name = f"{panel}; {method}; {setting}"
     return Check(name, error, 0.0, 0.0, "a tighter solution", TOLD, seconds=median, at=where).as_dict()
 

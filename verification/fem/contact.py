@@ -4,8 +4,6 @@ The unknowns are the nodal forces f and the approach delta. With u = C f and g =
 three: off (f = 0, g >= 0), touching (g = 0, 0 <= f <= limit) or saturated (f = limit, g <= 0).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -25,8 +23,6 @@ PATIENCE = 8  # steps without fewer nodes in the wrong place, before they are mo
 class Contact:
     """Nodal fields (n,) of a contact, in the order of ``gap0``.
 
-    Attributes
-    ----------
     pressure : nodal force over nodal weight, Pa
     gap : m; negative only where pressure is at its limit
     displacement : downwards, m
@@ -69,14 +65,13 @@ def solve_contact(
 ) -> Contact:
     """Pressure of a rigid counterface on an elastic surface under a given load, optionally capped.
 
-    Each step solves the equations of the touching nodes exactly (conjugate gradients on the forces of the
-    given total) and then moves nodes: touching nodes that pull go off, those above the limit saturate, nodes
-    off that penetrate touch, saturated nodes that gap touch (M. Hintermueller, K. Ito & K. Kunisch, SIAM J.
-    Optim. 13 (2002) 865-888, doi:10.1137/S1052623401383558). With a cap it starts from the elastic contact;
-    one step saturates no more nodes, beyond one, than leaves a fifth of the unsaturated load on the others,
-    and the nearest nodes off join until the touching ones could carry what is left. Where moving all at once
-    goes round in circles, they move one at a time until fewer are in the wrong place (J. J. Judice & F. M.
-    Pires, Comput. Oper. Res. 21 (1994) 587-596).
+    Each step solves the equations of the touching nodes exactly (conjugate gradients on the forces of the given total)
+    and then moves nodes: touching nodes that pull go off, those above the limit saturate, nodes off that penetrate
+    touch, saturated nodes that gap touch (M. Hintermueller, K. Ito & K. Kunisch, SIAM J. Optim. 13 (2002) 865-888,
+    doi:10.1137/S1052623401383558). With a cap it starts from the elastic contact; one step saturates no more nodes,
+    beyond one, than leaves a fifth of the unsaturated load on the others, and the nearest nodes off join until the
+    touching ones could carry what is left. Where moving all at once goes round in circles, they move one at a time
+    until fewer are in the wrong place (J. J. Judice & F. M. Pires, Comput. Oper. Res. 21 (1994) 587-596).
 
     Parameters
     ----------

@@ -7,8 +7,6 @@ nested. On the coarsest one a first-order upwind solution comes first, from a He
 included, starts the next finer one.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 
@@ -28,8 +26,6 @@ RAISING = (0.25, 0.5, 0.75, 1.0)  # shares of ln(eta/eta0)
 class LineContact:
     """What is solved, in SI units.
 
-    Attributes
-    ----------
     load_per_width : N/m
     radius : reduced radius R, m
     e_prime : E' in Pa, ``2/E' = sum (1 - nu^2)/E``
@@ -93,8 +89,6 @@ class Solution:
     """A film and how it was found. Arrays on the line stand at its degrees of freedom ``body.x``, not in ascending
     order.
 
-    Attributes
-    ----------
     contact, layout, body, film, report : what was solved, on which mesh, with which flow; how it went
     displacement : at the free degrees of freedom of the body, b^2/R
     P, H : pressure in p_h and film in b^2/R on the line
@@ -250,7 +244,6 @@ def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
 
 
 def refined(coarse: Solution, body: Body) -> Iterate:
-    """A solution taken to the next finer mesh, film included: the film of the interpolated pressure would
-    be rougher."""
+    """A solution taken to the next finer mesh, film included (that of the interpolated pressure is rougher)."""
     P = coarse.body.line.probes(body.x[None]) @ coarse.P
     return Iterate(refined_displacement(coarse.body, body, coarse.displacement), P, coarse.approach, P <= 0)

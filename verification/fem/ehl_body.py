@@ -9,8 +9,6 @@ Morales-Espejel 2008, doi:10.1115/1.2842246). Against a half-space its surface i
 with its side D. It is also moved by a constant, which the approach takes up.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -33,8 +31,6 @@ QUARTERS = np.array([(i, j) for i in range(5) for j in range(5 - i)]).T / 4  # P
 class Layout:
     """Where the mesh is fine. Lengths are in b.
 
-    Attributes
-    ----------
     side : D of the square body
     inlet, outlet : ends of the surface that carries the film
     edges : where pressure rises and where the film ruptures
@@ -73,8 +69,6 @@ def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
 class Body:
     """The discrete body and the line on top of it.
 
-    Attributes
-    ----------
     basis : P2 displacement on the body; ``free`` are its degrees of freedom off the bottom
     line : P2 on the surface that carries the film
     stiffness : (free, free)

@@ -13,8 +13,6 @@ to have several solutions where the pressure spike is not resolved. First-order 
 serves first guesses. Both fade where pressure diffuses in less than a cell.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -32,8 +30,6 @@ PENALTY = 0.03
 class Film:
     """The flow on a line.
 
-    Attributes
-    ----------
     line : P2
     fluid : viscosity and density laws
     hertz_pressure : Pa per unit of P
@@ -106,8 +102,7 @@ def partials(function: Callable, *values) -> tuple[np.ndarray, list[np.ndarray]]
 
 
 def slope_jumps(line: Basis) -> tuple[np.ndarray, np.ndarray, sp.csr_matrix]:
-    """Degrees of freedom at inner vertices, mean length of the cells there, and the matrix of the jumps of
-    slope there."""
+    """Degrees of freedom at inner vertices, mean length of the cells there, the matrix of the slope's jumps."""
     mesh = line.mesh
     size = np.abs(np.diff(mesh.p[0][mesh.t], axis=0)[0])
     slopes_inwards = np.array([[-3.0, -1.0, 4.0], [-1.0, -3.0, 4.0]])  # at either end, times size

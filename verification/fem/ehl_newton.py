@@ -8,8 +8,6 @@ The unknowns are u, P and H0, with H = H0 + X^2/2 - u_z. The matrix of all of it
 step. The order of elimination comes from the stiffness, once for a mesh.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

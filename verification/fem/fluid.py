@@ -5,8 +5,6 @@ derivative to rounding (Squire & Trapp 1998, doi:10.1137/S003614459631241X). So 
 derivative.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -24,8 +22,6 @@ STEP = 1e-40
 class Fluid:
     """A lubricant; pressures are gauge pressures in Pa.
 
-    Attributes
-    ----------
     viscosity : at p = 0, Pa s
     viscosity_law : "constant"; "barus" ``exp(alpha p)``; "roelands" ``exp((alpha p0/z)((1 + p/p0)^z - 1))``
         with p0 = 1.96e8 Pa (Roelands 1966)

@@ -10,8 +10,6 @@ Pressure is constant on the cells of a patch along x, and the compliance gives m
 symmetric. Along y cells are points of a trigonometric series, as in any contact solver by Fourier transforms.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 
@@ -28,11 +26,8 @@ from .triangles import factorised, graded
 
 @dataclass(frozen=True)
 class Strip:
-    """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, centred on x = 0 and repeated along y.
-    nx is even.
+    """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, centred on x = 0 and repeated along y. nx is even.
 
-    Attributes
-    ----------
     side : that of the square body is dx 2^side
     fineness : each cell along x is 2^fineness facets
     growth : cell length per distance from the patch
@@ -124,8 +119,7 @@ def compliance(strip: Strip) -> Compliance:
 
 
 def graded_mesh(strip: Strip) -> MeshTri:
-    """Triangles, split until none is longer than ``hypot(diagonal of the finest, growth * distance from the
-    patch)``."""
+    """Triangles, none longer than ``hypot(diagonal of the finest, growth * distance from the patch)``."""
     dx = strip.spacing[0]
     side = dx * 2**strip.side
     mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))

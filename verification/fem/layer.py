@@ -4,8 +4,6 @@ The layer fills ``-width/2 <= x <= width/2``, ``-thickness <= z <= 0``. It is pe
 and displacements of the surface count positive downwards, into the layer.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -28,8 +26,6 @@ BLOCK = 64  # right-hand sides solved at a time
 class Layer:
     """The discrete layer and the nodes of its surface that may carry force.
 
-    Attributes
-    ----------
     body, width, thickness : what it is made of; m
     basis : displacement (two components) on all of the layer
     spread : (basis.N, unknowns) from unknowns to all degrees of freedom; leaves out the base, joins periodic
@@ -89,8 +85,7 @@ class Layer:
 
 
 def graded_mesh(width: float, thickness: float, strip: float, fine: float, growth: float = 0.4) -> MeshTri:
-    """Triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x|
-    <= strip``.
+    """Triangles, split until none is longer than ``fine + growth * distance`` from the surface strip ``|x| <= strip``.
 
     The mesh is mirrored about x = 0, so that the nodes on the two sides lie at the same depths.
     """

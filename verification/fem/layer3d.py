@@ -6,8 +6,6 @@ solved by conjugate gradients with smoothed aggregation. `layer_waves` solves th
 Forces and displacements of the surface count positive downwards.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -28,8 +26,6 @@ RULES = {1: np.array([1.0]), 2: np.array([1 / 3, 2 / 3])}  # share of a cell's w
 class Layer3D:
     """What the layer is made of, and its grid.
 
-    Attributes
-    ----------
     body : elastic constants
     size : (Lx, Ly) of one period in m
     levels : z of the element faces in m, ascending from -thickness to 0
@@ -203,9 +199,8 @@ def solve(
 ) -> Solved:
     """Displacement of the assembled layer under nodal surface forces (nx, ny) in N, downwards.
 
-    The stopping test, made here on the returned displacement and not taken from the iteration: ``|f - K
-    u|/|f|`` in the 2-norm <= tolerance. Raises `SolveError` with report and result otherwise, unless
-    ``raise_on_failure`` is False.
+    The stopping test, made here on the returned displacement and not taken from the iteration: ``|f - K u|/|f|`` in the
+    2-norm <= tolerance. Raises `SolveError` with report and result otherwise, unless ``raise_on_failure`` is False.
     """
     layer = grid.layer
     force = np.asarray(force, dtype=float)

@@ -4,8 +4,6 @@ It is the same discrete layer that `layer3d` assembles, element for element. Onl
 the two agree to the tolerance of the iteration there, and one application costs two transforms here.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,8 +18,7 @@ WAVES = 1024  # Fourier modes eliminated at a time
 class FourierCompliance:
     """Downward surface displacement of surface forces, through the Fourier modes of the cells.
 
-    ``symbol`` (cells x, cells y // 2 + 1, m, m) maps the forces of the m = degree^2 nodes of a cell to
-    displacements.
+    ``symbol`` (cells x, cells y // 2 + 1, m, m) maps the forces of the m = degree^2 nodes of a cell to displacements.
     """
 
     layer: Layer3D

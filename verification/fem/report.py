@@ -1,7 +1,5 @@
 """What a finite-element solve says about itself; nothing here or beside it comes from `lubfric`."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -31,8 +29,6 @@ class SolveError(RuntimeError):
 class SolveReport:
     """Outcome of an iterative solve, converged when ``residual`` (largest of ``residuals``) <= ``tolerance``.
 
-    Attributes
-    ----------
     solver : name of the algorithm
     status : "converged", "iteration_limit", "stagnated" or "diverged"
     iterations : outer iterations taken

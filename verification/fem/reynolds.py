@@ -9,8 +9,6 @@ step's active set from the primal-dual method (Hintermueller, Ito & Kunisch 2002
 weak form is written once, and its tangent is taken by a complex step.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -38,8 +36,6 @@ LARGEST_STEP = 3.0
 class Problem:
     """What is solved. Lengths in m, speeds in m/s.
 
-    Attributes
-    ----------
     mesh : scikit-fem mesh of lines, triangles or quadrilaterals; x (first coordinate) is the direction of motion
     film : film thickness in m at coordinates x of shape (dim, ...)
     fluid : viscosity and density laws
@@ -91,8 +87,6 @@ class Problem:
 class Solution:
     """Pressure and how it was found.
 
-    Attributes
-    ----------
     problem, report : what was solved; how it went
     basis : scikit-fem basis of the pressure
     pressure : values at the degrees of freedom (``basis.doflocs``), Pa
@@ -354,8 +348,7 @@ def measure(problem: Problem, p, r, held, cavitated, flow) -> dict[str, float]:
 
 
 def newton_step(problem: Problem, matrix, r, p, held, cavitated) -> np.ndarray:
-    """The step to ``r = 0`` on free nodes and to ``p = 0`` on cavitated ones, with none on held ones. It is shortened
-    where the viscosity would run away."""
+    """The step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, shortened where viscosity would run away."""
     step = np.where(cavitated & ~held, -p, 0.0)
     free = np.flatnonzero(~(held | cavitated))
     rhs = -(r + matrix @ step)[free]

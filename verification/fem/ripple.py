@@ -5,8 +5,6 @@ tangent of the whole system (`ehl_newton`) at the smooth solution, with ``-by_H 
 point stays, as pressure and its slope vanish there.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,8 +16,7 @@ from .ehl_newton import load_weights, solve, tangent
 
 @dataclass(frozen=True)
 class Ripple:
-    """Film and pressure of a wave exp(i k x) over its height, complex, at the degrees of freedom of the line: m/m and
-    Pa/m."""
+    """Film [m/m] and pressure [Pa/m] of a wave exp(i k x) over its height, complex, at the dofs of the line."""
 
     film: np.ndarray
     pressure: np.ndarray

@@ -6,8 +6,6 @@ middle). It is linear between them, and goes on upstream as a parabola. Spots of
 which is then prescribed. Half of the period is meshed, because no flow passes the planes of symmetry.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,8 +25,6 @@ SYMMETRY = 1e-6
 class GivenGap:
     """A gap that is given on cells.
 
-    Attributes
-    ----------
     x, spacing : (nx,) [m] centres of the cells; dy [m]
     gap, pressure : (nx, ny) [m], [Pa]
     contact : (nx, ny) where the pressure is prescribed

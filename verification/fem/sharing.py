@@ -102,8 +102,7 @@ class FlatBodies:
 
 @dataclass(frozen=True)
 class Under:
-    """What a film leaves to the contact: mean gap (m), share in contact of the cells along x, and the strip
-    as pressed."""
+    """What a film leaves to the contact: mean gap (m), share in contact along x, the strip as pressed."""
 
     gap: np.ndarray
     touching: np.ndarray

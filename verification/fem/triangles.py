@@ -1,7 +1,5 @@
 """What the bodies of triangles share: graded meshes, factors of a stiffness, and stresses in plane strain."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -28,8 +26,7 @@ def factorised(matrix) -> SuperLU:
 
 
 def section_stress(basis: Basis, displacement, young: float, poisson: float) -> np.ndarray:
-    """(3, vertices): sigma_xx, sigma_zz, sigma_xz of a plane-strain ``displacement``, projected on continuous linear
-    functions."""
+    """(3, vertices): sigma_xx, sigma_zz, sigma_xz of a plane-strain ``displacement``, on linear functions."""
     sigma = linear_stress(*lame_parameters(young, poisson))(sym_grad(basis.interpolate(displacement)))
     linear = basis.with_element(ElementTriP1())
     return np.array([linear.project(sigma[i, j]) for i, j in ((0, 0), (1, 1), (0, 1))])

@@ -6,8 +6,6 @@ written from the numbers of the run. ``--quick`` takes smaller grids and fewer c
 Figs. 3 and 4.)
 """
 
-from __future__ import annotations
-
 import importlib
 from argparse import Namespace
 from collections.abc import Iterator
@@ -26,7 +24,6 @@ FIGURES = {
     "fig8": "cylinder:stribeck_curves",
     "fig9": "cylinder:pressure_map",
     "fig10": "cylinder:sections",
-    "film": "options:film_deflection",
 }
 
 

@@ -1,7 +1,5 @@
 """Figs. 8, 9 and 10: the cylinder of Tables 1 and 2, on an ensemble of surfaces and on a real ground one."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Any
@@ -63,8 +61,7 @@ def film_load(case: tuple) -> float:
 
 
 def stribeck_curves(quick: bool, run: Run) -> PaperFigure:
-    """Fig. 8: three models with ensemble mean and band, the real surface, and F_H at 0.001 m/s over
-    correlation length."""
+    """Fig. 8: three models with mean and band, the real surface, and F_H at 0.001 m/s over L."""
     speeds, seeds = np.geomspace(1e-3, 1.0, 5 if quick else 11), range(1, 3 if quick else 9)
     cases = {f"{kind}, {seed}": ((*kind, seed), speeds, "") for kind in KINDS for seed in seeds}
     if real_surface() and not quick:
@@ -176,7 +173,7 @@ def pressure_map(quick: bool, run: Run) -> PaperFigure:
     for ax, (acf, _) in zip(panels, KINDS):
         scene = scene_of(acf)
         point = lubfric.friction(scene, 0.001, fields=True)
-        pressure, x = parts.contact_fields(point).pressure, parts.balance(point).contact.x * 1e6
+        pressure, x = parts.contact_fields(point).pressure, parts.contact(point).x * 1e6
         colours = {"cmap": "magma_r", "vmin": 0, "vmax": 6, "aspect": "auto"}
         image(canvas, ax, pressure / 1e9, (x[0], x[-1], 0, 90), "contact pressure (GPa)", **colours)
         ax.set(xlim=(-15, 15), xlabel="x, direction of motion (µm)", ylabel="y (µm)")
@@ -223,10 +220,10 @@ def sections(quick: bool, run: Run) -> PaperFigure:
     weight = model.contact.weight / model.contact.weight.sum()
     for ax, speed in zip(panels, (0.001, 0.3)):
         point = lubfric.friction(model, speed, fields=True)
-        closure, film = parts.balance(point).contact, parts.balance(point).film
-        x, h = closure.x, film.film_at(closure.x)
-        if closure.contact is not None:
-            offset, gap = closure.contact.approach, closure.contact.gap[:, line]
+        contact = parts.contact(point)
+        x, h = contact.x, parts.film(point).film_at(contact.x)
+        if contact.fields is not None:
+            offset, gap = contact.fields.approach, contact.fields.gap[:, line]
         else:
             offset = -float(weight @ z.mean(axis=1))  # Eq. (8) without contact: volume of h over z
             gap = h - offset - z[:, line]

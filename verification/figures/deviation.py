@@ -1,8 +1,6 @@
 """Figs. 5 and 6: friction of independent asperities against the half-space, and d, their largest
 difference, Eq. (13)."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import fields
 from itertools import product

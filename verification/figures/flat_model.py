@@ -1,11 +1,8 @@
-"""Load sharing of nominally flat surfaces from tables: films once for each load, contact curves once for
-each surface.
+"""Load sharing of nominally flat surfaces from tables: films once for each load, contact curves once for each surface.
 
 Every surface, contact model and reading of the paper's Figs. 5 and 6 shares the films. So a map of d costs no more than
 its films and its contact curves. `lubfric.friction` does the same without tables, and the figure compares some points.
 """
-
-from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
@@ -60,8 +57,7 @@ class FilmTable:
 
 @dataclass(frozen=True)
 class GapTable:
-    """A contact curve that is read off a fine table. ``most`` [Pa] is what it carries, ``touching_gap`` [m] where it
-    begins."""
+    """A contact curve on a fine table, from ``touching_gap`` [m] to ``most`` [Pa], which is what it carries."""
 
     log_pressure: np.ndarray
     gap: np.ndarray
@@ -155,8 +151,7 @@ def share(table: FilmTable, curve: GapTable, mean_pressure: float, boundary_fric
 
 
 def deviation(asperity, half_space) -> tuple[float, int]:
-    """d of Eq. (13), max |f_d - f_c|/f_d at that speed, and the index of the speed. (NaN, -1) where there are no
-    points."""
+    """d of Eq. (13), max |f_d - f_c|/f_d, and the index of its speed; (NaN, -1) without points."""
     difference = np.abs(np.asarray(asperity) - np.asarray(half_space))
     if not np.isfinite(difference).any():
         return math.nan, -1

@@ -1,7 +1,5 @@
 """One figure as files, and the page that shows them all."""
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -26,8 +24,6 @@ verdict. `--only fig6` makes one of them, `--quick` takes small grids. The same 
 class PaperFigure:
     """What a figure hands over.
 
-    Attributes
-    ----------
     name, title : stem of its files, and its heading
     agrees, differs : what agrees with the paper; what does not, and why
     canvas : the drawn figure

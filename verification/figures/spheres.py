@@ -1,7 +1,5 @@
 """Figs. 3 and 4: a square array of spherical asperities against a flat. Load per asperity over separation."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -21,8 +19,7 @@ MEAN_OF_BOX = 8 / math.pi * math.asinh(1.0)  # u E'/(p a) at the centre of a squ
 
 
 def unit_cell(distance: float, cell: float = CELL) -> tuple[np.ndarray, float]:
-    """Heights [m] of one period around one sphere, on an even number of cells of about ``cell``, and the length of
-    these [m]."""
+    """Heights [m] of one period around a sphere, on an even number of cells, and their length [m]."""
     count = 2 * round(distance / cell / 2)
     step = distance / count
     x = (np.arange(count) - count // 2) * step

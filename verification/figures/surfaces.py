@@ -1,7 +1,5 @@
 """Fig. 2: generated surfaces of two autocorrelation lengths."""
 
-from __future__ import annotations
-
 import math
 
 import lubfric

@@ -1,10 +1,8 @@
-"""Bad input from a seeded generator: scenes, files, calls and command lines that must each be refused in words.
+"""Bad input from a seeded generator: scenes, files and calls that must each be refused in words.
 
-`scenes`, `files`, `calls` and `commands` make the cases. `case.judge` runs one and says how it ended. None may end in
+`scenes`, `files` and `calls` make the cases. `case.judge` runs one and says how it ended. None may end in
 another exception than lubfric's own, be answered with a number, take longer than 8 s, or take more than 2 GB.
 """
-
-from __future__ import annotations
 
 import importlib
 import tempfile
@@ -16,7 +14,7 @@ from ..check import AT_MOST, Check, Item, Table
 from ..kept import Run
 
 SEED = 1
-COUNTS = {"scenes": 1500, "files": 500, "calls": 900, "commands": 300}  # at least so many of a group
+COUNTS = {"scenes": 1500, "files": 500, "calls": 900}  # at least so many of a group
 
 
 def cases(group: str, seed: int, share: float = 1.0) -> Iterator:
@@ -43,8 +41,7 @@ def outcomes(group_and_share: tuple[str, float]) -> list[tuple[str, str]]:
 
 
 def bad_inputs(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Bad scenes, files, calls and command lines from a seeded generator. `lubfric.LubfricError` refuses each in words,
-    within 8 s and 2 GB."""
+    """Bad scenes, files and calls. `lubfric.LubfricError` refuses each in words, within 8 s and 2 GB."""
     from .case import BAD, GOOD
 
     share = 0.1 if level == "quick" else 1.0

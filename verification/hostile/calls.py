@@ -1,7 +1,5 @@
 """Calls of the public functions with one argument that they cannot take, or two."""
 
-from __future__ import annotations
-
 import datetime
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """One bad input, and how the library met it."""
 
-from __future__ import annotations
-
 import gc
 import resource
 import time

@@ -1,7 +1,5 @@
 """Files that lie or are damaged: height maps of every kind, histories, and results to be drawn again."""
 
-from __future__ import annotations
-
 import io
 import zipfile
 from collections.abc import Iterator, Mapping

@@ -1,7 +1,5 @@
 """Scenes that ask for something impossible: a good scene with one wrong value, key or table, or two."""
 
-from __future__ import annotations
-
 import dataclasses
 import typing
 from collections.abc import Iterator

@@ -3,8 +3,6 @@
 They come in chunks of scenes that depend on nothing but their number. A chunk that is done is kept.
 """
 
-from __future__ import annotations
-
 import math
 import os
 from collections import Counter
@@ -94,7 +92,7 @@ def _features(prepared, result) -> Iterator[str]:
     yield "asperities" if scene.contact.model != "half-space" else "height map"
     yield "separated" if share == 0 else "contact below 1 %" if share < 0.01 else "contact above 1 %"
     features = {
-        "line": scene.numerics.sampling == "line",
+        "strips": prepared.strips is not None and not prepared.strips.whole,
         "plastic limit": scene.bodies.hardness,
         "cells yielded": result.plastic_area_fraction > 0,
         "two rough bodies": scene.counterface,
@@ -102,8 +100,8 @@ def _features(prepared, result) -> Iterator[str]:
         "heat of the inlet": result.inlet_film_factor < 1,
         "heat of film and surfaces": result.film_temperature_rise > 0,
         "pure rolling": scene.motion.slide_roll_ratio == 0,
-        "more than one line": result.line is not None and result.line.used,
-        "finer pieces of the line": result.line is not None and result.line.grid,
+        "more strips than at first": prepared.strips is not None and result.decision.strips > prepared.strips.first,
+        "corrected for its cells": result.decision.coarsening != (1, 1) and share > 0,
     }
     yield from (name for name, holds in features.items() if holds)
 

@@ -1,8 +1,6 @@
 """The friction force as the judge of the soak sums it: by the trapezoidal rule over the film, with every shear law and
 heat."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

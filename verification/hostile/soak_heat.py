@@ -4,8 +4,6 @@ The temperature across the film comes from its double integral on a grid, by a f
 of the surfaces comes from heat that is constant in each cell, and that of the inlet from Moes' film and bisection.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -95,8 +93,7 @@ def heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed) -> np.nd
 
 
 def _twice_integrated(source, z) -> np.ndarray:
-    """Temperature of -T'' = source by the trapezoidal rule, between the wall, where it is 0, and the middle, where its
-    slope is 0."""
+    """Temperature of -T'' = source by the trapezoidal rule: it is 0 at the wall, its slope in the middle."""
     step = z[1] - z[0]
     cells = 0.5 * (source[:, 1:] + source[:, :-1]) * step
     slope = np.concatenate([np.cumsum(cells[:, ::-1], axis=1)[:, ::-1], np.zeros((source.shape[0], 1))], axis=1)

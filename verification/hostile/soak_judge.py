@@ -6,25 +6,23 @@ deflection. What joins them is written here. Two divisions of the load, the resu
 that balances by a secant. Where that is far off, a bracketed root does.
 """
 
-from __future__ import annotations
-
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import brentq
 
 from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.sampling.sample import PAIR
-from lubfric.sharing.prepared import Prepared, on_cells_of
+from lubfric.contact import Strips
+from lubfric.sharing import Prepared
 
 from ..cases import case_of_scene
 from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 
 ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
-SECOND_ORDER = 1.0  # times the squared standard error: lines that touch at one approach, not each at its own
-JOINED = 0.5  # of the told error of the contact's load: by what joined lines may be off
+PIECES = 3  # of the strips, on the scene's own cells and on those of the strips
+BY_PIECES = 0.5  # of the stated standard error: what other pieces may change
 LOOSE, TIGHT, CANCELS = 2e-3, 1e-4, 0.2  # of a film; f over its parts below which they cancel
 ROOT = 2e-4  # of ln(F_H/F_C), to which a bracketed root is closed
 ACROSS = 8001  # points of a film over a flat strip
@@ -55,8 +53,8 @@ class Sides:
 class Judge:
     """A prepared scene at one speed [m/s].
 
-    The film is deflected by its own pressure or, ``scaled``, by the whole load. ``strip`` is all lines joined to one.
-    There are pairs of fine and coarse strips besides, whose difference is added.
+    The film is deflected by its own pressure or, ``scaled``, by the whole load. ``strip`` is the whole sample. There
+    are pairs of fine and coarse pieces besides, whose difference is added.
     """
 
     prepared: Prepared
@@ -129,36 +127,36 @@ class Judge:
 
 
 def judge_of(prepared: Prepared, result) -> Judge:
-    """What is needed to close ``result`` of ``prepared`` anew, on the cells that its lines were solved on."""
-    prepared = on_cells_of(prepared, result.line)
-    scaled = result.decision.deflected_by == "scaled"
-    n = prepared.surface.shape[0]
-    x = (np.arange(n) - 0.5 * (n - 1)) * prepared.surface.spacing[0]
+    """What closes ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the result."""
+    scene = prepared.scene
     parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
-    cancels = abs(result.coefficient) * prepared.scene.bodies.load < CANCELS * parts
-    oil = prepared.scene.lubricant
+    cancels = abs(result.coefficient) * scene.bodies.load < CANCELS * parts
+    oil = scene.lubricant
     newtonian = oil.eyring_stress is None and oil.limiting_stress_coefficient is None  # whose spike f feels
-    tolerance = TIGHT if cancels or newtonian or prepared.scene.motion.slide_roll_ratio == 0 else LOOSE
-    if prepared.lines is None:
-        return Judge(prepared, result.speed, scaled, _strip([prepared.surface], x), (), tolerance)
-    more = [prepared.lines.line(i + 1, used.length) for i, used in enumerate(result.line.used)]
-    pairs = tuple(_pair(prepared.lines, i) for i in range(len(result.line.grid)))
-    return Judge(prepared, result.speed, scaled, _strip([prepared.surface, *more], x), pairs, tolerance)
+    tolerance = TIGHT if cancels or newtonian or scene.motion.slide_roll_ratio == 0 else LOOSE
+    scaled, strips = scene.numerics.film_deflection == "scaled", prepared.strips
+    pairs: tuple[tuple[Strip, Strip], ...] = ()
+    if strips is None or strips.whole:
+        n, dx = prepared.surface.shape[0], prepared.surface.spacing[0]
+        strip = _strip(prepared.surface, (np.arange(n) - 0.5 * (n - 1)) * dx)
+    else:
+        while strips.cells.factors != result.decision.coarsening:
+            strips = strips.halved()
+        strip = _strip(strips.stack(result.decision.strips), strips.cells.axis())
+        if not strips.cells.own:
+            pairs = tuple(_pair(strips, i) for i in range(min(PIECES, strips.pieces)))
+    return Judge(prepared, result.speed, scaled, strip, pairs, tolerance)
 
 
-def _strip(surfaces, x) -> Strip:
-    """The ``surfaces``, each less its mean, one behind the other along y."""
-    joined = np.concatenate([surface.heights - surface.heights.mean() for surface in surfaces], axis=1)
-    return Strip(joined, surfaces[0].spacing, x)
+def _strip(surface, x) -> Strip:
+    return Strip(surface.heights - surface.heights.mean(), surface.spacing, x)
 
 
-def _pair(lines, index: int) -> tuple[Strip, Strip]:
-    """A piece on its own cells and on every so-manieth of them."""
-    surface, (fx, fy) = lines.pair(index, PAIR * lines.lengths[1]), lines.cells.factors
-    z, (dx, dy) = surface.heights, surface.spacing
-    x = lines.cells.axis()[0] + (np.arange(z.shape[0]) - fx // 2) * dx
-    kept = z[fx // 2 :: fx, fy // 2 :: fy]
-    return Strip(z - z.mean(), (dx, dy), x), Strip(kept - kept.mean(), (dx * fx, dy * fy), x[fx // 2 :: fx])
+def _pair(strips: Strips, index: int) -> tuple[Strip, Strip]:
+    """A piece on its own cells and on those of the strips."""
+    cells, piece = strips.cells, strips.piece(index)
+    kept = replace(piece, heights=cells.thinned(piece.heights, cells.factors), spacing=cells.coarse)
+    return _strip(piece, cells.axis((1, 1))), _strip(kept, cells.axis())
 
 
 def verdict(prepared: Prepared, result) -> dict[str, float]:
@@ -176,10 +174,10 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
         found["friction"] = abs(result.coefficient / expected - 1) / scene.numerics.tolerance
     elif scene.contact.model == "half-space" and scene.surface.sq:
         stated, of_share = max(scene.numerics.tolerance, result.uncertainty.numerical), scene.numerics.tolerance
-        if result.line is not None and len(result.line.used) and share > 0:
-            stated += SECOND_ORDER * result.uncertainty.sampling**2
-            of_share = max(of_share, JOINED * result.errors.contact_load * share)
         judge = judge_of(prepared, result)
+        if judge.pairs and share > 0:
+            stated += BY_PIECES * result.uncertainty.sampling
+            of_share = max(of_share, BY_PIECES * result.errors.contact_load * share)
         for closely in (False, True):  # cells that touch one by one: a secant of two balances may miss
             (coefficient, open_), split = closed_again(judge, share, closely)
             allowed = stated * abs(result.coefficient) + open_ / ALLOWED["friction"]

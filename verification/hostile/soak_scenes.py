@@ -1,7 +1,5 @@
 """Random scenes over what machines have, for the soak: every key that a scene file is likely to carry."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
@@ -25,7 +23,7 @@ EYRING, LIMIT = {"eyring_stress": 5e6}, {"limiting_stress_coefficient": 0.06, "l
 STRESS_LAWS: tuple[dict[str, float], ...] = (EYRING, EYRING | LIMIT, LIMIT, {})
 GRADES = (10, 32, 68, 100, 220, 460)
 BASES = ("mineral", "pao", "ester", "polyglycol")
-LINES = 0.2  # of the scenes under a cylinder: a line costs as much as ten patches
+STRIPS = 0.2  # of the scenes under a cylinder: strips cost as much as ten patches
 WARM = {"temperature": 350.0, "temperature_coefficient": 0.035}
 
 
@@ -33,13 +31,13 @@ def random_scene(rng: np.random.Generator, any_material: bool = False) -> lubfri
     """A random scene; of steel bodies of one width or, with ``any_material``, of soft to hard ones, with steeper
     roughness and other tolerances.
 
-    It is flat, or under a cylinder on a line or a patch; elastic or with a plastic limit; a height map or asperities;
+    It is flat, or under a cylinder on strips or a patch; elastic or with a plastic limit; a height map or asperities;
     with one rough body or two; with an oil or with numbers, with and without its heat; with any shear law and
     slide-roll ratio.
     """
     v = _drawn(rng, RANGES)
     body = _drawn(rng, OTHERS) if any_material else {"width": WIDTH, "e_prime": E_PRIME}
-    flat, line = bool(rng.random() < 0.5), bool(rng.random() < LINES)
+    flat, strips = bool(rng.random() < 0.5), bool(rng.random() < STRIPS)
     scene = lubfric.load_scene("flat" if flat else "paper").with_(
         bodies={
             "radius": v["radius"],
@@ -57,7 +55,7 @@ def random_scene(rng: np.random.Generator, any_material: bool = False) -> lubfri
         numerics={
             "accept": False,
             "tolerance": float(rng.choice(OTHER_TOLERANCES if any_material else (0.01, 0.01, 0.05))),
-            "sampling": "line" if line else "patch",
+            "sampling": "strips" if strips else "patch",
             "sampling_tolerance": 0.02 if rng.random() < 0.1 else 0.2,
         },
     )
@@ -92,7 +90,7 @@ def _rough(rng: np.random.Generator, scene: lubfric.Scene, sq: float, steepest: 
     """``scene`` with a random map of ``sq`` [m], but at most ``steepest`` cells."""
     half_width, nx = scene.bodies.half_width, int(rng.choice((28, 36, 48)))
     spacing = (6 * half_width if not flat else 2e-4) / nx
-    long = nx == 48 and scene.numerics.sampling == "line" and not flat  # cells of the line are twice the scene's
+    long = nx == 48 and scene.numerics.sampling == "strips" and not flat  # their cells are twice the scene's
     keys: dict[str, Any] = {
         "sq": min(sq, steepest * spacing),
         "correlation_length": spacing * float(rng.uniform(2.1, 9.0 if long else nx / 11)),

@@ -5,8 +5,6 @@
 errors were Gaussian, a stated rms error would hold for two points of three, and twice it for nineteen of twenty.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """The same operating point by every model of load sharing and by one gap with one pressure."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Iterable
@@ -22,9 +20,7 @@ METHODS: dict[str, dict[str, Any]] = {
     HERTZ: {"film_deflection": "hydrodynamic"},
     BOX: {"film_deflection": "hydrodynamic"},
     "hertz, scaled": {"film_deflection": "scaled"},
-    "hertz, total": {"film_deflection": "total"},
 }
-LIGHT = 20.0  # N: below it the three deflections are the same within a point
 LIMITED = {"density_law": "dowson-higginson", "limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2e6}
 
 
@@ -46,8 +42,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Point:
-    """One operating point by one method, with the error of the model that its result states. A failure has NaN and its
-    words."""
+    """One operating point by one method, with the model error that it states. A failure has NaN and words."""
 
     setting: Setting
     speed: float
@@ -107,13 +102,7 @@ def solve(point: Point) -> dict:
 
 def all_points(settings: Iterable[tuple[Setting, tuple[float, ...]]], run: Run, methods=tuple(METHODS)) -> list[Point]:
     """Every speed [m/s] of the settings by every one of ``methods``."""
-    points = [
-        Point(setting, speed, method)
-        for setting, speeds in settings
-        for method in methods
-        if method != "hertz, total" or setting.load >= LIGHT
-        for speed in speeds
-    ]
+    points = [Point(setting, speed, method) for setting, speeds in settings for method in methods for speed in speeds]
     cases = {f"{asdict(p.setting)}; {p.method}; {METHODS[p.method]}; {p.speed}": p for p in points}
     known = ((p, {name: v for name, v in row.items() if v is not None}) for p, row in run.solved(cases, solve))
     return [replace(point, **row) for point, row in known]

@@ -1,10 +1,8 @@
-"""``python -m verification sampling``: does the interval cover the friction of an endless line, and what does it cost?
+"""``python -m verification sampling``: does the interval cover the friction of an endless line?
 
 Every case is solved many times, with seeds of its own. The exit code is 1 when coverage, reported error over scatter,
-or bias of a case is out of its bounds (`verification.sampling.judge`).
+or bias of a case is out of its bounds (`verification.sampling.coverage`).
 """
-
-from __future__ import annotations
 
 from argparse import ArgumentParser, Namespace
 
@@ -14,8 +12,6 @@ PARTS: tuple[tuple[str, str, str, dict], ...] = (
     ("coverage", "sampling.coverage:coverage", "Intervals beside the friction of an endless line", {}),
     ("pieces", "sampling.others:pieces", "Intervals of pieces beside their whole map", {}),
     ("quantities", "sampling.others:quantities", "Every other number beside its stated error", {}),
-    ("bias", "sampling.others:bias", "Bias and scatter of one patch against its length", {}),
-    ("cost", "sampling.others:cost", "Processor time against the error of f", {}),
 )
 SEED = 240_000
 

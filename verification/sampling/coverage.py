@@ -6,8 +6,6 @@ corrections. At this length the bias of a patch is below 0.1 %. Their cells are 
 What these cells change is found on shorter patches, on the scene's own cells and on one in so many of them.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Iterator

@@ -1,6 +1,4 @@
-"""What else the sampling states: pieces of a map, every other number, the bias of one patch, the cost of an error."""
-
-from __future__ import annotations
+"""What else the sampling states: pieces of a map, and every other number."""
 
 import tempfile
 from collections.abc import Iterator
@@ -9,14 +7,13 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.sampling.uncertainty import FIELDS
+from lubfric.quantities import ESTIMATED
 
-from ..check import AT_LEAST, TOLD, Check, Item, Table
+from ..check import AT_LEAST, Check, Item, Table
 from ..hostile.soak_scenes import random_scene
 from ..kept import Run
-from ..plotting import axes, finish
 from . import SEED
-from .coverage import ENDLESS, SPEEDS, chance, solve, truths, within
+from .coverage import chance, solve, within
 
 MAP = (1600, 1600)  # cells
 MAPS = {"quick": 1, "default": 2, "full": 6}
@@ -24,9 +21,6 @@ PIECES, ASKED = (0.85, 0.99), 0.02  # bounds of the coverage by pieces; their st
 GENERATED = ("sq", "correlation_length")  # keys that do not go with a file
 SCENES = {"quick": 4, "default": 24, "full": 100}
 TIGHT, FLOOR, WITHIN = 1e-4, 1e-3, 0.95  # tolerance of the reference; what it may be off by; share asked for
-PATCHES = {"quick": 2, "default": 8, "full": 24}
-LENGTHS, CELL = (90e-6, 180e-6, 360e-6, 720e-6, 1.44e-3), 1.8e-6
-SURFACES = {"quick": 1, "default": 3, "full": 8}
 
 
 def pieces(level: str, run: Run = Run(), seed: int = SEED, scene: str | None = None, cuts=(2, 2)) -> Iterator[Item]:
@@ -49,8 +43,7 @@ def pieces(level: str, run: Run = Run(), seed: int = SEED, scene: str | None = N
 
 
 def piece(case: tuple) -> dict:
-    """A point on one piece of a map, which is written and read again as instrument files are, or (None) on all of
-    it."""
+    """A point on one piece of a map (None: all of it), which is written and read again as instrument files are."""
     name, seed, cuts, place = case
     if name:
         scene, contact = lubfric.load_scene(name), {}
@@ -78,11 +71,10 @@ def piece(case: tuple) -> dict:
 
 
 def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
-    """Every reported number of random scenes beside the same at a tolerance of 0.01 %: is it within its stated
-    error?"""
+    """Every reported number of random scenes beside the same at 0.01 %: is it within its stated error?"""
     found = [row for _, row in run.solved({str(k): k for k in range(SCENES[level])}, beside)]
     rows = []
-    for name in FIELDS:
+    for name in ESTIMATED:
         stated = [row[name] for row in found if row and row[name] is not None]
         if stated:
             held = float(np.mean([off <= max(error, FLOOR) for off, error in stated]))
@@ -95,8 +87,7 @@ def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
 
 
 def beside(number: int) -> dict:
-    """(relative deviation, stated relative error) of every quantity of a random patch, None where none is stated;
-    nothing where the scene is refused."""
+    """(relative deviation, stated error) by quantity of a random patch; None if none is stated, {} if refused."""
     scene = random_scene(np.random.default_rng((11, number))).with_(numerics={"sampling": "patch", "tolerance": 0.01})
     try:
         found = lubfric.friction(scene)
@@ -104,72 +95,9 @@ def beside(number: int) -> dict:
     except lubfric.LubfricError:
         return {}
     row: dict = {}
-    for name in FIELDS:
+    for name in ESTIMATED:
         value, reference, error = getattr(found, name), getattr(tight, name), getattr(found.errors, name)
         largest = max(abs(value), abs(reference), 1e-300)
         stated = error is not None and np.isfinite(error)
         row[name] = (abs(value - reference) / largest, error) if stated else None
     return row
-
-
-def bias(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
-    """What one patch leaves unsaid: bias and scatter of its f against its length."""
-    canvas, axis = axes()
-    for case in (SPEEDS[1], SPEEDS[2]):
-        truth = truths([case], seed, run)[case.name][0]
-        rows = []
-        for length in LENGTHS:
-            count = max(PATCHES[level], int(PATCHES[level] * 360e-6 / length))
-            cases = {
-                f"{length} m, {case.speed} m/s, {k}": (length, case.speed, seed + 50_000 + k) for k in range(count)
-            }
-            f = np.array([f for _, f in run.solved(cases, patch)])
-            rows.append((1e3 * length, 100 * (f.mean() / truth - 1), 100 * f.std(ddof=1) / truth, count))
-            words = f"{case.name}: bias of f of {count} patches of {1e3 * length:g} mm"
-            yield Check(words, f.mean() / truth - 1, 0.0, 0.0, ENDLESS, TOLD)
-        length, off, scatter, count = np.array(rows).T
-        bars = axis.errorbar(length, off, scatter / np.sqrt(count), marker="o", capsize=3, label=f"bias, {case.name}")
-        axis.plot(length, scatter, "--", color=bars[0].get_color(), label=f"scatter, {case.name}")
-    axis.axhline(0, color="black", lw=0.8)
-    axis.set(xscale="log", xlabel="length of the patch along y (mm)", ylabel="bias and scatter of f (% of f∞)")
-    axis.legend()
-    yield finish("bias", canvas, "Bias and scatter of f of one patch against its length", "png")
-
-
-def patch(case: tuple[float, float, int]) -> float:
-    """f of one patch of a length [m] at a speed [m/s]."""
-    length, speed, seed = case
-    contact = {"shape": (50, 4 * round(length / (4 * CELL))), "spacing": CELL}
-    numerics = {"sampling": "patch", "grid": "given"}
-    scene = lubfric.load_scene("paper").with_(surface={"seed": seed}, contact=contact, numerics=numerics)
-    return lubfric.friction(scene, speed).coefficient
-
-
-def cost(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
-    """Processor seconds for every standard error asked, and the error of f that was really made."""
-    canvas, axis = axes()
-    for case in SPEEDS[1:]:
-        truth = truths([case], seed, run)[case.name][0]
-        rows = []
-        for asked in (0.05, 0.02, 0.01):
-            cases = {f"{case.name}, {asked}, {k}": (case, seed + 61_000 + k, asked) for k in range(SURFACES[level])}
-            made = [row for _, row in run.solved(cases, asked_for)]
-            error = np.sqrt(np.mean([(m["f"] / truth - 1) ** 2 for m in made]))
-            rows.append((asked, np.mean([m["seconds"] for m in made]), error))
-            words = f"{case.name}: rms error of f, asked {100 * asked:g} %"
-            yield Check(words, error, asked, 0.0, ENDLESS, TOLD)
-        wanted, seconds, errors = np.array(rows).T
-        axis.loglog(100 * errors, seconds, "o-", label=case.name)
-        for error in np.unique(errors):  # where the first line does for several of what was asked, one label for all
-            words = " and ".join(f"{100 * a:g} %" for a in wanted[errors == error])
-            at = 100 * error, seconds[errors == error].max()
-            axis.annotate(words, at, xytext=(4, 4), textcoords="offset points", fontsize=8)
-    axis.set(xlabel="root mean square error of f, surface included (%); labels: asked", ylabel="processor time (s)")
-    axis.legend()
-    yield finish("cost", canvas, "Processor time against the error of f", "png")
-
-
-def asked_for(case: tuple) -> dict:
-    """One point at the standard error asked for."""
-    case_, seed, asked = case
-    return solve(case_.scene(seed), case_.speed, asked)

@@ -4,8 +4,6 @@ The exit code is 1 when a cell of a default method is silently wrong, when one i
 bad input was not refused in words, or when one of many random scenes was answered wrongly.
 """
 
-from __future__ import annotations
-
 import importlib
 from collections.abc import Iterator
 from functools import partial

@@ -1,7 +1,5 @@
 """One condition, one method, one verdict, decided by a check that does not ask the solver."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Callable

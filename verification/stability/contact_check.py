@@ -1,7 +1,5 @@
 """Is this pressure a contact? Deflection, complementarity, load and gap are written anew, in double precision."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

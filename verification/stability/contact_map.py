@@ -1,7 +1,5 @@
 """Maps of the dry rough contact: load, hardness, size, aspect ratio, mean gap, tilt, precision."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache

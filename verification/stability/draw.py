@@ -1,7 +1,5 @@
 """Draws and counts the maps."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 import numpy as np
@@ -39,7 +37,7 @@ def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter]:
     """Verdicts by (map, method, default)."""
     found: dict[tuple[str, str, bool], Counter] = {}
     for cell in cells:
-        key = (cell.word("map"), cell.word("method"), bool(cell.at["default"]))
+        key = (cell.at["map"], cell.at["method"], bool(cell.at["default"]))
         found.setdefault(key, Counter())[verdict_of(cell)] += 1
     return found
 
@@ -59,10 +57,10 @@ def table(kind: str, cells: list[Check]) -> Table:
 
 def draw(kind: str, cells: list[Check]) -> Figure:
     """One panel for each map and method. Cells that share a place show the worst verdict."""
-    panels = list(dict.fromkeys((c.word("map"), c.word("method")) for c in cells))
+    panels = list(dict.fromkeys((c.at["map"], c.at["method"]) for c in cells))
     canvas, axes = plotting.panels(len(panels), 3, width=11, height=2.9)
     for ax, place in zip(axes, panels):
-        panel(ax, [c for c in cells if (c.word("map"), c.word("method")) == place])
+        panel(ax, [c for c in cells if (c.at["map"], c.at["method"]) == place])
     handles = [axes[0].plot([], [], MARKS[v], color=COLOURS[v], label=v)[0] for v in VERDICTS]
     canvas.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False)
     return plotting.compact(plotting.finish(kind, canvas, f"Stability of the {kind} solvers", format="png"))
@@ -72,15 +70,15 @@ def panel(ax, cells: list[Check]) -> None:
     """All cells of one map and method."""
     from matplotlib.ticker import MaxNLocator
 
-    name, method = cells[0].word("map"), cells[0].word("method")
+    name, method = cells[0].at["map"], cells[0].at["method"]
     *labels, linear = AXES.get(name, WHOLE)
     found = Counter(verdict_of(c) for c in cells)
     for order, verdict in enumerate(VERDICTS):
-        places = np.array([(c.number("x"), c.number("y")) for c in cells if verdict_of(c) == verdict]).reshape(-1, 2)
+        places = np.array([(c.at["x"], c.at["y"]) for c in cells if verdict_of(c) == verdict]).reshape(-1, 2)
         ax.plot(*places.T, MARKS[verdict], color=COLOURS[verdict], markersize=4, zorder=1 + order)
     for axis, label in zip("xy", labels):
         if axis not in linear:
-            scale = "log" if min(c.number(axis) for c in cells) > 0 else "symlog"
+            scale = "log" if min(c.at[axis] for c in cells) > 0 else "symlog"
             ax.set(**{f"{axis}scale": scale})
         ax.set(**{f"{axis}label": label})
         one = ax.xaxis if axis == "x" else ax.yaxis

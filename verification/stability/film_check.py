@@ -5,8 +5,6 @@ every cell (the logarithmic kernel integrated in closed form), the flow through 
 over the cell by Gauss points, with the exact pressure gradient), the load, and the sign conditions of cavitation.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Maps of smooth line contacts: load, material, speed, laws, tolerance, poor starts, starvation."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -29,8 +27,7 @@ PAPER = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosit
 
 @dataclass(frozen=True)
 class Film:
-    """Arguments ``case`` of the film solvers in SI units, the tolerance asked for, and M and L of a film to start
-    from."""
+    """Arguments ``case`` of the film solvers in SI units, the tolerance, and M and L of a film to start from."""
 
     case: dict = field(hash=False)
     tolerance: float = TOLERANCE

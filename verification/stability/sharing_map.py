@@ -5,8 +5,6 @@ The judge closes load and volume anew (`verification.hostile.soak_judge`). Allow
 that the scene asks for (1 %), on the coefficient and on F_C/F_T.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -6,17 +6,13 @@ before the first touching cell, ruptured film and all, by second-order upwind di
 and of 1/h³ between cells. What those quadratures leave open is estimated, and allowed.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import numpy as np
 
 import lubfric
 from lubfric.contact import half_space
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.problem import Problem
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import Problem, lay_out, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
 

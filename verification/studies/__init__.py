@@ -6,8 +6,6 @@ docstring is the text of its section in the report. To add one, put the function
 and add a line below.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from ..check import LEVELS, file_name
@@ -17,8 +15,6 @@ from ..check import LEVELS, file_name
 class Study:
     """Where a study is.
 
-    Attributes
-    ----------
     target : "package.module:function"
     levels : those that it runs at
     options : keywords of the function beside the level

@@ -1,12 +1,9 @@
 """Hertz line contact on the finite-element layer, elastic and capped, beside `lubfric.solve_contact`."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import lubfric
 
-from .. import plotting
 from ..check import AT_LEAST, Check, Table, bound, compared
 from ..convergence import Series, convergence
 from ..fem.compliance import Elastic
@@ -109,8 +106,7 @@ def hertz(level: str):
 
 
 def edge_mean_error(found: Layer, fine: float) -> float:
-    """Relative L2 error of the pressure, as root mean square over loads that move the edge of the contact through one
-    cell."""
+    """Relative L2 error of the pressure, rms over loads that move the edge of the contact through a cell."""
     errors = []
     for shift in np.arange(5) / 5:
         load = LINE_LOAD * (1 + fine * shift) ** 2 / (1 + fine) ** 2
@@ -129,14 +125,6 @@ def capped_cylinder(found: Layer, elastic: Contact, x, smooth, level: str):
     off = difference(found, p.pressure, np.interp(found.x, x, other.pressure[:, 0]))
     allowed = 0.015 if level == "quick" else 5e-3
     yield bound("capped Hertz line: pressure difference to lubfric", off, allowed, DRY, "L2")
-    canvas, ax = plotting.axes(height=3.6)
-    for q, style, label in ((elastic, "o", "finite elements"), (p, "s", "finite elements, capped")):
-        ax.plot(found.x[::4] / B, q.pressure[::4] / PEAK, style, markersize=3, label=label)
-    ax.plot(x / B, smooth.pressure[:, 0] / PEAK, "k-", linewidth=1, label="lubfric")
-    ax.plot(x / B, other.pressure[:, 0] / PEAK, "k--", linewidth=1, label="lubfric, capped")
-    ax.set(xlabel="x/b", ylabel="pressure / Hertz peak", xlim=(-1.5, 1.5))
-    ax.legend(loc="lower center", bbox_to_anchor=(0.5, 0.1))
-    yield plotting.finish("contact_line", canvas, "Cylinder on the layer, elastic and with a cap on the pressure.")
     sigma = found.stress(elastic.pressure * found.weights)
     data = dict(zip(("sigma_xx", "sigma_zz", "sigma_xz"), sigma), von_mises=von_mises(sigma, BODY.poisson))
     yield mesh_field("contact_line_stress", "Stress under the cylinder, Pa", found.basis.mesh, data)

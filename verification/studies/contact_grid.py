@@ -1,7 +1,5 @@
 """Dry contact of `lubfric` against closed forms on ever finer grids, for each of the three boundary conditions."""
 
-from __future__ import annotations
-
 import numpy as np
 
 import lubfric

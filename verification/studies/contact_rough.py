@@ -1,14 +1,11 @@
 """A rough periodic patch on the finite-element layer, elastic and capped, beside `lubfric.solve_contact`."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
 
 import lubfric
 
-from .. import plotting
 from ..check import AT_LEAST, Table, bound, compared
 from ..convergence import Series
 from ..fem.compliance import Elastic, missing
@@ -40,8 +37,7 @@ def contact_rough(level: str):
 
 
 def roughness(x, y, seed: int = 2, waves: int = 4, slope: float = -1.8):
-    """Heights [m] with root mean square SQ: waves of random phase, 1 to ``waves`` in the box, of amplitude
-    |n|^slope."""
+    """Heights [m] of rms SQ: waves of random phase, 1 to ``waves`` in the box, of amplitude |n|^slope."""
     phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, (waves + 1, 2 * waves + 1))
     total, power = np.zeros(np.broadcast_shapes(x.shape, y.shape)), 0.0
     for i in range(waves + 1):
@@ -135,8 +131,6 @@ def rough(level: str):
         for by, p, o in (*(("finite elements", *each) for each in zip(patches, off)), ("lubfric", best, 0.0)):
             rows.append((f"{name}, {by}", f"{p.gap.shape[0]}²", p.area, p.plastic_area, p.mean_gap / SQ, o))
         yield from patch_checks(name, patches, best, off)
-        if limit is None:
-            yield patch_figure(patches[-1], best)
     caption = f"Rough patch, Sq = {SQ * 1e9:g} nm, box {BOX * 1e6:g} µm, mean pressure {MEAN_PRESSURE / 1e6:g} MPa, "
     caption += f"cap {CAP / 1e9:g} GPa; triquadratic bricks"
     columns = ("solver", "nodes", "contact area", "area at the cap", "mean gap / Sq", "pressure difference")
@@ -168,26 +162,6 @@ def patch_checks(name: str, patches, best: Patch, off):
     sizes, source = [1 / p.gap.shape[0] for p in patches], "edges like a square root, at places the grid does not know"
     yield Series("", sizes, off, 1, f"{label}: order of the pressure difference", 0.4, source, AT_LEAST).judged()
     yield bound(f"{label}: pressure difference", off[-1], 2 / nodes, other, "L2")
-
-
-def patch_figure(p: Patch, best: Patch):
-    """Pressures of both and their difference."""
-    own, other = p.pressure / 1e9, at_nodes(best.pressure, p.pressure.shape[0]) / 1e9
-    canvas, axes = plotting.axes(1, 3, width=9.0, height=3.1, sharey=True)
-    most, top = np.abs(own - other).max(), best.pressure.max() / 1e9
-    maps = (
-        (own, "finite elements", {"vmin": 0, "vmax": top, "cmap": "viridis"}),
-        (other, "lubfric", {"vmin": 0, "vmax": top, "cmap": "viridis"}),
-        (own - other, "difference", {"vmin": -most, "vmax": most, "cmap": "RdBu_r"}),
-    )
-    for ax, (values, title, colours) in zip(axes, maps, strict=True):
-        image = ax.imshow(values.T, origin="lower", extent=(0, BOX * 1e6, 0, BOX * 1e6), **colours)
-        ax.grid(False)
-        ax.set(title=title, xlabel="x (µm)")
-        canvas.colorbar(image, ax=ax, shrink=0.75, label="GPa")
-    axes[0].set(ylabel="y (µm)")
-    caption = f"Rough patch, {p.gap.shape[0]}² nodes: pressure of both solvers. They differ on the edges of the spots."
-    return plotting.finish("contact_rough", canvas, caption, "png")
 
 
 def thickness(level: str):

@@ -1,20 +1,17 @@
 """The deterministic mixed film of lubfric: its limits, its grids, and its film in the same gap by finite elements."""
 
-from __future__ import annotations
-
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import dry_contact, reach, solve_refined
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import dry_contact, lay_out, reach, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
-from lubfric.surface.height_map import Surface
+from lubfric.surface import Surface
 
-from ..check import ABSOLUTE, Check, Table, bound, compared
+from ..check import ABSOLUTE, Check, compared
 from ..fem.fluid import Fluid
 from ..fem.rough_film import GivenGap, rough_film
 from .given_fluid import contact_given_fluid
@@ -51,8 +48,6 @@ def deterministic(level: str):
             yield from same_gap(cells, speed)
     yield from contact_given_fluid(level, contact(0.1))
     yield from waviness(level)
-    if level == "full":
-        yield from refinement()
 
 
 def contact(speed: float, load: float = LOAD, lubricant: Lubricant | None = None) -> LineContact:
@@ -65,7 +60,7 @@ def surface(cells: int, seed: int = 1) -> Surface:
     fine = lubfric.generate_surface(
         (256, 128), WIDTH / 256, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=seed
     )
-    mirrored = replace(fine.cropped((256, 100)).periodic("mirror", axes=(False, True)), periodic_axes=(True, True))
+    mirrored = replace(fine.cropped((256, 100)).periodic(axes=(False, True)), periodic_axes=(True, True))
     return mirrored.resampled(shape=(cells, round(cells * 100 / 256) * 2))
 
 
@@ -77,12 +72,21 @@ def problem(cells: int, speed: float, seed: int = 1):
 def smooth():
     """A surface without roughness."""
     for speed, load in ((0.3, LOAD), (0.1, 20 * LOAD)):
-        oil = {"viscosity": VISCOSITY, "pressure_viscosity_coefficient": ALPHA, "density_law": "dowson-higginson"}
+        oil: dict[str, Any] = {
+            "viscosity": VISCOSITY,
+            "pressure_viscosity_coefficient": ALPHA,
+            "density_law": "dowson-higginson",
+        }
         line = contact(speed, load, Lubricant(**oil))
         step = sum(reach(line, 0.0)) / 512
         flat = Surface(np.zeros((64, 1)), (step, step), periodic_axes=(True, True))
         found = solve_point(lay_out(flat, line, sliding=2 * speed, boundary_friction=0.09))
-        body = {"load_per_width": load, "radius": RADIUS, "e_prime": E_PRIME, "entrainment_speed": speed}
+        body: dict[str, Any] = {
+            "load_per_width": load,
+            "radius": RADIUS,
+            "e_prime": E_PRIME,
+            "entrainment_speed": speed,
+        }
         film = lubfric.solve_ehl(**body, **oil, tolerance=1e-4)
         rows = [
             ("smallest film", "m", found.min_gap, film.min_film, 1e-3),
@@ -118,19 +122,3 @@ def same_gap(cells: int, speed: float):
     ]
     note = f"{100 * load / LOAD:.0f} % of the load is outside the spots"
     yield from compared(f"{cells} cells, {speed:g} m/s", rows, "finite elements in the same gap", note)
-
-
-def refinement():
-    """f on 128, 256 and 512 cells, five surfaces."""
-    rows, worst = [], 0.0
-    for seed in range(1, 6):
-        for speed in (0.03, 0.01, 0.003):
-            grids = tuple((n, round(n * 100 / 256) * 2) for n in (128, 256, 512))
-            found = solve_refined(lambda shape: problem(shape[0], speed, seed), grids, tolerance=0.0, least=3)
-            f = [r.coefficient for r in found.results]
-            order = np.log2(abs(f[1] - f[0]) / max(abs(f[2] - f[1]), 1e-300))
-            rows.append((seed, speed, *f, order, found.error))
-            worst = max(worst, abs(f[1] / f[2] - 1))
-    columns = ("surface", "speed [m/s]", "f 128", "f 256", "f 512", "order", "estimated error of 512")
-    yield Table("refinement", "The coefficient on three grids", columns, tuple(rows))
-    yield bound("f on 256 against 512 cells, largest change", worst, 5e-3, "the finer grid")

@@ -1,7 +1,5 @@
 """The EHL line contact by finite elements, full system, against `lubfric.solve_ehl` and a table."""
 
-from __future__ import annotations
-
 import time
 from dataclasses import dataclass
 
@@ -9,13 +7,15 @@ import numpy as np
 
 import lubfric
 
-from .. import plotting
 from ..cases import case_of
-from ..check import AT_LEAST, Check, bound, compared
+from ..check import AT_LEAST, Check, Field, Table, bound, compared
 from ..convergence import Series, convergence, picture
 from ..fem.ehl import LineContact, Solution, solve_ehl
+from ..fem.ehl_body import POISSON
 from ..fem.ehl_film import PENALTY
 from ..fem.fluid import Fluid
+from ..fem.triangles import von_mises
+from ..meshes import mesh_field
 
 CONSTANT, COMPRESSIBLE = "constant", "dowson-higginson"
 POINTS = (
@@ -34,6 +34,8 @@ TABLE: dict[tuple[float, float, str], tuple[float, float]] = {
     (50, 10, CONSTANT): (3.436, 4.587),
     (20, 5, COMPRESSIBLE): (2.568, 3.509),
 }
+SOLVED = ("contact", "p_h (GPa)", "unknown displacements", "points on the line", "Newton steps", "residual")
+FILMS = ("flow film", "smallest film", "flow film, difference", "smallest film, difference", "film, difference")
 TABLE_SOURCE = "separate finite-difference solver on nested meshes, inlet at -6 b"
 SOLVER = "lubfric.solve_ehl, tolerance 3e-5"
 
@@ -48,19 +50,16 @@ def ehl(level: str):
     times the Hertz width in the inlet) to 1.5 GPa. Differences of the films shrink as the finite-element mesh is
     refined, down to where the finite body (1e-5) and the tolerance of `lubfric` (3e-5) begin to show.
     """
-    from .ehl_show import fields, profiles, summary
-
     pairs = []
     for point in QUICK if level == "quick" else POINTS:
         pairs.append(solved(point, REFINEMENTS[level]))
         yield from point_checks(pairs[-1], level)
     yield summary(pairs)
     yield from differences(pairs, level)
-    yield profiles(pairs)
     yield from ringing()
     if level != "quick":
         yield from finite_body()
-    yield from fields(next(p for p in pairs if p.point == (50, 10, CONSTANT)))
+    yield body_field(next(p for p in pairs if p.point == (50, 10, CONSTANT)))
 
 
 @dataclass(frozen=True)
@@ -131,9 +130,40 @@ def point_checks(pair: Pair, level: str):
         yield from compared(pair.label, rows, TABLE_SOURCE)
 
 
+def summary(pairs: list[Pair]) -> Table:
+    """The table of every contact on every mesh."""
+    rows: list[tuple] = []
+    for pair in pairs:
+        k, line = pair.finest.contact.moes_film, pair.line
+        for s in pair.solutions:
+            mesh = (round(s.contact.hertz_pressure / 1e9, 3), s.body.stiffness.shape[0], s.body.line.N)
+            off = [f"{100 * d:+.4f} %" for d in pair.differences(s)]
+            work = (s.report.iterations, s.report.residual)
+            rows.append((pair.label, *mesh, *work, s.flow_film / k, s.min_film / k, *off))
+        solve = (line.x.size, line.report.iterations, line.report.residual)
+        films = (line.flow_film / k, line.min_film / k)
+        rows.append((pair.label, "", "lubfric", *solve, *films, "", "", f"{pair.seconds:.1f} s"))
+    caption = "Films in Moes' units (h/R)/sqrt(U1) on every mesh and by lubfric; differences relative to lubfric; "
+    caption += "film: "
+    caption += "root mean square over the contact in flow films; in the row of lubfric the time that finite elements "
+    caption += "took."
+    return Table("ehl", caption, (*SOLVED, *FILMS), rows)
+
+
+def body_field(pair: Pair) -> Field:
+    """Displacement and stress of the body."""
+    s, c = pair.finest, pair.finest.contact
+    stress = s.body.stress(s.displacement) * c.hertz_pressure
+    moved = s.body.everywhere(s.displacement)[s.body.basis.nodal_dofs].T * c.film_unit
+    data = dict(zip(("stress_xx", "stress_zz", "stress_xz"), stress, strict=True), von_mises=von_mises(stress, POISSON))
+    caption = f"{pair.label}: displacement (m) and stress (Pa) of the body that stands for both"
+    scaled = s.body.basis.mesh.scaled((c.half_width, c.half_width))
+    return mesh_field("ehl_body", caption, scaled, {"displacement": np.pad(moved, ((0, 0), (0, 1)))} | data)
+
+
 def differences(pairs: list[Pair], level: str):
     """The film's difference from `lubfric` shrinks with the mesh."""
-    series: dict[int, list[Series]] = {5: [], 10: []}
+    series: dict[float, list[Series]] = {5: [], 10: []}
     for pair in pairs:
         sizes = [s.cell_length / s.contact.half_width for s in pair.solutions]
         errors = [pair.differences(s)[2] for s in pair.solutions]
@@ -145,7 +175,7 @@ def differences(pairs: list[Pair], level: str):
         (10, 1.0, "the film has a kink under the pressure spike, which no mesh here resolves"),
     ):
         if level != "quick":
-            mean = np.sqrt(np.mean(np.square([s.errors for s in series[L]]), axis=0))
+            mean = np.sqrt(np.mean(np.square([list(s.errors) for s in series[L]]), axis=0))
             name = f"order of the film difference, L = {L}, root mean square over contacts"
             yield Series("", 0.5 ** np.arange(mean.size), mean, order, name, 0.2, source, AT_LEAST).judged()
         caption = f"Film of the full-system finite elements against lubfric at L = {L}, root mean square over the "
@@ -157,21 +187,15 @@ def differences(pairs: list[Pair], level: str):
 def ringing():
     """Plain Galerkin and slope penalty on one coarse mesh at 2.6 GPa."""
     contact = make_contact(200, 10)
-    canvas, ax = plotting.axes()
     variation = {}
     for label, penalty in (("Galerkin", 0.0), ("slope penalty", PENALTY)):
         s = solve_ehl(contact, refinements=0, fineness=1.0, penalty=penalty)[0]
         order = np.argsort(s.body.x)
-        ax.plot(s.body.x[order], s.P[order], marker=".", label=label, linewidth=1.2)
         variation[label] = np.abs(np.diff(s.P[order])).sum() / 2
-    ax.set(xlim=(-1.6, 1.3), xlabel="x / b", ylabel="p / p_h", title=f"M = 200, L = 10 on {s.body.line.N} points")
-    ax.legend()
     name, source = "half the total variation of pressure", "1 for one hump of height p_h, spike on top"
     note = "rings, as it must where nothing is added"
     yield Check(f"{name}, Galerkin", variation["Galerkin"], 2.0, 0.0, source, AT_LEAST, note=note)
     yield bound(f"{name}, slope penalty", variation["slope penalty"], 1.6, source, "does not ring")
-    caption = "Pressure on a coarse mesh: where viscosity leaves nothing but d(ρh)/dx, plain Galerkin rings; slope "
-    yield plotting.finish("ehl_ringing", canvas, caption + "penalty does not.")
 
 
 def finite_body():

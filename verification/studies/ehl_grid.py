@@ -1,7 +1,5 @@
 """The line-contact film of `lubfric` against exact and tight references: grid, inlet."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

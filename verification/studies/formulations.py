@@ -1,7 +1,5 @@
 """The contact formulations of the paper against the load-controlled default: agreement, work, time."""
 
-from __future__ import annotations
-
 import statistics
 import time
 from functools import partial

@@ -1,8 +1,4 @@
-"""The whole job of `lubfric`: what grid, patch, area A, tolerance and direction do to the coefficient of
-friction.
-"""
-
-from __future__ import annotations
+"""The whole job of `lubfric`: what grid, patch, area A, tolerance and direction do to the coefficient of friction."""
 
 from dataclasses import replace
 from typing import Any
@@ -29,12 +25,12 @@ TIGHT = {
     "balance_tolerance": 1e-6,
     "contact_tolerance": 1e-6,
     "sampling": "patch",
+    "grid": "given",
 }
 
 
 def friction(level: str):
-    """`lubfric.friction` on the paper's cylinder (Tables 1 and 2; generated Gaussian roughness of 100 nm, 8
-    µm at 1/e).
+    """`lubfric.friction` on the paper's cylinder (Tables 1 and 2; generated Gaussian roughness of 100 nm, 8 µm at 1/e).
 
     Full film has a closed form for its friction. Running backwards over the mirrored surface must change nothing: a
     film or a strip off by half a cell would. Then come the numerical choices: the cells per correlation length, the
@@ -71,7 +67,7 @@ def blocks(heights: np.ndarray, cells: int) -> np.ndarray:
 def full_film():
     """Constant viscosity at high speed: a rigid isoviscous film, whose friction has a closed form."""
     made = model(np.zeros((16, 16)), 1e-6)
-    made = replace(made, scene=made.scene.with_(lubricant={"viscosity_law": "constant"}))
+    made = prepare(made.scene.with_(lubricant={"viscosity_law": "constant"}), like=made)
     point = lubfric.friction(made, 20.0)
     b = made.scene.bodies
     exact = Parabola(made.scene.lubricant.viscosity, 20.0, b.radius, point.min_film, -1e6)
@@ -132,6 +128,7 @@ def tolerance_of_the_job():
     heights, spacing = surface((256, 256), PATCH / 256), PATCH / 256
     reference = [lubfric.friction(model(heights, spacing), speed).coefficient for speed in SPEEDS]
     free: dict[str, Any] = dict.fromkeys(("film_tolerance", "balance_tolerance", "contact_tolerance"))
+    free["grid"] = "auto"
     for tolerance in TOLERANCES:
         made = model(heights, spacing, **free | {"tolerance": tolerance})
         points = [lubfric.friction(made, speed) for speed in SPEEDS]
@@ -144,7 +141,7 @@ def area_of_the_balance():
     """Strip or box: F_H at the paper's speed against the width of the patch. One surface is cut to all widths."""
     spacing, cells = 0.9375e-6, 192
     heights = surface((cells, cells), spacing)[:, :96]
-    heights = lubfric.Surface(heights, (spacing, spacing)).periodic("mirror", axes=(False, True)).heights
+    heights = lubfric.Surface(heights, (spacing, spacing)).periodic(axes=(False, True)).heights
 
     def film_load(region: str, width: float) -> float:
         n = round(width / spacing)

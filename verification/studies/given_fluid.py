@@ -7,19 +7,13 @@ agree. The half-space of lubfric is averaged over its cells first (`load_sharing
 are; what is left falls with their size.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import reach
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.problem import Problem
-from lubfric.deterministic.result import DeterministicResult
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import DeterministicResult, Problem, lay_out, reach, solve_point
 from lubfric.film import LineContact
 
 from ..check import ABSOLUTE, Check
@@ -36,8 +30,7 @@ MORE = 1.02  # times the load, for the slope of the gap
 
 @dataclass(frozen=True)
 class Case:
-    """cells over 90 µm, and across the line; speed [m/s]; floor [m]; hardness [Pa]; and facets of the elements in a
-    cell, as a power of 2."""
+    """Cells over 90 µm, and across; speed [m/s]; floor [m]; hardness [Pa]; 2^fineness facets of elements in a cell."""
 
     cells: int
     across: int
@@ -64,8 +57,7 @@ MISPLACED = 0.1  # share of touching cells
 
 
 def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Check]:
-    """Pressure and cells of the contact, its load at the same gap, and the gap of the film, for the cases of
-    ``level``."""
+    """Pressure and cells of the contact, its load at the same gap, and the gap of the film."""
     bodies: dict[tuple, Compliance] = {}
     for case in CASES[level]:
         problem = laid(case, contact)
@@ -116,8 +108,7 @@ def compared(case: Case, problem: Problem, found: DeterministicResult, body: Com
 
 
 def judged(problem: Problem, found: DeterministicResult, body: Compliance) -> tuple[Contact, float]:
-    """The contact under what the fluid leaves of the load; and the load that it carries, over that, when its mean gap
-    is that of ``found``."""
+    """The contact under what the fluid leaves of the load; and its load at the mean gap of ``found``, over that."""
     fluid = np.where(found.touching, 0.0, found.pressure)
     left = problem.load - found.inlet_load - fluid.sum() * problem.spacing[0] / fluid.shape[1]
     gap0 = problem.rigid_gap + np.where(found.touching, 0.0, found.dent) + body.apply(fluid) - problem.floor

@@ -1,20 +1,11 @@
 """The elastic layer by finite elements against its exact compliance, and its approach to the half-space."""
 
-from __future__ import annotations
-
 import numpy as np
 from skfem import MeshTri
 
-from .. import plotting
 from ..check import Check, Table, bound, compared
 from ..convergence import Series, convergence
-from ..fem.compliance import (
-    Elastic,
-    curvature_number,
-    half_space_compliance,
-    layer_compliance,
-    missing,
-)
+from ..fem.compliance import Elastic, curvature_number, half_space_compliance, layer_compliance, missing
 from ..fem.layer import Layer, graded_mesh, make_layer
 from ..fem.layer3d import Layer3D, graded_levels, multigrid, rigid_body_modes, solve
 from ..fem.layer_waves import fourier_compliance
@@ -166,16 +157,6 @@ def approach(level: str):
     worst, allowed = np.max(np.abs(found - exact)), {"quick": 5e-5, "default": 1e-5, "full": 3e-6}[level]
     note = "1 - C/C(half-space), absolute"
     yield bound("wave on a layer: worst departure of the missing compliance", worst, allowed, SOURCE, note)
-    canvas, ax = plotting.axes()
-    fine = np.linspace(0.3, 7, 200)
-    ax.semilogy(fine, [missing(s, nu) for s in fine], "k-", linewidth=1, label="exact, bonded layer")
-    ax.semilogy(depths, np.abs(found), "o", label="finite elements, P2")
-    ax.semilogy(depths[3:], polynomial[3:] * np.exp(-2 * depths[3:]), "--", label="q(kd) exp(−2kd)")
-    ax.axhline(floor, color="0.6", linewidth=0.8, linestyle=":", label="error of this mesh on a thick layer")
-    ax.set(xlabel="thickness times wavenumber, kd", ylabel="1 − C/C(half-space)")
-    ax.legend()
-    caption = "A wave on a layer: it is stiffer than the half-space by a part that falls exponentially with thickness."
-    yield plotting.finish("layer_approach", canvas, caption)
 
 
 def bending(found: Layer) -> float:

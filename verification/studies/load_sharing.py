@@ -1,7 +1,5 @@
 """The whole model twice: film, rough contact and their load sharing by finite elements, beside `lubfric.friction`."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 
@@ -29,6 +27,7 @@ TIGHT = {  # the model of the finite elements: no more and no less
     "film_deflection": "hydrodynamic",
     "heat": "off",
     "sampling": "patch",
+    "grid": "given",
     "accept": True,
 }
 PARTS = 9  # of a cell, to take the mean displacement on
@@ -122,7 +121,8 @@ def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) 
 def averaged(model: Prepared) -> Prepared:
     """The model with displacements that are means over cells along x, as those of the finite elements are."""
     contact = parts.half_space(model)
-    return replace(model, contact=replace(contact, operator=cell_mean(contact.operator)))
+    averages = replace(contact, operator=cell_mean(contact.operator))
+    return prepare(model.scene, model.surface, contact=averages)
 
 
 def cell_mean(operator: HalfSpace) -> HalfSpace:
@@ -204,7 +204,7 @@ def pressure_figure(p: Point):
         ax.grid(False)
     left.set_ylabel("y (µm)")
     canvas.colorbar(image, ax=(left, middle), label="contact pressure (GPa)", shrink=0.85)
-    film, line = p.fem.film, parts.balance(p.main).film
+    film, line = p.fem.film, parts.film(p.main)
     x = np.linspace(-60e-6, 40e-6, 400)
     right.plot(x * 1e6, film.at(x)[0] / 1e6, label="finite elements")
     right.plot(line.x * 1e6, line.pressure / 1e6, "--", label="lubfric")

@@ -1,19 +1,14 @@
-"""Reynolds equation on a surface: manufactured solutions, finite width, rupture, Gmsh meshes."""
-
-from __future__ import annotations
-
-import tempfile
-from pathlib import Path
+"""Reynolds equation on a surface: manufactured solutions, finite width, rupture."""
 
 import numpy as np
 import skfem
 
-from .. import exact, plotting
-from ..check import ABSOLUTE, Check, Table, bound, compared
+from .. import exact
+from ..check import Check, Table, bound, compared
 from ..convergence import Series, convergence
 from ..fem.fluid import Fluid, slope
-from ..fem.reynolds import Problem, Solution, solve_refined, solve_reynolds
-from ..meshes import mesh_field, read_gmsh, read_vtu, write_gmsh, write_vtu
+from ..fem.reynolds import Problem, Solution, solve_refined
+from ..meshes import mesh_field
 
 KINDS = {"line": skfem.MeshLine, "triangle": skfem.MeshTri, "quadrilateral": skfem.MeshQuad}
 REFINEMENTS = {"quick": 2, "default": 3, "full": 4}
@@ -27,12 +22,11 @@ def reynolds_surface(level: str):
     A manufactured pressure in a compressible Roelands oil exercises every term of the weak form, and each element must
     show its own order. A pad with an exponential film has an exact series for any width, between the infinitely wide
     and the infinitely narrow pad. A parabolic film of infinite width must repeat the line, and one of finite width
-    shows the rupture line bend. The last check solves on a mesh that went through a Gmsh file.
+    shows the rupture line bend.
     """
     yield from manufactured(REFINEMENTS[level])
     yield from finite_width(REFINEMENTS[level])
     yield from parabolic(REFINEMENTS[level])
-    yield from files()
 
 
 class Manufactured:
@@ -153,8 +147,7 @@ def edged(e: exact.ExponentialPad) -> skfem.MeshQuad:
 
 
 def parabolic(refinements: int):
-    """Rupture on a surface: infinite width repeats the line; finite width, where the rupture line bends, is the same on
-    both kinds of cells and loses no mass."""
+    """Rupture: infinite width repeats the line; finite width agrees on both kinds of cells and loses no mass."""
     e = exact.Parabola(VISCOSITY, SPEED, 0.01, 1e-6, -10.0)
     x = np.sinh(np.linspace(-np.arcsinh(10), np.arcsinh(2), 25)) * e.scale
 
@@ -179,38 +172,3 @@ def parabolic(refinements: int):
     fed, lost = s.reaction[s.reaction > 0].sum(), -s.reaction[s.reaction < 0].sum()
     note = "over all edges and the ruptured part"
     yield from compared(name, [("flow in and out", "m³/s", fed, lost, 1e-7)], "conservation of mass", note)
-    yield rupture_figure(s, e)
-
-
-def rupture_figure(s: Solution, e: exact.Parabola):
-    """Pressure and the ruptured part on the surface."""
-    canvas, ax = plotting.axes(width=6.4, height=4.2)
-    points, p = s.problem.mesh.p / e.scale, s.at_vertices / e.pressure_scale
-    triangles = s.problem.mesh.to_meshtri().t.T
-    shown = ax.tripcolor(*points, triangles, p, shading="gouraud", cmap="viridis", rasterized=True)
-    ax.tricontour(*points, triangles, p, levels=[1e-3 * p.max()], colors="w", linewidths=1)
-    ax.axvline(e.exit, color="w", linestyle=":")
-    ax.set(xlim=(-2, 1), xlabel="x / √(2 R h₀)", ylabel="y / √(2 R h₀)", aspect="equal")
-    ax.grid(False)
-    canvas.colorbar(shown, ax=ax, label="p h₀² / (12 η U √(2 R h₀))", shrink=0.8)
-    caption = "Pressure under a parabola with open sides at y = ±2. White line: a thousandth of the peak; dotted: "
-    return plotting.finish("rupture", canvas, caption + "where a film of infinite width ruptures.", "png")
-
-
-def files():
-    """A Gmsh mesh is read and solved on; a VTU field comes back as it went out."""
-    e = pad(1.0)
-    mesh = skfem.MeshTri.init_tensor(np.linspace(0, LENGTH, 41), np.linspace(-LENGTH / 2, LENGTH / 2, 41))
-    with tempfile.TemporaryDirectory() as folder:
-        path = write_gmsh(Path(folder) / "pad.msh", mesh.p.T, {"triangle": mesh.t.T})
-        points, cells, _ = read_gmsh(path)
-        copy = skfem.MeshTri(points[:, :2].T, cells["triangle"].T)
-        s = solve_reynolds(Problem(copy, e.film, Fluid(VISCOSITY), SPEED, 2))
-        field = mesh_field("pad", "", copy, {"pressure": s.at_vertices})
-        back = read_vtu(write_vtu(Path(folder) / "pad.vtu", field))
-    yield Check("mesh from a Gmsh file: load", s.load, e.load, 1e-5, "exact series of the pad", unit="N")
-    name, off = (
-        "VTU round trip: largest change of a pressure",
-        np.abs(back.point_data["pressure"] - s.at_vertices).max(),
-    )
-    yield Check(name, off, 0.0, 0.0, "the field that was written", ABSOLUTE, unit="Pa")

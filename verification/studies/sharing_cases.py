@@ -1,8 +1,6 @@
 """Load sharing by finite elements beyond the paper's corner: oils, sliding, yielding, the flat contact, a measured
 map."""
 
-from __future__ import annotations
-
 import math
 import tempfile
 from collections.abc import Callable
@@ -35,8 +33,7 @@ EYRING, LIMIT, OFFSET = 1e6, 0.02, 0.3e6  # Pa, 1, Pa: both cut the stress of a 
 
 @dataclass(frozen=True)
 class Case:
-    """A case: the sections of the scene that are changed, the fluid that finite elements have instead, and the hardness
-    (Pa)."""
+    """Changed sections of the scene, the fluid that finite elements have instead, and the hardness (Pa)."""
 
     name: str
     speed: float
@@ -119,8 +116,7 @@ def yielded(found: Shared, main: lubfric.FrictionResult, body: Compliance, model
 
 
 def measured_map(allowed, refinements: int):
-    """A ground surface in a file: it lies along the other axis, has other cells along it, is tilted, and is
-    too rough."""
+    """A ground surface in a file: along the other axis, with other cells along it, tilted, and too rough."""
     across = 1.1e-6
     case = Case("measured map", 0.01)
     with tempfile.TemporaryDirectory() as folder:
@@ -172,8 +168,7 @@ def flat(allowed, refinements: int):
 
 
 def pressed_layer(nodes: int) -> Callable[[float], tuple[float, float]]:
-    """Mean gap (m) and share in contact of the periodic patch, pressed on a layer of bricks with a mean
-    pressure (Pa)."""
+    """Mean gap (m) and share in contact of the patch, pressed on a layer of bricks by a mean pressure (Pa)."""
     grid = layer_of(nodes, 2)
     displacement, weights = fourier_compliance(grid).displacement, grid.weights.ravel()
     gap0 = -roughness(*grid.x).ravel()

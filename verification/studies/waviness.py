@@ -7,16 +7,12 @@ full-system finite elements. In a film of even thickness h and viscosity eta it 
 q = 48 eta U/(E' k² h³): that is told beside it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric.deterministic import Start
-from lubfric.deterministic.domain import lay_out
-from lubfric.deterministic.solve import solve_point
+from lubfric.deterministic import lay_out, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant, viscosity
 from lubfric.surface.height_map import Surface
@@ -35,8 +31,7 @@ COLUMNS = ("case", "wavelength/b", "kept: lubfric", "finite elements", "even fil
 
 @dataclass(frozen=True)
 class Case:
-    """A smooth line contact in SI units: load per width, radius, E', speed, viscosity and its coefficient (None:
-    constant)."""
+    """A smooth line contact in SI units; ``coefficient``: of pressure and viscosity (None: constant)."""
 
     name: str
     load: float
@@ -89,8 +84,7 @@ def waviness(level: str) -> Iterator[Item]:
 def compared(
     case: Case, lengths=LENGTHS, judged: Case | None = None, refinements: int = 2, fineness: float = 1.0
 ) -> Iterator[tuple[float, float, float, float, float]]:
-    """Wavelength, |h1|/A at x = 0 by lubfric, by finite elements (of the case ``judged``) and in an even film, and the
-    rms of the difference."""
+    """Wavelength, |h1|/A at x = 0 by lubfric, finite elements (of ``judged``) and an even film; rms difference."""
     line = case.line
     b = line.half_width
     flat = Surface(np.zeros((64, 1)), (5 * b / CELLS,) * 2, periodic_axes=(True, True))
@@ -111,11 +105,10 @@ def compared(
 def response(smooth, base, k: float) -> np.ndarray:
     """Change of the gap per height of exp(i k x), complex (nx,)."""
     height = HEIGHT * base.central_gap
-    start = Start(lambda: base.state, smooth.speed)
 
     def change(wave):
         wavy = replace(smooth, heights=height * wave[:, None])
-        return (solve_point(wavy, starts=[start], tolerance=PRECISION).gap - base.gap)[:, 0] / height
+        return (solve_point(wavy, start=base.state, tolerance=PRECISION).gap - base.gap)[:, 0] / height
 
     return change(np.cos(k * base.x)) + 1j * change(np.sin(k * base.x))
 

@@ -5,8 +5,6 @@ now, with the command, the date, the version and the machine beneath. The tables
 are written by those, with ``--docs docs``.
 """
 
-from __future__ import annotations
-
 import inspect
 from argparse import ArgumentParser
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """What each table measures. Each function returns `Cells`, and `TABLES` names the functions."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Sequence
 
@@ -10,7 +8,6 @@ from scipy import fft
 
 import lubfric
 from lubfric.contact import half_space
-from lubfric.film import hertz
 
 from ..cases import case_of_scene
 
@@ -27,38 +24,6 @@ def stribeck() -> Cells:
         )
     ]
     return ["U (m/s)", "f", "F_C (N)", "F_H (N)", "mean gap (nm)"], rows
-
-
-def film_load_of_patches() -> Cells:
-    """F_H at 0.001 m/s over generated patches of the paper's size: twelve seeds for each correlation length."""
-    rows = []
-    for length in (4e-6, 8e-6, 16e-6):
-        loads = []
-        for seed in range(1, 13):
-            rough = {"correlation_length": length, "seed": seed}
-            scene = lubfric.load_scene("paper").with_(surface=rough, numerics={"grid": "given", "sampling": "patch"})
-            loads.append(lubfric.friction(scene, 0.001).film_load)
-        mean, spread = np.mean(loads), np.std(loads, ddof=1)
-        rows.append([f"{1e6 * length:g} µm", f"{mean:.3f} ± {spread:.3f} N", f"{min(loads):.3f} to {max(loads):.3f} N"])
-    return ["correlation length", "F_H mean ± sd", "range"], rows
-
-
-def hertz_line() -> Cells:
-    """A smooth cylinder through the rough-contact solver, on ever finer grids."""
-    radius, e_prime, load = 0.01, 230e9, 1e5
-    half_width = hertz.line_half_width(load, radius, e_prime)
-    peak = hertz.line_peak_pressure(load, radius, e_prime)
-    rows = []
-    for across in (50, 100, 200, 400):
-        step = 2 * half_width / across
-        x = (np.arange(2 * across) - across + 0.5) * step
-        gap = np.repeat((x**2 / (2 * radius))[:, None], 4, axis=1)
-        asked = {"mean_pressure": load / (2 * across * step), "boundary": ("free", "periodic"), "tolerance": 1e-8}
-        solved = lubfric.solve_contact(gap, step, e_prime, **asked)
-        exact = peak * np.sqrt(np.maximum(1 - (x / half_width) ** 2, 0))
-        error = np.sqrt(np.mean((solved.pressure[:, 0] - exact) ** 2) / np.mean(exact**2))
-        rows.append([str(across), f"{solved.pressure.max() / peak - 1:+.1e}", f"{error:.1e}"])
-    return ["cells across the width", "peak pressure off by", "pressure, rms error"], rows
 
 
 def times() -> Cells:
@@ -127,8 +92,6 @@ def mutants() -> Cells:
 TABLES: dict[str, Callable[[], Cells]] = {
     "waviness": waviness,
     "stribeck": stribeck,
-    "film-load-of-patches": film_load_of_patches,
-    "hertz-line": hertz_line,
     "times": times,
     "contact-transforms": contact_transforms,
     "mutants": mutants,

@@ -5,8 +5,6 @@ between them is replaced as a whole. Tables come from `verification.tables`, fro
 scripts of the folder ``benchmarks`` (`BENCHMARKS`).
 """
 
-from __future__ import annotations
-
 import platform
 import re
 import time
@@ -19,14 +17,13 @@ BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of
 BENCHMARKS = {
     "chosen-speeds": "chosen_speeds.py",
     "contact-aspher": "contact_vs_aspher.py",
-    "contact-before": "contact_before_after.py",
     "contact-constants": "contact_constants.py",
     "film-times": "ehl_times.py",
     "study-points": "study.py",
 }
 CAMPAIGNS = {  # command: its tables
-    "charts": ("contact-methods", "growth"),
-    "model": ("model-error", "model-cost", "measured-map", "held-out", "refinement", "heavy-loads"),
+    "charts": ("contact-methods",),
+    "model": ("model-error", "model-cost", "measured-map", "held-out", "refinement"),
     "sampling": ("sampling-coverage", "sampling-numbers"),
     "stability": ("stability-film", "stability-contact", "stability-sharing", "stability-whole"),
 }
@@ -57,7 +54,7 @@ def body(table: Table, command: str) -> str:
 
 def source(command: str) -> str:
     """One line in italics: the command as it is typed, the day, the version and the machine."""
-    from lubfric._base.version import __version__
+    from lubfric import __version__
 
     day, machine, python = time.strftime("%Y-%m-%d"), platform.machine(), platform.python_version()
     return f"*`{command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"

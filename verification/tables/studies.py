@@ -3,8 +3,6 @@
 A study runs once in a process, however many tables are made of it.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from functools import cache
@@ -109,16 +107,6 @@ def formulations() -> Cells:
     return ["contact", *columns], list(rows.values())
 
 
-def closures() -> Cells:
-    """The paper's cylinder closed both ways; times are left out, as the machine may be shared."""
-    found = next(t for t in ran("formulations").tables if t.name == "closures")
-    rows = [
-        [f"{speed:g}", f'`"{closure}"`', f"{f:.7f}", f"{film:.5f}", str(trials)]
-        for speed, closure, f, film, trials, _ in found.rows
-    ]
-    return ["U (m/s)", "closure", "f", "F_H (N)", "trials of the root"], rows
-
-
 TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
     "orders": orders,
@@ -129,5 +117,4 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "patch-length": copied("friction", "patch_size", "g", ".4f"),
     "transient": transient,
     "formulations": formulations,
-    "closures": closures,
 }

@@ -1,7 +1,5 @@
 """Wiring of the smooth film and of its shear, in steady motion."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 
@@ -14,7 +12,14 @@ from ..check import Check, compared
 
 OTHER = "differential deflection, called by itself"
 OWN = "own integral over the film that was found"
-FIXED = {"film_deflection": "hydrodynamic", "heat": "off", "accept": True, "tolerance": 1e-3, "sampling": "patch"}
+FIXED = {
+    "film_deflection": "hydrodynamic",
+    "heat": "off",
+    "accept": True,
+    "tolerance": 1e-3,
+    "sampling": "patch",
+    "grid": "given",
+}
 LAWS: dict[str, dict[str, Any]] = {
     "Roelands": {},
     "Barus": {"viscosity_law": "barus"},
@@ -58,12 +63,16 @@ def film(name: str, oil: dict) -> Iterator[Check]:
     s = smooth(oil)
     b = s.bodies
     found = lubfric.friction(s, 0.3)
-    laws = {"pressure_viscosity_coefficient": 25e-9, "viscosity_law": "roelands", "density_law": "constant"} | oil
-    body = {"load_per_width": 300.0 / b.width, "radius": b.radius, "e_prime": b.e_prime}
-    motion = {"entrainment_speed": 0.3, "viscosity": 0.36}
+    laws: dict[str, Any] = {
+        "pressure_viscosity_coefficient": 25e-9,
+        "viscosity_law": "roelands",
+        "density_law": "constant",
+    } | oil
+    body: dict[str, Any] = {"load_per_width": 300.0 / b.width, "radius": b.radius, "e_prime": b.e_prime}
+    motion: dict[str, Any] = {"entrainment_speed": 0.3, "viscosity": 0.36}
     other = lubfric.solve_differential_deflection(**body, **motion, **laws, tolerance=3e-3)
     rows = [
-        ("flow film", "m", parts.balance(found).film.flow_film, other.flow_film, 5e-3),
+        ("flow film", "m", parts.film(found).flow_film, other.flow_film, 5e-3),
         ("smallest film", "m", found.min_film, other.min_film, 6e-3),
     ]
     yield from compared(name, rows, OTHER)
@@ -85,8 +94,7 @@ def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
     """Shear force and coefficient at 0.1 m/s."""
     s, speed, pieces = mixed(oil, motion), 0.1, 40
     found = lubfric.friction(s, speed, fields=True)
-    balance, fields = parts.balance(found), parts.contact_fields(found)
-    line, contact = balance.film, balance.contact
+    line, contact, fields = parts.film(found), parts.contact(found), parts.contact_fields(found)
     x = np.sort(np.concatenate([np.linspace(a, b, pieces, endpoint=False) for a, b in zip(line.x[:-1], line.x[1:])]))
     x = x[x < line.rupture]
     middle, dx = 0.5 * (x[1:] + x[:-1]), np.diff(x)

@@ -1,7 +1,5 @@
 """Wiring of the height map: every key of a surface from a file, and of a generated one."""
 
-from __future__ import annotations
-
 import itertools
 import tempfile
 from collections.abc import Iterator
@@ -21,7 +19,7 @@ from ..parts import half_space
 DX, DY = 0.8e-6, 1.3e-6  # of the file, along its first and second axis
 OWN = "the file, read and changed by plain NumPy"
 SIZE = (56, 40)
-PATCH = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})  # the map itself, no line of it
+PATCH = lubfric.load_scene("paper").with_(numerics={"sampling": "patch", "grid": "given"})  # the map on its cells
 
 
 def wiring_maps(level: str) -> Iterator[Check]:

@@ -1,7 +1,5 @@
 """Wiring of the transient: what does not change leaves the steady state alone, and what changes ends in the new one."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 
@@ -69,9 +67,9 @@ def ramped() -> Iterator[Check]:
     def ramp(first: float, last: float) -> Ramp:
         return Ramp(start=first, end=last, begin=0.0, until=1e-4)
 
-    motion = {"speed": ramp(0.2, 0.3), "sliding": ramp(0.1, 0.06)}
-    bodies = {"load": ramp(30.0, 22.0), "radius": ramp(2e-3, 1.5e-3), "viscosity": ramp(0.36, 0.25)}
-    plan = lubfric.Transient(duration=end, outputs=1, **motion, **bodies)
+    ramps: dict[str, Any] = {"speed": ramp(0.2, 0.3), "sliding": ramp(0.1, 0.06)}
+    bodies: dict[str, Any] = {"load": ramp(30.0, 22.0), "radius": ramp(2e-3, 1.5e-3), "viscosity": ramp(0.36, 0.25)}
+    plan = lubfric.Transient(duration=end, outputs=1, **ramps, **bodies)
     scene = smooth({"eyring_stress": 2e6}, 30.0, (64, 12)).with_(motion={"slide_roll_ratio": 0.5}, numerics=TIGHT)
     run = lubfric.transient(scene.with_(transient=plan))
     oil, motion = {"viscosity": 0.25}, {"entrainment_speed": 0.3, "slide_roll_ratio": 0.2}

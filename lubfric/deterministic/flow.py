@@ -1,0 +1,174 @@
+"""Mass flow through the faces between cells, the mass balance of every cell, and the sparse derivatives of both.
+
+The pressure flow takes the mean of 1/h³ between the two cells, with h linear, and the mean fluidity between their
+pressures (`rheology`). So the narrowest place limits the flow. The Couette flow U rho h is second-order upwind: half of
+the upstream difference is added, limited to half of the cell's own film.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from .inlet import Inlet, inlet
+from .problem import Problem
+from .rheology import CellFluid, cell_fluid, mean_fluidity, thinning
+
+
+@dataclass(frozen=True)
+class PressureFlow:
+    """Flow through faces [m²/s] and its derivatives by p and h of the cells before and behind, each with the shape of
+    the faces."""
+
+    flow: np.ndarray
+    by_p: tuple[np.ndarray, np.ndarray]
+    by_h: tuple[np.ndarray, np.ndarray]
+
+
+def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> PressureFlow:
+    """Pressure flow through the faces behind the cells along ``axis``: along x behind all but the last row, along y
+    behind all (periodic)."""
+
+    def before(f):
+        return f[:-1] if axis == 0 else f
+
+    def behind(f):
+        return f[1:] if axis == 0 else np.roll(f, -1, axis=1)
+
+    def mean(f):
+        return 0.5 * (before(f) + behind(f))
+
+    film, density = mean(h), mean(fluid.density)
+    log_fluidity, l_before, l_behind = mean_fluidity(before(fluid.log_viscosity), behind(fluid.log_viscosity))
+    fluidity = np.exp(log_fluidity)
+    limit = None if fluid.limit is None else mean(fluid.limit)
+    newtonian = problem.lubricant.viscosity * problem.sliding / (film * fluidity)
+    thin = thinning(problem.lubricant, newtonian, limit, along=axis == 0)
+    cubed = (before(h) * behind(h)) ** 2 / film
+    mobility = density * cubed * fluidity / (12 * problem.lubricant.viscosity * problem.spacing[axis]) * thin.factor
+    flow = mobility * (before(p) - behind(p))
+
+    def by_p(side, by_log, sign):
+        laws = (1 - thin.exponent) * by_log * side(fluid.log_slope) + 0.5 * side(fluid.density_slope) / density
+        if limit is not None:
+            laws = laws - thin.limit_exponent * 0.5 * fluid.limit_slope / limit
+        return sign * mobility + flow * laws
+
+    by_before, by_behind = (flow * (2 / side(h) - (1 + thin.exponent) / (2 * film)) for side in (before, behind))
+    return PressureFlow(flow, (by_p(before, l_before, 1.0), by_p(behind, l_behind, -1.0)), (by_before, by_behind))
+
+
+@dataclass(frozen=True)
+class CouetteFlow:
+    """Through the faces behind every cell along x [m²/s] (nx, ny); derivatives by rho h of that cell and of the one
+    before it [m/s], and by the filled part of the cell [m²/s]."""
+
+    flow: np.ndarray
+    by_own: np.ndarray
+    by_before: np.ndarray
+    by_fill: np.ndarray
+
+
+def couette_flow(problem: Problem, mass, fill) -> CouetteFlow:
+    """Couette flow U rho h through the faces. ``mass`` (nx, ny): rho h [m]; ``fill``: the filled part of the cells. In
+    the first cell the parabola gives the upstream difference."""
+    step = np.empty_like(mass)
+    step[1:] = mass[1:] - mass[:-1]
+    step[0] = problem.x[0] / problem.radius * problem.spacing[0]
+    free = np.abs(step) < mass
+    half = np.where(step >= mass, mass, np.where(free, step, -mass)) / 2
+    by_own = np.where(free | (step > 0), 0.5, -0.5)
+    by_before = np.where(free, -0.5, 0.0)
+    by_own[0] = np.where(free[0], 0.0, by_own[0])
+    by_before[0] = 0.0
+    U = problem.speed
+    full = U * (mass + half)
+    return CouetteFlow(fill * full, fill * U * (1 + by_own), fill * U * by_before, full)
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Outflow minus inflow of each cell, ``residual`` [m/s] (nx, ny), and its parts.
+
+    film: the gap for the flow, at least the floor [m].
+    """
+
+    residual: np.ndarray
+    film: np.ndarray
+    fluid: CellFluid
+    along: PressureFlow
+    across: PressureFlow
+    couette: CouetteFlow
+    inlet: Inlet
+
+
+def balance(problem: Problem, pressure, gap, fill=1.0) -> Balance:
+    """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny)."""
+    dx, dy = problem.spacing
+    film = np.maximum(gap, problem.floor)
+    fluid = cell_fluid(problem.lubricant, np.maximum(pressure, 0.0))
+    along, across = (pressure_flow(problem, fluid, pressure, film, axis) for axis in (0, 1))
+    couette = couette_flow(problem, fluid.density * film, fill)
+    upstream = inlet(problem, pressure[0], film[0])
+    residual = couette.flow.copy()
+    residual[1:] -= couette.flow[:-1]
+    residual[0] -= upstream.flow
+    residual[:-1] += along.flow
+    residual[1:] -= along.flow
+    residual /= dx
+    residual += (across.flow - np.roll(across.flow, 1, axis=1)) / dy
+    return Balance(residual, film, fluid, along, across, couette, upstream)
+
+
+def derivatives(problem: Problem, at: Balance, open_) -> tuple[csr_matrix, csr_matrix, csr_matrix]:
+    """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s], sparse (n, n) over all n = nx ny cells in C order; by h of
+    ``open_`` cells (bool) (nx, ny) only."""
+    dx, dy = problem.spacing
+    by_p, by_h, by_fill = (Stencil(at.film.shape) for _ in range(3))
+    for stencil, along, across in ((by_p, at.along.by_p, at.across.by_p), (by_h, at.along.by_h, at.across.by_h)):
+        stencil.add(0, along[0] / dx, here=slice(None, -1))
+        stencil.add("E", along[1] / dx, here=slice(None, -1))
+        stencil.add("W", -along[0] / dx, here=slice(1, None))
+        stencil.add(0, -along[1] / dx, here=slice(1, None))
+        stencil.add(0, across[0] / dy)
+        stencil.add("N", across[1] / dy)
+        stencil.add("S", -np.roll(across[0], 1, axis=1) / dy)
+        stencil.add(0, -np.roll(across[1], 1, axis=1) / dy)
+    own, before = at.couette.by_own / dx, at.couette.by_before / dx
+    for stencil, factor in ((by_h, at.fluid.density), (by_p, at.fluid.density_slope * at.film)):
+        stencil.add(0, own * factor)
+        stencil.add("W", before[1:] * factor[:-1], here=slice(1, None))
+        stencil.add("W", -own[:-1] * factor[:-1], here=slice(1, None))
+        stencil.add("WW", -before[1:-1] * factor[:-2], here=slice(2, None))
+    by_fill.add(0, at.couette.by_fill / dx)
+    by_fill.add("W", -at.couette.by_fill[:-1] / dx, here=slice(1, None))
+    by_p.add(0, -at.inlet.by_pressure / dx, here=slice(0, 1))
+    by_h.add(0, -at.inlet.by_film / dx, here=slice(0, 1))
+    return by_p.matrix(), by_h.matrix(open_), by_fill.matrix()
+
+
+class Stencil:
+    """Coefficients of a cell's own value, of its neighbours up and down stream (W, WW; E) and across (S, N)."""
+
+    NAMES = ("WW", "W", "S", 0, "N", "E")
+
+    def __init__(self, shape):
+        self.data = np.zeros((len(self.NAMES), *shape))
+
+    def add(self, name, values, here=slice(None)):
+        """Add ``values`` to the coefficients of the neighbour ``name``, in the rows ``here``."""
+        self.data[self.NAMES.index(name)][here] += values
+
+    def matrix(self, open_=None) -> csr_matrix:
+        """The sparse matrix, with zeros in the columns of cells that are not ``open_`` (nx, ny)."""
+        _, nx, ny = self.data.shape
+        own = np.arange(nx * ny).reshape(nx, ny)
+        south, north = np.roll(own, 1, axis=1), np.roll(own, -1, axis=1)
+        neighbours = np.stack([own - 2 * ny, own - ny, south, own, north, own + ny])
+        entries = self.data != 0  # beyond the ends there are none
+        data, columns = self.data[entries], neighbours[entries]
+        if open_ is not None:
+            data = data * open_.ravel()[columns]
+        return csr_matrix((data, (np.broadcast_to(own, entries.shape)[entries], columns)), shape=(own.size,) * 2)

@@ -1,0 +1,273 @@
+"""``lubfric run`` on a steady scene: its Stribeck curve, or (``--ratios``) its traction curve, written to a folder."""
+
+from __future__ import annotations
+
+import math
+import re
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import asdict
+
+import numpy as np
+
+from .._base import make_ready, read_table, validate, whole_file
+from ..errors import ConvergenceError, InputError, ValidityError
+from ..quantities import NUMBERS, in_words
+from ..sampling import percent
+from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
+from ..sharing import Prepared, Validity, takes_strips
+from ..studies import (
+    AUTO,
+    MOST_WORKERS,
+    CurveResult,
+    csv_bytes,
+    fingerprint,
+    pool,
+    processors,
+    read_measured,
+    stribeck,
+    traction,
+)
+from .console import keeping, say
+from .fields import fields_bytes, vtk_bytes
+from .pictures import plot_contact, plot_stribeck, plot_traction
+from .report_page import report_page
+from .run_folder import RunFolder, read_record, ready, run_folder
+
+WORTH = 8  # speeds from which a second process gains more than it costs
+CAPTIONS = {"stribeck.png": "Friction, shares of the load and film", "contact.png": "Contact of one speed"}
+
+
+def run_sweep(scene: Scene, arguments) -> None:
+    """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to the
+    folder ``arguments.out``; with ``.report`` and ``.vtk`` also report.html, and contact_0.vtk ... for ParaView.
+
+    ``arguments``: of the command, with ``.speeds``, ``.fields`` and ``.workers`` (None: two if that pays) too. The
+    scene is checked and made ready before the folder is touched. The results of an earlier run stay until those of this
+    one are there. Every point is on disk when it ends, so an interrupted run continues from there. A failed run writes
+    what it has, then raises `ConvergenceError`.
+    """
+    begun, out, done_so_far = time.perf_counter(), arguments.out, [0]
+    speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
+    total, progress = "some" if speeds == AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
+    with pool(_workers(scene, speeds, arguments.workers)) as executor:
+        prepared = ready(scene)
+
+        def on_point(done, *point):
+            done_so_far[0] = done
+            progress(done, *point)
+
+        def kept() -> str:
+            points = f"{done_so_far[0]} of {total} points"
+            return f"interrupted; {points} are kept in {out}: the same command goes on from there"
+
+        with keeping(kept), run_folder(out, fingerprint(prepared, speeds, chosen), begun) as folder:
+            threading.Thread(target=make_ready, daemon=True).start()  # while the speeds are solved
+            options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
+            curve = stribeck(prepared, speeds, None if speeds == AUTO else executor, **options)
+            _write(folder, prepared, curve, arguments, chosen)
+    _raise_if_failed(curve)
+
+
+def run_traction(scene: Scene, arguments) -> None:
+    """Compute a traction curve, and write traction.csv, traction.png and, last, result.json to ``arguments.out``."""
+    begun = time.perf_counter()
+    ratios = parse_speeds("--ratios", arguments.ratios, "(slide-roll ratio)", LARGEST_RATIO)
+    prepared = ready(scene)
+    with run_folder(arguments.out, fingerprint(prepared, ratios, "traction"), begun) as folder:
+        progress = _progress("slide-roll ratio {:<9.4g}")
+        curve = traction(prepared, ratios, on_point=progress, raise_on_failure=False)
+        _write(folder, prepared, curve, arguments, [])
+    _raise_if_failed(curve)
+
+
+def _workers(scene: Scene, speeds, given: int | None) -> int:
+    """Processes that share the ``speeds``: as ``given``, else two if there are as many processors, enough speeds, and
+    each is solved on strips. The numbers do not depend on it."""
+    if given is not None:
+        return validate.integer("--workers", given, minimum=1, maximum=MOST_WORKERS)
+    return 2 if speeds != AUTO and len(speeds) >= WORTH and takes_strips(scene) and processors() > 1 else 1
+
+
+def _write(folder: RunFolder, prepared: Prepared, curve: CurveResult, arguments, chosen: list[float]) -> None:
+    """The table, the fields of the ``chosen`` speeds, their pictures, the record; and what was asked for beside."""
+    name = "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
+    folder.clear()
+    folder.write(f"{name}.csv", csv_bytes(curve))
+    record = folder.record(prepared, curve, points=[_point(curve, i) for i in range(len(curve.points))])
+    if len(curve.errors) < len(curve.points):
+        columns = read_table(folder.path / f"{name}.csv")
+        folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, record["points"])
+    points = [p for p in curve.points if p is not None and (p.balance is not None or p.deterministic is not None)]
+    points.sort(key=lambda p: chosen.index(p.speed))
+    if points:
+        folder.write("fields.npz", fields_bytes(prepared, points))
+        folder.draw("contact.png", plot_contact, prepared, points[0])
+    if arguments.vtk:
+        touching = [p for p in points if p.shows_contact]
+        for i, point in enumerate(touching):
+            folder.write(f"contact_{i}.vtk", vtk_bytes(prepared, point))
+        if not touching:
+            say("no .vtk file: none of the speeds of --fields has a contact with fields")
+    if arguments.report:
+        made = {text: folder.path / file for file, text in CAPTIONS.items() if file in folder.written}
+        images = {text: path.read_bytes() for text, path in made.items()}
+        folder.write("report.html", report_page(prepared, curve, record, images))
+    folder.finish(record, *_doubts(prepared.scene, curve))
+
+
+def _point(curve: CurveResult, index: int) -> dict:
+    """The record of a point: its numbers, the error of f in words too, and the errors of the other numbers; or why
+    there are none."""
+    name, point = curve.SWEPT[0], curve.points[index]
+    found = {name: getattr(curve, name)[index], "validity": [asdict(entry) for entry in curve.entries(index)]}
+    if point is None:
+        return found | {"error": str(curve.errors[index])}
+    return (
+        {number: getattr(point, number) for number in NUMBERS}
+        | found
+        | {
+            "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
+            "errors": asdict(point.errors),
+            "report": point.report.as_dict(),
+        }
+    )
+
+
+def plot_again(arguments) -> None:
+    """Draw the picture of a curve again, with the measured curve that the ``arguments`` of ``lubfric plot`` name."""
+    folder = arguments.folder
+    name = "traction" if (folder / "traction.csv").is_file() else "stribeck"
+    source = folder / f"{name}.csv"
+    if not source.is_file():
+        raise InputError(f"{folder} holds no {source.name}; give a folder that 'lubfric run' wrote")
+    columns, record, measured = read_table(source), read_record(folder), None
+    if arguments.measured is not None:
+        if arguments.speed is None or arguments.coefficient is None:
+            raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
+        measured = read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)
+    points, count = record.get("points", []), columns["coefficient"].size
+    if len(points) != count:
+        raise InputError(f"{source} has {count} rows and result.json {len(points)} points; run 'lubfric run' again")
+    if not np.isfinite(columns["coefficient"]).any():
+        raise InputError(f"{source} holds no answer to draw; run 'lubfric run' again")
+    with whole_file(folder / f"{name}.png") as part:
+        _plot(part, columns, record["scene"]["name"], points, measured)
+
+
+def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
+    """The picture of the table of a curve; ``points``: those of its record."""
+    entries = [[Validity(**entry) for entry in point["validity"]] for point in points]
+    if "ratio" in columns:
+        title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
+    (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured)
+
+
+def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
+    """The errors of f in words: at how many points, and in full for the least sure of them; at how many points too few
+    spots carry the load; the error of load sharing itself, which the intervals leave out, if it is larger; and that
+    results were accepted."""
+    name, _, unit, plural = curve.SWEPT
+    points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
+    noted, said = [point for point in points if point[1].notes], []
+    few = [value for value, known in points if known.few_spots]
+
+    def counted(count: int, word: str = "") -> str:
+        return f"{count} {word}{plural if count > 1 else plural[:-1]}"
+
+    if noted:
+        at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
+        others = f" (the largest; result.json has {counted(len(noted) - 1, 'more ')})" if len(noted) > 1 else ""
+        said.append(f"error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{others}")
+        if few and few != [at]:
+            where = ", ".join(f"{value:.4g}" for value in few)
+            said.append(f"few spots carry the load at {where} {unit}: these intervals are too narrow")
+    beyond = [point for point in points if point[1].model_form > _half_width(point[1].interval)]
+    if beyond:
+        at, worst = max(beyond, key=lambda p: p[1].model_form)
+        said.append(
+            f"not in the intervals: the error of load sharing itself, up to {percent(worst.model_form)} at {at:.4g} "
+            f"{unit}; it is larger than the interval at {counted(len(beyond))}"
+        )
+    if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.entries(i)):
+        said.append(
+            "accepted although outside the range of the model: these coefficients are marked, and are no answers"
+        )
+    return said
+
+
+def _half_width(interval: tuple[float, float]) -> float:
+    """Of an interval, relative to its middle."""
+    low, high = interval
+    return abs(high - low) / abs(high + low) if high + low else math.nan
+
+
+def _raise_if_failed(curve: CurveResult) -> None:
+    """Say how many points failed and how many were refused, and the first of them."""
+    if not curve.errors:
+        return
+    total, plural = len(curve.points), curve.SWEPT[3]
+    failed = sum(not isinstance(error, ValidityError) for error in curve.errors.values())
+    counts = [f"{failed} of {total} {plural} failed"] if failed else []
+    if len(curve.errors) > failed:
+        counts.append(f"{len(curve.errors) - failed} of {total} {plural} refused (--accept keeps them, marked)")
+    raise ConvergenceError(f"{', '.join(counts)}; first: {curve.errors[min(curve.errors)]}", curve.report)
+
+
+def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
+    """The speeds [m/s] of a command, or "auto", and those of them whose fields are wanted: these are added where they
+    are missing, in order if the others are in order."""
+    chosen = parse_speeds("--fields", fields) or [scene.motion.entrainment_speed]
+    if speeds == AUTO:
+        return AUTO, [abs(u) for u in chosen if u != 0]
+    asked = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+    own, rising = [], asked == sorted(asked)
+    for speed in chosen:
+        near = [u for u in asked if math.isclose(u, speed, rel_tol=1e-9)]
+        own.append(near[0] if near else speed)
+        asked = asked if near else [*asked, speed]
+    validate.array("speeds", asked, "m/s", ndim=1)
+    return (sorted(asked) if rising else asked), own
+
+
+def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float = FASTEST) -> list[float]:
+    """'a,b,c' or 'low:high:count' (geometric), in ``unit``, of a command's ``option``; none above ``most``."""
+    if text is None:
+        return []
+    refusal = InputError(
+        f"{option} {validate.shown(text)}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low < high, "
+        f"1 <= count <= {MOST_SPEEDS}, in {unit}"
+    )
+    ranged = ":" in text
+    words = text.split(":" if ranged else ",")
+    if not ranged and any(re.match(r"[+-]?0\d", word.strip()) for word in words):
+        raise InputError(f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, 0.01")
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        raise refusal from None
+    for speed in numbers[:2] if ranged else numbers:
+        validate.number(option, speed, unit, minimum=-most, maximum=most)
+    if not ranged:
+        return numbers
+    if len(numbers) != 3 or not (
+        0 < numbers[0] < numbers[1] and 1 <= numbers[2] <= MOST_SPEEDS and numbers[2] % 1 == 0
+    ):
+        raise refusal
+    return [float(u) for u in np.geomspace(numbers[0], numbers[1], int(numbers[2]))]
+
+
+def _progress(place: str) -> Callable:
+    """What says how a point ended; ``place``: the template of its place on the curve."""
+
+    def on_point(done: int, total: int, value: float, outcome) -> None:
+        head = f"[{done:>{len(str(total))}}/{total}] {place.format(value)}"
+        if isinstance(outcome, Exception):
+            say(f"{head}: {'refused' if isinstance(outcome, ValidityError) else 'failed'}: {outcome}")
+            return
+        loads = in_words(outcome, ("contact_load", "film_load"))
+        words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
+        say(f"{head}: {outcome.uncertainty.short(outcome.coefficient):<59} {words} ({outcome.seconds:.2f} s)")
+
+    return on_point

@@ -1,0 +1,92 @@
+"""What is read off a contact curve, beside the contact solved where it is read."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.contact import contact_curve
+from lubfric.contact.contact_curve import left_out
+
+E_PRIME, HEAVIEST = 231e9, 2e8
+
+
+@pytest.fixture(scope="module")
+def surface():
+    """So small that its summits come into contact one by one."""
+    return lubfric.generate_surface((36, 36), 1e-6, sq=1e-7, correlation_length=3e-6, seed=8)
+
+
+def test_the_error_told_holds_where_the_contact_is_solved(surface):
+    curve = contact_curve(surface.heights, surface.spacing, E_PRIME, heaviest=HEAVIEST, accuracy=3e-3)
+    gap0 = surface.heights.max() - surface.heights
+    pressures = HEAVIEST * np.exp(-np.linspace(0.3, 8.0, 12))
+    off, told = [], []
+    for pressure in pressures:
+        solved = lubfric.solve_contact(gap0, surface.spacing, E_PRIME, mean_pressure=pressure, tolerance=1e-7)
+        off.append(abs(curve.at(pressure)[0] - solved.mean_gap))
+        told.append(curve.error_at(pressure))
+    assert np.mean(np.array(off) <= told) >= 0.75 and np.all(np.array(off) <= 4 * np.array(told))
+    lightest, below = curve.mean_pressure[-1], curve.mean_pressure[-1] / 2
+    solved = lubfric.solve_contact(gap0, surface.spacing, E_PRIME, mean_pressure=below, tolerance=1e-7)
+    assert abs(curve.at(below)[0] - solved.mean_gap) <= curve.error_at(below) <= 3e-3 * curve.touching_gap
+    assert lightest < 1e-2 * HEAVIEST and curve.error_at(0.0) == curve.error_at(below)
+
+
+def test_it_is_part_of_the_numerical_error_of_f():
+    """A flat contact whose friction nearly cancels: within what it states of one solved a hundred times tighter."""
+    scene = lubfric.load_scene("flat").with_(
+        bodies={"radius": 0.026, "width": 1e-2, "load": 16.7, "boundary_friction_coefficient": 0.095},
+        lubricant={"viscosity": 5.4e-3, "pressure_viscosity_coefficient": 9.5e-9, "eyring_stress": 5e6},
+        motion={"entrainment_speed": 0.63, "slide_roll_ratio": -0.93},
+        surface={"sq": 1.1e-7, "correlation_length": 1.27e-5, "seed": 1837620616},
+        contact={"shape": (36, 36), "spacing": 2e-4 / 36},
+        numerics={"tolerance": 0.01},
+    )
+    found = lubfric.friction(scene)
+    right = lubfric.friction(scene.with_(numerics={"tolerance": 1e-4}))
+    assert 0 < found.contact_load < 0.1 * 16.7
+    assert abs(found.coefficient - right.coefficient) < found.uncertainty.numerical * abs(right.coefficient)
+    without = found.errors.contact_load
+    assert without > right.errors.contact_load
+
+
+@pytest.mark.parametrize("nodes", [3, 4, 5, 12])
+def test_nodes_left_out_are_missed_as_by_scipys_cubic(nodes):
+    from scipy.interpolate import PchipInterpolator
+
+    rng = np.random.default_rng(nodes)
+    x, y = np.cumsum(rng.uniform(0.1, 2.0, nodes)), rng.standard_normal(nodes)
+    for values in (y, np.cumsum(np.abs(y)), np.zeros(nodes)):
+        for i, found in enumerate(left_out(x, values), 1):
+            others = np.delete(np.arange(nodes), i)
+            assert found == pytest.approx(
+                abs(PchipInterpolator(x[others], values[others])(x[i]) - values[i]), abs=1e-12
+            )
+
+
+def test_the_area_between_nodes_is_within_what_is_told_and_what_the_film_feels():
+    """A small map, whose summits touch a few at a time: the area read against that of the contact solved there."""
+    surface = lubfric.generate_surface((28, 28), 7.14e-6, sq=23e-9, correlation_length=16e-6, acf="gaussian", seed=1)
+    curve = contact_curve(surface.heights, 7.14e-6, 231e9, heaviest=2e8, hardness=8e9)
+    told, found = [], []
+    for pressure in np.geomspace(2e6, 1.2e8, 24):
+        solved = lubfric.solve_contact(-surface.heights, 7.14e-6, 231e9, mean_pressure=pressure, hardness=8e9)
+        found.append(abs(curve.at(pressure)[1] - solved.contact_area_fraction) / (1 - solved.contact_area_fraction))
+        told.append(curve.area_error_at(pressure) / (1 - solved.contact_area_fraction))
+    assert np.all(np.array(found) <= 1.3 * np.array(told))
+    assert max(found) < 3 * 3e-3
+    assert curve.area_error_at(curve.mean_pressure[-1] / 2) == curve.contact_area_fraction[-1]
+
+
+@pytest.mark.parametrize("seed", range(1, 5))
+def test_the_area_read_off_a_curve_is_as_sure_as_is_told(seed):
+    """Against a curve of a tolerance on f ten times as tight."""
+    scene = lubfric.load_scene("flat").with_(
+        bodies={"hardness": 3e9},
+        numerics={"sampling": "patch"},
+        surface={"sq": 2e-7, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed},
+        contact={"shape": (32, 32), "spacing": 2e-6},
+    )
+    told, near = (lubfric.friction(scene, 0.02, tolerance=tolerance) for tolerance in (0.01, 0.001))
+    for name in ("real_contact_area_fraction", "real_contact_area", "plastic_area_fraction"):
+        assert abs(getattr(near, name) / getattr(told, name) - 1) <= 1.5 * getattr(told.errors, name)

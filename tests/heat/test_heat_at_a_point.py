@@ -1,0 +1,124 @@
+"""Heat of an operating point: against the isothermal point, the standalone solve, and a film solved
+hotter."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.film import Surroundings, heated_film
+from lubfric.oil.make import from_grade
+from lubfric.sharing import film_lubricant
+
+OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
+SHEAR = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.08}
+BASE = lubfric.load_scene("paper").with_(
+    bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
+    lubricant=OIL | SHEAR,
+    contact={"shape": (128, 64), "spacing": 4e-6},
+    surface={"sq": 5e-8, "correlation_length": 3e-5, "acf": "gaussian"},
+    numerics={"sampling": "patch"},
+)
+
+
+@pytest.fixture(scope="module")
+def model():
+    return lubfric.prepare(BASE)
+
+
+def at(model, speed, ratio=2.0, **sections):
+    numerics = {"heat": "auto"} | sections.pop("numerics", {})
+    scene = BASE.with_(motion={"slide_roll_ratio": ratio}, numerics=numerics, **sections)
+    return lubfric.friction(lubfric.prepare(scene, like=model), speed)
+
+
+def test_switched_off_it_is_the_point_of_the_plain_numbers(model):
+    lubricant = BASE.lubricant
+    plain = {
+        "viscosity": lubricant.viscosity,
+        "pressure_viscosity_coefficient": lubricant.pressure_viscosity_coefficient,
+    }
+    numbers = BASE.with_(lubricant=plain).with_(lubricant={"temperature": None, "temperature_coefficient": None})
+    off = at(model, 1.0, numerics={"heat": "off"})
+    assert off.coefficient == lubfric.friction(lubfric.prepare(numbers, like=model), 1.0).coefficient
+    assert off.inlet_film_factor == 1 and off.flash_temperature_rise == off.film_temperature_rise == 0
+    assert off.decision.heat == ""
+
+
+@pytest.mark.parametrize("speed, ratio", [(1.0, 0.3), (0.05, 2.0)])
+def test_friction_is_that_of_the_standalone_solve(model, speed, ratio):
+    found = at(model, speed, ratio, numerics={"heat": "on"})
+    film, contact, bodies = found.balance.film, found.balance.contact, BASE.bodies
+    share = 1 - contact.touching(film.x)
+    share = np.where(film.x[:-1] < film.rupture, share, 0)
+    wet = 0.5 * (np.append(share[:1], share) + np.append(share, share[-1:]))
+    b = bodies.half_width
+    spots = 2 * found.contact_load / (np.pi * b * bodies.width) * np.sqrt(np.maximum(1 - (film.x / b) ** 2, 0))
+    carried = sum(e * np.sqrt(speed * abs(1 + s * ratio / 2)) for e, s in zip(bodies.effusivity, (-1, 1)))
+    around = Surroundings(carried, ratio * speed, wet, 0.09 * spots * ratio * speed)
+    heated = heated_film(BASE.lubricant, film.x, film.pressure, film.film_thickness, around)
+    couette = bodies.width * np.trapezoid(wet * heated.stress, film.x)
+    assert found.couette_force == pytest.approx(couette, rel=3e-3)
+    assert found.flash_temperature_rise == pytest.approx(heated.flash, rel=1e-6)
+    assert found.coefficient < at(model, speed, ratio, numerics={"heat": "off"}).coefficient
+
+
+def test_the_film_is_thinner_by_the_inlet_factor(model):
+    """The film of the heated inlet comes from a solve with another viscosity; Moes' exponent and the solve's agree to 1
+    %."""
+    on, off = at(model, 5.0, 0.1), at(model, 5.0, 0.1, numerics={"heat": "off"})
+    assert on.inlet_film_factor < 0.95
+    assert on.central_film / off.central_film == pytest.approx(on.inlet_film_factor, rel=0.01)
+
+
+def test_left_out_it_changes_less_than_the_tolerance(model):
+    for speed, ratio in ((0.1, 0.01), (0.01, 0.05)):
+        auto, on = at(model, speed, ratio), at(model, speed, ratio, numerics={"heat": "on"})
+        assert "left out" in auto.decision.heat and "left out" not in on.decision.heat
+        assert auto.coefficient == pytest.approx(on.coefficient, rel=BASE.numerics.tolerance)
+
+
+def test_what_is_left_out_is_part_of_the_numerical_error(model):
+    auto, on = at(model, 0.3, 0.01), at(model, 0.3, 0.01, numerics={"heat": "on"})
+    assert "flash left out" in auto.decision.heat and "flash left out" not in on.decision.heat
+    assert auto.uncertainty.numerical >= abs(on.coefficient / auto.coefficient - 1) > 1e-3
+    for name in ("shear_force", "couette_force"):
+        assert getattr(auto.errors, name) >= abs(getattr(on, name) / getattr(auto, name) - 1), name
+    for name in ("flash_temperature_rise", "film_temperature_rise"):  # none was computed: nothing is known of its error
+        assert getattr(auto, name) == 0 and auto.errors.reasons[name] == "heat was left out"
+        assert getattr(on, name) > 0 and 0 < getattr(on.errors, name) < 0.1
+
+
+def test_every_thermal_key_reaches_the_number(model):
+    found = at(model, 2.0)
+    f = found.coefficient
+    cooler = at(model, 2.0, bodies={"conductivity": (400.0, 400.0)})
+    assert cooler.coefficient > f and cooler.flash_temperature_rise < found.flash_temperature_rise
+    assert at(model, 2.0, bodies={"volumetric_heat": (1e7, 1e7)}).coefficient > f
+    oil = at(model, 2.0, lubricant={"conductivity": 0.3})
+    assert oil.film_temperature_rise < found.film_temperature_rise
+    assert oil.inlet_film_factor > found.inlet_film_factor
+    numbers = {"viscosity": BASE.lubricant.viscosity, "temperature_coefficient": 0.05}
+    assert at(model, 2.0, lubricant=numbers).coefficient < f  # thins faster than the oil's 0.034 /K
+    assert at(model, 2.0, lubricant={"temperature_celsius": 90}).coefficient != f
+
+
+def test_the_result_tells_oil_and_ranges(model):
+    found = at(model, 5.0)
+    assert any("So and Klaus" in n and "Gold" in n and "% of a full film" in n for n in found.report.notes)
+    assert any("inlet heating factors" in e.what for e in found.validity)
+    given = at(model, 5.0, lubricant={"pressure_viscosity_coefficient": 2e-8})
+    assert any("alpha 20 /GPa as given" in n for n in given.report.notes)
+    assert from_grade("ISO VG 68", 95, density=870).viscosity(343.15) == BASE.lubricant.viscosity
+
+
+def test_heat_needs_to_know_the_oil():
+    with pytest.raises(lubfric.InputError, match="temperature_coefficient"):
+        lubfric.load_scene("paper").with_(numerics={"heat": "on"})
+
+
+def test_hardly_any_heat_is_none_and_more_than_any_film_bears_is_refused_in_words():
+    for speed in (1e-9, 1e-7):
+        inlet = film_lubricant(BASE.with_(numerics={"heat": "on"}), speed)
+        assert inlet.viscosity == pytest.approx(BASE.lubricant.viscosity, rel=1e-7)
+    with pytest.raises(lubfric.InputError, match="thermal number.*numerics.heat = 'off'"):
+        film_lubricant(BASE.with_(numerics={"heat": "on"}), 1e4)

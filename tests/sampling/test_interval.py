@@ -1,0 +1,176 @@
+"""The interval of f: against other samples of the surface, how many strips it takes, and where there is none."""
+
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.output.describe import describe_scene
+from lubfric.sampling import forecast
+from verification.hostile.soak_force import friction_force
+
+PAPER = lubfric.load_scene("paper")
+PATCH = PAPER.with_(numerics={"sampling": "patch"})
+
+
+def seeds(scene, speed, numbers):
+    """Points on as many surfaces: their f, and the standard errors that they tell."""
+    points = [lubfric.friction(scene.with_(surface={"seed": seed}), speed) for seed in numbers]
+    return points, np.array([p.coefficient for p in points]), np.array([p.uncertainty.sampling for p in points])
+
+
+def test_intervals_cover_a_line_many_times_as_long():
+    truth = lubfric.friction(PAPER.with_(surface={"seed": 900}, numerics={"sampling_tolerance": 0.002}), 0.004)
+    points, f, sampling = seeds(PAPER, 0.004, range(901, 917))
+    assert truth.uncertainty.length > 6 * points[0].uncertainty.length
+    assert f.std(ddof=1) / f.mean() == pytest.approx(math.sqrt(np.mean(sampling**2)), rel=0.5)
+    covered = [p.uncertainty.interval[0] <= truth.coefficient <= p.uncertainty.interval[1] for p in points]
+    assert sum(covered) >= 13
+    apart = f.mean() - truth.coefficient
+    assert abs(apart) <= 3 * truth.coefficient * math.hypot(truth.uncertainty.sampling, sampling.mean() / 4)
+
+
+def test_a_place_moves_f_by_its_gap_and_by_where_it_touches():
+    """Under 110 N with a limiting stress as large as the boundary friction: contact and film rub alike, so that f
+    scatters by half a per cent, where the division of the load scatters by much more."""
+    law = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.09}
+    scene = PAPER.with_(bodies={"load": 110.0}, lubricant=law, numerics={"film_deflection": "scaled"})
+    points, f, sampling = seeds(scene, 0.03, range(1, 9))
+    scatter, told = f.std(ddof=1) / f.mean(), math.sqrt(np.mean(sampling**2))
+    assert 0.002 < told < 0.012 and 0.5 < told / scatter < 2
+    assert points[0].errors.contact_load > 2 * told
+
+
+def test_the_error_asked_is_reached_and_more_strips_are_used():
+    loose, tight = (lubfric.friction(PAPER.with_(numerics={"sampling_tolerance": s}), 0.02) for s in (0.1, 0.02))
+    assert tight.uncertainty.sampling <= 0.02 < loose.uncertainty.sampling <= 0.1
+    assert tight.decision.strips > loose.decision.strips == 2
+    assert tight.uncertainty.length / loose.uncertainty.length == pytest.approx(tight.decision.strips / 2)
+    assert "few spots" not in tight.uncertainty.text and tight.uncertainty.participation >= 10
+    scatter = tight.uncertainty.sampling * math.sqrt(tight.uncertainty.length / PAPER.bodies.width)
+    assert tight.uncertainty.line_scatter == pytest.approx(scatter)
+
+
+def test_the_first_strips_are_doubted_and_the_next_are_not():
+    pilot = lubfric.friction(PAPER.with_(numerics={"sampling_tolerance": 0.1}), 0.005).uncertainty
+    just, well = (
+        lubfric.friction(PAPER.with_(numerics={"sampling_tolerance": times * pilot.sampling}), 0.005).uncertainty
+        for times in (1.05, 1.1 * (1 + pilot.freedom**-0.5))
+    )
+    assert just.length >= 1.2 * pilot.length and just.sampling < pilot.sampling
+    assert well.length == pilot.length and well.sampling == pilot.sampling
+
+
+def test_errors_belong_together():
+    point = lubfric.friction(PAPER, 0.003)
+    ratio = point.film_load / point.contact_load
+    assert point.errors.contact_load == pytest.approx(ratio * point.errors.film_load, rel=0.02)
+    assert point.errors.coefficient == pytest.approx(
+        math.hypot(point.uncertainty.sampling, point.uncertainty.numerical)
+    )
+    assert 0 < point.errors.real_contact_area < 0.5 and "plastic_area_fraction" in point.errors.reasons
+    dry = lubfric.friction(PAPER, 0.0)
+    assert dry.uncertainty.sampling == dry.errors.coefficient == dry.errors.contact_load == 0
+    assert 0 < dry.errors.real_contact_area < 0.2
+
+
+def test_contact_may_be_missed_where_the_film_just_clears_the_summits():
+    near, far = (lubfric.friction(PAPER, speed) for speed in (0.15, 1.0))
+    assert near.contact_load == far.contact_load == 0
+    assert near.uncertainty.sampling > 100 * far.uncertainty.sampling > 0
+    assert math.isnan(near.errors.contact_load) and "no contact" in near.errors.reasons["contact_load"]
+
+
+def test_the_film_rubs_beside_the_contacts_of_all_strips():
+    """Its force summed anew, by code of its own, with the share in contact at each x."""
+    scene = PAPER.with_(motion={"slide_roll_ratio": 0.0}, numerics={"sampling_tolerance": 0.04})
+    found = lubfric.friction(scene, 0.03)
+    contact = found.balance.contact
+    sides = SimpleNamespace(film=found.balance.film, x=contact.x, touching=contact.contact_fraction)
+    force = friction_force(scene, sides, found.contact_load, 0.03)[0]
+    assert found.decision.strips >= 2 and found.shear_force == pytest.approx(force, rel=1e-3)
+
+
+# measured and given maps
+
+
+def on_map(folder, shape, **changed):
+    """The paper's cylinder on a map of a file of ``shape`` cells of 0.9 um."""
+    rough = {"sq": 1e-7, "correlation_length": 8e-6, "acf": "gaussian", "seed": 4}
+    np.save(folder / "map.npy", lubfric.generate_surface(shape, 0.9e-6, **rough).heights)
+    surface = {"file": str(folder / "map.npy"), "spacing": 0.9e-6} | changed
+    return PAPER.with_(surface=surface, contact={"shape": None, "spacing": None})
+
+
+def test_windows_of_a_measured_map_are_its_sample(tmp_path):
+    scene = on_map(tmp_path, (900, 400))
+    points = [lubfric.friction(scene.with_(numerics={"sampling_tolerance": s}), 0.01) for s in (0.1, 0.003)]
+    few, all_of_it = (p.uncertainty for p in points)
+    assert 3 <= points[0].decision.strips < points[1].decision.strips
+    assert few.sampling > all_of_it.sampling > 0.003 and all_of_it.length > 2 * few.length
+    assert few.area_needed == 1 < all_of_it.area_needed == pytest.approx((all_of_it.sampling / 0.003) ** 2)
+    assert "the map ends before the 0.3 % asked" in all_of_it.text
+    low, high = few.interval
+    assert low < lubfric.friction(PAPER.with_(surface={"acf": "gaussian", "seed": 8}), 0.01).coefficient < high
+
+
+def test_a_map_that_differs_from_place_to_place_is_less_sure(tmp_path):
+    """Its left half is half as rough: the scatter between windows shows that, blocks of one window do not."""
+    scene = on_map(tmp_path, (900, 400)).with_(numerics={"sampling_tolerance": 0.1})
+    even = lubfric.friction(scene, 0.01)
+    heights = np.load(tmp_path / "map.npy")
+    heights[:450] *= 0.5
+    np.save(tmp_path / "map.npy", heights)
+    assert lubfric.friction(scene, 0.01).uncertainty.sampling > 3 * even.uncertainty.sampling
+
+
+def test_a_given_map_is_a_sample_and_its_mirror_image_no_more_of_it():
+    scene = PAPER.with_(contact={"shape": (64, 512), "spacing": 1.2e-6})
+    rough = lubfric.generate_surface((64, 512), 1.2e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=4)
+    half = lubfric.Surface(rough.heights, rough.spacing, periodic_axes=(False, False))
+    once, twice = (
+        lubfric.friction(lubfric.prepare(scene, surface), 0.01).uncertainty
+        for surface in (rough, half.periodic(axes=(False, True)))
+    )
+    assert 0.01 < once.sampling < 0.1 and once.length == pytest.approx(512 * 1.2e-6)
+    assert twice.length == pytest.approx(once.length) and twice.sampling == pytest.approx(once.sampling, rel=0.3)
+
+
+# where there is none
+
+
+def test_one_patch_is_too_short_for_an_interval():
+    known = lubfric.friction(PATCH, 0.03).uncertainty
+    assert math.isnan(known.sampling) and all(math.isnan(end) for end in known.interval)
+    assert "correlation lengths along y are too few for an interval" in known.text and known.numerical > 0
+    cleared = lubfric.friction(PATCH.with_(contact={"shape": (200, 80)}), 0.15).uncertainty
+    assert "too short along y to tell what contact it misses" in cleared.text
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        PATCH.with_(contact={"model": "summits"}),
+        lubfric.load_scene("flat").with_(contact={"shape": (48, 48), "spacing": 9e-6}),
+    ],
+    ids=["summits", "flat"],
+)
+def test_contacts_without_places_along_y_say_so(scene):
+    known = lubfric.friction(scene, 0.02).uncertainty
+    assert "no places along y to compare" in known.text
+    assert math.isnan(known.sampling) and all(math.isnan(end) for end in known.interval)
+
+
+# what is told of it
+
+
+def test_a_forecast_is_right_to_a_factor_of_four():
+    strips, summit = lubfric.prepare(PAPER).strips, 4e-7
+    for speed in (0.003, 0.01, 0.03):
+        told = forecast(PAPER, strips, PAPER.surface.sq, summit, speed)
+        found = lubfric.friction(PAPER, speed).uncertainty
+        assert 0.25 < told.length / found.length < 4
+        assert speed > 0.02 or 0.3 < told.error / found.sampling < 3
+    assert " 1.4 " in describe_scene(PAPER)  # mm

@@ -1,0 +1,105 @@
+"""Errors of means along a line: closed forms and independent draws."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from lubfric.sampling.scatter import BlockError, add_errors, block_error, gap_influence, participation, weighted_errors
+from lubfric.sampling.uncertainty import interval, student
+
+
+def correlated(rng, count, length):
+    """Unit variance, moving average over ``length`` points: the mean of n has the variance length/n, as that of values
+    of the correlation exp(-(y/l)²) with length = sqrt(pi) l."""
+    noise = rng.standard_normal(count + length - 1)
+    return np.convolve(noise, np.full(length, length**-0.5), "valid")
+
+
+def test_block_error_is_that_of_the_mean_of_correlated_values():
+    rng, count, length = np.random.default_rng(5), 3200, 10
+    draws = [correlated(rng, count, length) for _ in range(300)]
+    found = [block_error(d, 1.0, length / math.sqrt(math.pi)) for d in draws]
+    assert found[0].freedom == 31
+    observed = np.std([d.mean() for d in draws])
+    assert np.sqrt(np.mean([f.error**2 for f in found])) == pytest.approx(observed, rel=0.1)
+    covered = np.mean([abs(d.mean()) <= student(f.freedom) * f.error for d, f in zip(draws, found)])
+    assert 0.92 <= covered <= 0.98
+
+
+def test_neighbouring_blocks_are_alike_near_their_common_end():
+    """Values of the correlation exp(-(y/l)²), of which the mean over L has the variance sqrt(pi) l/L, for L >> l."""
+    rng, length, count = np.random.default_rng(7), 8.0, 180 * 8
+    kernel = np.exp(-2 * (np.arange(-40, 41) / length) ** 2)
+    kernel /= np.linalg.norm(kernel)
+    noise = rng.standard_normal((2000, count + 80))
+    found = [block_error(np.convolve(row, kernel, "valid"), 1.0, length).error ** 2 for row in noise]
+    exact = math.sqrt(math.pi) * length / count * (1 - 1 / (math.sqrt(math.pi) * 180))
+    assert np.mean(found) == pytest.approx(exact, rel=0.02)  # 6 % less without
+
+
+def test_what_blocks_scatter_by_with_a_quantity_known_exactly_is_no_error():
+    """Draws whose covariate is shifted to its known mean, as a line made with exactly its Sq is."""
+    rng, count, length = np.random.default_rng(6), 3200, 10
+    means, found, blind = [], [], []
+    for _ in range(300):
+        other = correlated(rng, count, length)
+        other -= other.mean()
+        values = 0.8 * other + 0.6 * correlated(rng, count, length)
+        means.append(values.mean())
+        found.append(block_error(values, 1.0, length / math.sqrt(math.pi), other))
+        blind.append(block_error(values, 1.0, length / math.sqrt(math.pi)))
+    reported, unaware = (np.sqrt(np.mean([f.error**2 for f in each])) for each in (found, blind))
+    assert found[0].freedom == blind[0].freedom - 1
+    assert reported == pytest.approx(np.std(means), rel=0.1)
+    assert unaware == pytest.approx(np.std(means) / 0.6, rel=0.1)
+
+
+def test_a_line_too_short_for_five_blocks_tells_nothing():
+    assert block_error(np.arange(240.0), 1.0, 10.0) == BlockError(math.inf, 0)
+    lengths = (250.0, 300.0, 400.0, 800.0, 900.0, 1e4)
+    assert [block_error(np.arange(n), 1.0, 10.0).freedom for n in lengths] == [4, 5, 7, 7, 9, 31]
+
+
+def test_influence_does_not_change_the_mean_and_takes_out_what_follows_the_load():
+    load = np.random.default_rng(1).random(64)
+    gap = 3.0 - 2.0 * load
+    np.testing.assert_allclose(gap_influence(gap, load, -2.0), gap.mean(), rtol=1e-14)
+    assert gap_influence(gap, load, 5.0).mean() == pytest.approx(gap.mean(), rel=1e-14)
+
+
+@pytest.mark.parametrize("count", [1, 7, 50])
+def test_participation_counts_equal_loads(count):
+    """Loads 4 cells apart, each of a spot: 1.75 correlation lengths."""
+    loads = np.zeros(400)
+    loads[: 4 * count : 4] = 3.0
+    assert participation(loads, 1.0, 4 / 1.75) == pytest.approx(count)
+    assert participation(np.zeros(4), 1.0, 1.0) == 0.0
+
+
+def test_independent_errors_add_and_freedom_follows_welch_and_satterthwaite():
+    both = add_errors(BlockError(3.0, 10), BlockError(4.0, 20))
+    assert both.error == pytest.approx(5.0)
+    assert both.freedom == int(25**2 / (9**2 / 10 + 16**2 / 20))
+    assert weighted_errors([(0.5, BlockError(2.0, 8)), (0.5, BlockError(2.0, 8))]).error == pytest.approx(
+        math.sqrt(2.0)
+    )
+    assert add_errors().error == 0.0
+
+
+@pytest.mark.parametrize("freedom", [1, 7, 31])
+def test_interval_is_students(freedom):
+    low, high = interval(2.0, 0.0, 0.01, freedom)
+    assert (high - low) / 2 == pytest.approx(stats.t.ppf(0.975, freedom) * 0.02, rel=1e-12)
+    assert interval(2.0, 0.03, 0.0, freedom) == pytest.approx((2 - 0.06, 2 + 0.06))
+    assert all(math.isnan(end) for end in interval(2.0, 0.01, math.nan, freedom))
+
+
+def test_there_are_no_more_blocks_than_places():
+    """White noise on a few wide cells, each many correlation lengths long: the standard error of a plain mean."""
+    for count in (5, 6, 7):
+        values = np.random.default_rng(count).standard_normal(count)
+        found = block_error(values, 1.0, 1e-3)
+        assert found.error == pytest.approx(stats.sem(values), rel=1e-3) and found.freedom == count - 1
+    assert math.isinf(block_error(np.arange(4.0), 1.0, 1e-3).error)

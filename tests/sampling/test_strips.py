@@ -1,0 +1,91 @@
+"""Strips: generated, and windows of a measured map, stacked to one line; their cells and seams."""
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.contact.strip_cells import cells_of_a_box, choose_cells
+from lubfric.contact.strips import measured_strips, spread, stacked
+
+PAPER = lubfric.load_scene("paper")
+
+
+def test_cells_resolve_correlation_length_and_strip():
+    cells = choose_cells((0.5e-6, 0.25e-6), (8e-6, 16e-6), 4.5e-6, 90e-6)
+    assert cells.factors == (4, 16) and cells.coarse == (2e-6, 4e-6)
+    assert 90e-6 <= cells.count * cells.coarse[0] < 90e-6 + 4 * cells.coarse[0]
+    assert choose_cells((0.5e-6, 0.5e-6), (8e-6, 8e-6), 1.0e-6, 90e-6).factors == (
+        1,
+        4,
+    )  # the contact asks
+    assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (52, 64)).count * 2 == 52
+    assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (48, 50), -24e-6).factors == (2, 1)
+    assert cells.halved().factors == (2, 8) and cells.halved().count == 2 * cells.count
+
+
+def test_a_strip_is_always_the_same_and_like_no_other():
+    strips = lubfric.prepare(PAPER).strips
+    one, both = strips.stack(1), strips.stack(2)
+    length = one.shape[1]
+    assert both.shape[1] == 2 * length and one.size[1] == pytest.approx(90 * strips.lengths[1], rel=0.05)
+    np.testing.assert_array_equal(strips.stack(2).heights, both.heights)
+    middle = slice(length // 4, length)
+    np.testing.assert_array_equal(one.heights[:, middle], both.heights[:, middle])
+    first, second = both.heights[:, :length].ravel(), both.heights[:, length:].ravel()
+    assert abs(np.corrcoef(first, second)[0, 1]) < 0.1
+    assert both.sq == pytest.approx(PAPER.surface.sq, rel=0.03)
+    other = lubfric.prepare(PAPER.with_(surface={"seed": 2})).strips.stack(1)
+    assert abs(np.corrcoef(one.heights.ravel(), other.heights.ravel())[0, 1]) < 0.1
+
+
+def test_stacked_windows_keep_their_variance_and_join_smoothly():
+    rng = np.random.default_rng(3)
+    line = stacked([rng.standard_normal((200, 120)) for _ in range(6)], 20)
+    assert line.shape == (200, 6 * 100)
+    assert line.std() == pytest.approx(1.0, abs=0.02)
+    joined = stacked([np.full((1, 40), k, float) for k in (0.0, 1.0)], 20)[0]
+    assert np.abs(np.diff(joined, append=joined[0])).max() < 0.1
+
+
+@pytest.mark.parametrize("count", [1, 2, 5, 12])
+def test_windows_are_taken_from_the_middle_outwards_and_spread(count):
+    order = spread(count)
+    assert sorted(order) == list(range(count))
+    assert abs(order[0] - (count - 1) / 2) <= 0.5
+    if count == 12:
+        assert np.ptp(order[:3]) >= 9
+
+
+def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():
+    surface = lubfric.generate_surface((600, 256), 0.45e-6, sq=1e-7, correlation_length=4e-6, acf="gaussian", seed=1)
+    strips = measured_strips(PAPER.with_(contact={"shape": None, "spacing": None}), surface)
+    fx, fy = strips.cells.factors
+    wide = strips.cells.count * fx
+    assert strips.windows and all(0 <= start <= 600 - wide for start in strips.starts)
+    assert np.diff(sorted(strips.starts)).min() * 0.45e-6 >= 4 * 3.5e-6
+    line = strips.stack(strips.available)
+    assert line.size[1] == pytest.approx(strips.available * strips.length, rel=0.05)
+    own = surface.heights[strips.starts[0] + fx // 2 : strips.starts[0] + wide : fx, fy // 2 :: fy]
+    np.testing.assert_array_equal(line.heights[:, 20:40], own[:, 20:40])
+
+
+@pytest.mark.parametrize("width", [1, 4])
+def test_a_map_too_narrow_for_a_line_is_refused_by_its_width(tmp_path, width):
+    np.save(tmp_path / "m.npy", np.random.default_rng(0).normal(0, 1e-8, (64, width)))
+    surface = {"file": str(tmp_path / "m.npy"), "spacing": 1e-6}
+    scene = PAPER.with_(surface=surface, contact={"shape": None, "spacing": None})
+    with pytest.raises(lubfric.InputError, match=f"the map is {width} cells wide along y.*sampling = 'patch'"):
+        lubfric.prepare(scene)
+    assert lubfric.prepare(scene.with_(numerics={"sampling": "patch"})).surface.shape[1] >= width
+
+
+def test_a_prepared_scene_is_used_again_or_made_again():
+    model = lubfric.prepare(PAPER)
+    same = lubfric.prepare(PAPER.with_(motion={"slide_roll_ratio": 1.0}), like=model)
+    assert same.surface is model.surface and same.contact.operator is model.contact.operator
+    patch = lubfric.prepare(PAPER.with_(numerics={"sampling": "patch"}), like=model)
+    assert patch.strips.whole and patch.surface.shape == PAPER.contact.shape
+    back = lubfric.prepare(PAPER, like=patch)
+    np.testing.assert_array_equal(back.surface.heights, model.surface.heights)
+    with pytest.raises(lubfric.InputError, match="surface = .* is not that of the prepared scene"):
+        lubfric.prepare(PAPER.with_(surface={"seed": 2}), like=model)

@@ -1,0 +1,239 @@
+"""Both balances of an operating point, F_T = F_C + F_H and gap = film: in closed form, recomputed from the fields, in
+the limits, and under what must not change f."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from toys import Spring
+
+import lubfric
+from lubfric.errors import ITERATION_LIMIT
+from lubfric.film import rigid_cylinder as rigid
+from lubfric.sharing import Point, divided
+
+PATCH = lubfric.load_scene("paper").with_(
+    contact={"shape": (96, 96), "spacing": 0.6e-6},
+    surface={"correlation_length": 4e-6},
+    numerics={"sampling": "patch", "grid": "given", "tolerance": 1e-3},
+)
+SCALED = PATCH.with_(numerics={"film_deflection": "scaled"})
+B = PATCH.bodies
+SPRING = Spring(300e-9, 250e-9, 4.0)
+
+
+@pytest.fixture(scope="module")
+def patch():
+    return lubfric.prepare(PATCH)
+
+
+@pytest.fixture(scope="module")
+def spring():
+    return lubfric.prepare(PATCH, contact=SPRING)
+
+
+def on(prepared, heights):
+    """The same scene on other ``heights`` [m]."""
+    surface = lubfric.Surface(heights, prepared.surface.spacing, periodic_axes=(False, True))
+    return lubfric.prepare(prepared.scene, surface)
+
+
+@settings(max_examples=12)
+@given(st.floats(-5, 1.5), st.floats(0.3, 30))
+def test_closes_both_balances_for_any_speed_and_contact(log_speed, stiffness):
+    """The film of the load found, solved alone, is as thick as the contact's gap in closed form."""
+    contact = replace(SPRING, stiffness=stiffness)
+    found = lubfric.friction(lubfric.prepare(PATCH, contact=contact), 10**log_speed)
+    assert found.report.converged and found.report.evaluations <= 45
+    assert found.contact_load + found.film_load == pytest.approx(B.load, rel=1e-12)
+    film = lubfric.solve_ehl(
+        load_per_width=found.film_load / B.width,
+        radius=B.radius,
+        e_prime=B.e_prime,
+        entrainment_speed=10**log_speed,
+        viscosity=PATCH.lubricant.viscosity,
+        pressure_viscosity_coefficient=PATCH.lubricant.pressure_viscosity_coefficient,
+        tolerance=1e-3,
+    )
+    mean = film.film_at(contact.x).mean()
+    if found.contact_load > 0:
+        gap = contact.gap(found.contact_load)
+        allowed = 0.5 * found.decision.film_tolerance + abs(found.volume_residual) + 1e-3
+        assert (gap - mean) / (gap + mean) == pytest.approx(0, abs=allowed) and allowed < 0.03
+        assert found.mean_gap == pytest.approx(gap, rel=1e-9)
+    else:
+        assert mean > contact.touching
+    boundary = B.boundary_friction_coefficient * found.contact_load
+    assert found.boundary_force == pytest.approx(boundary) and found.real_contact_area == 0
+    assert found.coefficient == pytest.approx((boundary + found.shear_force) / B.load, rel=1e-12)
+
+
+def test_film_share_grows_with_speed_and_either_direction_is_the_same(spring):
+    curve = lubfric.stribeck(spring, np.geomspace(1e-5, 1, 8))
+    assert np.all(np.diff(curve.film_load) >= 0) and curve.film_load[-1] == B.load
+    assert 0 < curve.film_load[0] < 0.06 * B.load
+    backwards = lubfric.friction(spring, -1e-5)
+    assert backwards.film_load == pytest.approx(curve.film_load[0], rel=1e-9)
+    assert curve.points[-1].decision.contact == "none" and curve.points[-1].decision.clearance > 0
+    assert curve.points[0].decision.contact == "a spring"
+
+
+def test_an_unclosable_balance_is_reported(spring):
+    class Apart(Spring):
+        def close(self, film, load, start=None, shape=None):
+            return self.state(film, 2 * float(np.mean(film)))  # the gap never meets the film
+
+    apart = lubfric.prepare(PATCH, contact=Apart(3e-7, 1e-7, 1.0))
+    with pytest.raises(lubfric.ConvergenceError) as caught:
+        lubfric.friction(apart, 0.01)
+    assert caught.value.report.status == ITERATION_LIMIT
+    assert caught.value.report.residual == pytest.approx(1 / 3)
+
+
+def test_a_film_of_the_whole_load_that_fails_does_not_hide_the_balance(spring, monkeypatch):
+    """A balance in contact excludes separation."""
+    speed, solve = 0.03, Point.film
+
+    def failing(self, film_load, start=None, cells=0):
+        if film_load > 0.999 * B.load:
+            raise lubfric.ConvergenceError("too heavy")
+        return solve(self, film_load, start, cells)
+
+    expected = lubfric.friction(spring, speed)
+    monkeypatch.setattr(Point, "film", failing)
+    found = lubfric.friction(spring, speed)
+    assert 0 < expected.contact_load and found.film_load == pytest.approx(expected.film_load, rel=5e-3)
+    assert any("too heavy" in note for note in found.decision.notes)
+
+
+@pytest.mark.parametrize("scene", [PATCH, SCALED], ids=["hydrodynamic", "scaled"])
+def test_both_balances_recomputed_from_the_fields(scene):
+    prepared = lubfric.prepare(scene)
+    point = lubfric.friction(prepared, 0.01, fields=True)
+    film, contact = point.balance.film, point.balance.contact.fields
+    dx, dy = prepared.surface.spacing
+    carried = contact.pressure.sum() * dx * dy / (contact.pressure.shape[1] * dy) * B.width
+    fluid = np.sum(0.5 * (film.pressure[1:] + film.pressure[:-1]) * np.diff(film.x)) * B.width
+    assert carried == pytest.approx(point.contact_load, rel=1e-4)
+    assert fluid == pytest.approx(point.film_load, rel=2e-3)  # trapezoid, without the far inlet
+    x = prepared.contact.x
+    share = np.clip((np.minimum(x + dx / 2, B.half_width) - np.maximum(x - dx / 2, -B.half_width)) / dx, 0, 1)
+    gap = (share @ contact.gap.mean(axis=1)) / share.sum()
+    smooth = (share @ film.film_at(x)) / share.sum()
+    assert gap == pytest.approx(smooth, rel=3e-4)
+    assert point.coefficient == pytest.approx((0.09 * carried + point.shear_force) / B.load, rel=1e-4)
+
+
+def test_loads_and_gaps_along_the_line_add_up(patch):
+    state = lubfric.friction(patch, 0.003, fields=True).balance.contact
+    loads, gaps = state.along_y(patch.contact.weight, 8)
+    assert loads.sum() == pytest.approx(1.0) and gaps.mean() == pytest.approx(state.mean_gap, rel=1e-12)
+    assert loads.size == gaps.size == 8 and np.ptp(loads) > 0
+
+
+def test_without_entrainment_the_contact_carries_everything(patch, spring):
+    for prepared in (patch, spring):
+        point = lubfric.friction(prepared, 0.0)
+        assert point.coefficient == pytest.approx(B.boundary_friction_coefficient, rel=1e-12)
+        assert point.contact_load == B.load and point.film_load == 0 and np.isnan(point.min_film)
+        assert math.isnan(point.steepness)
+
+
+@pytest.mark.parametrize("load", [5.5, 110.0])
+def test_the_slower_the_nearer_to_boundary_lubrication(load):
+    """With a film that the whole load deflects, f tends to f_b and the contact to the dry one."""
+    prepared = lubfric.prepare(SCALED.with_(bodies={"load": load}, numerics={"accept": True}))
+    dry, *slow = (lubfric.friction(prepared, speed) for speed in (0.0, 1e-7, 1e-6, 1e-5))
+    left = [1 - point.coefficient / 0.09 for point in slow]
+    assert 0 < left[0] < left[1] < left[2] < 1e-3 and left[0] < 0.2 * left[1]
+    assert slow[0].real_contact_area_fraction == pytest.approx(dry.real_contact_area_fraction, rel=1e-3)
+    assert slow[0].mean_gap == pytest.approx(dry.mean_gap, rel=5e-3)
+
+
+def test_johnsons_modulus_keeps_the_strip_and_matters_not_where_the_film_carries_all(patch):
+    point, alone = lubfric.friction(SCALED, 1e-2, fields=True), lubfric.friction(patch, 1e-2)
+    film = point.balance.film
+    assert film.half_width == pytest.approx(B.half_width, rel=1e-12)
+    assert film.e_prime == pytest.approx(B.e_prime * point.film_load / B.load, rel=1e-12)
+    assert point.film_load > alone.film_load  # a flatter gap carries more
+    full = [lubfric.friction(scene, 1.0).coefficient for scene in (SCALED, patch)]
+    assert full[0] == pytest.approx(full[1], rel=1e-9)
+
+
+def test_a_thick_film_needs_no_contact_and_is_the_rigid_cylinder(patch):
+    point = lubfric.friction(patch, 1.0, fields=True)
+    film = point.balance.film
+    assert point.contact_load == 0 and point.balance.contact.fields is None and point.real_contact_area_fraction == 0
+    exact = rigid.couette_friction(
+        film.min_film, radius=B.radius, speed_difference=2.0, viscosity=0.36
+    ) + rigid.rolling_friction(film.min_film, radius=B.radius, entrainment_speed=1.0, viscosity=0.36)
+    assert point.coefficient == pytest.approx(exact * B.width / B.load, rel=0.05)  # M = 0.05, L = 36: nearly rigid
+    smooth = lubfric.friction(PATCH.with_(surface={"sq": 1e-12}), 0.01)
+    assert smooth.contact_load == 0 and smooth.coefficient > 0
+
+
+def test_what_must_not_change_the_coefficient(patch):
+    expected, heights = lubfric.friction(patch, 0.01).coefficient, patch.surface.heights
+    same = [
+        lubfric.friction(on(patch, heights + 3e-6), 0.01),  # datum of the map
+        lubfric.friction(on(patch, np.roll(heights, 31, axis=1)), 0.01),  # along the width
+        lubfric.friction(on(patch, heights[:, ::-1]), 0.01),
+        lubfric.friction(on(patch, heights[::-1]), -0.01),  # run backwards
+        lubfric.friction(PATCH.with_(bodies={"width": 12e-3, "load": 11.0}), 0.01),
+    ]
+    for point in same:
+        assert point.coefficient == pytest.approx(expected, rel=1e-3)
+
+
+def test_similar_contacts_have_the_same_coefficient():
+    """All lengths x 3, load x 9, viscosity x 3 at the same speed: every dimensionless group is kept."""
+    k = 3.0
+    barus = PATCH.with_(lubricant={"viscosity_law": "barus"})
+    bigger = barus.with_(
+        bodies={"radius": 2e-3 * k, "width": 6e-3 * k, "load": 5.5 * k**2},
+        lubricant={"viscosity": 0.36 * k},
+        surface={"sq": 100e-9 * k, "correlation_length": 4e-6 * k},
+        contact={"spacing": 0.6e-6 * k},
+    )
+    pair = [lubfric.friction(scene, 0.01).coefficient for scene in (bigger, barus)]
+    assert pair[0] == pytest.approx(pair[1], rel=1e-3)
+
+
+def test_the_strip_does_not_depend_on_the_box_and_the_box_does(patch):
+    """METHODS of Eq. (8): with the free-in-x kernel a mean over the whole patch depends on how wide it is."""
+    change = {}
+    for region in ("hertz", "box"):
+        made = lubfric.prepare(PATCH.with_(contact={"region": region}), patch.surface)
+        cut = on(made, patch.surface.heights[16:80])
+        loads = [lubfric.friction(each, 0.001).film_load for each in (cut, made)]
+        change[region] = abs(loads[1] / loads[0] - 1)
+    assert change["hertz"] < 5e-3 < 0.02 < change["box"]
+
+
+def test_the_plastic_limit_carries_less_separation():
+    elastic, soft = (lubfric.friction(PATCH.with_(bodies={"hardness": h}), 0.003) for h in (None, 1e9))
+    assert elastic.plastic_area_fraction == 0 < soft.plastic_area_fraction
+    assert soft.mean_gap < elastic.mean_gap and soft.film_load > elastic.film_load
+
+
+@pytest.mark.parametrize("speed", [np.nan, np.inf, "fast"])
+def test_a_bad_speed_is_an_error(patch, speed):
+    with pytest.raises(lubfric.InputError, match="speed"):
+        lubfric.friction(patch, speed)
+
+
+def test_the_loads_of_a_split_add_up_and_give_it_back():
+    for split in (-35.0, -1.0, 0.0, 2.0, 25.0):
+        film, contact = divided(7.0, split)
+        assert film + contact == pytest.approx(7.0, rel=1e-14) and math.log(film / contact) == pytest.approx(split)
+
+
+@pytest.mark.parametrize("speed", [0.002, 0.03])
+def test_the_steepness_of_a_point_is_that_between_its_neighbours(patch, speed):
+    curve = lubfric.stribeck(patch, speed * np.array([0.9, 1.0, 1.1]))
+    split = np.log(curve.film_load / curve.contact_load)
+    assert curve.points[1].steepness == pytest.approx((split[2] - split[0]) / math.log(1.1 / 0.9), rel=0.08)
+    assert math.isnan(lubfric.friction(patch, 1.0).steepness)

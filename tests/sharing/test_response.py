@@ -1,0 +1,68 @@
+"""What an error of the gap does to a point: against solving again on another surface, and in closed form."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.sharing import solve_balance
+from lubfric.sharing.response import Response, Slopes
+
+SCENE = lubfric.load_scene("paper").with_(
+    contact={"shape": (96, 96), "spacing": 0.9e-6},
+    numerics={"sampling": "patch", "grid": "given", "tolerance": 1e-3, "balance_tolerance": 1e-5},
+)
+
+
+@pytest.mark.parametrize("load, speed, near", [(5.5, 0.003, 0.05), (5.5, 0.03, 0.05), (110.0, 0.03, 0.2)])
+def test_it_is_what_a_rougher_surface_does(load, speed, near):
+    """Heights 1 % larger open the gap at given load; the balance is then solved again. The response takes the gap at a
+    given shape of the film; under 110 N the film changes its shape with its load."""
+    scene = SCENE.with_(bodies={"load": load}, lubricant={"limiting_stress_coefficient": 0.05})
+    model = lubfric.prepare(scene)
+    found = lubfric.friction(model, speed).balance
+    rougher = replace(model.contact, heights=1.01 * model.contact.heights)
+    thickness = found.film.film_at(model.contact.x)
+    gap = [each.close(thickness, found.contact_load).mean_gap for each in (model.contact, rougher)]
+    again = solve_balance(scene, speed, rougher, model.surface.sq, found)
+    moved, response = again.split - found.split, found.response
+    assert response.split * (gap[1] - gap[0]) == pytest.approx(moved, rel=near)
+    change = again.forces.coefficient / found.forces.coefficient - 1
+    if load < 10:  # under more load f also feels where a rougher surface touches
+        assert response.rates["coefficient"] * moved == pytest.approx(change, rel=near)
+    assert response.rates["contact_load"] == pytest.approx(-found.film_load / load, rel=1e-2)
+    film = again.film.central_film / found.film.central_film - 1
+    assert response.rates["central_film"] * moved == pytest.approx(film, rel=near)
+
+
+def test_slopes_of_a_contact_are_those_of_two_loads():
+    model = lubfric.prepare(SCENE)
+    found = lubfric.friction(model, 0.01).balance
+    film, width = found.film.film_at(model.contact.x), SCENE.bodies.width
+    loads = found.contact_load * np.array([0.99, 1.01])
+    light, heavy = (model.contact.close(film, load) for load in loads)
+    per_load = width / (loads[1] - loads[0])
+    slopes = found.response.slopes
+    assert slopes.gap == pytest.approx((heavy.mean_gap - light.mean_gap) * per_load, rel=0.05)
+    touched = heavy.real_contact_area_fraction - light.real_contact_area_fraction
+    assert slopes.area == pytest.approx(touched * per_load, rel=0.2)
+
+
+@pytest.mark.parametrize("odds", [0.3, 1.0, 30.0])
+def test_an_error_of_the_gap_counts_as_it_moves_a_light_contact(odds):
+    """F_C = F/(1 + e^s) in closed form, s moved by the error of the gap; to first order where little changes."""
+    rate = -odds / (1 + odds)  # d ln F_C/ds
+    response = Response(Slopes(0.0, 0.0, 0.0), 1.0, {"contact_load": rate}, odds)
+    for moved in (1e-3, 0.5, 3.0):
+        exact = (1 + odds) / (1 + odds * np.exp(-moved)) - 1
+        assert response.relative("contact_load", moved) == pytest.approx(max(exact, -rate * moved), rel=1e-9)
+        allowed = response.gap_for("contact_load", 0.1)
+        assert response.relative("contact_load", allowed) <= 0.1 * (1 + 1e-9)
+    assert response.per_gap("contact_load") == -rate
+
+
+def test_without_a_film_nothing_is_divided_again():
+    response = lubfric.friction(SCENE, 0.0).balance.response
+    assert response.rates is None and response.relative("coefficient", 1e-6) == 0.0
+    assert response.slopes.gap < 0 < response.slopes.touched and response.gap_for("coefficient", 0.01) == np.inf

@@ -1,0 +1,149 @@
+"""Validity of converged results: told where the model leaves its range, silent on the paper's scene, refused where f is
+none."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.film import ShearForce
+from lubfric.sharing import of_deflection, of_motion, of_pressure, of_thickness
+from lubfric.sharing.checks import of_shear
+from lubfric.sharing.checks_before import of_bodies, of_map
+
+PAPER = lubfric.load_scene("paper").with_(
+    contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"}
+)
+FRICTION = 0.09 * PAPER.bodies.load
+
+
+def test_the_paper_scene_needs_none():
+    model = lubfric.prepare(PAPER)
+    assert model.known == () and lubfric.friction(model, 0.003).validity == ()
+
+
+@pytest.mark.parametrize(
+    "words, entries",
+    [
+        ("extrapolation", of_pressure(PAPER, 2e9)),
+        ("eyring_stress", of_shear(PAPER, ShearForce(5.0, 0.0), PAPER.bodies.load, FRICTION)),
+        ("does not tend to f_b", of_deflection(PAPER.with_(bodies={"load": 550.0}), 3e-7)),
+        ("not thin", of_thickness(PAPER.with_(bodies={"radius": 1e-6}), 3e-7)),
+        ("against one another", of_motion(PAPER.with_(motion={"slide_roll_ratio": 3.0}), 0.003, 3e-7)),
+        ("wider than long", of_bodies(PAPER.with_(bodies={"width": 4e-6, "load": 0.01}).bodies)),
+        ("steel yields", of_bodies(PAPER.with_(bodies={"hardness": None, "hertz_pressure": 6e9}).bodies)),
+    ],
+)
+def test_each_limit_is_told(words, entries):
+    (entry,) = [entry for entry in entries if words in entry.text]
+    assert entry.value != entry.limit and entry.remedy
+    assert entry.text.startswith("caution: ") and not entry.severe
+
+
+@pytest.mark.parametrize("share, severe", [(0.005, None), (0.05, False), (0.5, True)])
+def test_stress_that_no_oil_carries_by_its_share_of_f(share, severe):
+    shear = ShearForce(0.0, 0.0, excess=share * FRICTION, stress_ratio=3.0)
+    entries = list(of_shear(PAPER, shear, PAPER.bodies.load, FRICTION))
+    assert [entry.severe for entry in entries] == ([] if severe is None else [severe])
+    assert all("Newtonian" in entry.text for entry in entries)
+
+
+def test_bodies_and_maps_are_judged_before_anything_is_solved():
+    wide = PAPER.with_(bodies={"radius": 0.01, "load": 3e5, "e_prime": 1e8, "width": 0.1, "hardness": None})
+    assert [e.severe for e in of_bodies(wide.bodies) if "no half-space" in e.text] == [True]
+    assert [[e.severe for e in of_map(slope, 20)] for slope in (0.3, 0.7, 2.0)] == [[], [False], [True]]
+    assert "few asperities" in next(of_map(0.1, 3)).text
+    steep = lubfric.prepare(PAPER.with_(surface={"sq": 3e-6}))
+    assert any("rms slope" in entry.what for entry in steep.known)
+
+
+def test_the_reynolds_number_is_that_of_the_film():
+    scene = PAPER.with_(lubricant={"viscosity": 1e-4, "viscosity_law": "constant"})
+    entry = next(of_motion(scene, 100.0, 30e-6))
+    assert entry.value == pytest.approx(870 * 100 * 30e-6 / 1e-4) and entry.severe
+    assert not list(of_motion(PAPER, 1.0, 1e-6))
+
+
+def heavy(**lubricant):
+    """A steel roller at 0.9 GPa with an ordinary oil, in pure sliding."""
+    return PAPER.with_(
+        bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
+        lubricant={"viscosity": 0.02, "pressure_viscosity_coefficient": 2e-8} | lubricant,
+        contact={"shape": (128, 64), "spacing": 4e-6},
+        surface={"sq": 5e-8, "correlation_length": 3e-5, "acf": "gaussian"},
+    )
+
+
+def test_the_ordinary_bearing_without_a_shear_law_is_refused():
+    with pytest.raises(lubfric.ValidityError, match="eyring_stress") as caught:
+        lubfric.friction(heavy(), 1.0)
+    error = caught.value
+    assert isinstance(error, lubfric.LubfricError)
+    assert error.result.coefficient > 1 and error.result.report.converged
+    assert error.entries[0].severe and error.entries[0] in error.result.validity
+    again = pickle.loads(pickle.dumps(error))
+    assert str(again) == str(error) and again.result.coefficient == error.result.coefficient
+    accepted = lubfric.friction(heavy().with_(numerics={"accept": True}), 1.0)
+    assert accepted.coefficient == error.result.coefficient and accepted.validity == error.result.validity
+    assert any("not valid" in note for note in accepted.report.notes)
+
+
+def test_a_shear_law_makes_it_an_answer():
+    found = lubfric.friction(heavy(eyring_stress=5e6, limiting_stress_coefficient=0.08), 1.0)
+    assert found.coefficient < 0.2 and not any(entry.severe for entry in found.validity)
+
+
+def test_a_sweep_marks_the_point_and_keeps_the_rest():
+    with pytest.raises(lubfric.ValidityError) as caught:
+        lubfric.stribeck(heavy(), [0.5, 1.0])
+    curve = caught.value.result
+    assert set(curve.errors) == {0, 1} and np.isnan(curve.coefficient[0])
+    assert curve.entries(0)[0].what and any("2 speeds, 0.5 to 1 m/s" in text for text in curve.validity)
+    rolling = lubfric.stribeck(heavy().with_(motion={"slide_roll_ratio": 1e-9}), [0.5, 1.0])
+    assert not rolling.errors and not any("not valid" in text for text in rolling.validity)
+    accepted = lubfric.stribeck(heavy().with_(numerics={"accept": True}), [0.5, 1.0])
+    assert not accepted.errors and any("not valid" in text for text in accepted.validity)
+
+
+@pytest.mark.parametrize("column", [0, -1])
+@pytest.mark.parametrize("grid", ["given", "auto"])
+def test_a_contact_on_the_edge_columns_of_a_patch_is_refused(grid, column):
+    """A ridge on an edge column carries the load, also where the cells that are solved leave that column out. The
+    whole result is kept, and returned where it is accepted."""
+    scene = PAPER.with_(numerics={"grid": grid})
+    rough = lubfric.prepare(scene).surface
+    heights = rough.heights.copy()
+    heights[column] += 5e-6
+    surface = lubfric.Surface(heights, rough.spacing, periodic_axes=(False, True))
+    with pytest.raises(lubfric.ValidityError, match="edge columns") as caught:
+        lubfric.friction(lubfric.prepare(scene, surface), 1e-3, fields=True)
+    result = caught.value.result
+    pressure = result.pressure
+    assert pressure[column].sum() > 0.5 * pressure.sum()
+    accepted = lubfric.friction(lubfric.prepare(scene.with_(numerics={"accept": True}), surface), 1e-3)
+    entry = next(e for e in accepted.validity if "edge columns" in e.what)
+    assert entry.severe and entry.value > 50
+    assert lubfric.friction(scene, 1e-3).validity == ()
+
+
+@pytest.mark.parametrize(
+    "numerics", [{"film_tolerance": 0.03, "heat": "off"}, {"model": "deterministic", "grid": "given"}]
+)
+def test_an_error_above_the_tolerance_is_a_caution(numerics):
+    """Settings that do not follow the tolerance: f and its error stay the same, above one tolerance and below
+    another."""
+    scene = PAPER.with_(contact={"shape": (48, 48), "spacing": 1.8e-6})
+    points = [lubfric.friction(scene.with_(numerics=numerics | {"tolerance": t}), 0.03) for t in (1e-4, 0.2)]
+    told = [[entry for entry in p.validity if "estimated numerical error of f" in entry.what] for p in points]
+    assert 1e-4 < points[0].uncertainty.numerical < 0.2 and told[1] == []
+    assert told[0][0].value == pytest.approx(100 * points[0].uncertainty.numerical) and told[0][0].limit == 0.01
+    assert told[0][0].text in points[0].report.notes
+
+
+def test_cells_too_long_for_the_roughness_are_a_caution():
+    """An exponential ACF has detail at every scale: cells half as long would go on changing f."""
+    rough = PAPER.with_(surface={"acf": "exponential"}, numerics={"sampling": "strips", "sampling_tolerance": 0.2})
+    found = [lubfric.friction(rough.with_(numerics={"tolerance": t}), 0.03) for t in (0.01, 0.05)]
+    told = [[e.value for e in p.validity if "cells half as long" in e.what] for p in found]
+    assert len(told[0]) == 1 and 1 < told[0][0] < 5 and told[1] == []

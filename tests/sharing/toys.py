@@ -1,0 +1,31 @@
+"""A rough contact made outside of lubfric, whose gap is known in closed form."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from lubfric.contact import ContactState, RoughContact
+
+
+@dataclass(frozen=True)
+class Spring(RoughContact):
+    """gap = touching - sigma (F_C/stiffness)^(2/3) [m]; it touches nowhere in particular."""
+
+    touching: float
+    sigma: float
+    stiffness: float
+    x: np.ndarray = field(default_factory=lambda: np.linspace(-1e-6, 1e-6, 3))
+    weight: np.ndarray = field(default_factory=lambda: np.ones(3))
+
+    @property
+    def name(self):
+        return "a spring"
+
+    def close(self, film, load, start=None, shape=None):
+        return self.state(film, self.gap(load))
+
+    def gap(self, load):
+        return self.touching - min(self.sigma * (load / self.stiffness) ** (2 / 3), 0.999 * self.touching)
+
+    def state(self, film, gap):
+        return ContactState(gap, float(np.mean(film)), self.x, np.zeros(3), 0.0, 0.0)
