@@ -65,7 +65,7 @@ class Search:
         self.hardness, self.plastic = problem.hardness / self.unit, math.isfinite(problem.hardness)
         base /= self.unit
         self.lower = np.negative(base, dtype=np.float32)
-        self.upper = np.subtract(self.hardness, base, dtype=np.float32)
+        self.upper = (self.hardness - base).astype(np.float32)  # the difference in double precision
         del base
         self.gap = cells.take(state.gap, np.float32, 1 / scale)
         self.change, self.known, self.direction, self.before = (np.zeros_like(self.gap) for _ in range(4))
