@@ -78,15 +78,12 @@ def solve_differential_deflection(
     ConvergenceError : residuals above tolerance; carries report and result
     """
     lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
-    contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant)
     Effort(tolerance, 0, max_iterations)  # checks both
     if nodes is not None:
         integer("nodes", nodes, minimum=COARSEST + 1)
     integer("most_nodes", most_nodes, minimum=COARSEST + 1)
     integer("bandwidth", bandwidth, minimum=0)
-    if domain is not None and inlet_length is not None:
-        raise InputError("domain and inlet_length both say where the grid begins; give one of them")
-    problem = make_problem(contact, inlet_length)
+    problem = make_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant), inlet_length)
     ends = domain_ends(problem, domain)
     cells = _cells(problem, ends, nodes, most_nodes)
     levels = _ascend(problem, ends, cells, bandwidth, tolerance, max_iterations, doubled=nodes is None)
@@ -101,6 +98,8 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
     b, unit = problem.half_width, problem.length_unit
     rise = math.sqrt(2.0 * problem.film_guess)
     if domain is not None:
+        if problem.inlet_length is not None:
+            raise InputError("domain and inlet_length both say where the grid begins; give one of them")
         if np.shape(domain) != (2,):
             raise InputError(f"domain = {domain!r} is not a pair; give (first, last) in m")
         first = number("domain[0]", domain[0], "m", maximum=-b * unit) / unit

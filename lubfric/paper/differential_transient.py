@@ -113,19 +113,27 @@ def solve_differential_transient(
         domain=domain,
         raise_on_failure=False,
     )
-    contact = steady.contact
-    setting = UniformSetting(contact, load, speed, domain, nodes, bandwidth)
+    setting = UniformSetting(steady.contact, load, speed, domain, nodes, bandwidth)
     x = setting.x
     z = np.concatenate([np.interp(x, steady.x, steady.pressure), cubic(steady.x, steady.film_thickness, x)])
     first = setting.solve(0.0, Memory(0.0, np.zeros(nodes)), z)
     if first.status != CONVERGED:
         raise ConvergenceError("differential deflection: no steady film to start from", steady.report, steady)
-    width = math.hypot(setting.problem(0.0).half_width, 3.0) * contact.length_unit
-    plan = plan_of(times, (load, speed), FIRST_STEP * width / speed.range(duration)[1], time_tolerance)
+    result = _marched(setting, first, times, time_tolerance)
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result
+
+
+def _marched(setting: UniformSetting, first: Step, times: np.ndarray, time_tolerance: float) -> TransientFilm:
+    x, n = setting.x, setting.nodes
+    width = math.hypot(setting.problem(0.0).half_width, 3.0) * setting.contact.length_unit
+    step = FIRST_STEP * width / setting.speed.range(float(times[-1]))[1]
+    plan = plan_of(times, (setting.load, setting.speed), step, time_tolerance)
     now, found, states = marched(setting, plan, first)
-    P, H = (np.array([state.z[part] for state in states]).reshape(-1, nodes) for part in np.s_[:nodes, nodes:])
-    parabola = x**2 / (2.0 * radius)
-    result = TransientFilm(
+    P, H = (np.array([state.z[part] for state in states]).reshape(-1, n) for part in np.s_[:n, n:])
+    parabola = x**2 / (2.0 * setting.contact.radius)
+    return TransientFilm(
         np.array(found),
         x,
         P,
@@ -133,8 +141,5 @@ def solve_differential_transient(
         np.array([smallest(x, h) for h in H]),
         np.array([float(cubic(x, h - parabola, np.zeros(1))[0]) for h in H]),
         np.trapezoid(P, x, axis=1) - 0.5 * x[0] * P[:, 0],  # with the tail |x|^-3
-        report_of("transient by differential deflection, BDF2", plan, now, f"{nodes} nodes", {}),
+        report_of("transient by differential deflection, BDF2", plan, now, f"{n} nodes", {}),
     )
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result

@@ -12,7 +12,7 @@ from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
 from .film_setting import FINER, ContactHistory, FilmStep, Setting, discretisation, make_setting, steady_start
-from .march import checked_times, marched, plan_of, report_of
+from .march import Plan, checked_times, marched, plan_of, report_of
 
 TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step
 
@@ -95,19 +95,7 @@ def solve_transient_ehl(
     setting, start, residuals = _start(contact, tolerance)
     changing = contact.speed, contact.load, contact.radius, contact.viscosity
     plan = plan_of(times, changing, first_step or setting.first_step, time_tolerance)
-    now, found, films = marched(setting, plan, start)
-    p, x = setting.problem, setting.grid.x
-    H, P = (np.array([getattr(s.terms, name) for s in films]).reshape(-1, x.size) for name in "HP")
-    result = TransientFilm(
-        time=np.array(found),
-        x=x * p.length_unit,
-        pressure=P * p.pressure_unit,
-        film_thickness=H * p.film_unit,
-        min_film=np.array([smallest(x, h) for h in H]) * p.film_unit,
-        central_film=H[:, x.size // 2] * p.film_unit,
-        load=np.array([s.terms.carried for s in films]) * setting.load_unit,
-        report=report_of("transient line-contact EHL, BDF2", plan, now, f"{setting.grid.n} cells", residuals),
-    )
+    result = _marched(setting, start, plan, residuals)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
@@ -131,3 +119,19 @@ def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, FilmStep
             if error <= tolerance or finer == FINER[-1]:
                 return setting, start, {"grid": error / tolerance}
     raise ConvergenceError("transient: no steady film on the grid of the run to start from")
+
+
+def _marched(setting: Setting, start: FilmStep, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
+    now, found, films = marched(setting, plan, start)
+    p, x = setting.problem, setting.grid.x
+    H, P = (np.array([getattr(s.terms, name) for s in films]).reshape(-1, x.size) for name in "HP")
+    return TransientFilm(
+        time=np.array(found),
+        x=x * p.length_unit,
+        pressure=P * p.pressure_unit,
+        film_thickness=H * p.film_unit,
+        min_film=np.array([smallest(x, h) for h in H]) * p.film_unit,
+        central_film=H[:, x.size // 2] * p.film_unit,
+        load=np.array([s.terms.carried for s in films]) * setting.load_unit,
+        report=report_of("transient line-contact EHL, BDF2", plan, now, f"{setting.grid.n} cells", residuals),
+    )
