@@ -68,7 +68,7 @@ def _numbers(prepared: Prepared, speed: float, found: Found) -> dict[str, Any]:
     """All numbers of the sample but the time, by name."""
     scene, balance, sq = prepared.scene, found.balance, prepared.surface.sq
     contact, film, loads = balance.contact, balance.film, (balance.film_load, balance.contact_load)
-    separated, touched = balance.contact_load == 0, touched_length(contact)
+    separated, touched = balance.contact_load == 0, touched_length(contact) * found.effect.touched / found.effect.area
     numbers = quantities(balance.forces, film, loads, contact.mean_film if separated else contact.mean_gap)
     return numbers | {
         "speed": speed,

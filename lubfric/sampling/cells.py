@@ -14,7 +14,7 @@ import numpy as np
 
 from ..contact import ContactState, HalfSpaceContact, Strips
 from ..scene import budget
-from ..sharing import Balance, Point, Prepared, on_piece
+from ..sharing import Balance, Point, Prepared, on_piece, touched_length
 from .scatter import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
 
 SLOWEST, FASTEST = 0.75, 0.25  # ratio of successive changes
@@ -34,6 +34,7 @@ class CellStep:
     - ``beyond`` [m]: estimated change on cells half as long as the scene's own (NaN: own cells not reached).
     - ``film`` [m]: change of the mean film.
     - ``area``: factor on the contact area; ``area_error``: its relative standard error and the rest.
+    - ``touched``: factor on the contact area of the whole line, which may touch beyond A.
     - ``plastic``: to be added to the plastic area fraction; ``ends``: share of the load on the edge columns.
     """
 
@@ -44,6 +45,7 @@ class CellStep:
     film: float
     area: float
     area_error: float
+    touched: float
     plastic: float
     ends: float
 
@@ -59,6 +61,7 @@ class CellEffect:
     film: float = 0.0
     area: float = 1.0
     area_error: float = 0.0
+    touched: float = 1.0
     plastic: float = 0.0
     ends: float = 0.0
     contact_load: float = 0.0
@@ -88,7 +91,7 @@ def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, strips: 
     def mean(name: str) -> float:
         return sum(getattr(step, name) for step in steps) / len(steps)
 
-    names = ("gap", "rest", "beyond", "film", "area", "plastic", "ends")
+    names = ("gap", "rest", "beyond", "film", "area", "touched", "plastic", "ends")
     values = {name: mean(name) for name in names}
     return CellEffect(error=error, area_error=_error_of_area(steps), contact_load=balance.contact_load, **values)
 
@@ -145,6 +148,7 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
         film=states[-1].mean_film - states[0].mean_film,
         area=area,
         area_error=area_error,
+        touched=touched_length(states[-1]) / touched_length(states[0]),
         plastic=states[-1].plastic_area_fraction - states[0].plastic_area_fraction,
         ends=contact.on_the_ends(states[-1]),
     )

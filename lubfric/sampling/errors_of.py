@@ -86,7 +86,7 @@ def _numerical(found: Found) -> Numerical:
         gap = (
             effect.rest
             + found.second_order
-            + (budget.SLOPE if found.corrected else 1.0) * abs(found.left_by_root)
+            + (budget.SLOPE * abs(found.corrected) or abs(found.left_by_root))
             + solved.contact.gap_error
         )
     read = solved.contact.area_error / max(solved.contact.real_contact_area_fraction, 1e-300)

@@ -37,7 +37,7 @@ from .checks_before import beforehand
 from .validity import Validity
 
 OWN = HalfSpaceContact, FlatContact, AsperityContact
-REMEMBERED = 64  # strips, pieces, operators and reference points
+REMEMBERED, MOST_CELLS = 64, 8_000_000  # strips, pieces, operators and reference points; cells of all but the last
 
 
 @dataclass(frozen=True, repr=False)
@@ -73,8 +73,9 @@ class Prepared(FieldsOnly, Shown):
             return self.memo[key]
         except KeyError:
             made = self.memo[key] = make()
-        while len(self.memo) > REMEMBERED:
-            self.memo.pop(next(iter(self.memo)), None)
+        kept = list(self.memo.items())
+        while len(kept) > REMEMBERED or sum(_cells_of(value) for _, value in kept[:-1]) > MOST_CELLS:
+            self.memo.pop(kept.pop(0)[0], None)
         return made
 
     def _facts(self) -> dict[str, str]:
@@ -165,6 +166,12 @@ def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int,
         return _contact(prepared, heights, spacing, strips.cells.axis(factors))
 
     return prepared.remembered(("piece", strips.cells.factors, index, factors), make)
+
+
+def _cells_of(value: Any) -> int:
+    if isinstance(value, HalfSpaceContact):
+        return value.heights.size + value.operator.symbol.size
+    return value.heights.size if isinstance(value, Surface) else 0
 
 
 def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) -> HalfSpaceContact:
