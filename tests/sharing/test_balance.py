@@ -77,7 +77,7 @@ def test_film_share_grows_with_speed_and_either_direction_is_the_same(spring):
     assert 0 < curve.film_load[0] < 0.06 * B.load
     backwards = lubfric.friction(spring, -1e-5)
     assert backwards.film_load == pytest.approx(curve.film_load[0], rel=1e-9)
-    assert curve.points[-1].decision.contact.startswith("none") and curve.points[-1].decision.clearance > 0
+    assert curve.points[-1].decision.contact.startswith("none") and curve.points[-1].clearance > 0
     assert curve.points[0].decision.contact == "a spring"
 
 
