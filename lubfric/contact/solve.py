@@ -12,7 +12,7 @@ from ..errors import CONVERGED, ITERATION_LIMIT, InputError
 from .cells import rescaled, shifted
 from .problem import Problem, make_problem, starting_pressure
 from .result import ContactResult
-from .rounds import Found, concluded, refine, state_of
+from .rounds import Found, State, concluded, refine, state_of
 from .search import FIRST_PACE
 
 HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than what the old ones bear
@@ -56,9 +56,7 @@ def solve_contact(
     max_iterations, raise_on_failure : number of iterations after which the solve ends; False returns the unconverged
         result
 
-    Returns
-    -------
-    ContactResult
+    Returns a `ContactResult`.
 
     Raises
     ------
@@ -75,15 +73,17 @@ def solve_contact(
         found = _solved(problem, start, float(mean_pressure), mean_pressure=float(mean_pressure))
     else:
         found = _gap_controlled(problem, float(mean_gap), start)
-    state = found.state
-    if mean_gap is None:
-        control = {"load": float(abs(state.pressure.mean() - mean_pressure) / (mean_pressure or 1.0))}
-    else:
-        control = {"volume": abs(state.mean_gap - mean_gap) / min(state.scale, mean_gap)}
-    result = concluded(problem, found, control, ITERATION_LIMIT)
+    result = concluded(problem, found, _control(found.state, mean_pressure, mean_gap), ITERATION_LIMIT)
     if raise_on_failure:
         result.report.raise_if_failed(result)
     return result
+
+
+def _control(state: State, mean_pressure, mean_gap) -> dict[str, float]:
+    """The residual of what was prescribed."""
+    if mean_gap is None:
+        return {"load": float(abs(state.pressure.mean() - mean_pressure) / (mean_pressure or 1.0))}
+    return {"volume": abs(state.mean_gap - mean_gap) / min(state.scale, mean_gap)}
 
 
 def _check_control(problem: Problem, mean_pressure, mean_gap) -> None:
