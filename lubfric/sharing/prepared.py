@@ -66,15 +66,16 @@ class Prepared(FieldsOnly, Shown):
         """What was `remembered`; neither compared nor pickled."""
         return {}
 
-    def remembered(self, key: Any, make: Callable[[], Any]) -> Any:
-        """What ``make`` gives, made once for ``key`` and kept as long as there is room. It depends on scene and key
-        alone, so that results do not depend on what is kept."""
+    def remembered(self, key: Any, make: Callable[[], Any], cells: Callable[[Any], int] = lambda made: 0) -> Any:
+        """What ``make`` gives, made once for ``key`` and kept as long as there is room for it and its ``cells``. It
+        depends on scene and key alone, so that results do not depend on what is kept."""
         try:
-            return self.memo[key]
+            return self.memo[key][0]
         except KeyError:
-            made = self.memo[key] = make()
+            made = make()
+        self.memo[key] = made, cells(made)
         kept = list(self.memo.items())
-        while len(kept) > REMEMBERED or sum(_cells_of(value) for _, value in kept[:-1]) > MOST_CELLS:
+        while len(kept) > REMEMBERED or sum(size for _, (_, size) in kept[:-1]) > MOST_CELLS:
             self.memo.pop(kept.pop(0)[0], None)
         return made
 
@@ -153,7 +154,7 @@ def on_stack(prepared: Prepared, strips: Strips, count: int) -> HalfSpaceContact
         surface = strips.stack(count)
         return _contact(prepared, surface.heights, surface.spacing, strips.cells.axis())
 
-    return prepared.remembered(("stack", strips.cells.factors, count), make)
+    return prepared.remembered(("stack", strips.cells.factors, count), make, lambda made: made.heights.size)
 
 
 def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int]) -> HalfSpaceContact:
@@ -165,13 +166,8 @@ def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int,
         spacing = surface.spacing[0] * factors[0], surface.spacing[1] * factors[1]
         return _contact(prepared, heights, spacing, strips.cells.axis(factors))
 
-    return prepared.remembered(("piece", strips.cells.factors, index, factors), make)
-
-
-def _cells_of(value: Any) -> int:
-    if isinstance(value, HalfSpaceContact):
-        return value.heights.size + value.operator.symbol.size
-    return value.heights.size if isinstance(value, Surface) else 0
+    key = "piece", strips.cells.factors, index, factors
+    return prepared.remembered(key, make, lambda made: made.heights.size)
 
 
 def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) -> HalfSpaceContact:
@@ -190,8 +186,8 @@ def _on_strips(scene: Scene, strips: Strips, given: bool, surface: Surface | Non
     check_map(scene, whole)
     contact = half_space_contact(scene, first.heights - first.heights.mean(), first.spacing, x=strips.cells.axis())
     made = Prepared(scene, whole, contact, beforehand(scene, whole), strips, given)
-    made.memo[("stack", strips.cells.factors, strips.first)] = contact
-    made.memo[("operator", first.heights.shape, tuple(first.spacing))] = contact.operator
+    made.memo[("stack", strips.cells.factors, strips.first)] = contact, contact.heights.size
+    made.memo[("operator", first.heights.shape, tuple(first.spacing))] = contact.operator, contact.operator.symbol.size
     return made
 
 

@@ -148,7 +148,7 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
 
 def test_few_short_pieces_scatter_by_as_much_as_they_change():
     def piece(gap):
-        return CellStep(gap, BlockError(np.inf, 0), 0.0, np.nan, 0.0, 1.0, 0.0, 0.0, 0.0)
+        return CellStep(gap, BlockError(np.inf, 0), 0.0, np.nan, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0)
 
     assert mean_error([piece(-3e-9)]) == BlockError(pytest.approx(3e-9), 1)
     assert mean_error([piece(3e-9), piece(4e-9)]) == BlockError(pytest.approx(12.5e-18**0.5 / 2**0.5), 2)
