@@ -13,6 +13,7 @@ FILM_ALONE = 0.6  # the same where there is no contact
 SHEAR_SUM = 0.3  # sum of the film's shear stress over its nodes
 CONTACT_GRID = 0.4  # grid of the rough contact
 BALANCE = 5e-2  # closing of load and volume
+CORRECTED = 0.15  # the same on coarse cells, where what is left open is corrected to first order
 CONTACT = 1e-2  # solver of the rough contact
 HEAT = 0.2  # what leaving the heat of film and surfaces out changes of f
 INLET = 2e-3  # what leaving the heat of the inlet out changes of the film: it costs nothing, and parts of f may cancel

@@ -237,7 +237,8 @@ def _needed(point: Point, balance: Balance, sq: float) -> Settings:
         share = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
         film = _tightened(film, max(min(share, budget.FIRST_FILM), budget.TIGHTEST_FILM))
     if numerics.balance_tolerance is None:
-        allowed = response.gap_for("coefficient", budget.BALANCE * numerics.tolerance)
+        share = budget.CORRECTED if now.correctable else budget.BALANCE
+        allowed = response.gap_for("coefficient", share * numerics.tolerance)
         if now.correctable and response.split:
             allowed /= budget.SLOPE
             allowed = min(allowed, budget.MOST_MOVED / abs(response.split))

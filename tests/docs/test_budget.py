@@ -9,6 +9,7 @@ SHARES = {
     "sum of the film's shear stress": f"{budget.SHEAR_SUM:g}",
     "cells of the rough contact": f"{budget.CONTACT_GRID:g}",
     "closing of load and volume": f"{budget.BALANCE:g}",
+    "closing on coarse cells": f"{budget.CORRECTED:g}",
     "solver of the rough contact": f"{budget.CONTACT:g}",
     "heat of film and surfaces that is left out": f"{budget.HEAT:g}",
     "heat of the inlet that is left out": f"{budget.INLET:g}",
