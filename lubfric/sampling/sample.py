@@ -149,10 +149,8 @@ def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
         more = _wanted(prepared, found, strips)
         if more <= count or _too_coarse(prepared, speed, found):
             return found
-        count, start = (
-            more,
-            None if solved.response is None else replace(solved, contact=replace(solved.contact, fields=None)),
-        )
+        start = None if solved.response is None else replace(solved, contact=replace(solved.contact, fields=None))
+        count = more
 
 
 def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | None:
