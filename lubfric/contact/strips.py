@@ -110,51 +110,47 @@ class MeasuredStrips(Strips):
     number of them is spread over the map. Beyond its ends the map is continued by its mirror image.
     """
 
-    surface: Surface | None = field(default=None, kw_only=True)
-    starts: tuple[int, ...] = field(default=(), kw_only=True)
+    surface: Surface = field(kw_only=True)
+    starts: tuple[int, ...] = field(kw_only=True)
 
     def stack(self, count: int) -> Surface:
         fx, fy = self.cells.factors
         pieces = [self._columns(start)[fx // 2 :: fx] for start in self.starts[:count]]
         heights = stacked(pieces, self._blend)
         rows = heights.shape[1] // (4 * fy) * 4 * fy
-        note = f"{count} windows of {self.cells.count * fx} x {self._map.shape[1]} cells, stacked along y"
+        note = f"{count} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
 
     def piece(self, index: int) -> Surface:
         whole, blend, unit = self._columns(self.starts[index]), self._blend, 4 * self.cells.factors[1]
-        wanted = round(PIECE * self.lengths[1] / self._map.spacing[1])
+        wanted = round(PIECE * self.lengths[1] / self.surface.spacing[1])
         rows = min(whole.shape[1] - blend, wanted) // unit * unit
         first = (whole.shape[1] - rows - blend) // 2
         piece = stacked([whole[:, first : first + rows + blend]], blend)[:, :rows]
-        return self._made(piece, self._map.spacing, "a piece on the map's own cells")
-
-    @property
-    def _map(self) -> Surface:
-        assert self.surface is not None
-        return self.surface
+        return self._made(piece, self.surface.spacing, "a piece on the map's own cells")
 
     @property
     def _blend(self) -> int:
-        return min(_blend(self.lengths[1], self._map.spacing[1]), self._map.shape[1] // 4)
+        return min(_blend(self.lengths[1], self.surface.spacing[1]), self.surface.shape[1] // 4)
 
     def _columns(self, start: int) -> np.ndarray:
-        columns, last = start + np.arange(self.cells.count * self.cells.factors[0]), self._map.shape[0] - 1
-        return self._map.heights[np.minimum(np.where(columns < 0, -1 - columns, columns), 2 * last + 1 - columns)]
+        columns, last = start + np.arange(self.cells.count * self.cells.factors[0]), self.surface.shape[0] - 1
+        return self.surface.heights[np.minimum(np.where(columns < 0, -1 - columns, columns), 2 * last + 1 - columns)]
 
     def _made(self, heights, spacing, note) -> Surface:
-        notes = (*self._map.notes, note)
-        return replace(self._map, heights=heights, spacing=spacing, mask=None, periodic_axes=(False, True), notes=notes)
+        notes = (*self.surface.notes, note)
+        return replace(
+            self.surface, heights=heights, spacing=spacing, mask=None, periodic_axes=(False, True), notes=notes
+        )
 
 
 @dataclass(frozen=True)
 class OnePatch(Strips):
     """One patch, ``surface``, of which there is no more."""
 
-    surface: Surface | None = field(default=None, kw_only=True)
+    surface: Surface = field(kw_only=True)
 
     def stack(self, count: int = 1) -> Surface:
-        assert self.surface is not None
         heights = self.cells.thinned(self.surface.heights, self.cells.factors)
         return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
 
@@ -163,7 +159,6 @@ class OnePatch(Strips):
         return True
 
     def piece(self, index: int = 0) -> Surface:
-        assert self.surface is not None
         return self.surface
 
 

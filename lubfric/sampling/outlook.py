@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from ..contact import Strips
 from ..scene import Scene
+from .sample import SAFETY
 
 CELL_SECONDS = 2.5e-6  # processor time of a cell of the strips in balance, about
 PIECE_SECONDS = 1.3e-6  # of a cell of a piece on finer and finer cells, of the finest
@@ -17,7 +18,6 @@ RISE = 0.4  # of the film of the whole load, by which it is wider, about
 FLOOR = 0.25  # of f_b: friction where the film carries most, about
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 SURE = 2.0  # factor between Moes' film and any film: outside of it contact or separation is certain
-SAFETY = 1.3  # of the length that a standard error asks for
 
 
 @dataclass(frozen=True)
