@@ -54,6 +54,10 @@ class Strips:
         """The first ``count`` strips joined along y, periodic, on ``cells``."""
         raise NotImplementedError
 
+    def strip(self, index: int) -> Surface:
+        """Strip number ``index`` alone, its last rows passing into its first: periodic along y, on ``cells``."""
+        raise NotImplementedError
+
     def piece(self, index: int) -> Surface:
         """A piece on the scene's own cells, some 42 correlation lengths long: number ``index`` of ``pieces``. Every
         n-th of its cells, in each direction, gives the coarse cells to compare it with."""
@@ -74,9 +78,15 @@ class GeneratedStrips(Strips):
     """Strips of one endless generated surface, or of two whose heights are added."""
 
     def stack(self, count: int) -> Surface:
+        return self._joined(range(count))
+
+    def strip(self, index: int) -> Surface:
+        return self._joined([index])
+
+    def _joined(self, indices) -> Surface:
         blend = _blend(self.lengths[1], self.cells.coarse[1])
         shape = self.cells.count, self.cells.rows(self.length) + blend
-        strips = [self._generated((STRIPS, index), self.cells.coarse, shape) for index in range(count)]
+        strips = [self._generated((STRIPS, index), self.cells.coarse, shape) for index in indices]
         return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
 
     def piece(self, index: int) -> Surface:
@@ -114,11 +124,17 @@ class MeasuredStrips(Strips):
     starts: tuple[int, ...] = field(kw_only=True)
 
     def stack(self, count: int) -> Surface:
+        return self._joined(self.starts[:count])
+
+    def strip(self, index: int) -> Surface:
+        return self._joined([self.starts[index]])
+
+    def _joined(self, starts) -> Surface:
         fx, fy = self.cells.factors
-        pieces = [self._columns(start)[fx // 2 :: fx] for start in self.starts[:count]]
+        pieces = [self._columns(start)[fx // 2 :: fx] for start in starts]
         heights = stacked(pieces, self._blend)
         rows = heights.shape[1] // (4 * fy) * 4 * fy
-        note = f"{count} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
+        note = f"{len(starts)} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
 
     def piece(self, index: int) -> Surface:
@@ -153,6 +169,9 @@ class OnePatch(Strips):
     def stack(self, count: int = 1) -> Surface:
         heights = self.cells.thinned(self.surface.heights, self.cells.factors)
         return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
+
+    def strip(self, index: int = 0) -> Surface:
+        return self.stack()
 
     @property
     def whole(self) -> bool:

@@ -157,6 +157,16 @@ def on_stack(prepared: Prepared, strips: Strips, count: int) -> HalfSpaceContact
     return prepared.remembered(("stack", strips.cells.factors, count), make, lambda made: made.heights.size)
 
 
+def on_strip(prepared: Prepared, strips: Strips, index: int) -> HalfSpaceContact:
+    """The contact on number ``index`` of ``strips`` alone."""
+
+    def make() -> HalfSpaceContact:
+        surface = strips.strip(index)
+        return _contact(prepared, surface.heights, surface.spacing, strips.cells.axis())
+
+    return prepared.remembered(("strip", strips.cells.factors, index), make, lambda made: made.heights.size)
+
+
 def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int]) -> HalfSpaceContact:
     """The contact on every ``factors``-th cell of a piece of ``strips``."""
 
