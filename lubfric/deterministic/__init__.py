@@ -2,5 +2,6 @@
 
 from .point import Refined, deterministic_point, estimate, grids, solve_refined
 from .problem import Problem, lay_out, reach
-from .result import DeterministicResult
+from .result import MEANS, DeterministicResult
 from .solve import dry_contact, solve_point
+from .strip import Strip, solve_strip, work_of

@@ -44,20 +44,25 @@ def deterministic_point(scene: Scene, surface: Surface, speed: float) -> Refined
     Raises `InputError` (`lubfric.scene.resolved_gap`) and `ConvergenceError`.
     """
     check_resolved_gap(scene)
-    bodies, contact = scene.bodies, scene.line_contact(abs(speed))
-    turned = replace(surface, heights=surface.heights[::-1], mask=None) if speed < 0 else surface
 
     def lay(shape):
-        return lay_out(
-            turned if shape == turned.shape else turned.resampled(shape=shape),
-            contact,
-            sliding=2 * abs(speed),
-            boundary_friction=bodies.boundary_friction_coefficient,
-            hardness=bodies.hardness,
-        )
+        return problem_of(scene, surface if shape == surface.shape else surface.resampled(shape=shape), speed)
 
     tolerance = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
     return solve_refined(lay, grids(scene, surface), tolerance=tolerance)
+
+
+def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int, int] = (1, 1)) -> Problem:
+    """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
+    times as long (`lay_out`). For a negative speed the map is turned."""
+    return lay_out(
+        replace(surface, heights=surface.heights[::-1], mask=None) if speed < 0 else surface,
+        scene.line_contact(abs(speed)),
+        sliding=2 * abs(speed),
+        boundary_friction=scene.bodies.boundary_friction_coefficient,
+        hardness=scene.bodies.hardness,
+        factors=factors,
+    )
 
 
 def grids(scene: Scene, surface: Surface) -> tuple[tuple[int, int], ...]:
@@ -111,7 +116,8 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the
     difference from the dry contact is interpolated instead, and added to the dry contact of the finer grid. Beyond the
     old grid p = 0, with fluid upstream and rupture downstream. h0 is corrected, because the half-space has
-    its zero, u = 0, at the length of the grid from a line load.
+    its zero, u = 0, at the length of the grid from a line load. The cells may also be those of ``coarse`` on a longer
+    or shorter grid.
     """
     old, (nx, ny), (nx_old, ny_old) = result.state, problem.heights.shape, coarse.heights.shape
     along = (problem.x - coarse.x[0]) / coarse.spacing[0]
@@ -125,7 +131,7 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
         return np.where(ruptured, 0.0, _interpolated(pressure, along, across))
 
     pressure = finer(old.pressure)
-    if result.split.spots < SHARP * result.load:
+    if result.split.spots < SHARP * result.load or problem.spacing == coarse.spacing:
         longer = nx * problem.spacing[0] / (nx_old * coarse.spacing[0])
         shift = 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)
         yielded = (pressure >= problem.hardness) & ~ruptured

@@ -25,6 +25,10 @@ from .state import FLUID, TOUCHING, Iterate, State
 
 PRESSED = 50e6  # Pa
 CLOSE = 0.5  # of the mean gap of the section
+MEANS = (
+    *("coefficient", "boundary", "couette", "rolling", "flow_film", "mean_gap", "central_gap", "spot_length"),
+    *("spot_fraction", "plastic_fraction", "drawn", "inlet_load"),
+)  # fields of a `DeterministicResult` that are means over its length along y, as the loads of its ``split`` are
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,9 @@ class DeterministicResult:
       (boundary + couette + rolling)/load. split: the load by three rules; ``split.spots`` is the one used.
     - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
       b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
+    - load_at, friction_at [N/m] (ny,): load and friction of every column of cells along x, with those upstream. Their
+      means are ``load`` and ``coefficient`` times that.
+    - spot_length [m]: area of all spots per length. top_pressure [Pa]: the largest in the film.
     - drawn: of the lubricant in the film, the share that touching cells of the strip give off, because their floor is
       kept full; the rest enters from upstream.
     - approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
@@ -70,11 +77,15 @@ class DeterministicResult:
     rolling: float
     split: LoadSplit
     load: float
+    load_at: np.ndarray
+    friction_at: np.ndarray
     speed: float
     flow_film: float
     min_gap: float
     mean_gap: float
     spot_fraction: float
+    spot_length: float
+    top_pressure: float
     plastic_fraction: float
     drawn: float
     central_gap: float
@@ -88,7 +99,7 @@ def assemble(at: Iterate, report: Report, pressed=PRESSED, close=CLOSE) -> Deter
     """The result at a solved state; ``pressed`` [Pa] and ``close`` [-] are the two numbers of the rule for spots."""
     problem, state, h, inlet = at.problem, at.state, at.balance.film, at.balance.inlet
     p, touching, fluid = state.pressure, state.kind == TOUCHING, state.kind == FLUID
-    f_b, rate, cell = problem.boundary_friction, problem.sliding / h, problem.spacing[0] / p.shape[1]
+    f_b, rate, dx = problem.boundary_friction, problem.sliding / h, problem.spacing[0]
     with np.errstate(over="ignore"):
         saturated = fluid & (p > pressed) & (viscosity(problem.lubricant, p) * rate > f_b * p)
         law = shear_stress(problem.lubricant, p, rate)
@@ -97,9 +108,10 @@ def assemble(at: Iterate, report: Report, pressed=PRESSED, close=CLOSE) -> Deter
     spots = touching | saturated & (h < close * h.mean(axis=1)[:, None])
     wet = fluid & ~spots
     shear = np.where(spots, f_b * p, np.where(fluid, law, 0.0))
-    split = LoadSplit(*(float(p[where].sum()) * cell for where in (touching, spots, touching | saturated)))
-    couette = float(shear[wet].sum()) * cell + problem.lubricant.viscosity * problem.sliding * inlet.shearing
+    split = LoadSplit(*(float(p[where].sum()) * dx / p.shape[1] for where in (touching, spots, touching | saturated)))
+    couette = (shear * wet).sum(axis=0) * dx + problem.lubricant.viscosity * problem.sliding * inlet.shearing
     rolling = _rolling(p, h, wet) + inlet.rolling
+    friction = f_b * (p * spots).sum(axis=0) * dx + couette + rolling
     strip = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
     return DeterministicResult(
         x=problem.x,
@@ -112,31 +124,35 @@ def assemble(at: Iterate, report: Report, pressed=PRESSED, close=CLOSE) -> Deter
         spots=spots,
         wet=wet,
         dent=state.dent,
-        coefficient=(f_b * split.spots + couette + rolling) / problem.load,
+        coefficient=float(friction.mean()) / problem.load,
         boundary=f_b * split.spots,
-        couette=couette,
-        rolling=rolling,
+        couette=float(couette.mean()),
+        rolling=float(rolling.mean()),
         split=split,
         load=problem.load,
+        load_at=p.sum(axis=0) * dx + inlet.load,
+        friction_at=friction,
         speed=problem.speed,
         flow_film=float(inlet.flow.mean()) / problem.speed,
         min_gap=float(h.min()),
         mean_gap=float(h[strip].mean()),
         spot_fraction=float(spots[strip].mean()),
+        spot_length=float(spots.sum()) * dx / p.shape[1],
+        top_pressure=float(p[wet].max(initial=0.0)),
         plastic_fraction=float((state.yielded & (state.dent > 0))[strip].mean()),
         drawn=_drawn(at, touching, strip),
         central_gap=float(np.interp(0.0, problem.x, h.mean(axis=1))),
         approach=state.approach,
-        inlet_load=inlet.load,
+        inlet_load=float(inlet.load.mean()),
         report=report,
         state=state,
     )
 
 
-def _rolling(p, h, wet) -> float:
-    """∫ (h/2) dp/dx [N/m] on the grid, between cells that are ``wet`` or without pressure."""
+def _rolling(p, h, wet) -> np.ndarray:
+    """∫ (h/2) dp/dx [N/m] of every column on the grid, between cells that are ``wet`` or without pressure."""
     both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
-    return float((0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]))[both].sum()) / p.shape[1]
+    return (0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]) * both).sum(axis=0)
 
 
 def _drawn(at: Iterate, touching, strip) -> float:

@@ -44,8 +44,6 @@ def deterministic_answer(prepared: Prepared, speed: float, begun: float) -> Fric
 def _numbers(prepared: Prepared, speed: float, found: Refined) -> dict[str, Any]:
     """All numbers of the point but the time, by name; NaN where the model has no such number."""
     result, bodies, sq = found.result, prepared.scene.bodies, prepared.surface.sq
-    dx, dy = result.spacing
-    area = float(result.spots.sum()) * dx * dy
     return dict.fromkeys(NUMBERS, math.nan) | {
         "speed": speed,
         "coefficient": result.coefficient,
@@ -56,7 +54,7 @@ def _numbers(prepared: Prepared, speed: float, found: Refined) -> dict[str, Any]
         "rolling_force": result.rolling * bodies.width,
         "boundary_force": result.boundary * bodies.width,
         "real_contact_area_fraction": result.spot_fraction,
-        "real_contact_area": area * bodies.width / prepared.surface.size[1],
+        "real_contact_area": result.spot_length * bodies.width,
         "plastic_area_fraction": result.plastic_fraction,
         "min_film": result.min_gap,
         "central_film": result.central_gap,
@@ -92,7 +90,7 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> Iterator[Valid
     scene, result = prepared.scene, found.result
     yield from prepared.known
     yield from of_motion(scene, speed, result.central_gap)
-    yield from of_pressure(scene, float(result.pressure[result.wet].max(initial=0.0)))
+    yield from of_pressure(scene, result.top_pressure)
     yield from of_thickness(scene, result.central_gap)
     cut = (result.split.saturated - result.split.spots) / result.load
     if scene.lubricant.newtonian and cut > CUT:

@@ -1,0 +1,62 @@
+"""One strip on one grid: the same heights on longer cells, its sums by columns, its slope, starts and counted work."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.deterministic import solve_strip
+from lubfric.surface import Surface
+
+SCENE = lubfric.load_scene("paper")
+MAP = lubfric.generate_surface((96, 64), 0.9e-6, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=4)
+
+
+def solved(speed=0.01, factors=(2, 2), scene=SCENE, surface=MAP, **more):
+    return solve_strip(scene, surface, speed, factors=factors, **more)
+
+
+FOUND = solved(slope=True)
+
+
+def test_longer_cells_take_heights_where_they_stand():
+    thinned = MAP.heights[1::2, 1::2]
+    x = (np.arange(96) - 47.5) * 0.9e-6
+    on_map = np.isin(np.round(FOUND.problem.x * 1e9), np.round(x[1::2] * 1e9))
+    assert on_map.sum() == 48 and FOUND.problem.spacing == (1.8e-6, 1.8e-6)
+    assert FOUND.problem.heights[on_map] == pytest.approx(thinned - MAP.heights.mean(), abs=1e-15)
+    with pytest.raises(lubfric.InputError, match="do not divide"):
+        solved(factors=(2, 3))
+
+
+def test_columns_add_up_and_deviations_are_what_a_heavier_load_does_not_explain():
+    result = FOUND.result
+    assert result.load_at.mean() == pytest.approx(result.load, rel=1e-3)
+    assert result.friction_at.mean() == pytest.approx(result.coefficient * result.load, rel=1e-12)
+    heavier = SCENE.with_(bodies={"load": 1.03 * SCENE.bodies.load})
+    second = solve_strip(
+        heavier, Surface(MAP.heights, MAP.spacing, periodic_axes=(True, True)), 0.01, factors=(2, 2), tolerance=1e-6
+    ).result
+    rise = (second.coefficient * second.load - result.coefficient * result.load) / (second.load - result.load)
+    assert FOUND.slope == pytest.approx(rise, rel=0.1)
+    deviations = result.friction_at - FOUND.slope * result.load_at
+    assert FOUND.deviations == pytest.approx(deviations - deviations.mean(), abs=1e-9)
+
+
+def test_a_start_saves_work_and_changes_nothing_but_what_the_tolerance_allows():
+    assert solved(slope=True).result.coefficient == FOUND.result.coefficient
+    faster = solved(0.015)
+    again = solved(start=faster)
+    finer, cold = solved(factors=(1, 1), start=FOUND), solved(factors=(1, 1))
+    for warm, other in ((again, FOUND), (finer, cold)):
+        assert warm.result.coefficient == pytest.approx(other.result.coefficient, rel=2e-3)
+        assert 0 < warm.work < other.work
+
+
+def test_a_strip_repeated_is_the_same_strip_and_a_shift_moves_its_columns():
+    twice = solved(surface=replace(MAP, heights=np.tile(MAP.heights, (1, 2)), mask=None))
+    assert twice.result.coefficient == pytest.approx(FOUND.result.coefficient, rel=1e-3)
+    assert twice.result.friction_at[:32] == pytest.approx(FOUND.result.friction_at, rel=2e-2)
+    moved = solved(surface=replace(MAP, heights=np.roll(MAP.heights, 6, axis=1), mask=None))
+    assert np.roll(FOUND.result.friction_at, 3) == pytest.approx(moved.result.friction_at, rel=2e-2)
