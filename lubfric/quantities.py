@@ -129,11 +129,11 @@ class UncertaintyQuantities(Generic[T]):
     area_needed: T = quantity(
         "-", "how many times more of a measured map would be needed", note="1: enough", default=1.0
     )
-    model_form: T = quantity(
+    model: T = quantity(
         "-",
-        "estimated relative error of load sharing itself",
-        column="model_form_error",
-        note="not in the interval",
+        "relative error of f by the model itself, at 95 %",
+        column="model_error",
+        note="in the interval; NaN where it is not known",
         default=math.nan,
     )
 

@@ -140,10 +140,10 @@ def prepare(
 
 
 def takes_strips(scene: Scene) -> bool:
-    """Whether ``scene`` is solved on strips of its roughness: it has a rough half-space under a cylinder, and asks
-    neither for one patch nor for the deterministic model."""
+    """Whether ``scene`` is solved on strips of its roughness: it has a rough half-space under a cylinder, and does not
+    ask for one patch."""
     numerics, contact = scene.numerics, scene.contact
-    modelled = contact.geometry == "cylinder" and contact.model == "half-space" and numerics.model != "deterministic"
+    modelled = contact.geometry == "cylinder" and contact.model == "half-space"
     return numerics.sampling != "patch" and modelled and any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
 
 
