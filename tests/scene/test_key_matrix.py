@@ -591,7 +591,7 @@ ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, sh
         *("cavitated_shear", "film_deflection"),  # tests/ehl/test_shear.py, tests/sharing/test_balance.py
         *("sampling", "sampling_tolerance", "accept"),  # tests/sampling, tests/sharing/test_validity.py
     },
-    "transient": set(lubfric.Transient.__dataclass_fields__),  # tests/unsteady/test_transient_mixed.py
+    "transient": set(lubfric.Transient.__dataclass_fields__),  # tests/time/test_transient_mixed.py
 }
 
 
