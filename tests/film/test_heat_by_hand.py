@@ -25,7 +25,7 @@ SCENE = lubfric.load_scene("paper").with_(
 
 @pytest.mark.parametrize("temperature", [320.0, 350.0, 420.0])
 def test_stresses_and_viscosity_over_temperature(temperature):
-    """Houpert et al. (1981), Eyring (1936) and Roelands (1966): hotter, oil bears less, thins later and flows better."""
+    """Houpert et al. (1981), Eyring (1936) and Roelands (1966): hotter oil bears less and thins later."""
     p = np.array([0.0, 5e8, 1.2e9])
     limit = (2e6 + 0.06 * p) * math.exp(585.0 / temperature - 585.0 / T0)
     np.testing.assert_allclose(limiting_stress_at(OIL, p, temperature), limit, rtol=1e-12)
