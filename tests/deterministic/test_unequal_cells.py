@@ -90,8 +90,8 @@ def test_pressure_and_spots_add_up_to_the_load(solved):
 
 def test_no_film_beyond_its_range_rubs_more_than_a_spot():
     """A Newtonian film above 50 MPa is taken at the stress of the boundary film, where its own would be larger."""
-    smooth = SCENE.with_(surface={"sq": 2e-8}, contact={"spacing": (4e-6, 6e-6), "shape": (24, 12)})
-    found = lubfric.friction(smooth.with_(surface={"correlation_length": 24e-6}), 1.0, fields=True).deterministic.result
+    smooth = SCENE.with_(surface={"sq": 2e-8}, bodies={"load": 30.0})
+    found = lubfric.friction(smooth, 1.0, fields=True).deterministic.result
     f_b = SCENE.bodies.boundary_friction_coefficient
     own = lubfric.oil.viscosity(SCENE.lubricant, found.pressure) * 2.0 / found.gap
     capped = found.wet & (found.pressure > 50e6) & (own > f_b * found.pressure)
