@@ -35,7 +35,9 @@ def test_a_wave_of_pressure_drives_its_flow_along_its_own_axis(axis, waves):
     found = balance(problem(), p, np.full(SHAPE, h)).residual[2:-1]
     second = (np.roll(line, -1) - 2 * line + np.roll(line, 1)) / step**2
     expected = -(h**3) / (12 * ETA) * (second[2:-1, None] if axis == 0 else second[None, :])
-    np.testing.assert_allclose(found, np.broadcast_to(expected, found.shape), rtol=1e-8, atol=1e-8 * abs(expected).max())
+    np.testing.assert_allclose(
+        found, np.broadcast_to(expected, found.shape), rtol=1e-8, atol=1e-8 * abs(expected).max()
+    )
 
 
 def test_a_wedge_takes_in_what_it_is_dragged():
@@ -91,9 +93,9 @@ def test_pressure_and_spots_add_up_to_the_load(solved):
 def test_no_film_beyond_its_range_rubs_more_than_a_spot():
     """A Newtonian film above 50 MPa is taken at the stress of the boundary film, where its own would be larger."""
     smooth = SCENE.with_(surface={"sq": 2e-8}, bodies={"load": 30.0})
-    found = lubfric.friction(smooth, 1.0, fields=True).deterministic.result
+    found = lubfric.friction(smooth, 0.1, fields=True).deterministic.result
     f_b = SCENE.bodies.boundary_friction_coefficient
-    own = lubfric.oil.viscosity(SCENE.lubricant, found.pressure) * 2.0 / found.gap
+    own = lubfric.oil.viscosity(SCENE.lubricant, found.pressure) * 0.2 / found.gap
     capped = found.wet & (found.pressure > 50e6) & (own > f_b * found.pressure)
     assert capped.any()
     np.testing.assert_allclose(found.shear[capped], f_b * found.pressure[capped], rtol=1e-12)
