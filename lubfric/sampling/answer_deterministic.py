@@ -27,7 +27,7 @@ def deterministic_answer(prepared: Prepared, speed: float, begun: float) -> Fric
     scene, surface = prepared.scene, prepared.surface
     found = deterministic_point(scene, surface, speed)
     tolerance, numbers = scene.numerics.tolerance, _numbers(prepared, speed, found)
-    decision = Decision("deterministic", _words(found), "asperity spots", tolerance, notes=_notes(found))
+    decision = Decision("deterministic", _words(found), "boundary film", tolerance, notes=_notes(found))
     hot = _heat_left_out(scene, speed, found.result.couette, numbers["central_film"])
     entries = (*_entries(prepared, speed, found), *hot)
     return FrictionResult(
@@ -79,8 +79,9 @@ def _notes(found: Refined) -> tuple[str, ...]:
     result = found.result
     split, load = result.split, result.load
     return (
-        f"load on touching cells {100 * split.touching / load:.3g} %, on asperity spots {100 * split.spots / load:.3g} "
-        f"%, where the film is sheared beyond f_b p too {100 * split.saturated / load:.3g} %",
+        f"load on touching cells {100 * split.touching / load:.3g} %, on gaps below the boundary film "
+        f"{100 * split.thin / load:.3g} %, on thicker Newtonian films at f_b p {100 * split.capped / load:.3g} %",
+        f"f with half the boundary film {result.at_half_film:.3g}, with twice {result.at_twice_film:.3g}",
         *result.report.notes,
     )
 
@@ -92,8 +93,8 @@ def _entries(prepared: Prepared, speed: float, found: Refined) -> Iterator[Valid
     yield from of_motion(scene, speed, result.central_gap)
     yield from of_pressure(scene, result.top_pressure)
     yield from of_thickness(scene, result.central_gap)
-    cut = (result.split.saturated - result.split.spots) / result.load
-    if scene.lubricant.newtonian and cut > CUT:
+    cut = result.split.capped / result.load
+    if cut > CUT:
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
         remedy = "choose lubricant.eyring_stress or a limiting stress"
         yield Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy)
