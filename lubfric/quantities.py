@@ -154,6 +154,7 @@ KEYS = {  # of a scene, as far as they are numbers
     "bodies.load": Quantity("N", "total load"),
     "bodies.e_prime": Quantity("Pa", "composite modulus E'"),
     "bodies.hardness": Quantity("Pa", "plastic limit of the contact pressure"),
+    "bodies.boundary_film": Quantity("m", "gap below which the bodies rub with f_b"),
     "bodies.boundary_friction_coefficient": Quantity("-", "boundary friction coefficient"),
     "lubricant.viscosity": Quantity("Pa s", "viscosity at ambient pressure"),
     "lubricant.pressure_viscosity_coefficient": Quantity("1/Pa", "pressure-viscosity coefficient"),

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..scene import Scene, check_resolved_gap
 from ..surface import Surface
-from .problem import Problem, lay_out
+from .problem import BOUNDARY_FILM, Problem, lay_out
 from .result import DeterministicResult
 from .solve import dry_contact, solve_point
 from .state import FLUID, RUPTURED, State
@@ -61,6 +61,7 @@ def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int,
         sliding=2 * abs(speed),
         boundary_friction=scene.bodies.boundary_friction_coefficient,
         hardness=scene.bodies.hardness,
+        boundary_film=BOUNDARY_FILM if scene.bodies.boundary_film is None else scene.bodies.boundary_film,
         factors=factors,
     )
 

@@ -27,6 +27,7 @@ from ..oil import Lubricant
 from ..surface import Surface
 
 FLOOR = 1e-9  # m
+BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/deterministic.md)
 ROUGH_INLET, ROUGH_OUTLET = 14.0, 5.0  # the undeformed gap at the ends of the grid, in Sq
 HERTZ_INLET, HERTZ_OUTLET = 3.0, 1.8  # the ends, at least, in Hertz half-widths
 FILM_INLET, FILM_OUTLET = 1.5, 0.8  # and in sqrt(2 R h) of the smooth film
@@ -40,7 +41,7 @@ class Problem(OfLineContact):
     contact: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface
     speeds; x [m] (nx,) centres of the cells around the line of contact; heights z [m] (nx, ny), upwards out of the
     resting body; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf: elastic);
-    boundary_friction: f_b [-] of the spots where the bodies touch; floor [m].
+    boundary_friction: f_b [-] where the gap is thinner than boundary_film [m]; floor [m].
     """
 
     contact: LineContact
@@ -50,6 +51,7 @@ class Problem(OfLineContact):
     operator: HalfSpace
     boundary_friction: float
     hardness: float = math.inf
+    boundary_film: float = BOUNDARY_FILM
     floor: float = FLOOR
 
     @property
@@ -115,6 +117,7 @@ def lay_out(
     sliding: float,
     boundary_friction: float,
     hardness: float | None = None,
+    boundary_film: float = BOUNDARY_FILM,
     ends: tuple[float, float] | None = None,
     floor: float = FLOOR,
     factors: tuple[int, int] = (1, 1),
@@ -148,4 +151,4 @@ def lay_out(
     operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
     x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
-    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, floor)
+    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film, floor)

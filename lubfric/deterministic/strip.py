@@ -34,8 +34,8 @@ class Strip:
 
     @property
     def deviations(self) -> np.ndarray:
-        """F_i - slope (w_i - w) - F [N/m] of every column i along y (ny,), with means of 0: what a block of them deviates
-        by stands for what a strip does whose load is balanced."""
+        """F_i - slope (w_i - w) - F [N/m] of every column i along y (ny,), with a mean of 0: what places deviate by if
+        the load is balanced."""
         friction, load = self.result.friction_at, self.result.load_at
         return friction - friction.mean() - self.slope * (load - load.mean())
 

@@ -31,7 +31,9 @@ def strips_answer(prepared: Prepared, speed: float, found: Found, begun: float) 
     scene, levels = prepared.scene, levels_of(prepared, speed, found)
     numerics, f = scene.numerics, levels.numbers["coefficient"]
     sampling = levels.sampling.error if math.isfinite(levels.sampling.error) else math.nan
-    model = student(levels.difference.freedom) * levels.difference.error
+    results = [pair.resolved.result for pair in levels.pairs]
+    by_scatter = student(levels.difference.freedom) * levels.difference.error
+    model = math.hypot(by_scatter, _film_error(scene, results))
     beyond = sampling > numerics.sampling_tolerance
     known = Uncertainty(
         numerical=levels.numerical,
@@ -44,7 +46,6 @@ def strips_answer(prepared: Prepared, speed: float, found: Found, begun: float) 
         tolerance=numerics.sampling_tolerance,
         notes=(f"more than the {percent(numerics.sampling_tolerance)} asked",) if beyond else (),
     )
-    results = [pair.resolved.result for pair in levels.pairs]
     first = levels.pairs[0]
     on_grids = tuple(strip.result for strip in (first.resolved, first.finer) if strip is not None)
     return _answer(
@@ -87,8 +88,8 @@ def _answer(prepared, numbers, results, begun: float, *, uncertainty, words: str
     """The `FrictionResult` of ``numbers``, from the ``results`` of one strip or more."""
     scene, report = prepared.scene, results[0].report
     tolerance, numerical = scene.numerics.tolerance, uncertainty.numerical
-    notes = (_division(results), *report.notes)
-    decision = Decision("deterministic", words, "asperity spots", tolerance, strips=strips, notes=notes)
+    notes = (*_division(results), *report.notes)
+    decision = Decision("deterministic", words, "boundary film", tolerance, strips=strips, notes=notes)
     entries = (*_entries(prepared, numbers, results), *of_error(numerical, tolerance, remedy))
     told = (decision.text, *(entry.text for entry in entries), uncertainty.text)
     return FrictionResult(
@@ -112,16 +113,30 @@ def _words_of_levels(levels: Levels) -> str:
     return f"one pressure with the contact: its difference from Eq. (8) on {strips}{cells}, of a line of {levels.line}"
 
 
-def _division(results: Sequence[DeterministicResult]) -> str:
-    """The division of the load by each rule, in words."""
-    touching, spots, saturated = (
-        100 * float(np.mean([getattr(r.split, name) / r.load for r in results]))
-        for name in ("touching", "spots", "saturated")
+def _division(results: Sequence[DeterministicResult]) -> tuple[str, ...]:
+    """The load that rubs with f_b, by its parts, and f with another boundary film, in words."""
+    touching, thin, capped = (
+        100 * _mean(getattr(result.split, name) / result.load for result in results)
+        for name in ("touching", "thin", "capped")
     )
+    half, twice = _mean(r.at_half_film for r in results), _mean(r.at_twice_film for r in results)
     return (
-        f"load on touching cells {touching:.3g} %, on asperity spots {spots:.3g} %, where the film is sheared beyond f_b "
-        f"p too {saturated:.3g} %"
+        f"load on touching cells {touching:.3g} %, on gaps below the boundary film {thin:.3g} %, on thicker Newtonian "
+        f"films at f_b p {capped:.3g} %",
+        f"f with half the boundary film {half:.3g}, with twice {twice:.3g}",
     )
+
+
+def _film_error(scene: Scene, results: Sequence[DeterministicResult]) -> float:
+    """The larger relative change of f by half and by twice the boundary film; 0 where the scene gives it."""
+    if scene.bodies.boundary_film is not None:
+        return 0.0
+    half, f, twice = (_mean(getattr(r, name) for r in results) for name in ("at_half_film", "coefficient", "at_twice_film"))
+    return max(abs(half - f), abs(twice - f)) / abs(f)
+
+
+def _mean(values) -> float:
+    return float(np.mean(list(values)))
 
 
 def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]) -> Iterator[Validity]:
@@ -131,12 +146,12 @@ def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]
     yield from of_motion(scene, speed, film)
     yield from of_pressure(scene, max(result.top_pressure for result in results))
     yield from of_thickness(scene, film)
-    cut = float(np.mean([(r.split.saturated - r.split.spots) / r.load for r in results]))
-    if scene.lubricant.newtonian and cut > CUT:
+    cut = _mean(result.split.capped / result.load for result in results)
+    if cut > CUT:
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
         remedy = "choose lubricant.eyring_stress or a limiting stress"
         yield Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy)
-    drawn = float(np.mean([result.drawn for result in results]))
+    drawn = _mean(result.drawn for result in results)
     if drawn > DRAWN:
         consequence = "f depends on the 1 nm of lubricant that touching bodies are said to keep, by about a percent"
         remedy = "read f to a percent or two: hardly any lubricant passes the contact"

@@ -39,6 +39,7 @@ USUAL = {
     "bodies.hertz_pressure": Usual(1e6, 5e9, "Pa", (("GPa", GIGA), ("MPa", 1e6))),
     "bodies.hardness": Usual(2e7, 5e10, "Pa", (("GPa", GIGA), ("HV", 10.58e6, "give hardness_hv"), ("MPa", 1e6))),
     "bodies.boundary_friction_coefficient": Usual(0.0, 0.5, "-", (("%", 1e-2),)),
+    "bodies.boundary_film": Usual(5e-10, 2e-7, "m", (("nm", NANO), ("um", MICRO))),
     "lubricant.viscosity": Usual(3e-4, 5.0, "Pa s", (("mPa s", 1e-3, "for mm²/s give grade, or nu40 and nu100"),)),
     "lubricant.nu40": Usual(1e-6, 5e-3, "m²/s", (("mm²/s", MICRO),)),
     "lubricant.nu100": Usual(5e-7, 1e-3, "m²/s", (("mm²/s", MICRO),)),

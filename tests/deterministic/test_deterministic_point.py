@@ -8,10 +8,9 @@ import pytest
 import lubfric
 from lubfric.deterministic import dry_contact, estimate, lay_out, reach, solve_point, solve_refined
 from lubfric.deterministic.newton import Work, march
-from lubfric.deterministic.result import assemble
 from lubfric.deterministic.state import evaluated, residuals
 from lubfric.film import LineContact
-from lubfric.oil import Lubricant
+from lubfric.oil import Lubricant, shear_stress
 from lubfric.surface import Surface
 from verification.stability.whole_map import bearing, check
 
@@ -98,7 +97,16 @@ def test_what_must_not_change_the_coefficient():
     k = 3.0  # lengths, load a width and speed times 3: every dimensionless group is kept
     similar = Surface(MAP.heights * k, (MAP.spacing[0] * k,) * 2, periodic_axes=(True, True)).resampled(shape=(48, 48))
     line = contact(917.0 * k, 0.03, radius=RADIUS * k)
-    larger = solve_point(lay_out(similar, line, sliding=0.06, boundary_friction=0.09, floor=k * LIGHT.floor))
+    larger = solve_point(
+        lay_out(
+            similar,
+            line,
+            sliding=0.06,
+            boundary_friction=0.09,
+            boundary_film=k * LIGHT.boundary_film,
+            floor=k * LIGHT.floor,
+        )
+    )
     for other in (shifted, mirrored, raised, larger):
         assert other.coefficient == pytest.approx(FOUND.coefficient, rel=1e-5)
 
@@ -186,12 +194,24 @@ def test_plastic_cells_carry_the_limit_and_are_dented():
     assert dented.mean() == pytest.approx(dry.plastic_area_fraction, rel=0.2)
 
 
-def test_the_rule_for_spots_hardly_moves_with_its_two_numbers():
-    at = evaluated(LIGHT, FOUND.state)
-    for pressed, close in ((10e6, 0.5), (200e6, 0.5), (50e6, 0.35), (50e6, 0.7)):
-        other = assemble(at, FOUND.report, pressed, close)
-        assert other.split.spots == pytest.approx(FOUND.split.spots, rel=0.03)
-    assert FOUND.split.touching <= FOUND.split.spots <= FOUND.split.saturated <= FOUND.load == 917.0
+@pytest.mark.parametrize("oil", [NEWTONIAN, replace(LIMITED, limiting_stress_coefficient=0.05)], ids=["", "limited"])
+def test_thinner_gaps_than_the_boundary_film_rub_with_f_b_and_the_rest_by_the_oil(oil):
+    """Against sums over the fields; half and twice the length are what a solve with it gives."""
+    problem = rough(48, 917.0, 0.01, oil, boundary_film=16e-9)
+    found = solve_point(problem)
+    p, h, dx = found.pressure, found.gap, problem.spacing[0]
+    law = shear_stress(oil, p, 0.02 / h)
+    thin, film = h < 16e-9, (h >= 16e-9) & (p > 0)
+    capped = film & (p > 50e6) & (law > 0.09 * p) if oil is NEWTONIAN else np.zeros_like(film)
+    rows = p.shape[1]
+    for name, where in (("thin", thin), ("capped", capped)):
+        assert getattr(found.split, name) == pytest.approx(p[where].sum() * dx / rows, rel=1e-12)
+    assert found.boundary == pytest.approx(0.09 * (found.split.thin + found.split.capped), rel=1e-12)
+    assert found.shear[film & ~capped] == pytest.approx(law[film & ~capped], rel=1e-12)
+    for film, told in ((8e-9, found.at_half_film), (32e-9, found.at_twice_film)):
+        assert solve_point(replace(problem, boundary_film=film)).coefficient == pytest.approx(told, rel=1e-12)
+    spread = abs(found.at_twice_film - found.at_half_film) / found.coefficient
+    assert spread < 0.02 if oil is NEWTONIAN else spread > 0.1
 
 
 def test_finer_cells_change_little_and_the_estimate_tells():

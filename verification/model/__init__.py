@@ -12,6 +12,7 @@ from .. import frame
 PARTS: tuple[tuple[str, str, str, dict], ...] = (
     ("model-error", "model.error:model_error", "Load sharing beside one gap, one pressure", {}),
     ("held-out", "model.error:held_out", "The stated error of the model on other surfaces", {}),
+    ("boundary-film", "model.boundary_film:boundary_film", "How thick the boundary film should be", {}),
     ("grids", "model.film:grids", "One gap, one pressure on ever smaller cells", {}),
 )
 
