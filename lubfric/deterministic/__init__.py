@@ -4,4 +4,4 @@ from .point import Refined, deterministic_point, estimate, grids, solve_refined
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach
 from .result import MEANS, DeterministicResult
 from .solve import dry_contact, solve_point
-from .strip import Strip, solve_strip, work_of
+from .strip import Strip, solve_strip, work_of, work_of_steps

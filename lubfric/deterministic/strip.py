@@ -74,6 +74,9 @@ def solve_strip(
 
 def work_of(result: DeterministicResult) -> float:
     """Counted work of a solve in seconds of a usual core: from its cells and steps alone, never from a clock."""
-    cells, report = result.pressure.size, result.report
-    steps = report.iterations * (STEP + FACTORISATION * math.log2(cells))
-    return cells * (steps + report.evaluations * KRYLOV)
+    return work_of_steps(result.pressure.size, result.report.iterations, result.report.evaluations)
+
+
+def work_of_steps(cells: float, steps: int, krylov: int = 0) -> float:
+    """The same of so many ``steps`` of Newton's method, with ``krylov`` iterations of GMRES in all."""
+    return cells * (steps * (STEP + FACTORISATION * math.log2(cells)) + krylov * KRYLOV)
