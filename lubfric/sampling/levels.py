@@ -158,7 +158,7 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: int) -> BlockError:
         - share * pair.shared_deviations
         for pair in pairs
     ]
-    error = place_error(np.concatenate(values), strips.length / values[0].size, strips, len(pairs))
+    error = _block_error(values, strips, pairs[0])
     return error if line else replace(error, error=ALONE * error.error)
 
 
@@ -175,10 +175,16 @@ def _on_finer_cells(prepared: Prepared, speed: float, pairs: list[Pair]) -> tupl
     for index, pair in enumerate(pairs):
         pairs[index] = solve_finer(prepared, speed, pair)
         changes.append(_changes(pairs[index]))
-        error = place_error(np.concatenate(changes), strips.length / changes[0].size, strips, len(changes))
+        error = _block_error(changes, strips, pair)
         if error.error <= CELLS * scene.numerics.sampling_tolerance * f:
             break
     return error, max(abs(float(np.mean(changes))), SOLVED * f)
+
+
+def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:
+    """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
+    step, kept = strips.length / values[0].size, values[0].size // (2 if pair.mirrored else 1)
+    return place_error(np.concatenate([one[:kept] for one in values]), step, strips, len(values))
 
 
 def _changes(pair: Pair) -> np.ndarray:
