@@ -23,7 +23,7 @@ from .uncertainty import Uncertainty, field_errors_of, interval, not_sampled, pe
 
 NO_PLACES = "not estimated for one pressure of film and contact"
 FEW_STRIPS = "not known from fewer than three strips"
-BIASED = "f of a short patch, which balances the load by itself, is too low (90 µm of the built-in surface: 12 % about lift-off)"
+BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 DRAWN, CUT = 0.1, 0.1  # lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
 
 
@@ -36,11 +36,6 @@ def strips_answer(prepared: Prepared, speed: float, found: Found, begun: float) 
     results = [pair.resolved.result for pair in levels.pairs]
     by_scatter = student(levels.difference.freedom) * levels.difference.error
     model = math.hypot(by_scatter, _film_error(scene, results))
-    notes = ()
-    if math.isnan(sampling):
-        notes = (TOO_SHORT.format(levels.length / prepared.strips.lengths[1]), BIASED)
-    elif sampling > numerics.sampling_tolerance:
-        notes = (f"more than the {percent(numerics.sampling_tolerance)} asked",)
     known = Uncertainty(
         numerical=levels.numerical,
         sampling=sampling,
@@ -50,7 +45,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found, begun: float) 
         length=levels.length,
         freedom=float(levels.sampling.freedom),
         tolerance=numerics.sampling_tolerance,
-        notes=notes,
+        notes=_sample_notes(sampling, levels, numerics.sampling_tolerance),
     )
     first = levels.pairs[0]
     on_grids = tuple(strip.result for strip in (first.resolved, first.finer) if strip is not None)
@@ -108,6 +103,12 @@ def _answer(prepared, numbers, results, begun: float, *, uncertainty, words: str
     )
 
 
+def _sample_notes(sampling: float, levels: Levels, asked: float) -> tuple[str, ...]:
+    if math.isnan(sampling):
+        return TOO_SHORT.format(levels.length_in_correlations), BIASED
+    return (f"more than the {percent(asked)} asked",) if sampling > asked else ()
+
+
 def _words_of_levels(levels: Levels) -> str:
     """The film in one phrase: its strips and cells, and what was added up."""
     first = levels.pairs[0].resolved.result
@@ -135,10 +136,8 @@ def _division(results: Sequence[DeterministicResult]) -> tuple[str, ...]:
 
 def _by_film(results: Sequence[DeterministicResult]) -> tuple[float, float]:
     """Relative change of f by half and by twice the boundary film."""
-    half, f, twice = (
-        _mean(getattr(r, name) for r in results) for name in ("at_half_film", "coefficient", "at_twice_film")
-    )
-    return half / f - 1, twice / f - 1
+    f = _mean(result.coefficient for result in results)
+    return _mean(r.at_half_film for r in results) / f - 1, _mean(r.at_twice_film for r in results) / f - 1
 
 
 def _film_error(scene: Scene, results: Sequence[DeterministicResult]) -> float:

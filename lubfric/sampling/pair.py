@@ -24,8 +24,8 @@ class Pair:
 
     - ``resolved``: by the deterministic model; ``finer``: on cells half as long (None: not solved); ``longer``: f on
       cells twice as long, from which it started. ``shared``: its numbers by Eq. (8).
-    - ``deviations``, ``shared_deviations``: of f from place to place along y (ny,), with a mean of 0, by the two models.
-      ``mirrored``: whether the second half along y is the mirror image of the first.
+    - ``deviations``, ``shared_deviations``: of f from place to place along y (ny,), with a mean of 0, by the two
+      models. ``mirrored``: whether the second half along y is the mirror image of the first.
     """
 
     index: int
