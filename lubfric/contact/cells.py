@@ -92,7 +92,7 @@ def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
     if hardness == np.inf:
         return result
     np.minimum(result, hardness, out=result)
-    result[pressure >= hardness] = hardness
+    np.copyto(result, hardness, where=pressure >= hardness)
     return shifted(result, load, hardness)
 
 
@@ -103,11 +103,14 @@ def shifted(pressure, load: float, hardness: float) -> np.ndarray:
     This is a start for another load. Spots of contact grow and shrink at their edges, and their pressure changes as
     under a flat punch. That is nearer to an even change than to one in proportion.
     """
-    yielded, loaded = pressure >= hardness, pressure > 0
-    for movable in (loaded & ~yielded, loaded, np.ones(pressure.shape, bool)):
-        share = load - pressure[~movable].sum()
-        if 0 < share <= hardness * np.count_nonzero(movable):
+    loaded = np.flatnonzero(pressure > 0)
+    values = pressure.ravel()[loaded]
+    elastic = values < hardness
+    for cells, fixed in ((loaded[elastic], values[~elastic].sum()), (loaded, 0.0)):
+        if 0 < load - fixed <= hardness * cells.size:
             result = pressure.copy()
-            result[movable] = with_load(pressure[movable], share, hardness)
+            result.ravel()[cells] = with_load(result.ravel()[cells], load - fixed, hardness)
             return result
+    if 0 < load <= hardness * pressure.size:
+        return with_load(pressure, load, hardness)
     return np.full(pressure.shape, load / pressure.size)

@@ -80,29 +80,33 @@ def length_scale(pressure, displacement, gap0, operator, roughness: float | None
         return math.inf
     ripple = 4 / math.pi * total / pressure.size * min(operator.spacing) / operator.e_prime
     smaller, larger = sorted((ripple, float(gap0.std()) if roughness is None else roughness))
-    return float(max(min(dot(pressure, displacement) / total, larger), smaller, 1e-9 * ripple))
+    loaded = np.flatnonzero(pressure > 0)
+    work = dot(pressure.ravel()[loaded], displacement.ravel()[loaded])
+    return float(max(min(work / total, larger), smaller, 1e-9 * ripple))
 
 
 def contact_residuals(pressure, gap, scale: float, hardness: float) -> dict[str, float]:
     """Complementarity and penetration residuals, dimensionless; see `ContactResult` for formulas."""
-    apart, total = np.abs(gap), float(pressure.sum())
+    loaded, gap = np.flatnonzero(pressure > 0), gap.ravel()
+    carried, apart = pressure.ravel()[loaded], np.abs(gap[loaded])
+    yielded = carried >= hardness
+    if yielded.any():
+        apart[yielded] = np.maximum(gap[loaded[yielded]], 0.0)
+        gap = gap.copy()
+        gap[loaded[yielded]] = 0.0
     lowest = float(gap.min())
-    if hardness < np.inf:
-        yielded = pressure >= hardness
-        np.maximum(gap, 0.0, out=apart, where=yielded)
-        lowest = float(gap.min(where=~yielded, initial=0.0))
-    if total == 0:
+    if not loaded.size:
         return {"complementarity": 0.0, "penetration": math.inf if lowest < 0 else 0.0}
-    return {"complementarity": dot(pressure, apart) / (total * scale), "penetration": max(0.0, -lowest) / scale}
+    return {"complementarity": dot(carried, apart) / (carried.sum() * scale), "penetration": max(0.0, -lowest) / scale}
 
 
-def zero_level(height, elastic, yielded, otherwise: float = 0.0) -> float:
+def zero_level(height, yielded, elastic=None, otherwise: float = 0.0) -> float:
     """The approach [m] at which the mean gap over the ``elastic`` cells is zero, from the ``height`` of the gap.
 
     If no cell is elastic, it is halfway between the highest ``yielded`` cell and the lowest other one; if no cell is
     loaded at all, ``otherwise``. elastic, yielded: flags.
     """
-    count = np.count_nonzero(elastic)
+    count = 0 if elastic is None else np.count_nonzero(elastic)
     if count:
         return dot(height, elastic.astype(height.dtype)) / count
     if not yielded.any():

@@ -73,10 +73,11 @@ def look(problem, operator, pressure, level=None) -> State:
 
 def state_of(problem, pressure, displacement, level=None) -> State:
     """The `State` of ``pressure``, the ``displacement`` [m] of which is known."""
-    gap = (problem.gap0 + displacement).astype(displacement.dtype, copy=False)
+    gap = np.add(problem.gap0, displacement, out=np.empty_like(displacement), casting="same_kind")
     if level is None:
-        yielded = pressure >= problem.hardness
-        level = zero_level(gap, (pressure > 0) & ~yielded, yielded)
+        loaded = np.flatnonzero(pressure > 0)
+        elastic = loaded[pressure.ravel()[loaded] < problem.hardness]
+        level = gap.ravel()[elastic].mean(dtype=float) if elastic.size else zero_level(gap, pressure >= problem.hardness)
     gap -= level
     scale = length_scale(pressure, displacement, problem.gap0, problem.operator, problem.roughness)
     residuals = contact_residuals(pressure, gap, scale, problem.hardness)
@@ -137,10 +138,13 @@ def concluded(problem, found: Found, control: dict[str, float], failed: str) -> 
 
 def _begun(problem, state: State, load, pace: float, exact: bool) -> Search:
     """A search from ``state`` on the cells that are loaded, or may come into touch."""
-    operator, flags, overlap = problem.operator.single, state.pressure > 0, max(0.0, -float(state.gap.min()))
+    operator = problem.operator.single
     if np.isfinite(state.scale):
         overlap = state.residuals["penetration"] * state.scale  # of cells that have not yielded
-    flags |= state.gap < REACH * overlap
+    else:
+        overlap = max(0.0, -float(state.gap.min()))
+    flags = state.gap < REACH * overlap
+    flags |= state.pressure > 0
     rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID * problem.roughness
     return Search(problem, Cells.flagged(operator, flags), state, load, pace, exact or rigid)
 

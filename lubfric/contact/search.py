@@ -111,7 +111,7 @@ class Search:
         yielded = self.change >= self.upper
         inside = (self.change > self.lower) & ~yielded
         if self.given:
-            self.level = zero_level(self.gap, inside, yielded, self.level)
+            self.level = zero_level(self.gap, yielded, inside, self.level)
         free = self.gap < np.float32(self.level)
         free ^= yielded
         free |= inside
