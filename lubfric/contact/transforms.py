@@ -2,7 +2,7 @@
 
 A strip is some neighbouring rows of a free axis x beside a periodic y. There a wave k along y decays like exp(-k x).
 So for all but the longest waves, a padded length far below twice the patch is enough for no image to reach the patch.
-Waves of similar reach are transformed together.
+Blocks of waves, of similar reach, are transformed one after the other.
 """
 
 from __future__ import annotations
@@ -10,9 +10,8 @@ from __future__ import annotations
 import numpy as np
 from scipy import fft
 
-PADDED = 131072  # waves of a block of padded columns
+PADDED = 32768  # waves of a block of padded columns: it stays in the cache
 NEGLIGIBLE = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}  # of the coefficient under the cell itself
-WORTH = 2e4  # values that a transform of their own is worth
 
 
 def wavenumber(shape, spacing) -> np.ndarray:
@@ -61,31 +60,27 @@ class Strip:
     """The deflection of neighbouring rows of a patch of ``ny`` columns under pressure on them, in the precision
     ``dtype``.
 
-    ``kernel`` [m/Pa]: one lag for each row, waves along the periodic axis. Each of the ``groups`` has the columns of
+    ``kernel`` [m/Pa]: one lag for each row, waves along the periodic axis. Each of the ``blocks`` has the columns of
     the spectrum, the number of rows to transform, and the symbol.
     """
 
     def __init__(self, kernel, ny: int, dtype, workers=None):
         count, waves = kernel.shape
-        self.shape, self.workers, self.groups = (count, ny), workers, []
+        self.shape, self.workers, self.blocks = (count, ny), workers, []
         reaches, begin = _reaches(kernel, NEGLIGIBLE[np.dtype(dtype)]), 0
         while begin < waves:
             reach = int(reaches[begin])
-            short = np.flatnonzero(reaches[begin:] <= reach // 2)
-            few = not short.size or min(short[0], waves - begin - short[0]) * count < WORTH
-            end = waves if few else begin + int(short[0])
             length = fft.next_fast_len(min(count + reach, 2 * count - 1))
+            columns = slice(begin, begin + max(1, PADDED // length))
             lags = min(reach, count - 1, (length - 1) // 2) + 1
-            self.groups.append(
-                (slice(begin, end), length, even_transform(kernel[:lags, begin:end], length).astype(dtype))
-            )
-            begin = end
+            self.blocks.append((columns, length, even_transform(kernel[:lags, columns], length).astype(dtype)))
+            begin = columns.stop
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Deflection [m] (count, ny) under ``pressure`` [Pa] (count, ny)."""
         count, ny = self.shape
         spectrum = fft.rfft(pressure, axis=1, workers=self.workers)
-        for columns, length, symbol in self.groups:
+        for columns, length, symbol in self.blocks:
             spectrum[:, columns] = _multiplied(spectrum[:, columns], symbol, length, self.workers)[:count]
         return fft.irfft(spectrum, n=ny, axis=1, workers=self.workers, overwrite_x=True)
 
