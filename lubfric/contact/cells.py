@@ -87,13 +87,11 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
 
 
 def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
-    """``pressure`` times a factor. With a hardness it is then `shifted` to carry ``load``."""
-    result = pressure * (load / pressure.sum())
-    if hardness == np.inf:
-        return result
-    np.minimum(result, hardness, out=result)
-    np.copyto(result, hardness, where=pressure >= hardness)
-    return shifted(result, load, hardness)
+    """``pressure`` times a factor, yielded cells left as they are, and then `shifted` to carry ``load``."""
+    loaded = np.flatnonzero(pressure > 0)
+    values = pressure.ravel()[loaded]
+    factor = np.where(values < hardness, load / values.sum(), 1.0)
+    return _placed(pressure.shape, loaded, np.minimum(values * factor, hardness), load, hardness)
 
 
 def shifted(pressure, load: float, hardness: float) -> np.ndarray:
@@ -104,13 +102,19 @@ def shifted(pressure, load: float, hardness: float) -> np.ndarray:
     under a flat punch. That is nearer to an even change than to one in proportion.
     """
     loaded = np.flatnonzero(pressure > 0)
-    values = pressure.ravel()[loaded]
-    elastic = values < hardness
-    for cells, fixed in ((loaded[elastic], values[~elastic].sum()), (loaded, 0.0)):
-        if 0 < load - fixed <= hardness * cells.size:
-            result = pressure.copy()
-            result.ravel()[cells] = with_load(result.ravel()[cells], load - fixed, hardness)
-            return result
-    if 0 < load <= hardness * pressure.size:
-        return with_load(pressure, load, hardness)
-    return np.full(pressure.shape, load / pressure.size)
+    return _placed(pressure.shape, loaded, pressure.ravel()[loaded], load, hardness)
+
+
+def _placed(shape, loaded, values, load: float, hardness: float) -> np.ndarray:
+    """The field of ``shape`` with these ``values``, `shifted`, on its cells ``loaded``."""
+    field, elastic = np.zeros(shape), values < hardness
+    for movable in (elastic, np.ones_like(elastic)):
+        share = load - values[~movable].sum()
+        if 0 < share <= hardness * np.count_nonzero(movable):
+            values[movable] = with_load(values[movable], share, hardness)
+            field.ravel()[loaded] = values
+            return field
+    if 0 < load <= hardness * field.size:
+        field.ravel()[loaded] = values
+        return with_load(field, load, hardness)
+    return np.full(shape, load / field.size)
