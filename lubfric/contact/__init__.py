@@ -8,7 +8,7 @@ from .flat import FlatContact, flat_contact
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .height_map import check_grid, contact_map, measured, rough_bodies, whole_map
 from .kernels import semiperiodic_coefficients
-from .operator import HalfSpace, half_space
+from .operator import HalfSpace, even_transform, half_space
 from .problem import Problem, make_problem
 from .result import ContactResult, contact_residuals, length_scale
 from .rough_contract import ContactState, RoughContact, weighted_mean
@@ -16,4 +16,3 @@ from .rounds import Found, State, concluded, look, refine, state_of
 from .solve import solve_contact
 from .strip_cells import correlation_lengths, length_or_half
 from .strips import Strips, one_patch, strips_of
-from .transforms import even_transform

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from .cells import Cells, rescaled
+from .cells import Cells
+from .problem import rescaled
 from .result import ContactResult, contact_residuals, length_scale, zero_level
 from .search import FIRST_PACE, Search
 
@@ -77,7 +78,9 @@ def state_of(problem, pressure, displacement, level=None) -> State:
     if level is None:
         loaded = np.flatnonzero(pressure > 0)
         elastic = loaded[pressure.ravel()[loaded] < problem.hardness]
-        level = gap.ravel()[elastic].mean(dtype=float) if elastic.size else zero_level(gap, pressure >= problem.hardness)
+        level = (
+            gap.ravel()[elastic].mean(dtype=float) if elastic.size else zero_level(gap, pressure >= problem.hardness)
+        )
     gap -= level
     scale = length_scale(pressure, displacement, problem.gap0, problem.operator, problem.roughness)
     residuals = contact_residuals(pressure, gap, scale, problem.hardness)

@@ -9,8 +9,7 @@ import numpy as np
 
 from .._base import increasing_root, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError
-from .cells import rescaled, shifted
-from .problem import Problem, make_problem, starting_pressure
+from .problem import Problem, make_problem, rescaled, shifted, starting_pressure
 from .result import ContactResult
 from .rounds import Found, State, concluded, refine, state_of
 from .search import FIRST_PACE

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from lubfric import solve_contact
-from lubfric.contact import half_space, rounds, search, stencil
-from lubfric.contact.cells import Cells, shifted
-from lubfric.contact.stencil import Stencil
+from lubfric.contact import cells as parts
+from lubfric.contact import half_space, rounds, search
+from lubfric.contact.cells import Cells, stencil
+from lubfric.contact.problem import shifted
 
 E_PRIME, DX = 231e9, 2e-6
 PERIODIC = ("periodic", "periodic")
@@ -34,10 +35,8 @@ def smooth(n, correlation, seed=0):
 
 
 def applied(shape, boundary, cells, values, factor=3.0):
-    sums = np.empty_like(values)
     operator = half_space(shape, (0.5, 0.8), E_PRIME, boundary)
-    Stencil(Cells(operator, cells, slice(None), shape), operator.spacing, boundary, factor).apply(values, sums)
-    return sums
+    return stencil(Cells(operator.apply, cells, slice(None), shape), operator.spacing, boundary, factor)(values)
 
 
 @pytest.mark.parametrize(
@@ -71,7 +70,7 @@ def test_the_stencil_is_symmetric_positive_and_the_same_on_some_cells_as_on_all(
 def test_a_smooth_surface_takes_fewer_convolutions_with_long_waves(monkeypatch):
     gap0 = smooth(256, 17)
     found = solve_contact(gap0, DX, E_PRIME, mean_pressure=2e8)
-    monkeypatch.setattr(stencil, "LEAST", 10**6)
+    monkeypatch.setattr(parts, "LEAST", 10**6)
     without = solve_contact(gap0, DX, E_PRIME, mean_pressure=2e8)
     assert found.report.evaluations < 0.85 * without.report.evaluations
     assert found.pressure == pytest.approx(without.pressure, abs=2e-4 * found.pressure.max())
