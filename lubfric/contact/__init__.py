@@ -1,10 +1,9 @@
 """The dry rough contact: the elastic half-space, its kernels and solver, and independent asperities."""
 
-from .asperities import AsperityContact, asperities_under_cylinder, asperity_curve
+from .asperities import AsperityContact, asperities_under_cylinder
 from .asperity import AsperityResult, asperity_contact, find_asperities, separation_for_load
 from .asperity_find import ridges
-from .contact_curve import ContactCurve, contact_curve
-from .flat import FlatContact, flat_contact
+from .flat import ContactCurve, FlatContact, asperity_curve, contact_curve, flat_contact
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .height_map import check_grid, contact_map, measured, rough_bodies, whole_map
 from .kernels import semiperiodic_coefficients

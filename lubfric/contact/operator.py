@@ -185,7 +185,7 @@ def even_transform(coefficients: np.ndarray, length: int, axis: int = 0) -> np.n
     return np.ascontiguousarray(np.moveaxis(fft.rfft(even, axis=0).real, 0, axis))
 
 
-def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, int], workers) -> np.ndarray:
+def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, ...], workers) -> np.ndarray:
     """``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back.
 
     Where axis 0 is padded, some columns after the other are. So the padded field is never held whole, and a block of
