@@ -21,7 +21,7 @@ import numpy as np
 from ..errors import ConvergenceError
 from ..scene import Scene
 from .asperity import AsperityResult, find_asperities
-from .rough_contract import ContactState, Grid, RoughContact, area_weight, centred_axis, weighted_mean
+from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 
 
 @dataclass(frozen=True)
@@ -86,8 +86,8 @@ class AsperityContact(RoughContact):
         return f"independent {self.definition}"
 
     @property
-    def grid(self) -> Grid:
-        return Grid(self.heights.shape, self.spacing)
+    def grid(self) -> tuple[int, int]:
+        return self.heights.shape
 
     def _state(self, film, separation, found: AsperityResult | None) -> ContactState:
         gap = separation - self.heights

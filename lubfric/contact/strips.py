@@ -19,7 +19,7 @@ from .._base import spacing as checked_spacing
 from ..errors import InputError
 from ..scene import Roughness, Scene
 from ..surface import Surface, surface_generator
-from .height_map import extended, measured, rough_bodies, whole_map
+from .height_map import extended, measured, rough_bodies, statistics, whole_map
 from .rough_contract import centred_axis
 from .strip_cells import EVEN, Cells, cells_of_a_box, choose_cells, correlation_lengths, length_or_half, reach_of
 
@@ -107,14 +107,7 @@ class GeneratedStrips(FieldsOnly, Strips):
 
 
 def _one_body(rough: Roughness, name: str, stream: int, spacing, shape) -> Callable[[int], Surface]:
-    make = surface_generator(
-        (shape[0] * rough.oversize, shape[1]),
-        spacing,
-        sq=rough.sq,
-        correlation_length=rough.correlation_length,
-        acf=rough.acf,
-        decay_level=rough.decay_level,
-    )
+    make = surface_generator((shape[0] * rough.oversize, shape[1]), spacing, **statistics(rough))
 
     def made(index: int) -> Surface:
         surface = make(_seed_of(rough.seed, stream, index, *(() if name == "surface" else (1,))))
