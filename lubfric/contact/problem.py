@@ -54,7 +54,16 @@ class Problem:
         )
 
 
-def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations) -> Problem:
+def make_problem(
+    gap0,
+    spacing,
+    e_prime,
+    hardness=None,
+    boundary=("periodic", "periodic"),
+    tolerance=1e-6,
+    operator=None,
+    max_iterations=2000,
+) -> Problem:
     """Check a problem; builds the operator if none is given, else checks that it fits."""
     if hasattr(gap0, "heights"):
         raise InputError(

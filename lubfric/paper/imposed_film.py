@@ -96,19 +96,7 @@ class ImposedFilm:
         return result
 
 
-def impose(
-    heights,
-    film,
-    spacing,
-    e_prime,
-    *,
-    weight=None,
-    hardness=None,
-    boundary=("periodic", "periodic"),
-    tolerance=1e-6,
-    operator=None,
-    max_iterations,
-) -> ImposedFilm:
+def impose(heights, film, spacing, e_prime, *, weight=None, **problem) -> ImposedFilm:
     """The validated contact; arguments as in `lubfric.paper.single_loop`."""
     heights = validate.array("heights", heights, "m", ndim=2)
     film = _on_grid("film", film, heights.shape, "m")
@@ -117,9 +105,7 @@ def impose(
         raise InputError("weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)")
     weight = weight / weight.sum()
     mean_film = validate.positive("mean of film over the area A", float(np.vdot(weight, film)), "m")
-    gap0 = film - heights
-    problem = make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
-    return ImposedFilm(problem, weight, mean_film)
+    return ImposedFilm(make_problem(film - heights, spacing, e_prime, **problem), weight, mean_film)
 
 
 def _on_grid(name, value, shape, unit) -> np.ndarray:
