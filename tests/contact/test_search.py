@@ -7,7 +7,7 @@ import pytest
 
 from lubfric import solve_contact
 from lubfric.contact import cells as parts
-from lubfric.contact import half_space, rounds, search
+from lubfric.contact import half_space, rounds, search, solve
 from lubfric.contact.cells import Cells, stencil
 from lubfric.contact.problem import shifted
 
@@ -129,3 +129,17 @@ def test_a_start_is_shifted_on_its_elastic_cells(load, hardness):
     if hardness == np.inf:
         assert not moved[pressure == 0].any()
         assert np.ptp((moved - pressure)[moved > 0]) == pytest.approx(0, abs=1e-12)
+
+
+def test_far_from_its_mean_gap_a_contact_is_solved_loosely(monkeypatch):
+    gap0 = rough(128) + (np.arange(128)[:, None] - 64) ** 2 * DX**2 / 0.04
+
+    def found():
+        return solve_contact(gap0, DX, E_PRIME, mean_gap=2e-7, boundary=("free", "periodic"))
+
+    loose = found()
+    monkeypatch.setattr(solve, "LOOSE", 0.0)
+    tight = found()
+    assert loose.report.evaluations < 0.8 * tight.report.evaluations
+    assert loose.mean_gap == pytest.approx(2e-7, rel=1e-6)
+    assert loose.pressure == pytest.approx(tight.pressure, abs=1e-4 * tight.pressure.max())
