@@ -9,9 +9,8 @@ from .height_map import check_grid, contact_map, measured, rough_bodies, whole_m
 from .kernels import semiperiodic_coefficients
 from .operator import HalfSpace, even_transform, half_space
 from .problem import Problem, make_problem
-from .result import ContactResult, contact_residuals, length_scale
 from .rough_contract import ContactState, RoughContact, weighted_mean
-from .rounds import Found, State, concluded, look, refine, state_of
+from .rounds import ContactResult, Found, State, concluded, contact_residuals, length_scale, look, refine, state_of
 from .solve import solve_contact
 from .strip_cells import correlation_lengths, length_or_half
 from .strips import Strips, one_patch, strips_of

@@ -14,8 +14,8 @@ from ..errors import ConvergenceError, InputError
 from ..scene import Scene, budget
 from .asperity import find_asperities
 from .operator import half_space
-from .result import ContactResult
 from .rough_contract import ContactState, RoughContact, centred_axis, weighted_mean
+from .rounds import ContactResult
 from .solve import solve_contact
 
 LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used,

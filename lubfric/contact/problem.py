@@ -1,4 +1,4 @@
-"""One contact problem, checked before any work, and pressures that carry its load."""
+"""One contact problem, checked before any work; pressures that carry its load, and the zero level of its gap."""
 
 from __future__ import annotations
 
@@ -171,3 +171,23 @@ def _placed(shape, loaded, values, load: float, hardness: float) -> np.ndarray:
         field.ravel()[loaded] = values
         return with_load(field, load, hardness)
     return np.full(shape, load / field.size)
+
+
+def dot(a, b) -> float:
+    """Sum of products, on this thread alone: BLAS threads would fight those of the transforms."""
+    return float(np.einsum("i,i", a.ravel(), b.ravel()))
+
+
+def zero_level(height, yielded, elastic=None, otherwise: float = 0.0) -> float:
+    """The approach [m] at which the mean gap over the ``elastic`` cells is zero, from the ``height`` of the gap.
+
+    If no cell is elastic, it is halfway between the highest ``yielded`` cell and the lowest other one; if no cell is
+    loaded at all, ``otherwise``. elastic, yielded: flags.
+    """
+    count = 0 if elastic is None else np.count_nonzero(elastic)
+    if count:
+        return dot(height, elastic.astype(height.dtype)) / count
+    if not yielded.any():
+        return otherwise
+    highest = float(height[yielded].max())
+    return 0.5 * (highest + (highest if yielded.all() else float(height[~yielded].min())))

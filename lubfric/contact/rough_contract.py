@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..scene import Scene
-from .result import ContactResult
+from .rounds import ContactResult
 
 
 @dataclass(frozen=True)

@@ -24,8 +24,7 @@ import numpy as np
 
 from .cells import stencil
 from .operator import filtered, wavenumber
-from .problem import with_load
-from .result import dot, zero_level
+from .problem import dot, with_load, zero_level
 
 FIRST_PACE = 0.35  # of the step that the preconditioner would take were it the inverse
 LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual

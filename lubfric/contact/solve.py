@@ -10,8 +10,7 @@ import numpy as np
 from .._base import increasing_root, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError
 from .problem import Problem, make_problem, rescaled, shifted, starting_pressure
-from .result import ContactResult
-from .rounds import Found, State, concluded, refine, state_of
+from .rounds import ContactResult, Found, State, concluded, refine, state_of
 from .search import FIRST_PACE
 
 HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than what the old ones bear
