@@ -69,7 +69,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
     def window(self, count: int) -> Callable[[np.ndarray], np.ndarray]:
         """The operator on fields (count, ny) of neighbouring rows of a free axis x beside a periodic y: an exact part
         of this one, with the same zero level. Made once for every count."""
-        kernel, dtype, blocks = self._kernel[:count], self.symbol.dtype, []
+        kernel, dtype, ny, workers = self._kernel[:count], self.symbol.dtype, self.shape[1], self.workers
+        blocks = []
         reaches, begin = _reaches(kernel, NEGLIGIBLE[dtype]), 0
         while begin < reaches.size:
             reach = int(reaches[begin])
@@ -80,10 +81,10 @@ class HalfSpace(FrozenArrays, FieldsOnly):
             begin = columns.stop
 
         def apply(pressure: np.ndarray) -> np.ndarray:
-            spectrum = fft.rfft(pressure, axis=1, workers=self.workers)
+            spectrum = fft.rfft(pressure, axis=1, workers=workers)
             for columns, length, symbol in blocks:
-                spectrum[:, columns] = _multiplied(spectrum[:, columns], symbol, length, self.workers)[:count]
-            return fft.irfft(spectrum, n=self.shape[1], axis=1, workers=self.workers, overwrite_x=True)
+                spectrum[:, columns] = _multiplied(spectrum[:, columns], symbol, length, workers)[:count]
+            return fft.irfft(spectrum, n=ny, axis=1, workers=workers, overwrite_x=True)
 
         return apply
 
