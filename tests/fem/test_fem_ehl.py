@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 pytest.importorskip("skfem")
 
-from verification.cases import ALPHA, VISCOSITY, case_of
 from verification.convergence import fitted_order
 from verification.exact import antiderivative
 from verification.fem.ehl import LineContact, Solution, solve_ehl
 from verification.fem.ehl_body import Layout, graded_mesh, make_body, refined_displacement
 from verification.fem.ehl_film import Film, assemble, slope_jumps
 from verification.fem.fluid import Fluid
+from verification.parts import ALPHA, VISCOSITY, case_of
 
 
 def contact(M: float, L: float) -> LineContact:
