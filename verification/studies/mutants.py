@@ -1,8 +1,8 @@
 """Mistakes in the text of `lubfric`, one at a time, each of which tests or studies have to notice.
 
-The table `mutants.txt` has a mutant a line: ``file | text | what is put there | who notices``. The file is named below
-`lubfric`, and holds the text once. Who notices are tests, as files below `tests` or ``file::test``, or studies by name,
-at their quick level; blanks stand between them.
+The table `mutants.txt` has a mutant a line: ``place | text | what is put there | who notices``. The place is a file or
+folder below `lubfric`, which holds the text once. Who notices are tests, as files below `tests` or ``file::test``, or
+studies by name, at their quick level; blanks stand between them.
 """
 
 import json
@@ -29,7 +29,7 @@ ON_PURPOSE = "lubfric.errors."
 class Mutant:
     """A line of the table."""
 
-    file: str
+    place: str
     text: str
     wrong: str
     noticed_by: tuple[str, ...]
@@ -37,21 +37,25 @@ class Mutant:
     @property
     def name(self) -> str:
         """The mistake in a line."""
-        return f"{self.file}: {self.text} -> {self.wrong}"
+        return f"{self.place}: {self.text} -> {self.wrong}"
 
-    def broken(self, library: Path) -> str:
-        """The text of its file with the mistake. Raises ValueError unless the right text stands there once."""
-        whole = (library / self.file).read_text(encoding="utf-8")
-        if whole.count(self.text) != 1:
-            raise ValueError(f"{self.file} holds {self.text!r} {whole.count(self.text)} times; a mutant needs it once")
-        return whole.replace(self.text, self.wrong)
+    def broken(self, library: Path) -> tuple[Path, str]:
+        """The file that holds the text, and its content with the mistake. Raises ValueError unless it stands there
+        once."""
+        place = library / self.place
+        files = {f: f.read_text(encoding="utf-8") for f in ([place] if place.is_file() else place.rglob("*.py"))}
+        times = sum(content.count(self.text) for content in files.values())
+        if times != 1:
+            raise ValueError(f"{self.place} holds {self.text!r} {times} times; a mutant needs it once")
+        file = next(f for f, content in files.items() if self.text in content)
+        return file, files[file].replace(self.text, self.wrong)
 
 
 def table(text: str | None = None) -> list[Mutant]:
     """The mutants of ``text`` (None: of `mutants.txt`)."""
     lines = (TABLE.read_text(encoding="utf-8") if text is None else text).splitlines()
     parts = [line.split(" | ") for line in lines if line.strip() and not line.startswith("#")]
-    return [Mutant(file, right, wrong, tuple(by.split())) for file, right, wrong, by in parts]
+    return [Mutant(place, right, wrong, tuple(by.split())) for place, right, wrong, by in parts]
 
 
 def mutants(level: str) -> Iterator[Check]:
@@ -79,7 +83,8 @@ def trial(mutant: Mutant | None, names: tuple[str, ...]) -> int:
         library, out = Path(folder) / "lubfric", Path(folder) / "out"
         shutil.copytree(ROOT / "lubfric", library)
         if mutant is not None:
-            (library / mutant.file).write_text(mutant.broken(library), encoding="utf-8")
+            file, content = mutant.broken(library)
+            file.write_text(content, encoding="utf-8")
         command = [sys.executable, "-m", "verification", "--quick", "--out", str(out), "--only", *names]
         if is_test(names[0]):
             options = ["-x", "-q", "-p", "no:cacheprovider", "--rootdir", str(ROOT), "-c", str(ROOT / "pyproject.toml")]
