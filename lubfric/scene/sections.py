@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import MISSING, fields, replace
+from importlib import resources
 from typing import Any
 
 from .._base import validate
@@ -38,11 +40,18 @@ INSTEAD = {  # of a missing key
 }
 
 
+def meant(section: str) -> dict[str, str]:
+    """Other words for the keys of a section ("scene": for the sections), in small letters, and what to write."""
+    groups = tomllib.loads((resources.files(__package__) / "other_words.toml").read_text(encoding="utf-8"))
+    return {word: text for words, text in groups.get(section, {}).items() for word in words.split()}
+
+
 def check_keys(section: str, given: dict, others: tuple[str, ...] = ()) -> None:
     """Raise `InputError` for a key of [``section``] that is not known; ``others`` are known beside its own."""
     if section == "numerics":
         refuse_dropped(given)
-    validate.keys(f"[{section}]", given, (*SECTIONS[section].__dataclass_fields__, *short_keys(section), *others))
+    allowed = (*SECTIONS[section].__dataclass_fields__, *short_keys(section), *others)
+    validate.keys(f"[{section}]", given, allowed, lambda: meant("surface" if section in ROUGH else section))
 
 
 def made_section(section: str, given: dict, old: Any = None) -> Any:

@@ -26,8 +26,8 @@ OFFSET = Lubricant.limiting_stress_offset  # where none is given
 
 
 def resolve_oil(given: dict, old) -> dict:
-    """Plain fields of [lubricant] from an oil at ``temperature`` [K]: viscosity,
-    pressure-viscosity coefficient and temperature coefficient (both as given, else of the oil).
+    """Plain fields of [lubricant] from an oil at ``temperature`` [K]: viscosity, pressure-viscosity coefficient,
+    temperature coefficient and law of the density (as given, else of the oil).
 
     The oil is given by ``viscosity_index`` with ``grade`` or ``nu40`` [m²/s], by ``nu40`` and ``nu100``, by
     ``viscosity_table`` (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
@@ -56,8 +56,10 @@ def resolve_oil(given: dict, old) -> dict:
     if temperature is None:
         raise InputError("[lubricant] with an oil needs its temperature in K, or temperature_celsius")
     found = fields_of(oil.with_(**changed), temperature)
-    if before is not None and old.temperature_coefficient != before.temperature_coefficient(old.temperature):
-        found["temperature_coefficient"] = old.temperature_coefficient  # it was given
+    if before is not None:
+        found["density_law"] = old.density_law
+        if old.temperature_coefficient != before.temperature_coefficient(old.temperature):
+            found["temperature_coefficient"] = old.temperature_coefficient  # it was given
     return found | given
 
 
@@ -82,6 +84,7 @@ def fields_of(oil: Oil, temperature: float) -> dict:
         "temperature": temperature,
         "temperature_coefficient": oil.temperature_coefficient(temperature),
         "conductivity": oil.thermal_conductivity,
+        "density_law": "dowson-higginson",
         "oil": oil,
     }
 
