@@ -8,7 +8,12 @@ import numpy as np
 
 from ..errors import InputError
 
-FORMS = ("plane", "quadratic")
+_PLANE = ((0, 0), (1, 0), (0, 1))  # powers of x and y
+FORMS = {  # the powers of each; of several sets the one that leaves least
+    "plane": (_PLANE,),
+    "cylinder": ((*_PLANE, (2, 0)), (*_PLANE, (0, 2))),
+    "quadratic": ((*_PLANE, (2, 0), (1, 1), (0, 2)),),
+}
 MOST_MISSING = 0.5
 FLAT = 1e-13  # of the largest height: what a fitted form leaves of a map that has it exactly
 DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest
@@ -24,22 +29,25 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
     """Fit a polynomial to the measured points by least squares. Returns it (nx, ny) [m], its slopes [-] and its
     curvatures [1/m] along x and y.
 
-    "plane" is of first order, "quadratic" of second, with the mixed term. An axis of one point has no slope, one of two
-    no curvature. Slopes are those at the middle of the map. If only rounding is left (`FLAT` of the largest height),
-    the form is the map itself. Raises `InputError` when the points do not determine the form.
+    "plane" is of first order, "quadratic" of second, with the mixed term; "cylinder" is a plane curved along x or along
+    y, whichever leaves less. An axis of one point has no slope, one of two no curvature. Slopes are those at the middle
+    of the map. If only rounding is left (`FLAT` of the largest height), the form is the map itself. Raises `InputError`
+    when the points do not determine the form.
     """
-    order, (nx, ny) = 1 + FORMS.index(form), heights.shape
     valid = np.ones(heights.shape, bool) if mask is None else mask
-    powers = [(p, q) for p in range(order + 1) for q in range(order + 1 - p) if p < nx and q < ny]
-    places = [(np.arange(n) - 0.5 * (n - 1)) / n for n in heights.shape]
-    along = [place[:, None] ** np.arange(2 * order + 1) for place in places]
-    z = np.where(valid, heights, 0.0)
-    terms = _normal_solution(z, valid.astype(float), along, powers)
-    if terms is None:
-        curve = "line" if order == 1 else "line or conic"
+    along = [((np.arange(n) - 0.5 * (n - 1)) / n)[:, None] ** np.arange(5) for n in heights.shape]
+    z, fits = np.where(valid, heights, 0.0), []
+    for powers in FORMS[form]:
+        powers = [power for power in powers if power[0] < heights.shape[0] and power[1] < heights.shape[1]]
+        terms = _normal_solution(z, valid.astype(float), along, powers)
+        if terms is not None:
+            fitted = _polynomial(terms, along)
+            fits.append((float(np.square(z - fitted, where=valid, out=np.zeros(z.shape)).sum()), fitted, terms))
+    if not fits:
+        curve = "line" if form == "plane" else "line or conic"
         said = f"{np.count_nonzero(valid)} measured points lie on one {curve}"
-        raise InputError(said, allowed=f"points that fix the {len(powers)} terms of the form {form!r}")
-    fitted = _polynomial(terms, along)
+        raise InputError(said, allowed=f"points that fix the {len(FORMS[form][0])} terms of the form {form!r}")
+    _, fitted, terms = min(fits, key=lambda fit: fit[0])
     if np.abs(z - fitted, where=valid, out=np.zeros(z.shape)).max() <= FLAT * np.abs(z).max():
         fitted = np.where(valid, heights, fitted)
     length = [n * step for n, step in zip(heights.shape, spacing)]
