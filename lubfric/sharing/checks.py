@@ -226,10 +226,10 @@ def of_typical_heat(scene, change: float) -> Iterator[Validity]:
             100 * change,
             100 * scene.numerics.tolerance,
             "%",
-            "heat is left out, as the viscosity is a number; that is its effect, at most, on an oil whose viscosity falls "
-            f"by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C, by the isothermal stress",
-            "give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = 'off' "
-            "leaves it out on purpose",
+            "heat is left out, as the viscosity is a number; that is its effect, at most, on a typical oil, whose "
+            f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
+            "give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); or leave heat out on "
+            "purpose by numerics.heat = 'off'",
         )
 
 
