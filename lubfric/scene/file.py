@@ -1,4 +1,4 @@
-"""Scenes as TOML: strict reading."""
+"""Scenes as TOML: strict reading; a commented one to begin with."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 
-from .._base import validate
+from .._base import validate, write_whole
 from ..errors import InputError
 from .roughness import GENERATED, check_fields, named
 from .scene import Scene
@@ -165,3 +165,13 @@ def _read(source) -> tuple[dict, Path, str]:
         said = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
         raise InputError(f"{said}{validate.nearest(source, names)}; built in: {', '.join(names)}")
     return read_toml(path, "scene"), path.parent, path.stem
+
+
+def write_template(path: Path) -> None:
+    """Write a scene that is complete, commented and ready to run to ``path``; raises `InputError` if something is there
+    already."""
+    if path.exists():
+        raise InputError(f"{path} exists; give another name, so that no scene is lost")
+    if not path.parent.is_dir():
+        raise InputError(f"{path.parent} is no folder; give a file in an existing one")
+    write_whole(path, (resources.files(__package__) / "template.toml").read_bytes())
