@@ -191,7 +191,7 @@ SINGLE: dict[tuple[str, ...], dict[str, tuple[tuple[str, str, Callable], ...]]] 
         "lubfric.contact.operator:semiperiodic_coefficients": (
             ("lost_images", "semi-periodic operator without its waves along y, the sum over images", mean_wave_only),
         ),
-        "lubfric.film.newton:residual": (
+        "lubfric.film.reynolds:residual": (
             ("couette_sign", "Couette flow of Reynolds' equation runs backwards", reversed_couette),
         ),
         "lubfric.oil.lubricant:Lubricant.roelands_exponent": (

@@ -265,8 +265,8 @@ def together(section: str, given: dict, *keys: str) -> bool:
 
 
 FORMS: dict[str, tuple[tuple[tuple[str, ...], tuple[str, ...], Callable[..., dict[str, Any]]], ...]] = {
-    # section: keys that go together, the fields that they stand for, and the function of (*values, given, old) that gives
-    # these fields, and others that count where they are not given
+    # section: keys that go together, the fields that they stand for, and the function of (*values, given, old) that
+    # gives these fields, and others that count where they are not given
     "bodies": (
         (("radii",), ("radius",), _of_radii),
         (("material",), ("e_prime",), _of_materials),

@@ -228,8 +228,8 @@ def of_typical_heat(scene, change: float) -> Iterator[Validity]:
             "%",
             "heat is left out, as the viscosity is a number; that is its effect, at most, on a typical oil, whose "
             f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
-            "give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); or leave heat out on "
-            "purpose by numerics.heat = 'off'",
+            "give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
+            "'off' leaves it out on purpose",
         )
 
 
