@@ -16,11 +16,16 @@ from ..errors import ConvergenceError, InputError
 
 
 @cache
+def packaged(name: str) -> dict[str, Any]:
+    """The table in the file ``name`` of this package."""
+    return tomllib.loads((resources.files(__package__) / name).read_text(encoding="utf-8"))
+
+
+@cache
 def usual() -> dict[str, dict[str, Any]]:
     """Of each key (section.key): ``low``, ``high`` and ``unit`` of its usual range in SI; ``meant``: units that are
     mistaken for it, with their factors, and the key to give instead; ``zero``: whether 0 is usual too."""
-    table = tomllib.loads((resources.files(__package__) / "usual.toml").read_text(encoding="utf-8"))
-    return {f"{section}.{key}": row for section, rows in table.items() for key, row in rows.items()}
+    return {f"{section}.{key}": row for section, rows in packaged("usual.toml").items() for key, row in rows.items()}
 
 
 def slip(name: str, value) -> str | None:

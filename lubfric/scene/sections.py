@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import MISSING, fields, replace
-from importlib import resources
 from typing import Any
 
 from .._base import validate
@@ -12,7 +10,7 @@ from ..errors import InputError
 from ..oil import Lubricant
 from .bodies import Bodies, ContactDomain, Motion
 from .numerics import Numerics, refuse_dropped
-from .plausible import naming_slips
+from .plausible import naming_slips, packaged
 from .roughness import NEEDED, Roughness, as_given, named
 from .short_forms import resolve, short_keys
 from .transient import Transient
@@ -42,8 +40,8 @@ INSTEAD = {  # of a missing key
 
 def meant(section: str) -> dict[str, str]:
     """Other words for the keys of a section ("scene": for the sections), in small letters, and what to write."""
-    groups = tomllib.loads((resources.files(__package__) / "other_words.toml").read_text(encoding="utf-8"))
-    return {word: text for words, text in groups.get(section, {}).items() for word in words.split()}
+    groups = packaged("other_words.toml").get(section, {})
+    return {word: text for words, text in groups.items() for word in words.split()}
 
 
 def check_keys(section: str, given: dict, others: tuple[str, ...] = ()) -> None:

@@ -6,9 +6,7 @@ Scene files and `Scene.with_` share them. A field may be given, or one of the sh
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Callable
-from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -28,6 +26,7 @@ from ..oil import (
     named_oil,
 )
 from .bodies import pair
+from .plausible import packaged
 
 PRESSURE_PER_HV = 9.80665e6 / 0.9272  # Pa: kgf/mm² over the facets of the pyramid -> pressure over the projected area
 MOST_SPEEDS = 1_000_000
@@ -79,7 +78,7 @@ def _of_radii(radii, *_) -> dict:
 
 def _of_materials(names, *_) -> dict:
     """Fields of one or two named materials (materials.toml)."""
-    known = tomllib.loads((resources.files(__package__) / "materials.toml").read_text(encoding="utf-8"))
+    known = packaged("materials.toml")
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
     first, second = (known[validate.choice("bodies.material", name, known)] for name in both)
     return {

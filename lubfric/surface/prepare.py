@@ -38,8 +38,8 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
     along = [((np.arange(n) - 0.5 * (n - 1)) / n)[:, None] ** np.arange(5) for n in heights.shape]
     z, fits = np.where(valid, heights, 0.0), []
     for powers in FORMS[form]:
-        powers = [power for power in powers if power[0] < heights.shape[0] and power[1] < heights.shape[1]]
-        terms = _normal_solution(z, valid.astype(float), along, powers)
+        there = [(p, q) for p, q in powers if p < heights.shape[0] and q < heights.shape[1]]
+        terms = _normal_solution(z, valid.astype(float), along, there)
         if terms is not None:
             fitted = _polynomial(terms, along)
             fits.append((float(np.square(z - fitted, where=valid, out=np.zeros(z.shape)).sum()), fitted, terms))
@@ -141,25 +141,16 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
     far = np.abs(heights - middle) > LIMIT * deviation
     where = np.nonzero(far if mask is None else far & mask)
     parts = [tuple(at[i : i + CHUNK] for at in where) for i in range(0, where[0].size, CHUNK)]
-    around = [_median_around(heights, part, periodic) for part in parts]
+    padded = heights
+    for axis, closed in enumerate(periodic):  # wrapped where periodic, mirrored at open ends
+        width = [(WINDOW // 2, WINDOW // 2) if axis == other else (0, 0) for other in range(2)]
+        padded = np.pad(padded, width, mode="wrap" if closed else "symmetric")
+    windows = np.lib.stride_tricks.sliding_window_view(padded, (WINDOW, WINDOW))
+    around = [np.median(windows[part], axis=(1, 2)) for part in parts]
     off = (heights[where] - np.concatenate([np.empty(0), *around])) / deviation
     same_side = np.sign(off) == np.sign(heights[where] - middle)
     found[where] = np.where((np.abs(off) > LIMIT) & same_side, off, 0.0)
     return found
-
-
-def _median_around(heights: np.ndarray, where: tuple[np.ndarray, ...], periodic: tuple[bool, bool]) -> np.ndarray:
-    """Median of the window around each of the points ``where``; mirrored at open ends."""
-    reach = np.arange(WINDOW) - WINDOW // 2
-    rows, columns = (_inside(at[:, None] + reach, n, closed) for at, n, closed in zip(where, heights.shape, periodic))
-    return np.median(heights[rows[:, :, None], columns[:, None, :]], axis=(1, 2))
-
-
-def _inside(index: np.ndarray, count: int, periodic: bool) -> np.ndarray:
-    if periodic:
-        return index % count
-    folded = index % (2 * count)
-    return np.where(folded < count, folded, 2 * count - 1 - folded)
 
 
 def gaussian_mean(

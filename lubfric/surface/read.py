@@ -61,9 +61,8 @@ def read_surface(
     ----------
     path : file
     level, fill : subtract the ``form`` of the measured points; fill the others harmonically
-    form : "plane", "cylinder" (about x or y) or "quadratic" (a paraboloid, or a cylinder about any axis), by least
-        squares. This is the F-operation of ISO 25178-2; `Surface.filtered` has the S- and L-filters. A note of the
-        surface tells the Sq that each form leaves
+    form : "plane", "cylinder" (about x or y) or "quadratic", by least squares: the F-operation of ISO 25178-2
+        (`Surface.filtered` has the S- and L-filters). A note of the surface tells the Sq that each form leaves
     spacing : (dx, dy) or one length [m], only for files that do not carry their own
     unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in .xyz); only where the file names none
     decimal : "." or ",", the decimal mark of a text file in which commas can be either
