@@ -42,13 +42,14 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
         terms = _normal_solution(z, valid.astype(float), along, there)
         if terms is not None:
             fitted = _polynomial(terms, along)
-            fits.append((float(np.square(z - fitted, where=valid, out=np.zeros(z.shape)).sum()), fitted, terms))
+            rest = np.where(valid, z - fitted, 0.0)
+            fits.append((float(np.vdot(rest, rest)), float(np.abs(rest).max()), fitted, terms))
     if not fits:
         curve = "line" if form == "plane" else "line or conic"
         said = f"{np.count_nonzero(valid)} measured points lie on one {curve}"
         raise InputError(said, allowed=f"points that fix the {len(FORMS[form][0])} terms of the form {form!r}")
-    _, fitted, terms = min(fits, key=lambda fit: fit[0])
-    if np.abs(z - fitted, where=valid, out=np.zeros(z.shape)).max() <= FLAT * np.abs(z).max():
+    _, most, fitted, terms = min(fits, key=lambda fit: fit[0])
+    if most <= FLAT * np.abs(z).max():
         fitted = np.where(valid, heights, fitted)
     length = [n * step for n, step in zip(heights.shape, spacing)]
     slopes = terms.get((1, 0), 0.0) / length[0], terms.get((0, 1), 0.0) / length[1]
