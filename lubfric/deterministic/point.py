@@ -20,7 +20,7 @@ LEAST, MOST = 32, 512  # cells across, of the coarsest and of the finest grid
 KEPT = 0.9  # of Sq, on the coarsest grid
 RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
 UNKNOWN_RATIO = 0.5  # from two grids: between first and second order
-SHARP = 0.3  # share of the load on spots from which on the dry contact is interpolated with the state
+SHARP = 0.02  # share of the load on spots from which on the dry contact is interpolated with the state
 
 
 @dataclass(frozen=True)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 
+from ..errors import ConvergenceError
 from ..scene import Scene, check_resolved_gap
 from ..surface import Surface
 from .point import problem_of, refined_start
@@ -15,9 +17,11 @@ from .result import DeterministicResult
 from .solve import solve_point
 
 TOLERANCE = 1e-3  # of the residuals: f moves by some .1 %
+LOOSE = 1e-2  # on longer cells, from which a strip starts
+FIRST = 12_000  # cells from which longer ones come first
 HEAVIER = 1.03  # times the load: the second solve, for the slope
 # counted work [s of a usual core] a cell: a Newton step, its factorisation over log2 of the cells, a step of GMRES
-STEP, FACTORISATION, KRYLOV = 2.4e-6, 2.0e-7, 2.5e-7
+STEP, FACTORISATION, KRYLOV = 1.7e-6, 1.35e-7, 1.9e-7
 
 
 @dataclass(frozen=True)
@@ -54,16 +58,22 @@ def solve_strip(
 
     The cells are those of the map, or ``factors`` (fx, fy) times as long: they take every fx-th and fy-th height where
     it stands, so that strips of different factors are the same strip. ``start``: the same strip at another speed, on
-    these cells or on longer ones. Without it, strip and speed alone decide the result. ``slope``: solve it a second
+    these cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from
+    cells twice as long. ``slope``: solve it a second
     time, for `Strip.slope`. ``tolerance``: of the residuals (`lubfric.deterministic.state.residuals`).
 
     Raises `InputError` and `ConvergenceError`.
     """
     check_resolved_gap(scene)
     problem = problem_of(scene, surface, speed, factors)
+    work, rise, longer = 0.0, math.nan, (2 * factors[0], 2 * factors[1])
+    if start is None and problem.heights.size > FIRST and surface.shape[1] % longer[1] == 0:
+        with suppress(ConvergenceError):
+            start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE)
+            work = start.work
     near = None if start is None else refined_start(start.problem, problem, start.result)
     result = solve_point(problem, start=near, tolerance=tolerance)
-    work, rise = work_of(result), math.nan
+    work += work_of(result)
     if slope:
         heavier = problem.at_load(HEAVIER * problem.load)
         second = solve_point(heavier, start=result.state, tolerance=tolerance)
