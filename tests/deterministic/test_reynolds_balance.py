@@ -7,8 +7,8 @@ from scipy.integrate import quad
 from lubfric.contact import half_space
 from lubfric.deterministic import Problem, lay_out, solve_point
 from lubfric.deterministic.flow import balance, derivatives
-from lubfric.deterministic.linear import Patterns
 from lubfric.deterministic.inlet import inlet
+from lubfric.deterministic.linear import Patterns
 from lubfric.deterministic.rheology import mean_fluidity, thinning
 from lubfric.deterministic.state import _opened
 from lubfric.film import LineContact
