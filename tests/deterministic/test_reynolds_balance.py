@@ -9,7 +9,7 @@ from lubfric.deterministic import Problem, lay_out, solve_point
 from lubfric.deterministic.flow import balance, derivatives
 from lubfric.deterministic.inlet import inlet
 from lubfric.deterministic.linear import Patterns
-from lubfric.deterministic.rheology import mean_fluidity, thinning
+from lubfric.deterministic.rheology import mean_fluidity
 from lubfric.deterministic.state import _opened
 from lubfric.film import LineContact
 from lubfric.film import rigid_cylinder as rigid
