@@ -203,10 +203,10 @@ def enlarged(
     has, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
 
     It is (reached/asked)² x 1.3 times the present number, at least 1.5 times that, and at most by ``growth`` more: of
-    the ``first``, and of a later one. A standard error from few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of
-    freedom. If a sample counted as long enough whenever its blocks happen to scatter little, the stated error would be
-    too small. So the first one counts as long enough only if even 1 + 1/sqrt(nu) times its error is within what is
-    asked.
+    the ``first``, and of a later one. A standard error from few blocks is itself known to 1/sqrt(2 nu) only, with nu
+    degrees of freedom. If a sample counted as long enough whenever its blocks happen to scatter little, the stated
+    error would be too small. So the first one counts as long enough only if even 1 + 1/sqrt(nu) times its error is
+    within what is asked.
     """
     doubt = 1 / math.sqrt(error.freedom) if count == first and error.freedom > 0 else 0.0
     reached = error.error * (1 + doubt)

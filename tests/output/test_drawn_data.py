@@ -25,10 +25,14 @@ UNITS = {  # of the columns of results, typed from docs/results.md
     **dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), "K"),
     **{"speed": "m/s", "real_contact_area": "m2", "seconds": "s", "line_length": "m"},
 }
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 32), "spacing": (1.1e-6, 1.7e-6)},
-    surface={"correlation_length": (4e-6, 6e-6), "acf": "gaussian"},
-    numerics={"sampling": "patch"},
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"model": "load-sharing"})
+    .with_(
+        contact={"shape": (48, 32), "spacing": (1.1e-6, 1.7e-6)},
+        surface={"correlation_length": (4e-6, 6e-6), "acf": "gaussian"},
+        numerics={"sampling": "patch"},
+    )
 )
 
 
