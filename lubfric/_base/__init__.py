@@ -14,12 +14,15 @@ from .figures import (
     make_ready,
     new_figure,
     plain_ticks,
+    plain_words,
     speed_label,
 )
 from .files import (
-    PART,
     FolderLock,
+    OwnFiles,
+    clear_checked,
     clear_parts,
+    is_checked,
     read_checked,
     saying,
     sync_folder,

@@ -20,6 +20,7 @@ from .._base import (
     log_if_wide,
     new_figure,
     plain_ticks,
+    plain_words,
     speed_label,
 )
 from ..studies import friction_over_speed, interval_band
@@ -44,7 +45,7 @@ def plot_stribeck(
     speed, ratio = np.abs(c["speed"]), c["film_to_roughness_ratio"]
     if measured is not None:
         error = None if measured.deviation is None else 1.96 * measured.deviation
-        points = {"fmt": "D", "ms": 4, "color": "k", "mfc": "none", "lw": 1, "label": measured.source}
+        points = {"fmt": "D", "ms": 4, "color": "k", "mfc": "none", "lw": 1, "label": plain_words(measured.source)}
         top.errorbar(np.abs(measured.x), measured.coefficient, error, **points)
         top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
     _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])

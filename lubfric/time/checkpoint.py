@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from .._base import PART, read_checked, validate, write_checked
+from .._base import clear_checked, read_checked, validate, write_checked
 from ..errors import InputError
 from ..sharing import Validity
 from ..studies import classes_of, decode, encode, fingerprint
@@ -32,6 +32,8 @@ class Checkpoint:
         self.folder = validate.folder("checkpoint", folder)
         self.fingerprint = fingerprint(*description)
         self._count = 0
+        for path in (*self.folder.glob(STATE), *self.folder.glob(OUTPUTS)):
+            _content(path)  # raises InputError for a file of somebody else, which would be replaced
 
     def load(self) -> tuple[Any, list[Any]] | None:
         """The state and the outputs of an interrupted run of the same problem, or None if there is none.
@@ -65,18 +67,17 @@ class Checkpoint:
 
     def clear(self) -> None:
         """Remove the files of a finished run, and its folder if it is empty then."""
-        for name in (STATE, OUTPUTS, f"{PART}*"):
-            for path in self.folder.glob(name):
-                path.unlink(missing_ok=True)
-        if self.folder.is_dir() and not any(self.folder.iterdir()):
-            self.folder.rmdir()
+        clear_checked(self.folder, STATE, OUTPUTS)
 
     def _output(self, number: int) -> Path:
         return self.folder / OUTPUTS.replace("*", f"{number:07d}")
 
 
 def _content(path: Path) -> bytes:
-    content = read_checked(path) if path.is_file() else None
+    content = read_checked(path) if path.is_file() and not path.is_symlink() else None
     if content is None:
-        raise InputError(f"checkpoint file {path} is damaged (cut or overwritten); give an empty folder to begin again")
+        raise InputError(
+            f"checkpoint file {path} is damaged (cut or overwritten), or not of lubfric; give an empty folder to begin "
+            "again"
+        )
     return content

@@ -81,9 +81,9 @@ def same(one: Path, other: Path):
 
 
 def complete(out: Path):
-    """Nothing in the folder but what its result names."""
+    """Nothing in the folder but what its result names, and the record of whose files they are."""
     record = json.loads((out / "result.json").read_text())
-    assert record["files"] == sorted(path.name for path in out.iterdir()), list(out.iterdir())
+    assert sorted([".lubfric", *record["files"]]) == sorted(path.name for path in out.iterdir()), list(out.iterdir())
     return record
 
 
