@@ -304,7 +304,7 @@ MUTANTS = (
     Mutant(
         "transient_sliding",
         "sliding speed of a transient twice what it is",
-        {"lubfric.time.scene_now:sliding_at": times(2.0), "lubfric.time.moment:sliding_at": times(2.0)},
+        {"lubfric.time.sharing:sliding_at": times(2.0), "lubfric.time.moment:sliding_at": times(2.0)},
         ("wiring_time",),
     ),
 )

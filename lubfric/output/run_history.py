@@ -6,10 +6,11 @@ import time
 
 from .._base import plain_words, read_table, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
+from ..quantities import OF_MOMENT
 from ..scene import Scene
 from ..sharing import in_a_cell
 from ..studies import fingerprint
-from ..time import STATE, UNITS, TransientResult, animate, plot_history, transient
+from ..time import STATE, TransientResult, animate, plot_history, transient
 from .commands import (
     CHECKPOINT,
     OUTPUTS,
@@ -72,7 +73,7 @@ def run_history(scene: Scene, arguments) -> None:
 
 def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
     """All but the result."""
-    columns = {f"{name} [{unit}]": result.columns[name] for name, unit in UNITS.items()}
+    columns = {f"{name} [{q.unit}]": result.columns[name] for name, q in OF_MOMENT.items()}
     told = {"validity": [in_a_cell(entries) for entries in result.entries]}
     folder.contents["history.csv"] = table_bytes(columns | told)
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}

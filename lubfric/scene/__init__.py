@@ -11,4 +11,5 @@ from .sections import SECTIONS
 from .short_forms import MOST_SPEEDS, short_keys, speeds_of_range
 from .short_oil import SOURCES
 from .text import write_template
+from .transient import UNITS as CHANGING
 from .transient import Transient, checked_history, read_history

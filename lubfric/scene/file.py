@@ -119,8 +119,6 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
                 check_fields(given)  # refuses keys that do not apply, whatever their value
         if section != "transient" and (section in table or section != "counterface"):
             parts[section] = made_section(section, given)
-    if not isinstance(table.get("name", name), str):
-        raise InputError(f"name = {validate.shown(table['name'])}; write words in quotes")
     return Scene(**parts, name=table.get("name", name), transient=plan)
 
 
@@ -165,4 +163,4 @@ def _read(source) -> tuple[dict, Path, str]:
     if not os.path.isfile(path):
         said = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
         raise InputError(f"{said}{validate.nearest(source, names)}; built in: {', '.join(names)}")
-    return read_toml(path, "scene"), path.parent, path.stem
+    return read_toml(path, "scene"), path.parent, os.fsencode(path.stem).decode("utf-8", "replace")

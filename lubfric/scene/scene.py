@@ -53,6 +53,8 @@ class Scene(Shown):
     counterface: Roughness | None = None
 
     def __post_init__(self):
+        if not isinstance(self.name, str) or any("\ud800" <= mark <= "\udfff" for mark in self.name):
+            raise InputError(f" = {validate.shown(self.name)}", "name", "words, of whole characters (no surrogates)")
         if self.numerics.heat == "on" and not self.lubricant.heats:
             by_numbers = "lubricant.temperature [K] and temperature_coefficient [1/K]"
             ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"

@@ -21,7 +21,7 @@ def scene_as_toml(scene) -> str:
     A ``surface.file`` is written with its whole path. An oil is written as it was given, instead of its numbers at the
     temperature. Raises `InputError` for a history that scene files do not have.
     """
-    lines = [f"name = {json.dumps(scene.name)}"]
+    lines = [f"name = {_text(scene.name)}"]
     for section in SECTIONS:
         part = getattr(scene, section)
         if part is None:
@@ -54,8 +54,15 @@ def _text(value) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)
+        return _quoted(value)
     return f"[{', '.join(_text(part) for part in value)}]"
+
+
+def _quoted(text: str) -> str:
+    """``text`` as a basic string of TOML, in which every control stands as an escape."""
+    if any("\ud800" <= mark <= "\udfff" for mark in text):  # of a path that is not Unicode
+        raise InputError(f"{ascii(text)} is not Unicode, and a scene file cannot hold it; rename it")
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def write_template(path: Path) -> None:

@@ -1,11 +1,10 @@
 """What changes in time: the march, smooth films, contacts that share their load with a film."""
 
-from .checkpoint import STATE
+from .begin import speeds_of_run
 from .draw import animate, friction_over_time, plot_history
-from .film import TransientFilm, solve_transient_ehl
+from .film import TIME_SHARE, TransientFilm, solve_transient_ehl
 from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import FIRST_STEP, WET, ContactHistory, make_setting
-from .march import Level, Memory, Plan, Progress, Step, advance, checked_times, marched, plan_of, report_of, steps
-from .moment import UNITS
+from .march import Memory, Plan, Progress, Step, advance, checked_times, marched, plan_of, report_of, steps
 from .result import TransientResult
-from .run import transient
+from .run import STATE, transient

@@ -9,11 +9,11 @@ import numpy as np
 
 from .._base import Shown, validate
 from ..errors import Report
+from ..quantities import OF_MOMENT
 from ..sampling import UncertaintyCurve, percent, student
 from ..sharing import Validity, gathered
 from .draw import history_axes, loop_axes
 from .march import Plan, Progress, report_of
-from .moment import UNITS
 from .sharing import Sharing
 
 # at an output time: numbers by name, assumptions that do not hold, pressures and films in the units of the setting
@@ -42,7 +42,7 @@ class TimeAverage:
 
 @dataclass(frozen=True, repr=False)
 class TransientResult(Shown):
-    """Numbers of a run over time: one array (nt,) for each name of `lubfric.time.moment.UNITS`, also as attributes.
+    """Numbers of a run over time: one array (nt,) for each name of `lubfric.quantities.OF_MOMENT`, also as attributes.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ class TransientResult(Shown):
 def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
     """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
     p, x = sharing.setting.problem, sharing.setting.grid.x
-    columns = {name: np.array([row[name] for row, *_ in outputs], float) for name in UNITS}
+    columns = {name: np.array([row[name] for row, *_ in outputs], float) for name in OF_MOMENT}
     P, H = (np.array([output[k] for output in outputs]).reshape(-1, x.size) for k in (2, 3))
     worst = {
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / MASS,
@@ -142,7 +142,7 @@ def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outp
         worst["grid"] = grid_error / sharing.scene.numerics.tolerances.film
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
-    prepared, renewal = sharing.strip.prepared, math.nan
+    prepared, renewal = sharing.prepared, math.nan
     if prepared.strips is not None and not prepared.strips.whole:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
     return TransientResult(

@@ -237,7 +237,7 @@ def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tm
 
 
 def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, capsys):
-    from lubfric.time import checkpoint
+    from lubfric.time import run as checkpoint
 
     real, count = checkpoint.Checkpoint.save, [0]
 

@@ -16,7 +16,7 @@ from lubfric.output import main
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 from lubfric.sharing import prepare
 from lubfric.time import STATE
-from lubfric.time.checkpoint import Checkpoint
+from lubfric.time.run import Checkpoint
 from lubfric.time.sharing import Sharing
 
 SCENE = lubfric.load_scene("paper").with_(
