@@ -235,7 +235,7 @@ class OwnFiles:
         record = self.folder / RECORD
         if os.path.lexists(record):
             try:
-                known = json.loads(read_checked(record) or b"") if is_checked(record) else []
+                known: Any = json.loads(read_checked(record) or b"") if is_checked(record) else None
                 self._known = {str(name): list(sums) for name, sums in known.items() if Path(name).name == name}
             except (ValueError, TypeError, AttributeError, RecursionError):
                 said = f"{record} is damaged, or no record of lubfric"

@@ -131,8 +131,9 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
         rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
         rows[-1] += f" {'strips':>8} {'length (mm)':>12} {'time (s)':>9}"
     own = () if scene.transient is not None else (scene.motion.entrainment_speed,)
+    nothing = "no entrainment" if scene.transient is not None else "no entrainment: all contact"
     for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], *own, speeds[-1]}):
-        one, film = forecast(scene, strips, surface.sq, summit, speed), f"{'no entrainment: all contact':<38}"
+        one, film = forecast(scene, strips, surface.sq, summit, speed), f"{nothing:<38}"
         if speed != 0:
             line = scene.line_contact(abs(speed))
             ratio = line.moes_film / surface.sq if surface.sq > 0 else math.inf
