@@ -22,7 +22,6 @@ from .files import (
     OwnFiles,
     clear_checked,
     clear_parts,
-    is_checked,
     read_checked,
     saying,
     sync_folder,

@@ -108,6 +108,7 @@ def keeping(what):
 
 RESULT, UNFINISHED, CHECKPOINT = "result.json", "unfinished", "checkpoint"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
+INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
     *("contact.png", "contact_*.vtk", "animation.gif", "fields.npz", "report.html", RESULT),
@@ -156,13 +157,14 @@ def _words(value) -> list[str]:
     return [value] if isinstance(value, str) else []
 
 
-def check_outputs(folder: Path, names: Iterable[str], inputs: Iterable, patterns: Iterable[str] = ()) -> None:
+def check_outputs(arguments, folder: Path, names: Iterable[str], patterns: Iterable[str] = ()) -> None:
     """Raise `InputError`, before any work, if ``folder`` cannot take the files ``names``: one of them is there and not
-    ours, or one of these, or of ours that match ``patterns``, is among the ``inputs`` of the command."""
+    ours, or one of these, or of ours that match ``patterns``, is an input of the command with these ``arguments``."""
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--out {folder} is a file; give a folder, existing or not")
     own = OwnFiles(folder)
-    own.check({*names, *own.among(patterns)}, files_read(inputs))
+    inputs = files_read(getattr(arguments, name, None) for name in INPUTS)
+    own.check({*names, *own.among(patterns)}, inputs)
 
 
 def made(name: str, write: Callable, *arguments) -> bytes:

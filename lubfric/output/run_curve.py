@@ -8,7 +8,6 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import asdict
-from pathlib import Path
 
 import numpy as np
 
@@ -31,9 +30,8 @@ from ..studies import (
     traction,
 )
 from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
-from .fields import fields_bytes, vtk_bytes
+from .fields import fields_bytes, report_page, vtk_bytes
 from .pictures import plot_contact, plot_stribeck, plot_traction
-from .report_page import report_page
 
 WORTH = 8  # speeds from which a second process gains more than it costs
 CAPTIONS = {"stribeck.png": "Friction, shares of the load and film", "contact.png": "Contact of one speed"}
@@ -96,7 +94,7 @@ def _check_outputs(table: str, arguments, contacts: int) -> None:
     """Refuse a folder in which the files of a curve would replace others."""
     names = [f"{table}.csv", f"{table}.png", "fields.npz", "contact.png", RESULT]
     names += ["report.html"] * arguments.report + [f"contact_{i}.vtk" for i in range(contacts)] * arguments.vtk
-    check_outputs(arguments.out, names, [arguments.scene, arguments.surface, arguments.counterface], OUTPUTS)
+    check_outputs(arguments, arguments.out, names, OUTPUTS)
 
 
 def _write(folder: RunFolder, prepared: Prepared, curve: CurveResult, arguments, chosen: list[float]) -> None:
@@ -164,15 +162,15 @@ def plot_again(arguments) -> None:
     if not _drawable(columns).any():
         first = next((f"; first: {point['error']}" for point in points if "error" in point), "")
         raise InputError(f"nothing to draw: none of the {count} points in {source} moves and has an answer{first}")
-    replot(folder, f"{name}.png", [arguments.measured], _plot, columns, record["scene"]["name"], points, measured)
+    replot(arguments, f"{name}.png", _plot, columns, record["scene"]["name"], points, measured)
 
 
-def replot(folder: Path, name: str, inputs: list, plot: Callable, *arguments) -> None:
-    """Draw the picture ``name`` of a folder again by ``plot(path, *arguments)``."""
-    check_outputs(folder, [name], inputs)
-    content = made(name, plot, *arguments)
-    with FolderLock(folder):
-        OwnFiles(folder).replace({name: content})
+def replot(arguments, name: str, plot: Callable, *given) -> None:
+    """Draw the picture ``name`` in the folder of ``lubfric plot`` again by ``plot(path, *given)``."""
+    check_outputs(arguments, arguments.folder, [name])
+    content = made(name, plot, *given)
+    with FolderLock(arguments.folder):
+        OwnFiles(arguments.folder).replace({name: content})
 
 
 def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:

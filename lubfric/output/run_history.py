@@ -10,7 +10,7 @@ from ..quantities import OF_MOMENT
 from ..scene import Scene
 from ..sharing import in_a_cell
 from ..studies import fingerprint
-from ..time import STATE, TransientResult, animate, plot_history, transient
+from ..time import STATE, TransientResult, transient
 from .commands import (
     CHECKPOINT,
     OUTPUTS,
@@ -25,6 +25,7 @@ from .commands import (
     say,
 )
 from .fields import npz_bytes
+from .pictures import animate, plot_history
 from .run_curve import replot
 
 
@@ -39,7 +40,7 @@ def run_history(scene: Scene, arguments) -> None:
     begun, reached, pace, out = time.perf_counter(), 0.0, Pace(), arguments.out
     failure: LubfricError | None = None
     names = ["history.csv", "history.png", "fields.npz", RESULT, *["animation.gif"] * arguments.animation]
-    check_outputs(out, names, [arguments.scene, arguments.surface, arguments.counterface], OUTPUTS)
+    check_outputs(arguments, out, names, OUTPUTS)
     prepared = ready(scene)
 
     def on_step(now, duration, row):
@@ -88,4 +89,4 @@ def plot_again(arguments) -> None:
     """Draw history.png of ``arguments.folder`` again."""
     folder = arguments.folder
     columns, record = read_table(folder / "history.csv"), read_record(folder)
-    replot(folder, "history.png", [], plot_history, columns, plain_words(record["scene"]["name"]))
+    replot(arguments, "history.png", plot_history, columns, plain_words(record["scene"]["name"]))

@@ -40,7 +40,7 @@ def run_study(arguments) -> None:
     check_tools(arguments.netcdf, arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
-    check_outputs(arguments.out, names, [arguments.study])
+    check_outputs(arguments, arguments.out, names)
     _check_plan(arguments.out / PLAN)
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
@@ -94,8 +94,8 @@ def _progress(begun: float):
 
 def run_fit(scene: Scene, arguments) -> None:
     """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json."""
-    inputs = [arguments.scene, arguments.surface, arguments.counterface, arguments.measured]
-    check_outputs(arguments.out, ("fitted.toml", "fit.png", "fit.json"), inputs)
+    check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "fit.json"))
+    scene.to_toml()  # raises InputError now, rather than after the fit
     bounds, begun, pace = _bounds(arguments.parameter), time.perf_counter(), Pace()
     columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
     measured = read_measured(arguments.measured, coefficient=arguments.coefficient, **columns)
