@@ -234,7 +234,7 @@ OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | { 
     "uncertainty_freedom": Quantity("-", "degrees of freedom of the standard error of f"),
     "uncertainty_tolerance": Quantity("-", "relative standard error of f that was asked for"),
 }
-COLUMNS = KEYS | QUANTITIES | INTERVAL | {q.column or n: q for n, q in OF_UNCERTAINTY.items()} | OF_STUDY
+COLUMNS = OF_MOMENT | KEYS | QUANTITIES | INTERVAL | {q.column or n: q for n, q in OF_UNCERTAINTY.items()} | OF_STUDY
 COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
 
 

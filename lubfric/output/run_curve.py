@@ -49,8 +49,8 @@ def run_sweep(scene: Scene, arguments) -> None:
     begun, out, done_so_far = time.perf_counter(), arguments.out, [0]
     speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
     total, progress = "some" if speeds == AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
+    _check_outputs("stribeck", arguments, len(chosen))
     with pool(_workers(scene, speeds, arguments.workers)) as executor:
-        _check_outputs("stribeck", arguments, len(chosen))
         prepared = ready(scene)
 
         def on_point(done, *point):

@@ -6,7 +6,7 @@ import time
 
 from .._base import plain_words, read_table, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
-from ..quantities import OF_MOMENT
+from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
 from ..sharing import in_a_cell
 from ..studies import fingerprint
@@ -74,7 +74,7 @@ def run_history(scene: Scene, arguments) -> None:
 
 def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
     """All but the result."""
-    columns = {f"{name} [{q.unit}]": result.columns[name] for name, q in OF_MOMENT.items()}
+    columns = {heading(name): result.columns[name] for name in OF_MOMENT}
     told = {"validity": [in_a_cell(entries) for entries in result.entries]}
     folder.contents["history.csv"] = table_bytes(columns | told)
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}

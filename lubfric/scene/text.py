@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import fields
 from importlib import resources
 from pathlib import Path
@@ -68,7 +69,7 @@ def _quoted(text: str) -> str:
 def write_template(path: Path) -> None:
     """Write a scene that is complete, commented and ready to run to ``path``; raises `InputError` if something is there
     already."""
-    if path.exists():
+    if os.path.lexists(path):
         raise InputError(f"{path} exists; give another name, so that no scene is lost")
     if not path.parent.is_dir():
         raise InputError(f"{path.parent} is no folder; give a file in an existing one")

@@ -68,10 +68,11 @@ def transient(
     - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
     """
     scene, times = _with_plan(scene, times)
+    folder = None if checkpoint is None else _folder(checkpoint)
     sharing, start, grid_error = begin(scene)
     scene = sharing.scene
     plan, prepared = changes(scene), sharing.prepared
-    store = None if checkpoint is None else Checkpoint(checkpoint, prepared, plan, times)
+    store = None if folder is None else Checkpoint(folder, prepared, plan, times)
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
     course = plan_of(times, plan.histories, sharing.setting.first_step, tolerance)
     now, outputs = _marched(sharing, start, course, store, on_step)
@@ -138,12 +139,9 @@ class Checkpoint:
     heights and spacing, the histories, the output times.
     """
 
-    def __init__(self, folder, *description):
-        self.folder = validate.folder("checkpoint", folder)
-        self.fingerprint = fingerprint(*description)
+    def __init__(self, folder: Path, *description):
+        self.folder, self.fingerprint = folder, fingerprint(*description)
         self._count = 0
-        for path in (*self.folder.glob(STATE), *self.folder.glob(OUTPUTS)):
-            _content(path)  # raises InputError for a file of somebody else, which would be replaced
 
     def load(self) -> tuple[Any, list[Any]] | None:
         """The state and the outputs of an interrupted run of the same problem, or None if there is none.
@@ -181,6 +179,14 @@ class Checkpoint:
 
     def _output(self, number: int) -> Path:
         return self.folder / OUTPUTS.replace("*", f"{number:07d}")
+
+
+def _folder(given) -> Path:
+    """The folder of a checkpoint. Raises `InputError` where a file of somebody else has the name of one of its own."""
+    folder = validate.folder("checkpoint", given)
+    for path in (*folder.glob(STATE), *folder.glob(OUTPUTS)):
+        _content(path)
+    return folder
 
 
 def _content(path: Path) -> bytes:
