@@ -182,8 +182,11 @@ class Checkpoint:
 
 
 def _folder(given) -> Path:
-    """The folder of a checkpoint. Raises `InputError` where a file of somebody else has the name of one of its own."""
+    """The folder of a checkpoint. Raises `InputError` where a file of somebody else has its name, or that of one of its
+    own."""
     folder = validate.folder("checkpoint", given)
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f" = {str(folder)!r} is a file", "checkpoint", "a folder, existing or not")
     for path in (*folder.glob(STATE), *folder.glob(OUTPUTS)):
         _content(path)
     return folder

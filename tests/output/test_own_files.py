@@ -23,13 +23,22 @@ MEASURED = "U [m/s],f\n0.1,0.05\n0.2,0.05\n0.3,0.05\n0.5,0.052\n"
 FIT = ["--coefficient", "f", "--speed", "U", "--parameter", "lubricant.viscosity=0.2:0.6"]
 NAMES = {  # of files of the user in the folder of the results: (refused with these, beside these), by kind of command
     "run": (
-        ("stribeck.csv", "stribeck.png", "fields.npz", "contact.png", "result.json", ".lubfric", ".lubfric.lock"),
+        ("stribeck.csv", "stribeck.png", "fields.npz", "contact.png", "result.json", ".lubfric", ".lubfric.lock")
+        + ("unfinished",),
         ("history.csv", "history.png", "animation.gif", "traction.csv", "traction.png", "report.html", "contact_0.vtk")
         + ("contact_user.vtk", ".lock", ".part-mine", ".part-12345678-stribeck.csv", "study.csv", "fit.json")
         + ("notes.txt", "unfinished/notes.bin", "checkpoint/state.bin", "points/a.bin"),
     ),
     "history": (
-        ("history.csv", "history.png", "fields.npz", "result.json", "checkpoint/state.bin", "checkpoint/output_1.bin"),
+        (
+            "history.csv",
+            "history.png",
+            "fields.npz",
+            "result.json",
+            "checkpoint/state.bin",
+            "checkpoint/output_1.bin",
+            "checkpoint",
+        ),
         ("stribeck.csv", "animation.gif", "contact.png", ".lock", ".part-x", "checkpoint/notes.txt", "state.bin"),
     ),
     "study": (
