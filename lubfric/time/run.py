@@ -70,9 +70,8 @@ def transient(
     scene, times = _with_plan(scene, times)
     folder = None if checkpoint is None else _folder(checkpoint)
     sharing, start, grid_error = begin(scene)
-    scene = sharing.scene
-    plan, prepared = changes(scene), sharing.prepared
-    store = None if folder is None else Checkpoint(folder, prepared, plan, times)
+    scene, plan = sharing.scene, changes(sharing.scene)
+    store = None if folder is None else Checkpoint(folder, sharing.prepared, plan, times)
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
     course = plan_of(times, plan.histories, sharing.setting.first_step, tolerance)
     now, outputs = _marched(sharing, start, course, store, on_step)
