@@ -77,6 +77,6 @@ def work_of(result: DeterministicResult) -> float:
     return work_of_steps(result.pressure.size, result.report.iterations, result.report.evaluations)
 
 
-def work_of_steps(cells: float, steps: int, krylov: int = 0) -> float:
+def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
     """The same of so many ``steps`` of Newton's method, with ``krylov`` iterations of GMRES in all."""
     return cells * (steps * (STEP + FACTORISATION * math.log2(cells)) + krylov * KRYLOV)

@@ -18,9 +18,7 @@ from .sample import Found
 CLOSER = "f is good to that error; a tighter numerics.tolerance or a larger map makes it smaller"
 
 
-def load_sharing_answer(
-    found: Found, prepared: Prepared, speed: float, begun: float, why: str = ""
-) -> FrictionResult:
+def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: float, why: str = "") -> FrictionResult:
     """The answer of the sample ``found`` of ``prepared`` at ``speed`` [m/s]. ``begun``: the starting time, by
     `time.perf_counter`; ``why``: the reason for this model, in words."""
     scene = prepared.scene

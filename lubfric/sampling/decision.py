@@ -51,9 +51,7 @@ class Decision:
         return f"{text}, each {fx} x {fy} of the map's own, by which f is corrected ({_percent(self.change_by_cells)})"
 
 
-def decided(
-    scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample
-) -> Decision:
+def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample) -> Decision:
     """The decision behind ``balance`` on ``contact``. ``clearance`` [Sq]: between the film and the highest summits, NaN
     in contact; ``why``: the reason for this model; ``sample``: further fields of `Decision`."""
     tolerance, film, grid = scene.numerics.tolerance, balance.film, contact.grid

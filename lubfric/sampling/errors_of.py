@@ -192,7 +192,9 @@ def model_error(scene: Scene, found: Found) -> tuple[float, tuple[str, ...]]:
     sq, film = float(found.contact.heights.std()), balance.film.central_film  # type: ignore[attr-defined]
     share = balance.contact_load / scene.bodies.load
     forces, load = balance.forces, scene.bodies.load
-    return load_sharing_error(film / sq if sq else math.inf, share, forces.boundary / load, forces.shear.total / load), ()
+    return load_sharing_error(
+        film / sq if sq else math.inf, share, forces.boundary / load, forces.shear.total / load
+    ), ()
 
 
 def _area_needed(found: Found, scene: Scene) -> float:

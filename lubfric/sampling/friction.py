@@ -91,7 +91,7 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
         if why:
             return load_sharing_answer(found, prepared, speed, begun, why)
     try:
-        return patch_answer(prepared, speed, begun) if strips.whole else strips_answer(prepared, speed, found, begun)
+        return strips_answer(prepared, speed, found, begun)
     except ConvergenceError as error:
         if asked == "deterministic":
             raise

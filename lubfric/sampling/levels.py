@@ -4,9 +4,9 @@
       + mean over strips (f deterministic - f of Eq. (8))           a few of the same strips
       + mean over strips (f on cells half as long - f)              fewer still
 
-The second level needs few strips where both models scatter alike, as they do about lift-off on most surfaces. Where they
-do not, the first level is left out, and the second is the deterministic f alone. Which of the two needs fewer strips is
-read off the first one (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
+The second level needs few strips where both models scatter alike, as they do about lift-off on most surfaces. Where
+they do not, the first level is left out, and the second is the deterministic f alone. Which of the two needs fewer
+strips is read off the first one (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
 """
 
 from __future__ import annotations
@@ -44,7 +44,8 @@ class Levels:
     - ``numbers``: of the deterministic model on an endless line, by name; ``errors``: their relative standard errors.
     - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second and third.
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
-      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips.
+      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips, and in correlation
+      lengths.
     """
 
     numbers: dict[str, float]
@@ -55,6 +56,7 @@ class Levels:
     difference: BlockError
     numerical: float
     length: float
+    length_in_correlations: float
 
     @property
     def finer(self) -> int:
@@ -66,8 +68,8 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
     """The sum over levels at ``speed`` [m/s], not 0, for a scene with strips. ``found``: its sample of Eq. (8) there.
 
     Strips are solved until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
-    difference of the models may leave a half-width of `DIFFERENCE` times ``numerics.model_tolerance`` beside it. No more
-    are solved than `MOST_WORK` allows. Finer cells follow if the change of f from longer cells is not within
+    difference of the models may leave a half-width of `DIFFERENCE` times ``numerics.model_tolerance`` beside it. No
+    more are solved than `MOST_WORK` allows. Finer cells follow if the change of f from longer cells is not within
     ``numerics.tolerance``. Raises `ConvergenceError`.
     """
     strips, numerics, load = prepared.strips, prepared.scene.numerics, prepared.scene.bodies.load
@@ -103,7 +105,8 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
     both = math.hypot(sampling.error, difference.error, numerical / f)
     errors = _errors(prepared, pairs, numbers) | {"coefficient": both}
     length = strips.length * max(line, len(pairs))
-    return Levels(numbers, errors, line, tuple(pairs), sampling, difference, numerical / f, length)
+    lengths = length, length / strips.lengths[1]
+    return Levels(numbers, errors, line, tuple(pairs), sampling, difference, numerical / f, *lengths)
 
 
 def _of_line(found: Found, line: int, count: int) -> float:
@@ -158,7 +161,7 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: int) -> BlockError:
         - share * pair.shared_deviations
         for pair in pairs
     ]
-    error = place_error(np.concatenate(values), strips.length / values[0].size, strips, len(pairs))
+    error = _block_error(values, strips, pairs[0])
     return error if line else replace(error, error=ALONE * error.error)
 
 
@@ -175,10 +178,16 @@ def _on_finer_cells(prepared: Prepared, speed: float, pairs: list[Pair]) -> tupl
     for index, pair in enumerate(pairs):
         pairs[index] = solve_finer(prepared, speed, pair)
         changes.append(_changes(pairs[index]))
-        error = place_error(np.concatenate(changes), strips.length / changes[0].size, strips, len(changes))
+        error = _block_error(changes, strips, pair)
         if error.error <= CELLS * scene.numerics.sampling_tolerance * f:
             break
     return error, max(abs(float(np.mean(changes))), SOLVED * f)
+
+
+def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:
+    """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
+    step, kept = strips.length / values[0].size, values[0].size // (2 if pair.mirrored else 1)
+    return place_error(np.concatenate([one[:kept] for one in values]), step, strips, len(values))
 
 
 def _changes(pair: Pair) -> np.ndarray:

@@ -13,7 +13,7 @@ from ..quantities import NUMBERS
 from ..scene import Scene
 from ..sharing import Prepared, on_strip, quantities, solve_balance
 from ..surface import Surface
-from .scatter import friction_influence
+from .scatter import friction_influence, mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
 
@@ -24,7 +24,8 @@ class Pair:
 
     - ``resolved``: by the deterministic model; ``finer``: on cells half as long (None: not solved); ``longer``: f on
       cells twice as long, from which it started. ``shared``: its numbers by Eq. (8).
-    - ``deviations``, ``shared_deviations``: of f from place to place along y (ny,), with a mean of 0, by the two models.
+    - ``deviations``, ``shared_deviations``: of f from place to place along y (ny,), with a mean of 0, by the two
+      models. ``mirrored``: whether the second half along y is the mirror image of the first.
     """
 
     index: int
@@ -32,6 +33,7 @@ class Pair:
     longer: float
     shared: dict[str, float]
     shared_deviations: np.ndarray
+    mirrored: bool = False
     finer: Strip | None = None
 
     @property
@@ -47,10 +49,12 @@ def deviations(strip: Strip) -> np.ndarray:
 
 def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
     """Length of the cells of the deterministic model in cells of the ``strips``, along x and y: 2, or 1 where 2 would
-    leave less than `PER_LENGTH` in a correlation length or `PER_HALF_WIDTH` in the ``half_width`` [m]."""
+    leave less than `PER_LENGTH` in a correlation length or `PER_HALF_WIDTH` in the ``half_width`` [m], or does not
+    divide the strip."""
     (lx, ly), (dx, dy) = strips.lengths, strips.cells.coarse
     along = min(lx / PER_LENGTH, half_width / PER_HALF_WIDTH) >= 2 * dx * (1 - 1e-9)
-    return 1 + along, 1 + (ly / PER_LENGTH >= 2 * dy * (1 - 1e-9))
+    across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and round(strips.length / dy) % 2 == 0
+    return 1 + along, 1 + across
 
 
 def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> Pair:
@@ -61,7 +65,8 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
     contact = on_strip(prepared, strips, index)
     surface = surface_of(prepared, contact)
     fx, fy = cells_of(strips, scene.bodies.half_width)
-    first = solve_strip(scene, surface, speed, factors=(2 * fx, 2 * fy))
+    longer = 2 * fx, fy if surface.shape[1] % (2 * fy) else 2 * fy
+    first = solve_strip(scene, surface, speed, factors=longer)
     strip = solve_strip(scene, surface, speed, factors=(fx, fy), start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
     balance = solve_balance(scene, speed, contact, prepared.surface.sq)
@@ -70,7 +75,7 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
     numbers = quantities(balance.forces, balance.film, loads, mean)
     by_place = friction_influence(scene, contact, balance) * balance.forces.coefficient
     rows = by_place[: by_place.size // fy * fy].reshape(-1, fy).mean(axis=1)
-    return Pair(index, strip, first.result.coefficient, numbers, rows)
+    return Pair(index, strip, first.result.coefficient, numbers, rows, strips.whole and mirrored(contact.heights))
 
 
 def solve_finer(prepared: Prepared, speed: float, pair: Pair) -> Pair:

@@ -146,7 +146,10 @@ def resolves_gap(scene: Scene) -> bool:
 def gap_not_resolved(scene: Scene) -> str:
     """The first key of ``scene`` that the deterministic model does not take, and what it takes, in words; "" if it
     takes all."""
-    return next((f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in _not_taken(scene)), "")
+    return next(
+        (f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in _not_taken(scene)),
+        "",
+    )
 
 
 def check_resolved_gap(scene: Scene) -> None:

@@ -50,7 +50,17 @@ GENERATED = {
     "ridges along": ("gaussian", (40e-6, 4e-6)),
 }
 MEASURED = ("ridges at 45 degrees", "plateau", "peaks", "self-affine")
-COLUMNS = ("surface", "contact", "f_b/limit", "film/Sq", "f", "default off by", "interval", "Eq. (8) off by", "interval ")
+COLUMNS = (
+    "surface",
+    "contact",
+    "f_b/limit",
+    "film/Sq",
+    "f",
+    "default off by",
+    "interval",
+    "Eq. (8) off by",
+    "interval ",
+)
 
 
 @dataclass(frozen=True)
@@ -101,7 +111,7 @@ def heights(kind: str, seed: int) -> np.ndarray:
         along, across = (qx + qy) / math.sqrt(2), (qx - qy) / math.sqrt(2)
         root = np.exp(-((along * 20e-6) ** 2 + (across * 4e-6) ** 2) / 8)
     else:
-        root = np.exp(-np.hypot(qx, qy) ** 2 * LENGTH**2 / 8)
+        root = np.exp(-(np.hypot(qx, qy) ** 2) * LENGTH**2 / 8)
     z = np.fft.ifft2(noise * root).real
     z /= z.std()
     if kind in ("plateau", "peaks"):
