@@ -24,6 +24,7 @@ from .uncertainty import Uncertainty, field_errors_of, interval, not_sampled, pe
 NO_PLACES = "not estimated for one pressure of film and contact"
 FEW_STRIPS = "not known from fewer than three strips"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
+BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
 DRAWN, CUT = 0.1, 0.1  # lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
 
 
@@ -35,7 +36,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found, begun: float) 
     sampling = levels.sampling.error if math.isfinite(levels.sampling.error) else math.nan
     results = [pair.resolved.result for pair in levels.pairs]
     by_scatter = student(levels.difference.freedom) * levels.difference.error
-    model = math.hypot(by_scatter, _film_error(scene, results))
+    model = math.hypot(by_scatter, _film_error(scene, levels.by_film))
     known = Uncertainty(
         numerical=levels.numerical,
         sampling=sampling,
@@ -54,6 +55,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found, begun: float) 
         levels.numbers | {"speed": speed},
         results,
         begun,
+        by_film=levels.by_film,
         uncertainty=known,
         errors=field_errors_of(levels.errors, FEW_STRIPS),
         words=_words_of_levels(levels),
@@ -71,12 +73,16 @@ def patch_answer(prepared: Prepared, speed: float, begun: float) -> FrictionResu
     found = deterministic_point(scene, surface, speed)
     shapes = " and ".join(f"{r.pressure.shape[0]} x {r.pressure.shape[1]}" for r in found.results[-2:])
     error = "" if found.error is None else f", estimated error {100 * found.error:.2g} % of f"
+    result = found.result
+    by_film = result.at_half_film / result.coefficient - 1, result.at_twice_film / result.coefficient - 1
+    known = not_sampled(found.error, scene, surface.size[1], NO_PLACES)
     return _answer(
         prepared,
-        numbers_of(scene, surface.sq, found.result) | {"speed": speed},
-        [found.result],
+        numbers_of(scene, surface.sq, result) | {"speed": speed},
+        [result],
         begun,
-        uncertainty=not_sampled(found.error, scene, surface.size[1], NO_PLACES),
+        by_film=by_film,
+        uncertainty=replace(known, model=_film_error(scene, by_film)),
         errors=field_errors_of({} if found.error is None else {"coefficient": found.error}, NO_PLACES),
         words=f"one pressure with the contact on {shapes} cells{error}",
         strips=1,
@@ -85,11 +91,11 @@ def patch_answer(prepared: Prepared, speed: float, begun: float) -> FrictionResu
     )
 
 
-def _answer(prepared, numbers, results, begun: float, *, uncertainty, words: str, strips: int, remedy: str, **parts):
+def _answer(prepared, numbers, results, begun: float, *, by_film, uncertainty, words, strips, remedy: str, **parts):
     """The `FrictionResult` of ``numbers``, from the ``results`` of one strip or more."""
     scene, report = prepared.scene, results[0].report
     tolerance, numerical = scene.numerics.tolerance, uncertainty.numerical
-    notes = (*_division(results), *report.notes)
+    notes = (_division(results), BY_FILM.format(*(100 * change for change in by_film)), *report.notes)
     decision = Decision("deterministic", words, "boundary film", tolerance, strips=strips, notes=notes)
     entries = (*_entries(prepared, numbers, results), *of_error(numerical, tolerance, remedy))
     told = (decision.text, *(entry.text for entry in entries), uncertainty.text)
@@ -120,31 +126,21 @@ def _words_of_levels(levels: Levels) -> str:
     return f"one pressure with the contact: its difference from Eq. (8) on {strips}{cells}, of a line of {levels.line}"
 
 
-def _division(results: Sequence[DeterministicResult]) -> tuple[str, ...]:
-    """The load that rubs with f_b, by its parts, and f with another boundary film, in words."""
+def _division(results: Sequence[DeterministicResult]) -> str:
+    """The load that rubs with f_b, by its parts, in words."""
     touching, thin, capped = (
         100 * _mean(getattr(result.split, name) / result.load for result in results)
         for name in ("touching", "thin", "capped")
     )
-    half, twice = (100 * change for change in _by_film(results))
     return (
         f"load on touching cells {touching:.3g} %, on gaps below the boundary film {thin:.3g} %, on thicker Newtonian "
-        f"films at f_b p {capped:.3g} %",
-        f"f by half the boundary film {half:+.2g} %, by twice {twice:+.2g} %",
+        f"films at f_b p {capped:.3g} %"
     )
 
 
-def _by_film(results: Sequence[DeterministicResult]) -> tuple[float, float]:
-    """Relative change of f by half and by twice the boundary film."""
-    f = _mean(result.coefficient for result in results)
-    return _mean(r.at_half_film for r in results) / f - 1, _mean(r.at_twice_film for r in results) / f - 1
-
-
-def _film_error(scene: Scene, results: Sequence[DeterministicResult]) -> float:
-    """The larger relative change of f by half and by twice the boundary film; 0 where the scene gives it."""
-    if scene.bodies.boundary_film is not None:
-        return 0.0
-    return max(map(abs, _by_film(results)))
+def _film_error(scene: Scene, by_film: Sequence[float]) -> float:
+    """Relative error of f by the boundary film: the larger change by half and by twice of it, unless it is given."""
+    return 0.0 if scene.bodies.boundary_film is not None else max(map(abs, by_film))
 
 
 def _mean(values) -> float:

@@ -35,6 +35,7 @@ LINEAR = (  # numbers of Eq. (8) that a difference is added to
     *("coefficient", "contact_load", "film_load", "shear_force", "couette_force", "rolling_force", "boundary_force"),
     "mean_gap",
 )
+OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,7 @@ class Levels:
     """The sum over levels.
 
     - ``numbers``: of the deterministic model on an endless line, by name; ``errors``: their relative standard errors.
+      ``by_film``: relative change of f by half and by twice the boundary film.
     - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second and third.
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
       the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips, and in correlation
@@ -50,6 +52,7 @@ class Levels:
 
     numbers: dict[str, float]
     errors: dict[str, float]
+    by_film: tuple[float, ...]
     line: int
     pairs: tuple[Pair, ...]
     sampling: BlockError
@@ -78,10 +81,14 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
     most = max(1, min(strips.available, int(MOST_WORK / pairs[0].resolved.work)))
 
     def wanted(line: int) -> int:
-        error, f = _scatter(pairs, strips, line), abs(_sum(prepared, pairs, found, line)["coefficient"])
-        allowed = DIFFERENCE * numerics.model_tolerance / student(error.freedom) if line else 0.0
-        whole = replace(error, error=math.hypot(error.error, _of_line(found, line, len(pairs)) * f))
-        return enlarged(len(pairs), 1, most, whole, f * math.hypot(numerics.sampling_tolerance, allowed))
+        count, scatter = len(pairs), _scatter(pairs, strips, line)
+        f, asked = abs(_sum(prepared, pairs, found, line)["coefficient"]), numerics.sampling_tolerance
+        if not line:
+            return enlarged(count, 1, most, scatter, f * asked)
+        whole = replace(scatter, error=math.hypot(scatter.error, _of_line(found, line, count) * f))
+        allowed = f * numerics.model_tolerance / student(scatter.freedom)
+        both = math.hypot(f * asked, DIFFERENCE * allowed)
+        return max(enlarged(count, 1, most, whole, both), enlarged(count, 1, most, scatter, allowed))
 
     same = found.strips is not None and found.strips.cells == strips.cells and math.isfinite(found.sampling)
     line = found.count if same and wanted(found.count) <= min(wanted(0), found.count) else 0
@@ -95,7 +102,7 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
             break
         pairs += [solve_pair(prepared, speed, i, pairs[0].resolved.slope) for i in range(len(pairs), count)]
     by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
-    numbers = _sum(prepared, pairs, found, line)
+    numbers, alone = _sum(prepared, pairs, found, line), _sum(prepared, pairs, found, 0)["coefficient"]
     f, scatter = abs(numbers["coefficient"]), _scatter(pairs, strips, line)
     rest = _of_line(found, line, len(pairs)) * f if line else scatter.error
     freedom = scatter.freedom if not line else found.friction_error.freedom if found.response is not None else ORDER
@@ -106,7 +113,8 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
     errors = _errors(prepared, pairs, numbers) | {"coefficient": both}
     length = strips.length * max(line, len(pairs))
     lengths = length, length / strips.lengths[1]
-    return Levels(numbers, errors, line, tuple(pairs), sampling, difference, numerical / f, *lengths)
+    films = tuple((numbers.pop(name) - alone) / f for name in OTHER_FILMS)
+    return Levels(numbers, errors, films, line, tuple(pairs), sampling, difference, numerical / f, *lengths)
 
 
 def _of_line(found: Found, line: int, count: int) -> float:
@@ -133,7 +141,8 @@ def _sum(prepared: Prepared, pairs: Sequence[Pair], found: Found, line: int) -> 
 
 def _numbers(prepared: Prepared, strip: Strip | None) -> dict[str, float]:
     assert strip is not None
-    return numbers_of(prepared.scene, prepared.surface.sq, strip.result)
+    others = {name: getattr(strip.result, name) for name in OTHER_FILMS}
+    return numbers_of(prepared.scene, prepared.surface.sq, strip.result) | others
 
 
 def _mean(rows) -> dict[str, float]:

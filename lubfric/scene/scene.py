@@ -165,3 +165,6 @@ def _not_taken(scene: Scene) -> Iterator[tuple[str, Any, str]]:
         value = getattr(getattr(scene, section), key)
         if value not in allowed:
             yield name, value, f"{', '.join(map(repr, allowed))}{why}"
+    lubricant = scene.lubricant
+    if lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset == 0:
+        yield "lubricant.limiting_stress_offset", 0.0, "a value above 0, some 1e6 Pa (else no film flows at p = 0)"
