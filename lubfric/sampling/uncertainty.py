@@ -10,7 +10,7 @@ import numpy as np
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 
 CONFIDENCE = 0.95
-OF_SHARE = 0.8  # error of the share of the contact by load sharing, over sqrt(s (1 - s))
+OF_SHARE, IN_CONTACT = 0.7, 0.25  # error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
 OF_FILM, MOST_OF_FILM = 3.2, 0.3  # error of the film's shear by load sharing: times (film/Sq)², and at most
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 FEW = 10.0  # participation below which an interval covers less often than it says
@@ -71,18 +71,20 @@ def too_few(participation: float, reached: float, asked: float) -> bool:
 def load_sharing_error(film_to_roughness_ratio: float, share: float, boundary: float, shear: float) -> float:
     """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md).
 
-    ``share``: F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film. Two things may be off: the
-    load that asperities carry, by up to 0.8 sqrt(s (1 - s)) of the whole with s the share, which exchanges the friction
-    of one part for that of the other; and the shear of the film, by up to 3.2/λ² of it, at most 30 %, since it is that
-    of smooth surfaces. 0 without roughness.
+    ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film. Three things may be off:
+    the load that asperities carry, by up to 0.7 sqrt(s (1 - s)) of the whole, which exchanges the friction of one part
+    for that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %; and in
+    contact all of f by 0.25 sqrt(1 - s). 0 without roughness.
     """
     f = abs(boundary + shear)
     if film_to_roughness_ratio == math.inf or f == 0:
         return 0.0
     of_film = min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear)
-    moved = OF_SHARE * math.sqrt(share * (1 - share))
-    exchanged = abs(boundary / share - shear / (1 - share)) if 0 < share < 1 else 0.0
-    return (of_film + moved * exchanged) / f
+    if not 0 < share < 1:
+        return of_film / f
+    exchanged = abs(boundary / share - shear / (1 - share))
+    of_share = OF_SHARE * math.sqrt(share * (1 - share)) * exchanged
+    return (of_film + of_share) / f + IN_CONTACT * math.sqrt(1 - share)
 
 
 @described_in_doc
