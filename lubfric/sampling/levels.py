@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..contact import Strips
-from ..deterministic import Strip
+from ..deterministic import Strip, estimate
 from ..sharing import Prepared, quantities
 from .pair import Pair, cells_of, deviations, numbers_of, solve_finer, solve_pair
 from .sample import Found, enlarged
@@ -109,12 +109,12 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
     of_strips = add_errors(BlockError(rest, freedom), by_cells)
     sampling = replace(of_strips, error=of_strips.error / f)
     difference = BlockError(scatter.error / f if line else 0.0, scatter.freedom)
-    both = math.hypot(sampling.error, difference.error, numerical / f)
+    both = math.hypot(sampling.error, difference.error, numerical)
     errors = _errors(prepared, pairs, numbers) | {"coefficient": both}
     length = strips.length * max(line, len(pairs))
     lengths = length, length / strips.lengths[1]
     films = tuple((numbers.pop(name) - alone) / f for name in OTHER_FILMS)
-    return Levels(numbers, errors, films, line, tuple(pairs), sampling, difference, numerical / f, *lengths)
+    return Levels(numbers, errors, films, line, tuple(pairs), sampling, difference, numerical, *lengths)
 
 
 def _of_line(found: Found, line: int, count: int) -> float:
@@ -175,22 +175,23 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: int) -> BlockError:
 
 
 def _on_finer_cells(prepared: Prepared, speed: float, pairs: list[Pair]) -> tuple[BlockError, float]:
-    """Solve the third level, if it is needed: the standard error of its mean change of f, and what shorter cells yet
-    would change, at most about."""
+    """Solve the third level, if it is needed: the standard error of its mean change of f, and the relative error that
+    its cells leave."""
     scene, strips, first = prepared.scene, prepared.strips, pairs[0]
     assert strips is not None
-    f = abs(first.resolved.result.coefficient)
-    left = max(abs(first.resolved.result.coefficient - first.longer), SOLVED * f)
-    if left <= scene.numerics.tolerance * f or cells_of(strips, scene.bodies.half_width) == (1, 1):
+    left = max(estimate([first.longer.result, first.resolved.result]) or 0.0, SOLVED)
+    if left <= scene.numerics.tolerance or cells_of(strips, scene.bodies.half_width) == (1, 1):
         return BlockError(0.0, 1), left
+    asked = CELLS * scene.numerics.sampling_tolerance * abs(first.resolved.result.coefficient)
     changes: list[np.ndarray] = []
     for index, pair in enumerate(pairs):
         pairs[index] = solve_finer(prepared, speed, pair)
         changes.append(_changes(pairs[index]))
         error = _block_error(changes, strips, pair)
-        if error.error <= CELLS * scene.numerics.sampling_tolerance * f:
+        if error.error <= asked:
             break
-    return error, max(abs(float(np.mean(changes))), SOLVED * f)
+    ladder = [pairs[0].longer, pairs[0].resolved, pairs[0].finer]
+    return error, max(estimate([strip.result for strip in ladder if strip is not None]) or 0.0, SOLVED)
 
 
 def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:

@@ -22,7 +22,7 @@ PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation lengt
 class Pair:
     """Strip number ``index`` of the sample.
 
-    - ``resolved``: by the deterministic model; ``finer``: on cells half as long (None: not solved); ``longer``: f on
+    - ``resolved``: by the deterministic model; ``finer``: on cells half as long (None: not solved); ``longer``: on
       cells twice as long, from which it started. ``shared``: its numbers by Eq. (8).
     - ``deviations``, ``shared_deviations``: of f from place to place along y (ny,), with a mean of 0, by the two
       models. ``mirrored``: whether the second half along y is the mirror image of the first.
@@ -30,7 +30,7 @@ class Pair:
 
     index: int
     resolved: Strip
-    longer: float
+    longer: Strip
     shared: dict[str, float]
     shared_deviations: np.ndarray
     mirrored: bool = False
@@ -75,7 +75,7 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
     numbers = quantities(balance.forces, balance.film, loads, mean)
     by_place = friction_influence(scene, contact, balance) * balance.forces.coefficient
     rows = by_place[: by_place.size // fy * fy].reshape(-1, fy).mean(axis=1)
-    return Pair(index, strip, first.result.coefficient, numbers, rows, strips.whole and mirrored(contact.heights))
+    return Pair(index, strip, first, numbers, rows, strips.whole and mirrored(contact.heights))
 
 
 def solve_finer(prepared: Prepared, speed: float, pair: Pair) -> Pair:

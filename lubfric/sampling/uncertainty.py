@@ -71,10 +71,10 @@ def too_few(participation: float, reached: float, asked: float) -> bool:
 def load_sharing_error(film_to_roughness_ratio: float, share: float, boundary: float, shear: float) -> float:
     """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md).
 
-    ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film. Three things may be off:
-    the load that asperities carry, by up to 0.7 sqrt(s (1 - s)) of the whole, which exchanges the friction of one part
-    for that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %; and in
-    contact all of f by 0.25 sqrt(1 - s). 0 without roughness.
+    ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film. Three things may be
+    off: the load that asperities carry, by up to 0.7 sqrt(s (1 - s)) of the whole, which exchanges the friction of one
+    part for that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %;
+    and in contact all of f by 0.25 sqrt(1 - s). 0 without roughness.
     """
     f = abs(boundary + shear)
     if film_to_roughness_ratio == math.inf or f == 0:

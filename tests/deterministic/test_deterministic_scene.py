@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.deterministic import grids
 from lubfric.output import main
 from lubfric.sampling.uncertainty import LEAST_MODEL, MOST_MODEL, load_sharing_error
 from lubfric.studies import classes_of, decode, encode
@@ -74,13 +73,6 @@ def test_a_result_can_be_stored(point):
     again = decode(b"".join(encode(point)), classes_of(lubfric.FrictionResult))
     assert np.array_equal(again.deterministic.result.pressure, point.deterministic.result.pressure)
     assert repr(again) == repr(point) and again.report == point.report
-
-
-def test_the_tolerance_chooses_the_grid():
-    scene = SCENE.with_(numerics={"grid": "auto"})
-    assert grids(scene, MODEL.surface.resampled(shape=(64, 64)))[:2] == ((32, 32), (64, 64))
-    loose = lubfric.friction(lubfric.prepare(scene, like=MODEL), 0.01, tolerance=0.2).deterministic
-    assert [r.pressure.shape[1] for r in loose.results] == [48, 96] and loose.error <= 0.2
 
 
 @pytest.mark.parametrize(

@@ -82,7 +82,7 @@ class Case:
         if self.surface in GENERATED:
             acf, lengths = GENERATED[self.surface]
             rough = {"acf": acf, "correlation_length": tuple(times * one for one in lengths), "seed": seed}
-            patch = {"spacing": 0.45e-6 * times}
+            patch: dict = {"spacing": 0.45e-6 * times}
         else:
             path = Path(folder) / f"{self.surface}-{seed}.npy"
             np.save(path, heights(self.surface, seed) * scene.surface.sq)
@@ -126,7 +126,7 @@ def cases(level: str) -> dict[str, Case]:
     kinds = list(itertools.product((*GENERATED, *MEASURED), CONTACTS, (1.0, 2.0)))
     order = np.random.default_rng(SEED).permutation(len(kinds))[: DRAWN[level]]
     ratios = QUICK if level == "quick" else RATIOS
-    every = [Case(*kinds[index], ratio) for index in order for ratio in ratios]
+    every = [Case(*kinds[int(index)], ratio) for index in order for ratio in ratios]
     return {f"{c.surface}; {c.contact}; {c.over:g}; {c.ratio:g}": c for c in every}
 
 

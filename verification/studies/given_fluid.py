@@ -75,8 +75,8 @@ def laid(case: Case, contact: LineContact) -> Problem:
     upstream, downstream = reach(line, surface.sq)
 
     def over(ends) -> Problem:
-        rubs = {"sliding": 2 * case.speed, "boundary_friction": 0.09}
-        return lay_out(surface, line, **rubs, hardness=case.hardness, ends=ends, floor=case.floor)
+        keys: dict = {"sliding": 2 * case.speed, "boundary_friction": 0.09, "hardness": case.hardness}
+        return lay_out(surface, line, **keys, ends=ends, floor=case.floor)
 
     found = over((upstream, downstream))
     if found.x.size % 2:
