@@ -94,10 +94,8 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
     line = found.count if same and wanted(found.count) <= min(wanted(0), found.count) else 0
     while True:
         within = 0 <= _sum(prepared, pairs, found, line)["contact_load"] <= load
-        count = wanted(line)
-        if line and (not within or count > line):
-            line = 0
-            continue
+        line = line if within else 0
+        count = min(wanted(line), line or most)
         if count <= len(pairs):
             break
         pairs += [solve_pair(prepared, speed, i, pairs[0].resolved.slope) for i in range(len(pairs), count)]
