@@ -29,6 +29,7 @@ DIFFERENCE = 0.85  # of numerics.model_tolerance: half-width that the scatter of
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
 ALONE = 1.2  # scatter of the deterministic f between strips over that of blocks along them
 SOLVED = 1.5e-3  # of f: what the tolerance of a strip may move
+GROWTH = 4.0, 2.0  # of the number of strips: those that are solved are kept
 MOST_WORK = 120.0  # s, counted: of the strips of one point
 FEWEST = 3  # strips whose scatter tells an error
 LINEAR = (  # numbers of Eq. (8) that a difference is added to
@@ -84,11 +85,12 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
         count, scatter = len(pairs), _scatter(pairs, strips, line)
         f, asked = abs(_sum(prepared, pairs, found, line)["coefficient"]), numerics.sampling_tolerance
         if not line:
-            return enlarged(count, 1, most, scatter, f * asked)
+            return enlarged(count, 1, most, scatter, f * asked, growth=GROWTH)
         whole = replace(scatter, error=math.hypot(scatter.error, _of_line(found, line, count) * f))
         allowed = f * numerics.model_tolerance / student(scatter.freedom)
         both = math.hypot(f * asked, DIFFERENCE * allowed)
-        return max(enlarged(count, 1, most, whole, both), enlarged(count, 1, most, scatter, allowed))
+        errors = (whole, both), (scatter, allowed)
+        return max(enlarged(count, 1, most, error, limit, growth=GROWTH) for error, limit in errors)
 
     same = found.strips is not None and found.strips.cells == strips.cells and math.isfinite(found.sampling)
     line = found.count if same and wanted(found.count) <= min(wanted(0), found.count) else 0

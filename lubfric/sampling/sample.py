@@ -196,12 +196,14 @@ def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
     return enlarged(found.count, strips.first, strips.available, error, asked, enough)
 
 
-def enlarged(count: int, first: int, available: int, error: BlockError, asked: float, enough: float = 0.0) -> int:
+def enlarged(
+    count: int, first: int, available: int, error: BlockError, asked: float, enough: float = 0.0, growth=GROWTH
+) -> int:
     """Number of strips at which a standard ``error`` on ``count`` of them falls to the one ``asked``: ``count`` if it
     has, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
 
-    It is (reached/asked)² x 1.3 times the present number, at least 1.5 times that, and at most 4 times the ``first`` or
-    8 times a later one. A standard error from few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of
+    It is (reached/asked)² x 1.3 times the present number, at least 1.5 times that, and at most by ``growth`` more: of
+    the ``first``, and of a later one. A standard error from few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of
     freedom. If a sample counted as long enough whenever its blocks happen to scatter little, the stated error would be
     too small. So the first one counts as long enough only if even 1 + 1/sqrt(nu) times its error is within what is
     asked.
@@ -210,9 +212,9 @@ def enlarged(count: int, first: int, available: int, error: BlockError, asked: f
     reached = error.error * (1 + doubt)
     if reached <= asked and not enough:
         return count
-    growth = GROWTH[count > first]
-    times = SAFETY * max((reached / asked) ** 2, enough) if math.isfinite(reached) else growth
-    return min(available, math.ceil(min(max(times, LEAST), growth) * count - 1e-9))
+    most = growth[count > first]
+    times = SAFETY * max((reached / asked) ** 2, enough) if math.isfinite(reached) else most
+    return min(available, math.ceil(min(max(times, LEAST), most) * count - 1e-9))
 
 
 def _missed(prepared: Prepared, found: Found, strips: Strips) -> float:
