@@ -80,7 +80,13 @@ def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float
     strips, relative."""
     numerics = scene.numerics
     thick = film**2 * numerics.model_tolerance > OF_FILM * sq**2
-    if speed == 0 or scene.transient is not None or numerics.model == "load-sharing" or gap_not_resolved(scene) or thick:
+    if (
+        speed == 0
+        or scene.transient is not None
+        or numerics.model == "load-sharing"
+        or gap_not_resolved(scene)
+        or thick
+    ):
         return 0, 0.0
     allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
     count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)

@@ -24,7 +24,7 @@ from ..quantities import axis_label
 def interval_band(ax, over: np.ndarray, columns) -> None:
     """The intervals of f as a band ``over`` speeds or ratios, if ``columns`` have them."""
     if np.isfinite(columns.get("interval_low", np.array([np.nan]))).any():
-        band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, finite surface"}
+        band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, surface, model"}
         ax.fill_between(over, columns["interval_low"], columns["interval_high"], **band)
 
 

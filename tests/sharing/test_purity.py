@@ -36,7 +36,9 @@ SCENES = {
     "flat": FLAT,
     "heat": LINE.with_(lubricant=OIL | LAW, numerics={"heat": "on"}),
     "rolling": LINE.with_(motion={"slide_roll_ratio": 0.0}),
-    "auto": LINE.with_(numerics={"model": "auto", "sampling_tolerance": 0.3, "model_tolerance": 0.3, "tolerance": 0.05}),
+    "auto": LINE.with_(
+        numerics={"model": "auto", "sampling_tolerance": 0.3, "model_tolerance": 0.3, "tolerance": 0.05}
+    ),
     "measured": None,
 }
 CHEAP = LINE.with_(numerics={"tolerance": 0.05, "sampling_tolerance": 0.3}, surface={"correlation_length": 4e-6})

@@ -147,7 +147,7 @@ def counted(model, speed, **options):
     print("solved", flush=True)
     return found
 points.friction = counted
-scene = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"sampling": "patch"}).with_(
+scene = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling": "patch"}).with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
 lubfric.study(scene, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, (0.003, 0.03, 0.3), store=sys.argv[1])
 print("done", flush=True)
