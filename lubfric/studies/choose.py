@@ -33,12 +33,12 @@ GRID = 400
 
 def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Iterator[tuple[float, Any]]:
     """(speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
-    ``solve(speeds)`` yields these pairs."""
+    ``solve(speed)`` gives an outcome."""
     outcomes: dict[float, Any] = {}
     while ahead and len(outcomes) < MOST:
-        for speed, outcome in solve(ahead):
-            outcomes[speed] = outcome
-            yield speed, outcome
+        for speed in ahead:
+            outcomes[speed] = solve(speed)
+            yield speed, outcomes[speed]
         good = [outcome for outcome in outcomes.values() if isinstance(outcome, FrictionResult)]
         failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
         wanted = None

@@ -3,6 +3,7 @@ their tables."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import ClassVar, TypeVar
 
 import numpy as np
@@ -62,6 +63,12 @@ class CurveResult(Shown):
             known, f = getattr(self, name)[good], self["coefficient"][good]
             facts |= {symbol: f"{known.min():.4g} to {known.max():.4g} {unit}", "f": f"{f.min():.4g} to {f.max():.4g}"}
         return facts | {"failed": str(len(self.errors)), "cautions": str(len(self.validity))}
+
+
+def parted(outcomes: Sequence) -> tuple[tuple[FrictionResult | None, ...], dict[int, Exception]]:
+    """The points (None for what is no result), and the errors by index, of results, exceptions, or None."""
+    points = tuple(outcome if isinstance(outcome, FrictionResult) else None for outcome in outcomes)
+    return points, {i: outcome for i, outcome in enumerate(outcomes) if isinstance(outcome, Exception)}
 
 
 def columns_of(points) -> dict[str, np.ndarray]:

@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..scene import Scene
 from ..sharing import prepare
 from .choose import CHOSEN, film_ratio, first_speeds
-from .rows import stored_rows
+from .points import stored_rows
 from .store import Store
 
 FILM = 0.01  # processor seconds of the films of a point, about
@@ -59,15 +59,15 @@ def explain(plan, store=None) -> str:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
     if plan.scene.transient is not None:
         lines.append("  steady   every point; what changes in time in the scene ([transient]) is left out")
-    rows = stored_rows(Store(store), plan.keys, plan.speeds)
+    rows, ended = stored_rows(Store(store), plan.keys, plan.speeds)
     left = [
-        (scene, tuple(u for u in plan.speeds if u not in rows.points[key]))
+        (scene, tuple(u for u in plan.speeds if u not in rows[key]))
         for key, scene in dict(zip(plan.keys, plan.scenes)).items()
-        if key not in rows.ended and not (plan.speeds and len(rows.points[key]) == len(plan.speeds))
+        if key not in ended and not (plan.speeds and len(rows[key]) == len(plan.speeds))
     ]
-    held = sum(map(len, rows.points.values())) if plan.speeds else len(rows.ended)
+    held = sum(map(len, rows.values())) if plan.speeds else len(ended)
     if held:
-        total, what = len(rows.points) * max(len(plan.speeds), 1), "points" if plan.speeds else "curves"
+        total, what = len(rows) * max(len(plan.speeds), 1), "points" if plan.speeds else "curves"
         lines.append(f"  kept     {held} of {total} {what} are in {store} already")
     if not left:
         return "\n".join([*lines, "  time     nothing is left to solve"])

@@ -134,7 +134,7 @@ def test_a_map_is_the_same_in_whatever_order_its_values_stand(tmp_path):
 
 
 def test_a_curve_with_a_lost_point_is_raised_whole(model, monkeypatch):
-    module = sys.modules["lubfric.studies.traction"]
+    module = sys.modules["lubfric.studies.points"]
     real = module.friction
 
     def friction(prepared, *arguments, **options):
