@@ -9,7 +9,7 @@ from pathlib import Path
 from .._base import FolderLock, new_figure, plain, shown, whole_file, write_whole
 from ..errors import InputError
 from ..scene import Scene
-from ..studies import FitResult, explain_fit, fit, read_measured
+from ..studies import FitResult, explain_fit, fit, in_words, read_measured
 from .console import Pace, say, say_written
 
 
@@ -17,12 +17,16 @@ def run_fit(scene: Scene, arguments) -> None:
     """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json."""
     bounds, begun, pace = _bounds(arguments.parameter), time.perf_counter(), Pace()
     columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
-    measured = read_measured(arguments.measured, coefficient=arguments.coefficient, **columns)
+    rolling = not arguments.without_rolling
+    measured = read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
     say(explain_fit(scene, measured, bounds))
 
-    def on_progress(curve: int, done: int, total: int) -> None:
-        if pace.due(done == total):
-            say(f"curve {curve}: [{done}/{total}] {time.perf_counter() - begun:.0f} s")
+    def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
+        if pace.due(done == 1):
+            off = f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} deviations"
+            best = ", ".join(f"{key} = {value:.4g}" for key, value in values.items())
+            passed = f"{time.perf_counter() - begun:.0f} s, about {in_words(left)} left"
+            say(f"curve {done} of about {total}: nearest so far {off} off at {best}; {passed}")
 
     found = fit(scene, measured, bounds, on_progress=on_progress)
     say(found.explain())
@@ -46,7 +50,7 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
 def _write(found: FitResult, folder: Path) -> list[str]:
     names = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
     record = {name: getattr(found, name) for name in names} | {
-        "parameters": list(found.parameters.keys),
+        "parameters": list(found.parameters),
         "x": found.measured.x,
         "measured": found.measured.coefficient,
         "fitted": found.predicted,

@@ -76,6 +76,12 @@ def fits(value, kind) -> bool:
         return True
     if isinstance(kind, TypeVar):
         kind = float
+    if isinstance(kind, type) and issubclass(kind, tuple) and kind is not tuple:  # a named one is stored as a plain one
+        return (
+            isinstance(value, tuple)
+            and len(value) == len(_hints(kind))
+            and all(map(fits, value, _hints(kind).values()))
+        )
     origin, parts = get_origin(kind), get_args(kind)
     if origin in (Union, UnionType):
         return any(fits(value, part) for part in parts)

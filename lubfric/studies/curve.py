@@ -32,6 +32,12 @@ class CurveResult(Shown):
         return columns_of(self.points)[validate.choice("column", name, NUMBERS)]
 
     @property
+    def without_rolling(self) -> np.ndarray:
+        """f at every point without the rolling part of the film's force [-], as the mean over both signs of slip; NaN
+        where a point failed."""
+        return np.array([np.nan if point is None else without_rolling(point) for point in self.points])
+
+    @property
     def uncertainty(self) -> UncertaintyCurve:
         """How sure f is at every point: arrays of the numbers of `Uncertainty`, ``interval`` (n, 2)."""
         return curve_of([None if point is None else point.uncertainty for point in self.points])
@@ -69,6 +75,12 @@ def parted(outcomes: Sequence) -> tuple[tuple[FrictionResult | None, ...], dict[
     """The points (None for what is no result), and the errors by index, of results, exceptions, or None."""
     points = tuple(outcome if isinstance(outcome, FrictionResult) else None for outcome in outcomes)
     return points, {i: outcome for i, outcome in enumerate(outcomes) if isinstance(outcome, Exception)}
+
+
+def without_rolling(point: FrictionResult) -> float:
+    """f of a point without the rolling part of the film's force [-]. That part points the way the surfaces entrain, and
+    the rest the way they slide. So the mean of f over both signs of slip is without it, as some rigs measure it."""
+    return (point.boundary_force + point.couette_force) / (point.contact_load + point.film_load)
 
 
 def columns_of(points) -> dict[str, np.ndarray]:

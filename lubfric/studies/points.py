@@ -41,7 +41,8 @@ def solved(
     kept : speeds at which film and contact are kept, which chosen ones include
     folder : of the store, or None
     """
-    store, done = Store(folder), ()
+    store = Store(folder)
+    done: tuple[float, ...] = ()
     model: Prepared | LubfricError
     try:
         model = scene if isinstance(scene, Prepared) else prepare(scene)
@@ -57,8 +58,10 @@ def solved(
             store.add(own, outcome)
         return outcome
 
-    choosing = not speeds and isinstance(model, Prepared)
-    for speed, outcome in chosen(model, first, solve) if choosing else ((speed, solve(speed)) for speed in first):
+    failed = isinstance(model, LubfricError)
+    for speed, outcome in (
+        ((speed, solve(speed)) for speed in first) if speeds or failed else chosen(model, first, solve)
+    ):
         done = (*done, speed)
         if not speeds:
             store.add(digest(key), (done, False))

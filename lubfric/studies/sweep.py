@@ -211,8 +211,14 @@ class TractionResult(CurveResult):
 
     @property
     def coefficient(self) -> np.ndarray:
-        """Friction coefficient [-]."""
+        """Friction coefficient [-]. It holds the rolling part of the film's force, which does not vanish with the slip;
+        ``without_rolling`` is f without it."""
         return self["coefficient"]
+
+    def _facts(self) -> dict[str, str]:
+        rolling = np.abs(self.coefficient - self.without_rolling)
+        known = rolling[np.isfinite(rolling)]
+        return super()._facts() | ({"rolling part of f": f"up to {known.max():.2g}"} if known.size else {})
 
 
 def traction(
@@ -227,8 +233,9 @@ def traction(
 ) -> TractionResult:
     """The traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.
 
-    The ratio changes the shear of the film, its heat, and the heat of the inlet. A point that fails leaves NaN, and its
-    exception in ``errors``; the others are still solved.
+    The ratio changes the shear of the film, its heat, and the heat of the inlet. f holds the rolling part of the film's
+    force, which remains without slip; ``curve.without_rolling`` is f without it, as rigs measure it that average over
+    both signs of slip. A point that fails leaves NaN, and its exception in ``errors``; the others are still solved.
 
     Parameters
     ----------
