@@ -21,6 +21,7 @@ from .files import (
     FolderLock,
     clear_parts,
     read_checked,
+    read_json,
     saying,
     sync_folder,
     whole_file,

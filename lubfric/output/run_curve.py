@@ -158,7 +158,10 @@ def plot_again(arguments) -> None:
 
 def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
     """The picture of the table of a curve; ``points``: those of its record."""
-    entries = [[Validity(**entry) for entry in point["validity"]] for point in points]
+    entries = [
+        [Validity(**{name: math.nan if part is None else part for name, part in entry.items()}) for entry in own]
+        for own in (point["validity"] for point in points)
+    ]
     if "ratio" in columns:
         title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured)

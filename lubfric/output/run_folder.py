@@ -4,19 +4,22 @@ has saved is kept apart."""
 from __future__ import annotations
 
 import json
+import os
 import platform
 import shutil
 import time
 from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any, get_type_hints
 
 import numpy as np
 
-from .._base import FolderLock, __version__, clear_parts, plain, saying, whole_file, write_whole
+from .._base import FolderLock, __version__, clear_parts, plain, read_json, saying, whole_file, write_whole
 from ..errors import InputError
 from ..scene import Scene, scene_as_dict
-from ..sharing import Prepared, prepare
+from ..sharing import Prepared, Validity, prepare
+from ..studies import fits
 from ..surface import rms_slope
 from .console import say, say_written
 
@@ -39,15 +42,27 @@ def ready(scene: Scene) -> Prepared:
 
 def read_record(folder: Path) -> dict:
     """What result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
-    path = folder / RESULT
-    if not path.is_file():
-        raise InputError(f"{folder} holds no {RESULT}; give a folder that 'lubfric run' wrote")
-    try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        str(record["scene"]["name"])
-    except (ValueError, KeyError, TypeError, RecursionError) as problem:
-        raise InputError(f"{path} is torn, or no record of a run ({problem})") from None
+    path, again = folder / RESULT, "give a folder that 'lubfric run' wrote, or run it again"
+    if not os.path.lexists(path):
+        raise InputError(f"{folder} holds no {RESULT}; {again}")
+    record = read_json(path, again)
+    if not isinstance(record, dict) or not fits(record.get("scene"), dict[str, Any]):
+        raise InputError(f"{path} is damaged, or no record of a run; {again}")
+    points = record.get("points", [])
+    sound = isinstance(record["scene"].get("name"), str) and fits(points, list[dict[str, Any]])
+    if not sound or not all(_is_entry(entry) for point in points for entry in _listed(point.get("validity"))):
+        raise InputError(f"{path} is damaged, or no record of a run; {again}")
     return record
+
+
+def _listed(value) -> list:
+    return value if isinstance(value, list) else [None]
+
+
+def _is_entry(entry) -> bool:
+    """Whether it is a `lubfric.Validity` as a record has it, where numbers that are not finite are null."""
+    kinds = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Validity).items()}
+    return isinstance(entry, dict) and entry.keys() == kinds.keys() and all(fits(entry[k], kinds[k]) for k in kinds)
 
 
 class RunFolder:

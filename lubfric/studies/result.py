@@ -4,6 +4,7 @@ was varied."""
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -11,14 +12,14 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base import Shown, validate, write_whole
+from .._base import Shown, read_json, validate, write_whole
 from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import Scene
 from .choose import AUTO
 from .executor import checked_executor, spread
 from .interpolate import Interpolant, through
-from .plan import StudyPlan, plan_as_dict, plan_study
+from .plan import StudyPlan, is_plan, plan_as_dict, plan_study
 from .points import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, row_of, solved, stored_rows
 from .store import Store, opened
 from .tables import plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
@@ -265,11 +266,11 @@ def open_study(folder) -> StudyResult:
     InputError : the folder holds no study
     """
     path = validate.folder("store", folder) / PLAN
-    if not path.is_file():
+    if not os.path.lexists(path):
         raise InputError(f"{folder} holds no {PLAN}; give the folder of a study")
-    try:
-        plan = json.loads(path.read_text(encoding="utf-8"))
-        keys, speeds = plan["keys"], plan["speeds"]
-    except (ValueError, KeyError, TypeError):
-        raise InputError(f"{path} is damaged; run the study again in this folder, which writes it anew") from None
-    return StudyResult.of_rows(plan, *stored_rows(Store(path.parent), keys, () if speeds == AUTO else speeds))
+    again = "run the study again in this folder, which writes it anew"
+    plan = read_json(path, again)
+    if not is_plan(plan):
+        raise InputError(f"{path} is damaged, or not that of a study; {again}")
+    speeds = plan["speeds"]
+    return StudyResult.of_rows(plan, *stored_rows(Store(path.parent), plan["keys"], () if speeds == AUTO else speeds))
