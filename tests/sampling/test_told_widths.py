@@ -1,0 +1,95 @@
+"""Errors that are told must not get smaller unnoticed: contact that a line misses, the scatter of another line, the
+share of load sharing itself, against formulas written out from their sources."""
+
+import math
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.sampling.missed import missed_load, summit_radius
+from lubfric.sampling.scatter import BlockError, block_error, weighted_errors
+from lubfric.sampling.uncertainty import interval, load_sharing_error
+
+E_PRIME, WIDTH, RX, RY, SQ = 2.3e11, 6e-3, 40e-6, 90e-6, 1e-7
+T_975 = {1: 12.7062, 2: 4.3027, 5: 2.5706, 10: 2.2281, 30: 2.0423}  # of any table of Student's t
+
+
+@pytest.mark.parametrize("freedom", T_975)
+def test_an_interval_is_as_wide_as_students_table_says(freedom):
+    low, high = interval(0.05, 0.0, 0.01, freedom)
+    assert (high - low) / 2 == pytest.approx(T_975[freedom] * 5e-4, rel=1e-4)
+    low, high = interval(0.05, 0.03, 0.01, freedom)
+    assert (high - low) / 2 == pytest.approx(0.05 * math.hypot(0.03, 0.01 * T_975[freedom]), rel=1e-4)
+
+
+def summits(heights, spacing=(1e-6, 2.5e-6), each=8):
+    """A map on which every block of ``each`` rows has a paraboloid of radii RX and RY of the given height."""
+    x = (np.arange(9) - 4) * spacing[0]
+    y = (np.arange(each) - each // 2) * spacing[1]
+    cap = -(x[:, None] ** 2) / (2 * RX) - y[None, :] ** 2 / (2 * RY)
+    return np.concatenate([cap + height for height in heights], axis=1), spacing
+
+
+def test_a_summit_is_as_round_as_its_paraboloid_on_cells_of_any_length():
+    for spacing in ((1e-6, 2.5e-6), (2e-6, 0.7e-6)):
+        assert summit_radius(*summits([0.0, 1e-8], spacing)) == pytest.approx(math.sqrt(RX * RY), rel=1e-6)
+
+
+@pytest.mark.parametrize("count", [6, 40])
+def test_the_contact_that_a_line_misses(count):
+    """Gumbel's distribution by its first two moments; Hertz for a sphere pressed in by an excess of the scale's mean
+    (exponential: 1.329 scale^1.5). Few blocks: twice the scale."""
+    tops = 3e-8 * np.random.default_rng(count).gumbel(size=count)
+    heights, spacing = summits(tops)
+    length = 8 * spacing[1] / 1.75  # so that a block of 1.75 correlation lengths is one summit
+    film = np.full(heights.shape[0], 1.5e-7)
+    found = missed_load(heights, spacing, film, E_PRIME, WIDTH, length)
+    scale = tops.std(ddof=1) * math.sqrt(6) / math.pi * (2 if count < 14 else 1)
+    place = tops.mean() - 1.5e-7 - 0.5772 * scale
+    touching = 1 - math.exp(-math.exp(place / scale))
+    sphere = 4 / 3 * (E_PRIME / 2) * math.sqrt(math.sqrt(RX * RY)) * scale**1.5 * 1.3293
+    assert found == pytest.approx(touching * sphere / (8 * spacing[1]) * WIDTH, rel=1e-3)
+
+
+def test_the_share_of_load_sharing_itself_is_that_of_its_study():
+    """docs/model-error.md: 2 % where the contact carries all, 56 % more by the film's share, 30 % at most; 3.2/λ²."""
+    shares = [load_sharing_error(math.nan, s) for s in (0.999, 0.9, 0.6, 0.3)]
+    assert shares == pytest.approx([0.02 + 0.56 * 0.001, 0.076, 0.244, 0.3])
+    films = [load_sharing_error(ratio, 0.0) for ratio in (2.0, 4.0, 8.0)]
+    assert films == pytest.approx([0.3, 0.2, 0.05])
+
+
+def test_a_mean_of_correlated_places_is_not_surer_than_it_tells():
+    """Noise with the correlation exp(-(y/l)²) on lines of 80 l: the standard errors told, and the scatter of the
+    means that they stand for."""
+    rng, l, n = np.random.default_rng(5), 8.0, 640
+    kernel = np.exp(-2 * (np.arange(-40, 41) / l) ** 2)
+    lines = [np.convolve(rng.standard_normal(n + 80), kernel, "valid") for _ in range(300)]
+    told = [block_error(line, 1.0, l).error for line in lines]
+    scatter = np.std([line.mean() for line in lines], ddof=1)
+    assert math.sqrt(np.mean(np.square(told))) == pytest.approx(scatter, rel=0.08)
+
+
+def test_freedom_of_a_sum_is_no_more_than_that_of_its_largest_part():
+    """Welch and Satterthwaite: 9²/(8.1²/5 + .9²/50) = 6.2, cut to 6."""
+    found = weighted_errors([(3.0, BlockError(math.sqrt(0.9), 5)), (1.0, BlockError(math.sqrt(0.9), 50))])
+    assert found.error == pytest.approx(3.0) and found.freedom == 6
+
+
+@pytest.fixture(scope="module")
+def point():
+    scene = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.2})
+    return scene, lubfric.friction(scene, 0.01)
+
+
+def test_the_parts_of_the_error_of_f_belong_together(point):
+    """The interval from its parts; another line of the width B; and neither part is nothing."""
+    scene, found = point
+    told = found.uncertainty
+    t = 2.0 if told.freedom >= 60 else 1.96  # no table has less
+    half = (told.interval[1] - told.interval[0]) / 2 / found.coefficient
+    assert half >= math.hypot(told.numerical, t * told.sampling) * 0.98
+    assert told.line_scatter == pytest.approx(told.sampling * math.sqrt(told.length / scene.bodies.width))
+    assert found.errors.coefficient == pytest.approx(math.hypot(told.numerical, told.sampling))
+    assert 1e-4 < told.numerical < 0.01 and 0.01 < told.sampling < 0.2

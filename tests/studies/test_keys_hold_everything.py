@@ -1,0 +1,90 @@
+"""Every field of a scene is in the key of a stored point, but for the labels; and so are speed, fields and version."""
+
+import copy
+from dataclasses import fields, is_dataclass
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.scene import Constant, Harmonic, Ramp
+from lubfric.studies import store
+from lubfric.studies.store import Store, fingerprint, point_key
+
+OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
+SCENE = lubfric.load_scene("paper").with_(
+    lubricant=OIL, transient=lubfric.Transient(duration=1.0, speed=Harmonic(amplitude=0.1, frequency=1.0))
+)
+LABELS = {"name", "motion.speeds"}  # of a scene: no number depends on them
+
+
+def places(part, path=""):
+    """The path of every field of a dataclass and of those in it, and what holds it."""
+    for each in fields(part):
+        value, name = getattr(part, each.name), f"{path}.{each.name}" if path else each.name
+        if is_dataclass(value):
+            yield from places(value, name)
+        else:
+            yield name
+
+
+def changed(part, path):
+    """A copy with another value in one field, past the checks of its constructor."""
+    head, _, rest = path.partition(".")
+    new = copy.copy(part)
+    object.__setattr__(new, head, changed(getattr(part, head), rest) if rest else "another")
+    return new
+
+
+PLACES = sorted({*places(SCENE)} - {"surface.file"})  # read from the disk: tests/studies/test_store.py
+
+
+def test_the_scene_has_a_history_an_oil_and_a_law_of_its_viscosity():
+    assert {"transient.speed.amplitude", "lubricant.oil.viscosity_law.m", "lubricant.oil.base"} <= set(PLACES)
+    assert len(PLACES) > 60
+
+
+@pytest.mark.parametrize("path", PLACES)
+def test_every_field_of_a_scene_makes_another_key(path):
+    other = changed(SCENE, path)
+    assert (fingerprint(other) == fingerprint(SCENE)) == (path in LABELS)
+
+
+def test_a_second_body_and_other_kinds_of_a_history_make_other_keys():
+    faced = [SCENE, changed(SCENE, "counterface")]
+    object.__setattr__(faced[1], "counterface", SCENE.surface)
+    kinds = [Constant(value=0.1), Ramp(start=0.1, end=0.1), Harmonic(amplitude=0.1, frequency=1.0)]
+    moved = [copy.copy(SCENE) for _ in kinds]
+    for scene, kind in zip(moved, kinds):
+        object.__setattr__(scene, "transient", lubfric.Transient(duration=1.0, speed=kind))
+    assert len({fingerprint(scene) for scene in (*faced, *moved[:2])}) == 4
+    assert fingerprint(moved[2]) == fingerprint(SCENE)
+
+
+def test_speed_fields_and_versions_make_other_keys(monkeypatch):
+    other_speeds = (0.1, -0.1, 0.10000000000000002)
+    keys = {point_key("a", 0.1, True), point_key("b", 0.1), *(point_key("a", speed) for speed in other_speeds)}
+    assert len(keys) == 5
+    before = fingerprint(SCENE)
+    monkeypatch.setattr(store, "__version__", "0.0.1")
+    other = fingerprint(SCENE)
+    monkeypatch.undo()
+    monkeypatch.setattr(store.np, "__version__", "0.0.1")
+    assert len({before, other, fingerprint(SCENE)}) == 3
+
+
+def test_a_record_lies_under_its_own_key(tmp_path):
+    kept = Store(tmp_path)
+    keys = [point_key(fingerprint(SCENE), speed, fields) for speed in (0.1, 0.2) for fields in (False, True)]
+    for number, key in enumerate(keys):
+        kept.add(key, (float(number),))
+    assert [kept.get(key) for key in keys] == [(0.0,), (1.0,), (2.0,), (3.0,)]
+    assert kept.known([*keys, "f" * 64]).keys() == set(keys)
+
+
+def test_a_map_comes_back_the_way_round_it_was_stored(tmp_path):
+    """Column by column or row by row in memory, and turned."""
+    heights, kept = np.arange(6.0).reshape(2, 3), Store(tmp_path)
+    for name, each in {"a": heights, "b": heights.T, "c": np.asfortranarray(heights), "d": heights[:, ::-1]}.items():
+        kept.add(name, (each,))
+        np.testing.assert_array_equal(kept.get(name)[0], each, strict=True)
