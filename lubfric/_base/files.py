@@ -86,6 +86,8 @@ def read_checked(path) -> bytes | None:
 def read_json(path, remedy: str) -> Any:
     """What is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut off,
     nested too deeply or binary, or if it says a key twice."""
+    if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
+        raise InputError(f"{path} is no file; {remedy}")
     try:
         return json.loads(Path(path).read_bytes().decode("utf-8"), object_pairs_hook=_once)
     except (OSError, ValueError, RecursionError, MemoryError) as problem:

@@ -26,7 +26,7 @@ CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the searc
 RATIO = {"motion.slide_roll_ratio", "motion.slip_percent"}
 LEAST_ERROR, LEAST_SLOPE = 1e-6, 1e-9  # of f, relative, that may be stated; and by a parameter, over its bounds
 MOST = 30  # curves on the way, beside those of the differences
-STEPS = 3  # curves of a search, about, beside those of the differences
+STEPS = 5  # curves of a search, about, beside two for each parameter
 CORNERS = 16  # of the ranges, at which the work of a curve is counted
 
 
@@ -107,8 +107,8 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     search = Search(scene, measured, found)
     corners = list(product((0.0, 1.0), repeat=len(found)))
     places = [_begin(scene, found, {}), *map(np.array, corners[:: -(-len(corners) // CORNERS)])]
-    curves = len(found) + STEPS
-    seconds = in_words(curves * float(np.mean([search.foretold(unit)[1] for unit in places])))
+    curves, work = 2 * len(found) + STEPS, [search.foretold(unit)[1] for unit in places]
+    seconds = in_words(curves * 0.5 * (float(np.mean(work)) + max(work)))
     return "\n".join([*lines, f"  time: about {seconds} on one core (within a factor of about 4): {curves} curves"])
 
 
@@ -218,8 +218,8 @@ class Search:
         if misfit < self._nearest[0]:
             self._nearest = misfit, unit.copy(), counted
         done, (least, nearest, each) = len(self._curves), self._nearest
-        total = max(len(self.parameters) + STEPS, done + 1)
-        left = (total - done) * each * self._spent / self._counted
+        total = max(2 * len(self.parameters) + STEPS, done + 1)
+        left = float((total - done) * each * self._spent / self._counted)
         self._on_progress(done, total, left, least, values_at(self.parameters, nearest))
 
 

@@ -162,12 +162,14 @@ class StudyResult(Shown):
         return found
 
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
-        """The curve at one position along the axes, or None if fewer than three of its points are solved, or if they
-        run both ways."""
+        """The curve at one position along the axes, or None if fewer than three of its points are solved, if they run
+        both ways, or if no curve goes through their numbers, as those of a store that somebody changed."""
         numbers = {name: values[index] for name, values in self.columns.items()}
         try:
-            return through(numbers if self.chosen else numbers | {SPEED: self.coords[SPEED][1]})
-        except InputError:
+            found = through(numbers if self.chosen else numbers | {SPEED: self.coords[SPEED][1]})
+            s = found.samples
+            return found if np.allclose(found.at(s.speed), s.boundary + s.film, rtol=1e-3) else None
+        except ValueError:  # InputError, or that of an interpolation
             return None
 
 

@@ -64,7 +64,8 @@ class Store:
         if self.folder is None or not os.path.lexists(self._path(key)):
             return None
         try:
-            found = decode(read_checked(self._path(key)) or b"", CLASSES, kind)
+            content = read_checked(self._path(key)) if self._path(key).is_file() else None
+            found = decode(content or b"", CLASSES, kind)
         except (ValueError, OutputError):
             warnings.warn(f"{self._path(key)} is damaged and does not count: it is to be solved again", stacklevel=2)
             return None
