@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import get_type_hints
 
 import numpy as np
 
@@ -46,23 +46,11 @@ def read_record(folder: Path) -> dict:
     if not os.path.lexists(path):
         raise InputError(f"{folder} holds no {RESULT}; {again}")
     record = read_json(path, again)
-    if not isinstance(record, dict) or not fits(record.get("scene"), dict[str, Any]):
-        raise InputError(f"{path} is damaged, or no record of a run; {again}")
-    points = record.get("points", [])
-    sound = isinstance(record["scene"].get("name"), str) and fits(points, list[dict[str, Any]])
-    if not sound or not all(_is_entry(entry) for point in points for entry in _listed(point.get("validity"))):
+    numbers = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Validity).items()}
+    kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
+    if not isinstance(record, dict) or not fits({"points": []} | record, kind):
         raise InputError(f"{path} is damaged, or no record of a run; {again}")
     return record
-
-
-def _listed(value) -> list:
-    return value if isinstance(value, list) else [None]
-
-
-def _is_entry(entry) -> bool:
-    """Whether it is a `lubfric.Validity` as a record has it, where numbers that are not finite are null."""
-    kinds = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Validity).items()}
-    return isinstance(entry, dict) and entry.keys() == kinds.keys() and all(fits(entry[k], kinds[k]) for k in kinds)
 
 
 class RunFolder:

@@ -71,31 +71,28 @@ def decode(content: bytes, classes: dict[str, type], kind: Any = Any):
 
 def fits(value, kind) -> bool:
     """Whether ``value`` has the type ``kind``, as in an annotation, and so have its parts. Fields of dataclasses were
-    looked at when these were built. A type variable stands for a number of one point."""
+    looked at when these were built. A type variable stands for a number of one point, and a named tuple is stored as a
+    plain one. ``kind`` may also be a dict of kinds, for a dict that has these keys at least, and a list of one kind.
+    """
     if kind is Any:
         return True
-    if isinstance(kind, TypeVar):
-        kind = float
-    if isinstance(kind, type) and issubclass(kind, tuple) and kind is not tuple:  # a named one is stored as a plain one
-        return (
-            isinstance(value, tuple)
-            and len(value) == len(_hints(kind))
-            and all(map(fits, value, _hints(kind).values()))
-        )
-    origin, parts = get_origin(kind), get_args(kind)
+    if isinstance(kind, dict):
+        return isinstance(value, dict) and all(name in value and fits(value[name], kind[name]) for name in kind)
+    kind = float if isinstance(kind, TypeVar) else list[kind[0]] if isinstance(kind, list) else kind
+    origin, parts = get_origin(kind) or kind, get_args(kind)
     if origin in (Union, UnionType):
         return any(fits(value, part) for part in parts)
-    if origin is not None and origin not in (tuple, list, dict):
-        return isinstance(value, origin) if isinstance(origin, type) else value in parts  # a Literal
-    if not isinstance(value, ACCEPTED.get(kind, origin or kind)) or (isinstance(value, bool) and kind in (float, int)):
+    if isinstance(kind, type) and issubclass(kind, tuple) and kind is not tuple:
+        origin, parts = tuple, tuple(_hints(kind).values())
+    if not isinstance(value, ACCEPTED.get(origin, origin)) or (isinstance(value, bool) and origin in (float, int)):
         return False
-    if isinstance(value, int) and kind is float:
+    if isinstance(value, int) and origin is float:
         return abs(value) <= sys.float_info.max
-    if origin is tuple and parts[-1] is not Ellipsis:
-        return len(value) == len(parts) and all(map(fits, value, parts))
-    if origin is dict:
+    if origin is dict and parts:
         return all(fits(key, parts[0]) and fits(item, parts[1]) for key, item in value.items())
-    return origin is None or all(fits(item, parts[0]) for item in value)
+    if origin is tuple and parts and parts[-1] is not Ellipsis:
+        return len(value) == len(parts) and all(map(fits, value, parts))
+    return origin not in (tuple, list) or not parts or all(fits(item, parts[0]) for item in value)
 
 
 @cache

@@ -118,21 +118,18 @@ def plan_as_dict(plan: StudyPlan) -> dict:
 
 def is_plan(plan) -> bool:
     """Whether what was read from a file has the form of `plan_as_dict`, its parts being as many as each other."""
-    kinds = {"name": str, "lubfric": str, "axes": list[dict[str, Any]], "keys": list[str]}
-    if not isinstance(plan, dict) or not all(fits(plan.get(name), kind) for name, kind in kinds.items()):
+    axis = {"name": str, "keys": list[str], "values": list[list]}
+    whole = {"name": str, "lubfric": str, "axes": [axis], "keys": list[str], "shape": list[int], "speeds": Any}
+    if not fits(plan, whole):
         return False
-    axes, speeds = plan["axes"], plan.get("speeds")
-    of_axis = {"name": str, "keys": list[str], "values": list[list]}
-    if not all(fits(axis.get(name), kind) for axis in axes for name, kind in of_axis.items()):
-        return False
-    if not all(len(row) == len(axis["keys"]) for axis in axes for row in axis["values"]):
-        return False
-    if speeds != AUTO and not (fits(speeds, list[float]) and speeds and np.isfinite(speeds).all()):
+    axes, speeds = plan["axes"], plan["speeds"]
+    if speeds != AUTO and not (fits(speeds, list[float]) and np.isfinite(speeds).all()):
         return False
     shape = [*(len(axis["values"]) for axis in axes), MOST if speeds == AUTO else len(speeds)]
     names, keys = [axis["name"] for axis in axes], [key for axis in axes for key in axis["keys"]]
     once = len(set(names)) == len(names) and len(set(keys)) == len(keys)
-    return once and plan.get("shape") == shape and math.prod(shape[:-1]) == len(plan["keys"])
+    rows = all(len(row) == len(axis["keys"]) for axis in axes for row in axis["values"])
+    return once and rows and plan["shape"] == shape and math.prod(shape[:-1]) == len(plan["keys"])
 
 
 def _worded(row: tuple) -> list:

@@ -58,10 +58,8 @@ def solved(
             store.add(own, outcome)
         return outcome
 
-    failed = isinstance(model, LubfricError)
-    for speed, outcome in (
-        ((speed, solve(speed)) for speed in first) if speeds or failed else chosen(model, first, solve)
-    ):
+    choosing = chosen(model, first, solve) if isinstance(model, Prepared) and not speeds else None
+    for speed, outcome in choosing or ((speed, solve(speed)) for speed in first):
         done = (*done, speed)
         if not speeds:
             store.add(digest(key), (done, False))

@@ -134,7 +134,11 @@ def stores(tmp_path_factory):
     """A study at given speeds, one with a failed point, and one whose speeds are chosen."""
     made = []
     refused = SCENE.with_(surface={"sq": 0.0}, lubricant={"viscosity": 0.005}, motion={"slide_roll_ratio": 2.0})
-    for scene, speeds in ((SCENE, SPEEDS), (refused, (1.0, 1000.0)), (SCENE.with_(numerics={"tolerance": 0.1}), "auto")):
+    for scene, speeds in (
+        (SCENE, SPEEDS),
+        (refused, (1.0, 1000.0)),
+        (SCENE.with_(numerics={"tolerance": 0.1}), "auto"),
+    ):
         folder = tmp_path_factory.mktemp("store")
         lubfric.study(scene, {"bodies.load": [5.5]}, speeds, store=folder)
         made.append((folder, lubfric.open_study(folder)))

@@ -51,13 +51,13 @@ def test_the_mean_over_both_signs_of_slip_is_f_without_the_rolling_part():
     """Of a smooth film, which is the same whichever body is the faster: what is taken out is some 1e-4 of the load, and
     the more of f the less the bodies slide."""
     smooth = SCENE.with_(surface={"sq": 0.0})
-    slips = np.array([2e-4, 5e-3, 0.2])
+    slips = np.array([1e-7, 5e-3, 0.2])
     there, back = (lubfric.traction(smooth, sense * slips) for sense in (1, -1))
     np.testing.assert_allclose(there.without_rolling, (there.coefficient + back.coefficient) / 2, rtol=1e-6)
     rolling = there.coefficient - there.without_rolling
-    assert np.all(rolling > 5e-5) and rolling[0] / there.coefficient[0] > 5 * rolling[2] / there.coefficient[2]
+    assert np.all(rolling > 5e-5) and rolling[0] == pytest.approx(rolling[2], rel=0.1)
     assert f"rolling part of f up to {rolling.max():.2g}" in repr(there)
-    assert there.without_rolling[0] < 0.1 * there.without_rolling[1]  # it vanishes with the slip
+    assert there.without_rolling[0] < rolling[0] < 0.01 * there.without_rolling[1]  # the rest vanishes with the slip
 
 
 def test_a_refused_ratio_is_marked_and_the_others_kept():
