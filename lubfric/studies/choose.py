@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from .._base import validate
 from ..errors import InputError
 from ..sampling import FrictionResult
+from ..scene import FASTEST as LARGEST_SPEED
 from ..scene import Scene
 from ..sharing import Prepared
 from .curve import columns_of
@@ -29,6 +31,19 @@ ENOUGH = 2  # speeds within a tenth of one that is wanted: more would not tell t
 SHARE, MANY = 0.5, 11  # of the tolerance that the estimate may reach, with fewer speeds than these
 APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
+
+
+def asked_speeds(scene: Scene, speeds) -> list[float]:
+    """The speeds [m/s] that were asked for, one or many; those of the scene for None, and none for "auto"."""
+    if isinstance(speeds, str):
+        if speeds != AUTO:
+            raise InputError(
+                f"speeds = {speeds!r}; allowed: speeds in m/s, or 'auto', where each curve chooses its own"
+            )
+        return []
+    if speeds is None:
+        speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
+    return validate.numbers("speeds", speeds, "m/s", LARGEST_SPEED).tolist()
 
 
 def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Iterator[tuple[float, Any]]:

@@ -14,8 +14,8 @@ import numpy as np
 
 from .._base import __version__, plain, validate
 from ..errors import InputError
-from ..scene import FASTEST, Scene, load_scene, read_toml, scene_as_dict, speeds_of_range
-from .choose import AUTO, CHOSEN, MOST
+from ..scene import Scene, load_scene, read_toml, scene_as_dict, speeds_of_range
+from .choose import AUTO, CHOSEN, MOST, asked_speeds
 from .codec import fits
 from .explain import explain
 from .store import fingerprint
@@ -81,23 +81,10 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
         others = [getattr(one, f.name) for f in fields(one) if f.name not in ("name", "surface", "counterface")]
         scenes.append(one)
         keys.append(fingerprint(maps[rough], *others))
-    return StudyPlan(scene, axes, _speeds(scene, speeds), tuple(scenes), tuple(keys))
-
-
-def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
-    """The speeds in m/s: those of the scene for None, none for "auto"."""
-    if isinstance(speeds, str):
-        if speeds != AUTO:
-            raise InputError(
-                f"speeds = {speeds!r}; allowed: speeds in m/s, or 'auto', where each curve chooses its own"
-            )
-        return ()
-    if speeds is None:
-        speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    speeds = validate.numbers("speeds", speeds, "m/s", FASTEST)
-    if np.unique(speeds).size < speeds.size:
+    asked = asked_speeds(scene, speeds)
+    if len(set(asked)) < len(asked):
         raise InputError("speeds hold a value twice; give each once, in m/s")
-    return tuple(speeds.tolist())
+    return StudyPlan(scene, axes, tuple(asked), tuple(scenes), tuple(keys))
 
 
 def plan_as_dict(plan: StudyPlan) -> dict:

@@ -13,7 +13,7 @@ from ..quantities import ESTIMATED, PointQuantities, described_in_doc
 from ..sampling import FrictionResult
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from ..sharing import Prepared, prepare
-from .choose import AUTO, next_speed, span, tolerance_between
+from .choose import asked_speeds, next_speed, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
@@ -149,13 +149,11 @@ def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
     kept = []
     if not isinstance(fields, (bool, type(None))) and np.size(fields):
         kept = validate.numbers("fields", fields, "m/s", FASTEST).tolist()
-    if isinstance(speeds, str) and speeds == AUTO:
+    asked = asked_speeds(scene, speeds)
+    if not asked:
         if fields is True:
             raise InputError("fields = True with speeds = 'auto'; give the speeds in m/s whose fields are kept")
         return [], np.abs(kept).tolist()
-    if speeds is None:
-        speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    asked = validate.numbers("speeds", speeds, "m/s", FASTEST).tolist()
     if not set(kept) <= set(asked):
         raise InputError(
             f"fields = {fields!r} m/s are not all among the speeds of the curve; give some of them, or fields = True"
