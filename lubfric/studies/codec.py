@@ -71,14 +71,13 @@ def decode(content: bytes, classes: dict[str, type], kind: Any = Any):
 
 def fits(value, kind) -> bool:
     """Whether ``value`` has the type ``kind``, as in an annotation, and so have its parts. Fields of dataclasses were
-    looked at when these were built. A type variable stands for a number of one point, and a named tuple is stored as a
-    plain one. ``kind`` may also be a dict of kinds, for a dict that has these keys at least, and a list of one kind.
-    """
+    looked at when these were built, and a named tuple is stored as a plain one. ``kind`` may also be a dict of kinds,
+    for a dict that has these keys at least, and a list of one kind."""
     if kind is Any:
         return True
     if isinstance(kind, dict):
         return isinstance(value, dict) and all(name in value and fits(value[name], kind[name]) for name in kind)
-    kind = float if isinstance(kind, TypeVar) else list[kind[0]] if isinstance(kind, list) else kind
+    kind = list[kind[0]] if isinstance(kind, list) else kind
     origin, parts = get_origin(kind) or kind, get_args(kind)
     if origin in (Union, UnionType):
         return any(fits(value, part) for part in parts)
@@ -96,8 +95,10 @@ def fits(value, kind) -> bool:
 
 
 @cache
-def _hints(kind: type) -> dict[str, Any]:
-    return get_type_hints(kind)
+def _hints(kind: Any) -> dict[str, Any]:
+    """The types of the fields of a dataclass or a named tuple. A type variable stands for a number of one point."""
+    hints, own = get_type_hints(kind), [f.name for f in fields(kind)] if is_dataclass(kind) else kind._fields
+    return {name: float if isinstance(hints[name], TypeVar) else hints[name] for name in own}
 
 
 def _plain(value, arrays: list, field) -> Any:
@@ -135,13 +136,13 @@ def _value(plain, classes: dict[str, type], content: memoryview) -> Any:
     if "class" in plain:
         kind = classes[plain["class"]]
         new: Any = object.__new__(kind)  # as it was: checks and conversions of its constructor had their turn
-        for field in fields(kind):
-            part = _value(plain[field.name], classes, content)
-            if not fits(part, _hints(kind)[field.name]):
-                raise ValueError(f"{field.name} of {kind.__name__} is no {_hints(kind)[field.name]}")
+        for name, hint in _hints(kind).items():
+            part = _value(plain[name], classes, content)
+            if type(part) is not hint and not fits(part, hint):
+                raise ValueError(f"{name} of {kind.__name__} is no {hint}")
             if isinstance(part, np.ndarray):
                 part.flags.writeable = False
-            object.__setattr__(new, field.name, part)
+            object.__setattr__(new, name, part)
         return new
     ((mark, inner),) = plain.items()
     if mark == "float":
