@@ -49,7 +49,7 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
         middle
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
     on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about ``total``
-        curves, about ``left`` processor seconds to go, and the smallest root mean square misfit so far (relative, or in
+        curves, about ``left`` seconds to go on one core, and the smallest root mean square misfit so far (relative, or in
         deviations if these are given) with the ``values`` {"section.key": value} that have it
 
     Returns a `FitResult`.
@@ -153,7 +153,7 @@ class Search:
         self.tolerance = min(scene.numerics.tolerance, max(0.2 * scatter, 1e-3))  # as tight as the measurement requires
         self._executor, self._on_progress = executor, on_progress
         self._curves: dict[bytes, tuple[FrictionResult, ...]] = {}
-        self._spent = self._counted = 0.0  # processor seconds of the curves, and those that were foretold of them
+        self._spent = self._counted = 0.0  # seconds of the points so far, and those that were foretold of them
         self._nearest = np.inf, np.empty(0), 0.0  # misfit, where, and the seconds that were foretold there
         self._base, self._slopes = np.full(len(parameters), np.inf), np.empty((0, 0))
         self._ready: Prepared | None = None
