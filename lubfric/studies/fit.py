@@ -49,7 +49,7 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
         middle
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
     on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about ``total``
-        curves, about ``left`` seconds to go on one core, and the smallest root mean square misfit so far (relative, or in
+        curves, about ``left`` seconds to go on one core, and the least root mean square misfit so far (relative, or in
         deviations if these are given) with the ``values`` {"section.key": value} that have it
 
     Returns a `FitResult`.
