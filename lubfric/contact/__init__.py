@@ -1,19 +1,16 @@
 """The dry rough contact: the elastic half-space, its kernels and solver, and independent asperities."""
 
-from .asperities import AsperityContact, asperities_under_cylinder, asperity_curve
+from .asperities import AsperityContact, asperities_under_cylinder
 from .asperity import AsperityResult, asperity_contact, find_asperities, separation_for_load
 from .asperity_find import ridges
-from .contact_curve import ContactCurve, contact_curve
-from .flat import FlatContact, flat_contact
+from .flat import ContactCurve, FlatContact, asperity_curve, contact_curve, flat_contact
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .height_map import check_grid, contact_map, measured, rough_bodies, whole_map
 from .kernels import semiperiodic_coefficients
-from .operator import HalfSpace, half_space
+from .operator import HalfSpace, even_transform, half_space
 from .problem import Problem, make_problem
-from .result import ContactResult, contact_residuals, length_scale
 from .rough_contract import ContactState, RoughContact, weighted_mean
-from .rounds import Found, State, concluded, look, refine, state_of
+from .rounds import ContactResult, Found, State, concluded, contact_residuals, length_scale, look, refine, state_of
 from .solve import solve_contact
 from .strip_cells import correlation_lengths, length_or_half
 from .strips import Strips, one_patch, strips_of
-from .transforms import even_transform

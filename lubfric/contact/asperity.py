@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -50,29 +49,32 @@ class AsperityResult:
     report: Report | None = None
 
 
-@dataclass(frozen=True)
-class Asperities:
-    """The asperities of a height map (nx, ny) [m]. ``find(flat)`` gives (index, overlap, radius) of those that touch a
-    flat (nx, ny) [m]."""
+def find_asperities(
+    heights, spacing, e_prime, *, definition="summits", hardness=None, periodic=True
+) -> Callable[..., AsperityResult]:
+    """The function that gives the contact of a height map at a separation, a number or (nx, ny); arguments as in
+    `asperity_contact`. Summits are looked for only once."""
+    heights = validate.array("heights", heights, "m", ndim=2)
+    validate.positive("e_prime", e_prime, "Pa")
+    validate.choice("definition", definition, DEFINITIONS)
+    if hardness is not None:
+        validate.positive("hardness", hardness, "Pa")
+    pair = (periodic, periodic) if isinstance(periodic, (bool, np.bool_)) else periodic
+    if not isinstance(pair, (list, tuple)) or len(pair) != 2:
+        raise InputError(f" = {validate.shown(periodic)}", "periodic", "True, False, or one of them for each axis")
+    spacing = validate.spacing("spacing", spacing)
+    find = FINDERS[definition](heights, spacing, (bool(pair[0]), bool(pair[1])))
+    whole = heights.size * spacing[0] * spacing[1]
 
-    heights: np.ndarray
-    spacing: tuple[float, float]
-    e_prime: float
-    hardness: float | None
-    find: Callable[[np.ndarray], tuple[Any, Any, Any]]
-
-    def at(self, separation) -> AsperityResult:
-        """Their contact with a flat held at ``separation`` [m], a number or (nx, ny)."""
-        flat = np.broadcast_to(np.asarray(separation, dtype=float), self.heights.shape)
-        index, overlap, radius = self.find(flat)
+    def at(separation) -> AsperityResult:
+        index, overlap, radius = find(np.broadcast_to(np.asarray(separation, dtype=float), heights.shape))
         area = math.pi * radius * overlap
-        force = 2 / 3 * self.e_prime * np.sqrt(radius) * overlap**1.5
+        force = 2 / 3 * e_prime * np.sqrt(radius) * overlap**1.5
         plastic = np.zeros(overlap.size)
-        if self.hardness is not None:
-            ratio = np.minimum(self.hardness * area / (1.5 * force), 1.0)  # P_u/p0
-            force = np.where(ratio < 1, self.hardness * area * (1 - ratio**2 / 3), force)
+        if hardness is not None:
+            ratio = np.minimum(hardness * area / (1.5 * force), 1.0)  # P_u/p0
+            force = np.where(ratio < 1, hardness * area * (1 - ratio**2 / 3), force)
             plastic = area * (1 - ratio**2)
-        whole = flat.size * self.spacing[0] * self.spacing[1]
         return AsperityResult(
             separation=separation,
             load=float(force.sum()),
@@ -87,20 +89,7 @@ class Asperities:
             forces=force,
         )
 
-
-def find_asperities(heights, spacing, e_prime, *, definition="summits", hardness=None, periodic=True) -> Asperities:
-    """`Asperities` of a height map; arguments as in `asperity_contact`. Summits are looked for only once."""
-    heights = validate.array("heights", heights, "m", ndim=2)
-    validate.positive("e_prime", e_prime, "Pa")
-    validate.choice("definition", definition, DEFINITIONS)
-    if hardness is not None:
-        validate.positive("hardness", hardness, "Pa")
-    pair = (periodic, periodic) if isinstance(periodic, (bool, np.bool_)) else periodic
-    if not isinstance(pair, (list, tuple)) or len(pair) != 2:
-        raise InputError(f" = {validate.shown(periodic)}", "periodic", "True, False, or one of them for each axis")
-    spacing = validate.spacing("spacing", spacing)
-    find = FINDERS[definition](heights, spacing, (bool(pair[0]), bool(pair[1])))
-    return Asperities(heights, spacing, e_prime, hardness, find)
+    return at
 
 
 def asperity_contact(
@@ -133,12 +122,13 @@ def asperity_contact(
     A Hertz pressure of peak p0 that is cut off at P_u leaves ``F = P_u pi a² (1 - s²/3)``, ``s = P_u/p0 < 1``.
     """
     found = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
+    shape = np.shape(heights)
     try:
-        flat = np.broadcast_to(np.asarray(separation, dtype=float), found.heights.shape)
+        flat = np.broadcast_to(np.asarray(separation, dtype=float), shape)
     except (TypeError, ValueError):
-        raise InputError(f"separation must be a number or an array of shape {found.heights.shape} in m") from None
+        raise InputError(f"separation must be a number or an array of shape {shape} in m") from None
     validate.array("separation", flat, "m", ndim=2)
-    return found.at(separation)
+    return found(separation)
 
 
 def separation_for_load(
@@ -175,12 +165,12 @@ def separation_for_load(
     InputError : a value out of range
     ConvergenceError : the model cannot carry the load, or jumps over it; carries report and the closest result
     """
-    asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
+    found = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
     target = validate.positive("mean_pressure", mean_pressure, "Pa")
     validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
-    if np.ptp(asperities.heights) == 0:
+    if np.ptp(heights) == 0:
         raise InputError("heights are all equal: no asperities; give a rough surface in m")
-    best, scanned, history = _closest(asperities, target, tolerance)
+    best, scanned, history = _closest(found, float(np.max(heights)), float(np.ptp(heights)), target, tolerance)
     error = abs(best.mean_pressure / target - 1)
     most = f"at most {best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m"
     advice = "" if history else f"{definition} cannot carry a mean pressure of {target:.4g} Pa: {most}"
@@ -201,13 +191,13 @@ def separation_for_load(
     return best
 
 
-def _closest(asperities: Asperities, target: float, tolerance: float) -> tuple[AsperityResult, int, tuple[float, ...]]:
-    """The contact whose mean pressure is closest to ``target`` [Pa], the number of approaches scanned, and the errors
-    of the search in the last of them; none if the asperities carry less at every approach (then: the most)."""
-    top, span = asperities.heights.max(), float(np.ptp(asperities.heights))
+def _closest(found, top: float, span: float, target: float, tolerance: float):
+    """The `AsperityResult` whose mean pressure is closest to ``target`` [Pa], of those that are ``found`` at
+    separations from the ``top`` down over the ``span`` of the heights [m]; the number of approaches scanned, and the
+    errors of the search in the last of them; none if the asperities carry less at every approach (then: the most)."""
 
     def excess(approach, _=None):
-        result = asperities.at(float(top - approach))
+        result = found(float(top - approach))
         return result.mean_pressure / target - 1, result
 
     before, best = 0.0, excess(0.0)[1]
@@ -217,5 +207,5 @@ def _closest(asperities: Asperities, target: float, tolerance: float) -> tuple[A
             middle, step, bounds = 0.5 * (before + approach), 0.25 * (approach - before), (before, approach)
             root = increasing_root(excess, middle, step=step, bounds=bounds, tolerance=tolerance)
             return root.payload, scanned, root.history
-        before, best = approach, max(best, result, key=lambda found: found.load)
+        before, best = approach, max(best, result, key=lambda at: at.load)
     return best, len(APPROACHES), ()

@@ -1,37 +1,55 @@
-"""The cells of a patch that a search may load, and pressures on them that carry a given load."""
+"""The cells of a patch that a search may load, and a stencil on them for its directions.
+
+The stencil has nine points for |k|, the inverse of the half-space up to E'/4: exact enough for a search direction.
+
+It is the Fourier series of |k| over the waves that the grid resolves, cut after the nearest neighbours.
+
+The series is too stiff for waves much longer than a cell: unlike |k| it does not fall to zero with k. So spots of many
+cells, as smooth surfaces have them, would converge more slowly than with |k| itself. The difference is smooth: a
+transform of cells four times as long, a sixteenth of the cells, contains it, and takes it off.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import lru_cache
+
 import numpy as np
+
+from .operator import filtered, wavenumber
 
 DENSE = 0.6  # share of the cells from which all are taken: their numbers take more memory than they save
 ROUND = 8  # rows: windows of nearly the same width share their operator
-NEWTON = 12  # steps before every other one halves the bracket
+POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
+BLOCK = 16384  # cells that stay in the cache from one pass to the next
+FACTOR = 4  # cells, each way, that are one for long waves
+LEAST = 64  # cells along an axis: on shorter ones long waves cost more than they save
 
 
 class Cells:
     """Cells ``index`` (flat; None: all) of the ``rows`` of a patch (``whole``: its shape).
 
-    ``operator``: their deflection under pressure on them, in single precision.
+    ``deflection``: of the rows under pressure on them, both (n, ny) in single precision.
     """
 
-    def __init__(self, operator, index, rows: slice, whole: tuple[int, int]):
-        self.operator, self.index, self.rows, self.whole, self.shape = operator, index, rows, whole, operator.shape
+    def __init__(self, deflection, index, rows: slice, whole: tuple[int, int]):
+        self.deflection, self.index, self.rows, self.whole = deflection, index, rows, whole
+        self.shape = len(range(*rows.indices(whole[0]))), whole[1]
         self._field = np.zeros(self.shape if index is not None else (0, 0), np.float32)
 
     @staticmethod
     def flagged(operator, flags) -> Cells:
         """Cells whose ``flags`` are set, or all if that is most of them. With a free axis x beside a periodic y, only
         the rows that contain some."""
-        whole, rows = flags.shape, slice(None)
+        whole, rows, deflection = flags.shape, slice(None), operator.apply
         if operator.boundary == ("free", "periodic"):
             touched = np.flatnonzero(flags.any(axis=1))
             count = min(ROUND * -(-int(touched[-1] - touched[0] + 1) // ROUND), whole[0])
             first = min(int(touched[0]), whole[0] - count)
-            operator, rows = operator.window(count), slice(first, first + count)
+            deflection, rows = operator.window(count), slice(first, first + count)
         flags = flags[rows]
         many = np.count_nonzero(flags) > DENSE * flags.size
-        return Cells(operator, None if many else np.flatnonzero(flags), rows, whole)
+        return Cells(deflection, None if many else np.flatnonzero(flags), rows, whole)
 
     def gather(self, field) -> np.ndarray:
         """Values of a field of the rows, one axis."""
@@ -55,59 +73,76 @@ class Cells:
         return field
 
 
-def with_load(pressure, load: float, hardness: float) -> np.ndarray:
-    """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load``.
-
-    This is the Euclidean projection, for 0 <= load <= hardness size. Newton's method works on the piecewise linear sum,
-    inside a shrinking bracket, so it is exact once the right piece is found. What remains is the rounding error of a
-    pressure far above the load. A last factor removes it; cells at the hardness stay there.
-    """
-    upper = min(hardness, load) - pressure.min()
-    lower, shift = -pressure.max(), 0.0
-    for attempt in range(200):
-        result = np.clip(pressure + shift, 0.0, hardness)
-        missing = load - result.sum()
-        if abs(missing) <= 4e-16 * load:
-            break
-        lower, upper = (shift, upper) if missing > 0 else (lower, shift)
-        movable = np.count_nonzero((result > 0) & (result < hardness))
-        newton = shift + missing / movable if movable else np.nan
-        if newton == shift:
-            break
-        halve = attempt > NEWTON and attempt % 2 or not lower <= newton <= upper
-        shift = 0.5 * (lower + upper) if halve else newton
-    if not result.any() and load > 0:  # a load below the rounding of the highest pressure: one cell bears it
-        result[np.argmax(pressure)] = min(load, hardness)
-    elastic = result < hardness
-    carried = result[elastic].sum()
-    if carried > 0:
-        result[elastic] *= (load - (result.sum() - carried)) / carried
-        np.clip(result, 0.0, hardness, out=result)
-    return result
+@lru_cache(maxsize=16)
+def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
+    """Mean of |k| [1/m] times 1, cos(kx dx), cos(ky dy) and the product of the two; an axis of one cell has no
+    waves."""
+    turns = [(np.arange(POINTS) + 0.5) * (np.pi / POINTS) if n > 1 else np.zeros(1) for n in shape]
+    x, y = turns[0][:, None], turns[1]
+    k = np.hypot(x / spacing[0], y / spacing[1])
+    along_x, along_y = np.cos(x) * (shape[0] > 1), np.cos(y) * (shape[1] > 1)
+    own, x_part, y_part, both = (float((k * wave).mean()) for wave in (1.0, along_x, along_y, along_x * along_y))
+    return own, x_part, y_part, both
 
 
-def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
-    """``pressure`` times a factor. With a hardness it is then `shifted` to carry ``load``."""
-    result = pressure * (load / pressure.sum())
-    if hardness == np.inf:
-        return result
-    np.minimum(result, hardness, out=result)
-    result[pressure >= hardness] = hardness
-    return shifted(result, load, hardness)
+def stencil(cells: Cells, spacing, boundary, factor: float) -> Callable[[np.ndarray], np.ndarray]:
+    """The function that gives, from single-precision values on the ``cells``, the sums there of the nine points, less
+    long waves, times ``factor``. The values of the other cells are zero; periodic axes wrap around."""
+    shape = cells.shape
+    padded = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)
+    inner, nearest = padded[1:-1, 1:-1], nearest_coefficients(shape, spacing)
+    coefficients = tuple(np.float32(factor * c) for c in nearest)
+    long_waves = min(shape) >= LEAST
+    if long_waves:  # the series less |k|, on cells FACTOR times as long; free axes are padded to twice their length
+        coarse = tuple((2 if kind == "free" else 1) * -(-n // FACTOR) for n, kind in zip(shape, boundary))
+        missed = _series(nearest, coarse) - wavenumber(coarse, tuple(FACTOR * d for d in spacing))
+        missed = (factor / FACTOR**2 * np.maximum(missed, 0.0)).astype(np.float32)
+        row, column = (np.arange(n, dtype=np.int32) // FACTOR for n in shape)
+        owner = cells.gather(row[:, None] * (column[-1] + 1) + column)  # of each cell: the one for long waves
+
+    def sums(values: np.ndarray) -> np.ndarray:
+        inner[:] = cells.field(values)
+        if boundary[0] == "periodic":
+            padded[0], padded[-1] = padded[-2], padded[1]
+        if boundary[1] == "periodic":
+            padded[:, 0], padded[:, -1] = padded[:, -2], padded[:, 1]
+        found = cells.gather(_swept(padded, coefficients))
+        return found - filtered(_summed(inner), missed, coarse, None).ravel().take(owner) if long_waves else found
+
+    return sums
 
 
-def shifted(pressure, load: float, hardness: float) -> np.ndarray:
-    """``pressure`` with its elastic cells shifted by the same amount, within 0..hardness, so that it carries ``load``.
-    If those cells cannot do it, all loaded cells are shifted, else all cells.
+def _swept(padded, coefficients) -> np.ndarray:
+    """The sums for all cells, some rows at a time, within the cache."""
+    own, along_x, along_y, across = coefficients
+    sums = np.empty((padded.shape[0] - 2, padded.shape[1] - 2), np.float32)
+    rows = max(1, BLOCK // padded.shape[1])
+    for begin in range(0, sums.shape[0], rows):
+        points, total = padded[begin : begin + rows + 2], sums[begin : begin + rows]
+        beside = points[:, :-2] + points[:, 2:]
+        np.multiply(points[1:-1, 1:-1], own, out=total)
+        total += along_y * beside[1:-1]
+        beside *= across
+        beside += along_x * points[:, 1:-1]
+        total += beside[:-2]
+        total += beside[2:]
+    return sums
 
-    This is a start for another load. Spots of contact grow and shrink at their edges, and their pressure changes as
-    under a flat punch. That is nearer to an even change than to one in proportion.
-    """
-    yielded, loaded = pressure >= hardness, pressure > 0
-    for movable in (loaded & ~yielded, loaded, np.ones(pressure.shape, bool)):
-        share = load - pressure[~movable].sum()
-        if 0 < share <= hardness * np.count_nonzero(movable):
-            result = pressure.copy()
-            result[movable] = with_load(pressure[movable], share, hardness)
-            return result
-    return np.full(pressure.shape, load / pressure.size)
+
+def _series(nearest, shape) -> np.ndarray:
+    """The cut series at the waves of a grid of ``shape`` cells, each FACTOR cells long."""
+    own, along_x, along_y, across = nearest
+    x, y = (np.cos(2 * np.pi * np.fft.rfftfreq(n, FACTOR)) for n in shape)
+    return own + 2 * along_x * x[:, None] + 2 * along_y * y + 4 * across * x[:, None] * y
+
+
+def _summed(field) -> np.ndarray:
+    """Sums over FACTOR x FACTOR cells; the last ones of an axis may have fewer."""
+    for axis in (0, 1):
+        field = np.moveaxis(field, axis, 0)
+        total = field[::FACTOR].copy()
+        for k in range(1, FACTOR):
+            part = field[k::FACTOR]
+            total[: part.shape[0]] += part
+        field = np.moveaxis(total, 0, axis)
+    return np.ascontiguousarray(field)

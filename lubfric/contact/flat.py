@@ -1,20 +1,226 @@
-"""The nominally flat contact (paper, Sec. 3.1): one periodic contact curve under the film of the Hertz strip."""
+"""The nominally flat contact (paper, Sec. 3.1): one curve of mean gap against mean pressure, of the half-space or of
+independent asperities, for every speed and lubricant, under the film of the Hertz strip."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ..errors import ConvergenceError
+from .._base import FieldsOnly, validate
+from ..errors import ConvergenceError, InputError
 from ..scene import Scene, budget
-from .asperities import asperity_curve
-from .contact_curve import ContactCurve, contact_curve
+from .asperity import find_asperities
 from .operator import half_space
 from .rough_contract import ContactState, RoughContact, centred_axis, weighted_mean
+from .rounds import ContactResult
+from .solve import solve_contact
+
+LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used,
+ENOUGH = 0.25  # and from where the gap is as near as this, in its accuracy, to that of first touch, which is exact
+SPACING = 4.0  # pressure ratio between neighbouring nodes at first; its root on maps of
+SMALL = 128**2  # cells and fewer, whose summits come into contact one by one, down to
+HALVED = 0.25  # error of an interpolation between nodes half as far apart, of a smooth curve
+FEW = 1e-3  # of the heaviest pressure, below which f does not feel the load
+CELLS = 2  # that come into contact at a time
+ROUNDS, FINEST = 5, 0.05  # of adding nodes; least ln(pressure ratio) that is halved
+NOTHING = 1e-9  # of the lightest gap: below it the contact is full
+MATTERS = 0.1  # share of the load on the contact above which f feels all of its relative error
 
 POINTS = 512  # across the strip, where the film is averaged
 COLUMNS = 2  # of the strip that say where it touches: evenly
+APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])  # of the height range
+
+
+@dataclass(frozen=True)
+class ContactCurve(FieldsOnly):
+    """Nodes of the curve, heaviest first: mean_pressure [Pa], mean_gap [m], area fractions [-].
+
+    touching_gap [m]: mean gap at first contact. ``evaluations``: convolutions spent on all nodes. gap_error [m] (n -
+    1,) and area_error [-] (n - 1,): estimated errors of the gap and of the contact area interpolated between two
+    nodes.
+    """
+
+    mean_pressure: np.ndarray
+    mean_gap: np.ndarray
+    contact_area_fraction: np.ndarray
+    plastic_area_fraction: np.ndarray
+    touching_gap: float
+    evaluations: int
+    gap_error: np.ndarray
+    area_error: np.ndarray
+
+    def error_at(self, mean_pressure: float) -> float:
+        """Estimated error [m] of the gap read at a mean pressure [Pa]."""
+        return self._between(self.gap_error, self.touching_gap - float(self.mean_gap[-1]), mean_pressure)
+
+    def area_error_at(self, mean_pressure: float) -> float:
+        """Estimated error [-] of the contact area fraction read at a mean pressure [Pa]."""
+        return self._between(self.area_error, float(self.contact_area_fraction[-1]), mean_pressure)
+
+    def _between(self, errors, below: float, mean_pressure: float) -> float:
+        """The one of ``errors`` between two nodes. Below the lightest node what is read and what is right lie between
+        its value and that of first touch, which are ``below`` apart."""
+        if not errors.size:
+            return 0.0
+        if mean_pressure < self.mean_pressure[-1]:
+            return below
+        lighter = int(np.searchsorted(-self.mean_pressure, -mean_pressure))
+        return float(errors[lighter - 1]) if lighter > 0 else 0.0
+
+    def at(self, mean_pressure: float) -> tuple[float, float, float]:
+        """(mean gap, contact area fraction, plastic area fraction) at a mean pressure <= the heaviest.
+
+        Between the nodes the gap, the logarithm of the area and the plastic share of the area are shape-preserving
+        cubics in the logarithm of the pressure. Below the lightest node a single Hertz asperity carries: approach and
+        area ~ p^(2/3).
+        """
+        pressure = validate.nonnegative("mean_pressure", mean_pressure, "Pa", maximum=float(self.mean_pressure[0]))
+        gap, area, plastic = self.mean_gap, self.contact_area_fraction, self.plastic_area_fraction
+        lightest = self.mean_pressure[-1]
+        if pressure <= lightest:
+            share = (pressure / lightest) ** (2 / 3)
+            return self.touching_gap - share * (self.touching_gap - gap[-1]), share * area[-1], share * plastic[-1]
+        values = self._read(math.log(pressure))
+        touching = float(np.exp(values[1]))
+        return float(values[0]), touching, float(values[2]) * touching
+
+    @cached_property
+    def _read(self):
+        """(gap, logarithm of the area, plastic share of it) at a logarithm of the pressure between the nodes."""
+        from scipy.interpolate import PchipInterpolator
+
+        area = self.contact_area_fraction
+        table = np.stack([self.mean_gap, np.log(area), self.plastic_area_fraction / area])[:, ::-1]
+        return PchipInterpolator(np.log(self.mean_pressure[::-1]), table, axis=1)
+
+
+def contact_curve(
+    heights, spacing, e_prime, *, heaviest, hardness=None, tolerance=1e-4, accuracy=3e-3, operator=None
+) -> ContactCurve:
+    """Solve the periodic contact of ``heights`` [m] from the pressure ``heaviest`` [Pa] down.
+
+    Each node starts from its heavier neighbour. Nodes are added between the first ones until three errors are within
+    about ``accuracy``: the relative error of the interpolated mean gap; that of the load at a given gap, by its effect
+    on the friction of a film that carries the rest of ``heaviest``; and that of the area that this film has. They are
+    estimated from the errors at nodes that are left out of the interpolation (`ContactCurve.gap_error`). Most nodes are
+    needed near full contact, where the gap falls by orders of magnitude, and on small maps, whose summits touch one by
+    one. Raises what `lubfric.solve_contact` raises.
+    """
+    validate.positive("heaviest", heaviest, "Pa")
+    validate.positive("accuracy", accuracy, "(-)")
+    gap0 = np.max(heights) - heights
+    touching_gap, small = float(gap0.mean()), gap0.size <= SMALL
+    options = {"hardness": hardness, "tolerance": tolerance, "operator": operator}
+    solved: dict[float, ContactResult] = {}
+
+    def add(pressure: float, start: ContactResult | None) -> ContactResult:
+        solved[pressure] = solve_contact(gap0, spacing, e_prime, mean_pressure=pressure, start=start, **options)
+        return solved[pressure]
+
+    pressure, last = float(heaviest), None
+    while pressure >= LIGHTEST * heaviest:
+        last = add(pressure, last)
+        if len(solved) > 2 and touching_gap - last.mean_gap <= ENOUGH * accuracy * touching_gap:
+            break
+        pressure /= math.sqrt(SPACING) if small and pressure > FEW * heaviest else SPACING
+    for _ in range(ROUNDS):
+        nodes, gap, area, *_ = _table(solved)
+        wide = _inaccurate(nodes, gap, area, accuracy, 0.5 if small else HALVED)
+        for heavier, lighter in zip(nodes[:-1][wide], nodes[1:][wide]):
+            add(float(np.sqrt(heavier * lighter)), solved[heavier])
+        if not wide.any():
+            break
+    nodes, gap, area, plastic, work = _table(solved)
+    errors = errors_between(nodes, gap), errors_between(nodes, area) + CELLS / gap0.size
+    return ContactCurve(nodes, gap, area, plastic, touching_gap, int(work.sum()), *errors)
+
+
+def _table(solved: dict[float, ContactResult]) -> np.ndarray:
+    """Pressures, gaps, area and plastic fractions, and convolutions of all that was ``solved``, heaviest first."""
+    return np.array(
+        [
+            (pressure, r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations)
+            for pressure, r in sorted(solved.items(), reverse=True)
+        ]
+    ).T
+
+
+def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
+    """Intervals in which the interpolated gap, the load at that gap, or the area that is left to the film may be off by
+    more than ``accuracy``. ``halved``: the error between two nodes, over that when one of them is left out."""
+    log_pressure = np.log(pressure)
+    missed = [np.pad(left_out(log_pressure, values), 1) for values in (gap, area)]
+    error, of_area = (halved * np.maximum(off[1:], off[:-1]) for off in missed)
+    middle, rate = np.sqrt(gap[1:] * gap[:-1]), -np.diff(gap) / np.diff(log_pressure)
+    share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
+    felt = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
+    allowed = np.minimum(middle, rate / np.maximum(felt, NOTHING))
+    deep = middle <= NOTHING * gap[-1]
+    off = (error > accuracy * allowed) | (of_area > accuracy * (1 - area[:-1]))
+    return off & ~deep & (-np.diff(log_pressure) > FINEST)
+
+
+def errors_between(pressure, values) -> np.ndarray:
+    """Estimated error of ``values`` between neighbouring nodes: the largest error at the four nodes around when each is
+    left out. A curve of few summits has kinks, next to which the interpolation may meet a single node by chance."""
+    missed = np.zeros(pressure.size + 2)
+    missed[2:-2] = left_out(np.log(pressure), values)
+    return np.max([missed[i : missed.size - 3 + i] for i in range(4)], axis=0)
+
+
+def left_out(x, y) -> np.ndarray:
+    """Error |y - cubic without that node| at the inner nodes (n - 2,) of ``x`` (n,), which rises or falls, and ``y``
+    (n,).
+
+    The cubic keeps the shape: F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304,
+    doi:10.1137/0905021.
+    """
+    from scipy.interpolate import PchipInterpolator
+
+    if x.size < 3:
+        return np.zeros(0)
+    x = x if x[0] < x[-1] else -x
+    return np.array(
+        [abs(PchipInterpolator(np.delete(x, i), np.delete(y, i))(x[i]) - y[i]) for i in range(1, x.size - 1)]
+    )
+
+
+def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None) -> ContactCurve:
+    """Mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
+
+    ``reading``: "volume" or "mean-plane" (see the module) of heights [m] about their mean. The flat comes
+    down until it carries ``heaviest`` [Pa]. If the model cannot carry that, the flat comes down to the deepest valley
+    (to the mean plane for "mean-plane"), and the curve ends at the largest pressure. Patches that grow together carry
+    less than before; such nodes are left out, so that the pressure rises along the curve. The search ends below half of
+    the largest pressure.
+    """
+    asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness)
+    top, span = float(heights.max()), float(np.ptp(heights))
+    nodes: list[tuple[float, float, float, float]] = []
+    for approach in span * APPROACHES:
+        found = asperities(top - approach)
+        gap = _curve_gap(heights, top - approach, reading)
+        if gap <= 0:
+            break
+        if found.load > 0 and (not nodes or found.mean_pressure > nodes[-1][0]):
+            nodes.append((found.mean_pressure, gap, min(found.contact_area_fraction, 1.0), found.plastic_area_fraction))
+        if nodes and (nodes[-1][0] >= heaviest or found.mean_pressure < 0.5 * nodes[-1][0]):
+            break
+    if not nodes:
+        raise InputError(
+            f"contact.model = {definition!r}: none on the map of {heights.shape[0]} x {heights.shape[1]} points; give "
+            "a map with points above all of their neighbours, or contact.model = 'half-space'"
+        )
+    pressure, gap, area, plastic = np.array(nodes[::-1]).T
+    errors = errors_between(pressure, gap), errors_between(pressure, area)
+    return ContactCurve(pressure, gap, area, plastic, _curve_gap(heights, top, reading), 0, *errors)
+
+
+def _curve_gap(heights, separation, reading) -> float:
+    return float(np.maximum(separation - heights, 0.0).mean()) if reading == "volume" else float(separation)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import numpy as np
 from .._base import FieldsOnly
 from ..scene import Scene
 from .operator import HalfSpace, half_space
-from .rough_contract import ContactState, Grid, RoughContact, area_weight, centred_axis, weighted_mean
+from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 from .solve import solve_contact
 
 BOUNDARY = ("free", "periodic")
@@ -71,8 +71,8 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
         return "semi-periodic"
 
     @property
-    def grid(self) -> Grid:
-        return Grid(self.heights.shape, self.spacing)
+    def grid(self) -> tuple[int, int]:
+        return self.heights.shape
 
     @property
     def y(self) -> np.ndarray:

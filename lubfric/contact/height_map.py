@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from scipy.fft import next_fast_len
@@ -132,16 +133,18 @@ def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface"
     surface = generate_surface(
         tuple(rough.oversize * n for n in domain.shape),
         validate.spacing("contact.spacing", domain.spacing),
-        sq=rough.sq,
-        correlation_length=rough.correlation_length,
-        acf=rough.acf,
-        decay_level=rough.decay_level,
+        **statistics(rough),
         seed=rough.seed if name == "surface" else other_seed(rough.seed),
     )
     if rough.oversize == 1:
         return surface
     surface = surface.cropped(domain.shape).periodic(axes=(domain.geometry == "flat", True))
     return surface if rough.sq is None else surface.scaled(sq=rough.sq)
+
+
+def statistics(rough: Roughness) -> dict[str, Any]:
+    """What `generate_surface` is told of a roughness."""
+    return {name: getattr(rough, name) for name in ("sq", "correlation_length", "acf", "decay_level")}
 
 
 def other_seed(seed: int) -> int:

@@ -1,7 +1,13 @@
-"""Pressure to deflection by FFT, each axis periodic or free."""
+"""Pressure to deflection by FFT, each axis periodic or free.
+
+Along a free axis x beside a periodic y a wave k along y decays like exp(-k x). So for all but the longest waves, a
+padded length far below twice the rows is enough for no image to reach them. Blocks of waves, of similar reach, are
+transformed one after the other.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, wraps
 
@@ -11,9 +17,10 @@ from scipy import fft
 from .._base import FieldsOnly, FrozenArrays, validate
 from ..errors import InputError
 from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
-from .transforms import Strip, even_transform, filtered, wavenumber
 
 KINDS = ("periodic", "free")
+PADDED = 32768  # waves of a block of padded columns: it stays in the cache
+NEGLIGIBLE = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}  # of the coefficient under the cell itself
 
 
 def _once(method):
@@ -59,10 +66,27 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return filtered(np.asarray(pressure, dtype=self.symbol.dtype), self.symbol, self.padded, self.workers)
 
     @_once
-    def window(self, count: int) -> Strip:
-        """The operator on ``count`` neighbouring rows of a free axis x beside a periodic y: an exact part of this one,
-        with the same zero level. Made once for every count."""
-        return Strip(self._kernel[:count], self.shape[1], self.symbol.dtype, self.workers)
+    def window(self, count: int) -> Callable[[np.ndarray], np.ndarray]:
+        """The operator on fields (count, ny) of neighbouring rows of a free axis x beside a periodic y: an exact part
+        of this one, with the same zero level. Made once for every count."""
+        kernel, dtype, ny, workers = self._kernel[:count], self.symbol.dtype, self.shape[1], self.workers
+        blocks = []
+        reaches, begin = _reaches(kernel, NEGLIGIBLE[dtype]), 0
+        while begin < reaches.size:
+            reach = int(reaches[begin])
+            length = fft.next_fast_len(min(count + reach, 2 * count - 1))
+            columns = slice(begin, begin + max(1, PADDED // length))
+            lags = min(reach, count - 1, (length - 1) // 2) + 1
+            blocks.append((columns, length, even_transform(kernel[:lags, columns], length).astype(dtype)))
+            begin = columns.stop
+
+        def apply(pressure: np.ndarray) -> np.ndarray:
+            spectrum = fft.rfft(pressure, axis=1, workers=workers)
+            for columns, length, symbol in blocks:
+                spectrum[:, columns] = _multiplied(spectrum[:, columns], symbol, length, workers)[:count]
+            return fft.irfft(spectrum, n=ny, axis=1, workers=workers, overwrite_x=True)
+
+        return apply
 
     @cached_property
     def _kernel(self) -> np.ndarray:
@@ -145,3 +169,52 @@ def _symbol(shape, spacing, e_prime, boundary, padded) -> np.ndarray:
         return np.ascontiguousarray(even_transform(flipped, padded[1]).T)
     partial = even_transform(love_coefficients(shape, spacing, e_prime), padded[0])
     return even_transform(partial, padded[1], axis=1)
+
+
+def wavenumber(shape, spacing) -> np.ndarray:
+    """|k| [rad/m] at the non-negative frequencies (nx//2 + 1, ny//2 + 1)."""
+    kx, ky = (2 * np.pi * fft.rfftfreq(n, d) for n, d in zip(shape, spacing))
+    return np.hypot(kx[:, None], ky)
+
+
+def even_transform(coefficients: np.ndarray, length: int, axis: int = 0) -> np.ndarray:
+    """Real spectrum, non-negative frequencies, of coefficients mirrored about zero in a period of ``length``."""
+    c = np.moveaxis(coefficients, axis, 0)
+    even = np.zeros((length, *c.shape[1:]))
+    even[: len(c)] = c
+    even[length - len(c) + 1 :] = c[:0:-1]
+    return np.ascontiguousarray(np.moveaxis(fft.rfft(even, axis=0).real, 0, axis))
+
+
+def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, ...], workers) -> np.ndarray:
+    """``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back.
+
+    Where axis 0 is padded, some columns after the other are. So the padded field is never held whole, and a block of
+    columns stays in the cache.
+    """
+    (nx, ny), (mx, my) = field.shape, padded
+    spectrum = fft.rfft(field, n=my, axis=1, workers=workers)
+    if mx == nx:
+        spectrum = _multiplied(spectrum, symbol, mx, workers)
+    else:
+        width = max(1, PADDED // mx)
+        for first in range(0, spectrum.shape[1], width):
+            part = np.s_[:, first : first + width]
+            spectrum[part] = _multiplied(spectrum[part], symbol[part], mx, workers)[:nx]
+    spectrum = fft.irfft(spectrum, n=my, axis=1, workers=workers, overwrite_x=True)
+    return spectrum if my == ny else spectrum[:, :ny].copy()  # a part would hold on to the whole
+
+
+def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -> np.ndarray:
+    """Columns padded to ``length`` and multiplied by ``symbol`` in Fourier space; they may be written over."""
+    waves, half = fft.fft(columns, n=length, axis=0, workers=workers, overwrite_x=True), length // 2 + 1
+    waves[:half] *= symbol
+    waves[half:] *= symbol[(length - 1) // 2 : 0 : -1]
+    return fft.ifft(waves, axis=0, workers=workers, overwrite_x=True)
+
+
+def _reaches(kernel, negligible: float) -> np.ndarray:
+    """Number of rows beyond which a wave and all shorter ones do not deflect; it never rises from wave to wave."""
+    felt = np.abs(kernel) > negligible * np.abs(kernel[0])
+    last = felt.shape[0] - 1 - np.argmax(felt[::-1], axis=0)
+    return np.maximum.accumulate(last[::-1])[::-1]

@@ -1,4 +1,4 @@
-"""One contact problem, checked before any work."""
+"""One contact problem, checked before any work; pressures that carry its load, and the zero level of its gap."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from .operator import HalfSpace, half_space
 COARSEST = 24  # cells along an axis below which it is not halved
 COARSE_TOLERANCE = 1e-2  # coarse grids only give a start
 COARSE_ITERATIONS = 60
+NEWTON = 12  # steps before every other one halves the bracket
 ABSURD = 1e6  # times E': no start has such a pressure
 
 
@@ -53,7 +54,16 @@ class Problem:
         )
 
 
-def make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations) -> Problem:
+def make_problem(
+    gap0,
+    spacing,
+    e_prime,
+    hardness=None,
+    boundary=("periodic", "periodic"),
+    tolerance=1e-6,
+    operator=None,
+    max_iterations=2000,
+) -> Problem:
     """Check a problem; builds the operator if none is given, else checks that it fits."""
     if hasattr(gap0, "heights"):
         raise InputError(
@@ -96,3 +106,88 @@ def starting_pressure(problem: Problem, start) -> np.ndarray | None:
             f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa; allowed: 0 to {limit:g} Pa"
         )
     return np.ascontiguousarray(np.minimum(pressure, problem.hardness))  # the solver writes through ravel()
+
+
+def with_load(pressure, load: float, hardness: float) -> np.ndarray:
+    """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load``.
+
+    This is the Euclidean projection, for 0 <= load <= hardness size. Newton's method works on the piecewise linear sum,
+    inside a shrinking bracket, so it is exact once the right piece is found. What remains is the rounding error of a
+    pressure far above the load. A last factor removes it; cells at the hardness stay there.
+    """
+    upper = min(hardness, load) - pressure.min()
+    lower, shift = -pressure.max(), 0.0
+    for attempt in range(200):
+        result = np.clip(pressure + shift, 0.0, hardness)
+        missing = load - result.sum()
+        if abs(missing) <= 4e-16 * load:
+            break
+        lower, upper = (shift, upper) if missing > 0 else (lower, shift)
+        movable = np.count_nonzero((result > 0) & (result < hardness))
+        newton = shift + missing / movable if movable else np.nan
+        if newton == shift:
+            break
+        halve = attempt > NEWTON and attempt % 2 or not lower <= newton <= upper
+        shift = 0.5 * (lower + upper) if halve else newton
+    if not result.any() and load > 0:  # a load below the rounding of the highest pressure: one cell bears it
+        result[np.argmax(pressure)] = min(load, hardness)
+    elastic = result < hardness
+    carried = result[elastic].sum()
+    if carried > 0:
+        result[elastic] *= (load - (result.sum() - carried)) / carried
+        np.clip(result, 0.0, hardness, out=result)
+    return result
+
+
+def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
+    """``pressure`` times a factor, yielded cells left as they are, and then `shifted` to carry ``load``."""
+    loaded = np.flatnonzero(pressure > 0)
+    values = pressure.ravel()[loaded]
+    factor = np.where(values < hardness, load / values.sum(), 1.0)
+    return _placed(pressure.shape, loaded, np.minimum(values * factor, hardness), load, hardness)
+
+
+def shifted(pressure, load: float, hardness: float) -> np.ndarray:
+    """``pressure`` with its elastic cells shifted by the same amount, within 0..hardness, so that it carries ``load``.
+    If those cells cannot do it, all loaded cells are shifted, else all cells.
+
+    This is a start for another load. Spots of contact grow and shrink at their edges, and their pressure changes as
+    under a flat punch. That is nearer to an even change than to one in proportion.
+    """
+    loaded = np.flatnonzero(pressure > 0)
+    return _placed(pressure.shape, loaded, pressure.ravel()[loaded], load, hardness)
+
+
+def _placed(shape, loaded, values, load: float, hardness: float) -> np.ndarray:
+    """The field of ``shape`` with these ``values``, `shifted`, on its cells ``loaded``."""
+    field, elastic = np.zeros(shape), values < hardness
+    for movable in (elastic, np.ones_like(elastic)):
+        share = load - values[~movable].sum()
+        if 0 < share <= hardness * np.count_nonzero(movable):
+            values[movable] = with_load(values[movable], share, hardness)
+            field.ravel()[loaded] = values
+            return field
+    if 0 < load <= hardness * field.size:
+        field.ravel()[loaded] = values
+        return with_load(field, load, hardness)
+    return np.full(shape, load / field.size)
+
+
+def dot(a, b) -> float:
+    """Sum of products, on this thread alone: BLAS threads would fight those of the transforms."""
+    return float(np.einsum("i,i", a.ravel(), b.ravel()))
+
+
+def zero_level(height, yielded, elastic=None, otherwise: float = 0.0) -> float:
+    """The approach [m] at which the mean gap over the ``elastic`` cells is zero, from the ``height`` of the gap.
+
+    If no cell is elastic, it is halfway between the highest ``yielded`` cell and the lowest other one; if no cell is
+    loaded at all, ``otherwise``. elastic, yielded: flags.
+    """
+    count = 0 if elastic is None else np.count_nonzero(elastic)
+    if count:
+        return dot(height, elastic.astype(height.dtype)) / count
+    if not yielded.any():
+        return otherwise
+    highest = float(height[yielded].max())
+    return 0.5 * (highest + (highest if yielded.all() else float(height[~yielded].min())))

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 
 from ..errors import InputError
 from ..scene import Scene
-from .result import ContactResult
+from .rounds import ContactResult
 
 
 @dataclass(frozen=True)
@@ -56,13 +55,6 @@ class ContactState:
         return np.diff(np.interp(x, edges, touched)) / np.diff(x)
 
 
-class Grid(NamedTuple):
-    """Cells (nx, ny) of a contact and their size (dx, dy) [m]."""
-
-    cells: tuple[int, int]
-    spacing: tuple[float, float]
-
-
 class RoughContact:
     """A rough contact under a film, immutable. Loads are in N on the whole width of the line.
 
@@ -92,8 +84,8 @@ class RoughContact:
         return math.inf
 
     @property
-    def grid(self) -> Grid | None:
-        """Its cells; None if it has no grid on which f depends."""
+    def grid(self) -> tuple[int, int] | None:
+        """Its cells (nx, ny); None if it has none on which f depends."""
         return None
 
     @property

@@ -1,4 +1,5 @@
-"""Rounds of search and check: single precision on the cells that may touch, then double precision everywhere.
+"""What a dry contact solve returns, and the rounds that find it: a search in single precision on the cells that may
+touch, then a check in double precision everywhere.
 
 Only the check ends the loop: a `look` at the whole patch in double precision, whatever the search found. There is no
 proof that conjugate directions converge when they are kept while the set changes. So rounds that gain nothing end the
@@ -13,9 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .._base import Shown
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
-from .cells import Cells, rescaled
-from .result import ContactResult, contact_residuals, length_scale, zero_level
+from .cells import Cells
+from .problem import dot, rescaled, zero_level
 from .search import FIRST_PACE, Search
 
 REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into touch
@@ -23,6 +25,53 @@ MARGIN = 0.8  # of the tolerance, aimed at by the search
 FALL = 8e-6  # of the residual within a round: as far as single precision goes
 RIGID = 1e-2  # of the roughness: deflection of a yielded cell below which the search is exact
 WASTED = 4  # rounds without halving the residual
+
+
+@dataclass(frozen=True, repr=False)
+class ContactResult(Shown):
+    """Fields and means of one dry contact. Arrays are (nx, ny); means are over the whole array.
+
+    Attributes
+    ----------
+    pressure : 0 <= p <= hardness [Pa]
+    displacement : u = K p [m], up to the constant of the half-space operator
+    gap : gap0 - approach + displacement [m]; >= 0, except where the pressure is at the hardness and the bodies overlap
+    approach : rigid motion towards each other [m]
+    mean_pressure : load per area [Pa]
+    mean_gap : volume between the bodies per area [m]; overlapping cells count as zero
+    contact_area_fraction : share of the cells with p > 0 [-]
+    plastic_area_fraction : share of the cells with p = hardness [-]
+    report : how the solve ended
+
+    Notes
+    -----
+    The residuals of the report are computed from the returned pressure alone, in double precision, after the iteration
+    has ended. L is the length of `length_scale`:
+
+    - complementarity: ``Σ p m / (L Σ p)``, with the misfit m = |gap|, or max(gap, 0) where p = H
+    - penetration: ``max(-gap)/L`` over cells with p < H
+    - load: ``|mean p - mean_pressure|/mean_pressure``, or volume: ``|mean max(gap, 0) - mean_gap|/min(L, mean_gap)``
+    """
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    displacement: np.ndarray
+    approach: float
+    mean_pressure: float
+    mean_gap: float
+    contact_area_fraction: float
+    plastic_area_fraction: float
+    report: Report
+
+    def _facts(self) -> dict[str, str]:
+        nx, ny = self.pressure.shape
+        return {
+            "": f"{nx} x {ny} cells",
+            "mean pressure": f"{self.mean_pressure:.4g} Pa",
+            "mean gap": f"{self.mean_gap:.4g} m",
+            "contact area": f"{100 * self.contact_area_fraction:.3g} %",
+            "status": self.report.status,
+        }
 
 
 @dataclass(frozen=True)
@@ -66,6 +115,43 @@ class Found:
     notes: Sequence[str] = ()
 
 
+def length_scale(pressure, displacement, gap0, operator, roughness: float | None = None) -> float:
+    """Length L [m] in which gap residuals are measured.
+
+    ``max(min(Σ p u / Σ p, max(d, r)), min(d, r))`` with the ``roughness`` r (None: rms of gap0) and the deflection
+    ``d = (4/pi) p_mean a/E'`` of the shortest ripple that the grid resolves (a: the finer spacing) under the mean
+    pressure. The load-weighted elastic deflection Σ p u / Σ p is twice the elastic energy per load. It is the
+    indentation of one touching cell, about the approach of a Hertz contact, and about the roughness height when most of
+    it is flattened. Two bounds are needed. At most max(d, r): without periodicity the deflection includes the bulk,
+    which deforms under the whole load however smooth the surface. At least min(d, r): in full contact hardly any
+    deflection is left to compare with. L is proportional to the lengths, and does not change with E' and p together. It
+    is never below 1e-9 d, where rounding begins (flat on flat). Infinite without load.
+    """
+    total = float(pressure.sum())
+    if total <= 0:
+        return math.inf
+    ripple = 4 / math.pi * total / pressure.size * min(operator.spacing) / operator.e_prime
+    smaller, larger = sorted((ripple, float(gap0.std()) if roughness is None else roughness))
+    loaded = np.flatnonzero(pressure > 0)
+    work = dot(pressure.ravel()[loaded], displacement.ravel()[loaded])
+    return float(max(min(work / total, larger), smaller, 1e-9 * ripple))
+
+
+def contact_residuals(pressure, gap, scale: float, hardness: float) -> dict[str, float]:
+    """Complementarity and penetration residuals, dimensionless; see `ContactResult` for formulas."""
+    loaded, gap = np.flatnonzero(pressure > 0), gap.ravel()
+    carried, apart = pressure.ravel()[loaded], np.abs(gap[loaded])
+    yielded = carried >= hardness
+    if yielded.any():
+        apart[yielded] = np.maximum(gap[loaded[yielded]], 0.0)
+        gap = gap.copy()
+        gap[loaded[yielded]] = 0.0
+    lowest = float(gap.min())
+    if not loaded.size:
+        return {"complementarity": 0.0, "penetration": math.inf if lowest < 0 else 0.0}
+    return {"complementarity": dot(carried, apart) / (carried.sum() * scale), "penetration": max(0.0, -lowest) / scale}
+
+
 def look(problem, operator, pressure, level=None) -> State:
     """The `State` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed approach."""
     return state_of(problem, pressure, operator.apply(pressure), level)
@@ -73,10 +159,13 @@ def look(problem, operator, pressure, level=None) -> State:
 
 def state_of(problem, pressure, displacement, level=None) -> State:
     """The `State` of ``pressure``, the ``displacement`` [m] of which is known."""
-    gap = (problem.gap0 + displacement).astype(displacement.dtype, copy=False)
+    gap = np.add(problem.gap0, displacement, out=np.empty_like(displacement), casting="same_kind")
     if level is None:
-        yielded = pressure >= problem.hardness
-        level = zero_level(gap, (pressure > 0) & ~yielded, yielded)
+        loaded = np.flatnonzero(pressure > 0)
+        elastic = loaded[pressure.ravel()[loaded] < problem.hardness]
+        level = (
+            gap.ravel()[elastic].mean(dtype=float) if elastic.size else zero_level(gap, pressure >= problem.hardness)
+        )
     gap -= level
     scale = length_scale(pressure, displacement, problem.gap0, problem.operator, problem.roughness)
     residuals = contact_residuals(pressure, gap, scale, problem.hardness)
@@ -137,10 +226,13 @@ def concluded(problem, found: Found, control: dict[str, float], failed: str) -> 
 
 def _begun(problem, state: State, load, pace: float, exact: bool) -> Search:
     """A search from ``state`` on the cells that are loaded, or may come into touch."""
-    operator, flags, overlap = problem.operator.single, state.pressure > 0, max(0.0, -float(state.gap.min()))
+    operator = problem.operator.single
     if np.isfinite(state.scale):
         overlap = state.residuals["penetration"] * state.scale  # of cells that have not yielded
-    flags |= state.gap < REACH * overlap
+    else:
+        overlap = max(0.0, -float(state.gap.min()))
+    flags = state.gap < REACH * overlap
+    flags |= state.pressure > 0
     rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID * problem.roughness
     return Search(problem, Cells.flagged(operator, flags), state, load, pace, exact or rigid)
 

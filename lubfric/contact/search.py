@@ -22,10 +22,9 @@ import math
 
 import numpy as np
 
-from .cells import with_load
-from .result import dot, zero_level
-from .stencil import Stencil
-from .transforms import filtered, wavenumber
+from .cells import stencil
+from .operator import filtered, wavenumber
+from .problem import dot, with_load, zero_level
 
 FIRST_PACE = 0.35  # of the step that the preconditioner would take were it the inverse
 LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual
@@ -75,9 +74,12 @@ class Search:
         self.history: list[float] = []
         factor = operator.e_prime / 4 / self.compliance
         if exact:
-            self.stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
+            stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
+            self.turned = lambda values: cells.gather(
+                filtered(cells.field(values), stiffness, cells.shape, operator.workers)
+            )
         else:
-            self.stencil = Stencil(cells, operator.spacing, operator.boundary, factor)
+            self.turned = stencil(cells, operator.spacing, operator.boundary, factor)
 
     def run(self, tolerance: float, limit: int) -> None:
         """Iterate until the residual on these cells is <= tolerance, until it no longer falls, or ``limit`` times."""
@@ -111,7 +113,7 @@ class Search:
         yielded = self.change >= self.upper
         inside = (self.change > self.lower) & ~yielded
         if self.given:
-            self.level = zero_level(self.gap, inside, yielded, self.level)
+            self.level = zero_level(self.gap, yielded, inside, self.level)
         free = self.gap < np.float32(self.level)
         free ^= yielded
         free |= inside
@@ -143,13 +145,8 @@ class Search:
     def _turn(self) -> None:
         """Conjugate direction on the free cells (Polak-Ribiere, never negative), along which a given load does not
         change. The residue becomes the one before."""
-        turned = self.trial
-        if not self.exact:
-            self.stencil.apply(self.residue, turned)
-        else:
-            field = self.cells.field(self.residue)
-            turned[:] = self.cells.gather(filtered(field, self.stiffness, field.shape, self.cells.operator.workers))
-            self.convolutions += 1
+        turned = self.turned(self.residue)
+        self.convolutions += self.exact
         power = dot(self.residue, turned)
         keep = max(0.0, (power - dot(self.before, turned)) / self.power) if self.power > 0 else 0.0
         self.power = power
@@ -242,4 +239,4 @@ class Search:
     def _answer(self, way) -> np.ndarray:
         """Deflection under a change of pressure, to be multiplied by the compliance."""
         self.convolutions += 1
-        return self.cells.gather(self.cells.operator.apply(self.cells.field(way)))
+        return self.cells.gather(self.cells.deflection(self.cells.field(way)))

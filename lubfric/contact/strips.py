@@ -8,15 +8,18 @@ measured map, or there is one only: the patch that a scene asks for, or a map th
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
+from .._base import FieldsOnly
 from .._base import spacing as checked_spacing
 from ..errors import InputError
 from ..scene import Roughness, Scene
-from ..surface import Surface, generate_surface
-from .height_map import extended, measured, rough_bodies, whole_map
+from ..surface import Surface, surface_generator
+from .height_map import extended, measured, rough_bodies, statistics, whole_map
 from .rough_contract import centred_axis
 from .strip_cells import EVEN, Cells, cells_of_a_box, choose_cells, correlation_lengths, length_or_half, reach_of
 
@@ -24,6 +27,7 @@ STRIP, PIECE = 90.0, 42.0  # correlation lengths: of a strip, of a piece on the 
 FIRST = 180.0  # correlation lengths that are solved first
 MOST = 46080.0  # correlation lengths, at most
 MOST_CELLS = 3_000_000  # of a stack: memory
+KEPT_CELLS = 2_000_000  # of the strips from which a longer stack goes on
 BLEND = 2.0  # correlation lengths along y over which one strip passes into the next
 APART = 4.0  # correlation lengths along the motion between windows that are independent
 ENOUGH = 8  # windows for an honest standard error
@@ -70,36 +74,46 @@ class Strips:
 
 
 @dataclass(frozen=True)
-class GeneratedStrips(Strips):
+class GeneratedStrips(FieldsOnly, Strips):
     """Strips of one endless generated surface, or of two whose heights are added."""
 
     def stack(self, count: int) -> Surface:
         blend = _blend(self.lengths[1], self.cells.coarse[1])
         shape = self.cells.count, self.cells.rows(self.length) + blend
-        strips = [self._generated((STRIPS, index), self.cells.coarse, shape) for index in range(count)]
+        known, strip = self._known, self._generator(STRIPS, self.cells.coarse, shape)
+        strips = [known.get(index) or strip(index) for index in range(count)]
+        known.update(enumerate(strips[: KEPT_CELLS // math.prod(shape)]))
         return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
 
     def piece(self, index: int) -> Surface:
         fx, fy = self.cells.factors
         rows = self.cells.rows(PIECE * self.lengths[1]) * fy
-        return self._generated((PIECES, index), self.cells.spacing, (self.cells.count * fx, rows))
+        return self._generator(PIECES, self.cells.spacing, (self.cells.count * fx, rows))(index)
 
-    def _generated(self, stream, spacing, shape) -> Surface:
-        maps = [_one_body(rough, name, stream, spacing, shape) for rough, name in rough_bodies(self.scene)]
-        return maps[0] if len(maps) == 1 else maps[0].combined(maps[1])
+    @cached_property
+    def _known(self) -> dict[int, Surface]:
+        """The first strips that were made so far, by their number, on which alone they depend."""
+        return {}
+
+    def _generator(self, stream: int, spacing, shape) -> Callable[[int], Surface]:
+        """The function that makes a map of the ``stream`` from its number."""
+        bodies = [_one_body(rough, name, stream, spacing, shape) for rough, name in rough_bodies(self.scene)]
+
+        def made(index: int) -> Surface:
+            first, *others = (body(index) for body in bodies)
+            return first.combined(*others) if others else first
+
+        return made
 
 
-def _one_body(rough: Roughness, name: str, stream, spacing, shape) -> Surface:
-    surface = generate_surface(
-        (shape[0] * rough.oversize, shape[1]),
-        spacing,
-        sq=rough.sq,
-        correlation_length=rough.correlation_length,
-        acf=rough.acf,
-        decay_level=rough.decay_level,
-        seed=_seed_of(rough.seed, *stream, *(() if name == "surface" else (1,))),
-    )
-    return surface if rough.oversize == 1 else surface.cropped(shape).scaled(sq=rough.sq or 0.0)
+def _one_body(rough: Roughness, name: str, stream: int, spacing, shape) -> Callable[[int], Surface]:
+    make = surface_generator((shape[0] * rough.oversize, shape[1]), spacing, **statistics(rough))
+
+    def made(index: int) -> Surface:
+        surface = make(_seed_of(rough.seed, stream, index, *(() if name == "surface" else (1,))))
+        return surface if rough.oversize == 1 else surface.cropped(shape).scaled(sq=rough.sq or 0.0)
+
+    return made
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """What only the comparison with the paper needs (docs/figures.md)."""
 
-from .alternating import alternating
 from .differential import solve_differential_deflection
 from .differential_transient import solve_differential_transient
+from .imposed_film import alternating
 from .single_loop import single_loop

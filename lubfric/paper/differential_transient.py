@@ -66,19 +66,14 @@ class UniformSetting:
 def solve_differential_transient(
     *,
     load_per_width,
-    radius: float,
-    e_prime: float,
     entrainment_speed,
-    viscosity: float,
-    pressure_viscosity_coefficient: float,
     times,
     domain: tuple[float, float],
-    viscosity_law: str = "roelands",
-    density_law: str = "constant",
     nodes: int = 1025,
     bandwidth: int = NEAR,
     time_tolerance: float = 1e-5,
     raise_on_failure: bool = True,
+    **contact,
 ) -> TransientFilm:
     """Film of a smooth line contact in time by differential deflection, from the steady state before t = 0.
 
@@ -87,8 +82,9 @@ def solve_differential_transient(
     load_per_width, entrainment_speed : [N/m] and [m/s], numbers or histories, both > 0 at all times
     domain : first and last node [m]
 
-    The other parameters are those of `solve_differential_deflection` and `solve_transient_ehl`. Each step is solved
-    until the residuals of `lubfric.paper.differential_equations.measure` are <= 1e-6.
+    The other parameters are those of `solve_differential_deflection` (``contact``: radius, e_prime, viscosity and the
+    further ones of the oil) and `solve_transient_ehl`. Each step is solved until the residuals of
+    `lubfric.paper.differential_equations.measure` are <= 1e-6.
 
     Raises
     ------
@@ -102,16 +98,11 @@ def solve_differential_transient(
     validate.number("time_tolerance", time_tolerance, "(-)", minimum=1e-10, maximum=0.1)
     steady = solve_differential_deflection(
         load_per_width=load.before(0.0),
-        radius=radius,
-        e_prime=e_prime,
         entrainment_speed=speed.before(0.0),
-        viscosity=viscosity,
-        pressure_viscosity_coefficient=pressure_viscosity_coefficient,
-        viscosity_law=viscosity_law,
-        density_law=density_law,
         nodes=nodes,
         domain=domain,
         raise_on_failure=False,
+        **contact,
     )
     setting = UniformSetting(steady.contact, load, speed, domain, nodes, bandwidth)
     x = setting.x

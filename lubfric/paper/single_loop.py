@@ -21,9 +21,9 @@ from typing import Any
 import numpy as np
 
 from .._base import validate
-from ..contact import ContactResult
+from ..contact import ContactResult, Found
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
-from .imposed_film import ImposedFilm, Outcome, impose
+from .imposed_film import ImposedFilm, impose
 
 FORMS = ("consistent", "printed")
 STOPS = ("residual", "separation")
@@ -36,16 +36,12 @@ def single_loop(
     spacing,
     e_prime,
     *,
-    weight=None,
-    hardness=None,
-    boundary=("periodic", "periodic"),
-    tolerance=1e-6,
     form="consistent",
     stop="residual",
     separation_tolerance=1e-6,
-    operator=None,
     max_iterations=2000,
     raise_on_failure=True,
+    **problem,
 ) -> ContactResult:
     """Contact of a rough surface under the separation ``h - epsilon``, with epsilon from the volume balance, Eq. (8).
 
@@ -76,16 +72,16 @@ def single_loop(
     validate.choice("stop", stop, STOPS)
     validate.positive("separation_tolerance", separation_tolerance, "(-)")
 
-    def iterate(contact: ImposedFilm, pressure) -> Outcome:
+    def iterate(pressure) -> Found:
         step = {"consistent": _Consistent, "printed": _Printed}[form](contact, pressure)
         with np.errstate(all="ignore"):  # a printed loop may overflow; it then ends as diverged
             return _loop(contact, step, stop, separation_tolerance)
 
-    contact = impose(heights, film, weight, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+    contact = impose(heights, film, spacing, e_prime, max_iterations=max_iterations, **problem)
     return contact.solved(iterate, f"single loop, {form}", raise_on_failure)
 
 
-def _loop(contact: ImposedFilm, step, stop: str, separation_tolerance: float) -> Outcome:
+def _loop(contact: ImposedFilm, step, stop: str, separation_tolerance: float) -> Found:
     """Iterate; both stopping tests are made after every iteration."""
     problem, status = contact.problem, ITERATION_LIMIT
     history: list[float] = []
@@ -115,7 +111,7 @@ def _loop(contact: ImposedFilm, step, stop: str, separation_tolerance: float) ->
         if status != ITERATION_LIMIT:
             break
     pressure, offset = (step.pressure, step.offset) if status == CONVERGED else best[1:]
-    return Outcome(pressure, offset, status, iteration, step.convolutions + 1, history, notes)
+    return contact.ended(pressure, offset, status, step.convolutions + 1, history, notes, iteration)
 
 
 class _Printed:

@@ -67,7 +67,7 @@ def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: fl
         contact=contact.name if touching else f"none, clearance {clearance:.2g} Sq",
         tolerance=tolerance,
         film_tolerance=0.0 if balance.settings is None else balance.settings.film_tolerance,
-        cells=grid.cells if touching and grid is not None else None,
+        cells=grid if touching else None,
         heat=heat,
         notes=notes,
         **sample,

@@ -1,6 +1,6 @@
 """Height maps: read, prepared, generated, filtered and measured."""
 
-from .generate import ACFS, generate_surface
+from .generate import ACFS, generate_surface, surface_generator
 from .height_map import Surface
 from .instrument import UNITS
 from .prepare import FORMS, outliers

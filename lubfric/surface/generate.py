@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -52,6 +53,26 @@ def generate_surface(
     InputError : before generating, when the expected length is more than 10 % off the one asked (a map shorter than
         about 10 lengths for "exponential", 5 for "gaussian"), or when the grid has fewer than 2 cells per length at 1/e
     """
+    seed = validate.integer("seed", seed, minimum=0, maximum=LARGEST_SEED)
+    surface = surface_generator(
+        shape,
+        spacing,
+        sq=sq,
+        correlation_length=correlation_length,
+        acf=acf,
+        decay_level=decay_level,
+        cutoff=cutoff,
+    )(seed)
+    first, *lengths = surface.notes
+    found = (f"{note}, found {_found_length(surface, axis, decay_level)}" for axis, note in enumerate(lengths))
+    return replace(surface, notes=(first, *found))
+
+
+def surface_generator(
+    shape, spacing, *, sq, correlation_length, acf, decay_level, cutoff=None
+) -> Callable[[int], Surface]:
+    """The function that makes the `generate_surface` of a seed, without the correlation lengths found in it. What all
+    seeds share is made once."""
     from scipy import fft
 
     shape, spacing = pair("shape", shape), validate.spacing("spacing", spacing)
@@ -60,18 +81,25 @@ def generate_surface(
     lengths = validate.spacing("correlation_length", correlation_length)
     validate.choice("acf", acf, ACFS)
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
-    seed = validate.integer("seed", seed, minimum=0, maximum=LARGEST_SEED)
     decay = -math.log(level) if acf == "exponential" else math.sqrt(-math.log(level))
     scales = lengths[0] / decay, lengths[1] / decay  # where the ACF is 1/e
     _check_grid(shape, spacing, scales)
     spectrum = _spectrum(shape, spacing, scales, acf, cutoff)
     expected = _expected_lengths(spectrum, shape, spacing, lengths, level)
-    noise = np.random.default_rng(seed).standard_normal(shape)
-    heights = fft.irfft2(fft.rfft2(noise) * np.sqrt(spectrum), shape)
-    heights = heights / heights.std() * sq
-    source, note = f"generated, {acf} ACF", f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {sq:.4e} m exactly"
-    surface = Surface(heights, spacing, periodic_axes=(True, True), source=source, seed=seed, notes=(note,))
-    return surface if sq == 0 else _with_lengths(surface, lengths, expected, level)
+    amplitude, source = np.sqrt(spectrum), f"generated, {acf} ACF"
+    stated = [
+        f"correlation length along {name} at level {level:.4g}: asked {length:.4e} m, expected {there:.4e} m"
+        for name, length, there in zip("xy", lengths, expected)
+    ]
+
+    def made(seed: int) -> Surface:
+        heights = fft.irfft2(fft.rfft2(np.random.default_rng(seed).standard_normal(shape)) * amplitude, shape)
+        heights = heights / heights.std() * sq
+        note = f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {sq:.4e} m exactly"
+        notes = (note, *stated) if sq else (note,)
+        return Surface(heights, spacing, periodic_axes=(True, True), source=source, seed=seed, notes=notes)
+
+    return made
 
 
 def _check_grid(shape, spacing, scales) -> None:
@@ -126,15 +154,8 @@ def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
     return found
 
 
-def _with_lengths(surface, asked, expected, level) -> Surface:
-    notes = []
-    for axis, name in enumerate("xy"):
-        try:
-            found = f"{correlation_length(surface, axis, level):.4e} m"
-        except InputError:
-            found = "longer than half the map"
-        notes.append(
-            f"correlation length along {name} at level {level:.4g}: asked {asked[axis]:.4e} m, "
-            f"expected {expected[axis]:.4e} m, found {found}"
-        )
-    return replace(surface, notes=surface.notes + tuple(notes))
+def _found_length(surface, axis, level) -> str:
+    try:
+        return f"{correlation_length(surface, axis, level):.4e} m"
+    except InputError:
+        return "longer than half the map"

@@ -115,7 +115,7 @@ def test_between_its_nodes_a_curve_is_as_sure_as_it_tells(model):
     within, told = [], []
     for approach in np.ptp(heights) * np.linspace(0.03, 0.3, 40):
         flat = heights.max() - approach
-        pressed, gap = asperities.at(flat), np.maximum(flat - heights, 0).mean()
+        pressed, gap = asperities(flat), np.maximum(flat - heights, 0).mean()
         if not curve.mean_pressure[-1] < pressed.mean_pressure < curve.mean_pressure[0]:
             continue
         read = curve.at(pressed.mean_pressure)

@@ -5,7 +5,7 @@ import pytest
 
 import lubfric
 from lubfric.contact import contact_curve
-from lubfric.contact.contact_curve import left_out
+from lubfric.contact.flat import left_out
 
 E_PRIME, HEAVIEST = 231e9, 2e8
 

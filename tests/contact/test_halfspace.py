@@ -10,7 +10,7 @@ from scipy.special import k0
 from lubfric import InputError
 from lubfric.contact import half_space, semiperiodic_coefficients
 from lubfric.contact.kernels import bessel_cells, line_coefficients, love_coefficients
-from lubfric.contact.transforms import filtered
+from lubfric.contact.operator import filtered
 
 BOUNDARIES = [(a, b) for a in ("periodic", "free") for b in ("periodic", "free")]
 
@@ -224,7 +224,7 @@ def test_a_loaded_strip_deflects_as_in_the_whole_patch(nx, ny, spacing, first, c
     rows = min(count, nx - first)
     for some, error in ((operator, 1e-14), (operator.single, 2e-6)):
         loaded = pressure[first : first + rows].astype(some.symbol.dtype)
-        assert some.window(rows).apply(loaded) == pytest.approx(whole[first : first + rows], abs=error * tiny)
+        assert some.window(rows)(loaded) == pytest.approx(whole[first : first + rows], abs=error * tiny)
 
 
 def test_coarse_cells_of_a_strip_keep_the_gauge():

@@ -3,14 +3,13 @@
 import json
 import time
 from concurrent.futures import ThreadPoolExecutor
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import lubfric
 from lubfric.output import main
-from lubfric.studies.fit import Search, _numerical_variance
+from lubfric.studies.fit import Search
 from lubfric.studies.fit_input import parameters_of
 
 SCENE = (
@@ -401,12 +400,6 @@ def test_the_command_says_the_cost_first_and_writes_the_scene(tmp_path, capsys):
     assert (tmp_path / "out" / "fit.png").stat().st_size > 10_000
     assert main([*command, "--parameter", "lubricant.viscosity"]) == 2
     assert "section.key=lowest:highest" in capsys.readouterr().err
-
-
-def test_an_error_of_f_that_is_not_known_is_taken_to_be_the_tolerance():
-    points = [SimpleNamespace(uncertainty=SimpleNamespace(numerical=error)) for error in (0.02, np.nan, np.inf)]
-    found = _numerical_variance(points, 0.01, np.array([1.0, 3.0, 4.0]))
-    assert found == pytest.approx((0.02**2 + 0.03**2 + 0.04**2) / 3, rel=1e-12)
 
 
 def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_intervals():

@@ -367,22 +367,6 @@ def test_bad_samples(arguments):
         lubfric.Between(0.0, 1.0, "log")
 
 
-@pytest.mark.parametrize(
-    "section, field, values",
-    [
-        ("motion", "slide_roll_ratio", [0.5, 1.0]),
-        ("numerics", "tolerance", [0.01, 0.02]),
-        ("contact", "region", ["hertz", "box"]),
-        ("surface", "seed", [1, 2]),
-        ("lubricant", "eyring_stress", [None, 5e6]),
-        ("bodies", "conductivity", [(46.0, 46.0), (46.0, 3.0)]),
-    ],
-)
-def test_every_part_of_a_scene_makes_another_key(section, field, values):
-    plan = lubfric.plan_study(SCENE, {f"{section}.{field}": values}, SPEEDS)
-    assert len(set(plan.keys)) == 2
-
-
 # what is said before
 
 

@@ -62,7 +62,7 @@ def sphere_array(quick: bool, run: Run) -> PaperFigure:
     for distance in SPACINGS:
         free, held = approaches(distance, loads, cell)
         found = find_asperities(*unit_cell(distance, cell), E_PRIME, definition="summits")
-        alone = np.array([found.at(HEIGHT - a).load for a in free])
+        alone = np.array([found(HEIGHT - a).load for a in free])
         for ax, approach, load in ((asperities, free, alone), (left_out, free, loads), (kept, held, loads)):
             ax.plot(approach * 1e9, load * 1e3, "o-", label=f"{distance * 1e6:g} µm")
         rows += [(distance, *row) for row in zip(loads.tolist(), free.tolist(), held.tolist(), alone.tolist())]

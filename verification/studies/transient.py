@@ -26,10 +26,9 @@ from lubfric.time import (
     symmetric_nodes,
 )
 
-from ..cases import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of
 from ..check import AT_LEAST, Check, Table, bound, compared
 from ..convergence import Series, convergence
-from ..parts import the
+from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of, the
 
 SQUEEZE: dict[str, Any] = dict(
     load_per_width=100.0,
