@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import uuid
 import weakref
@@ -81,25 +80,6 @@ def read_checked(path) -> bytes | None:
     if data[:HEAD] != MARK + hashlib.sha256(content).hexdigest().encode() + b"\n":
         return None
     return content
-
-
-def read_json(path, remedy: str) -> Any:
-    """What is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut off,
-    nested too deeply or binary, or if it says a key twice."""
-    if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
-        raise InputError(f"{path} is no file; {remedy}")
-    try:
-        return json.loads(Path(path).read_bytes().decode("utf-8"), object_pairs_hook=_once)
-    except (OSError, ValueError, RecursionError, MemoryError) as problem:
-        why = problem.strerror if isinstance(problem, OSError) else type(problem).__name__
-        raise InputError(f"{path} is damaged, or no such record ({why}); {remedy}") from None
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        raise ValueError("a key twice")
-    return found
 
 
 @contextmanager
