@@ -31,7 +31,7 @@ def describe_scene(scene: Scene) -> str:
             *_section("bodies", _bodies(scene)),
             *_section("lubricant", _lubricant(scene)),
             *_section("motion", _motion(scene)),
-            *_section("surface", [surface.describe()]),
+            *_section("surface", [surface.describe(), *(note for note in surface.notes if "nm as it is" in note)]),
             *_map_rows(scene, surface),
             *_section("contact", [f"{_plan(scene, surface)}; {len(speeds)} speeds"]),
             *_section("validity", _validity(scene, surface if first is None else first, sorted(set(speeds)))),

@@ -10,8 +10,7 @@ from scipy.integrate import solve_bvp
 
 import lubfric
 from lubfric.film import Surroundings, formulas, heated_film, heated_stress, hertz, isothermal_heat
-from lubfric.film.heat import flash_matrix
-from lubfric.film.heated_stress import limiting_stress_at, viscosity_at
+from lubfric.film.heat import flash_matrix, limiting_stress_at, viscosity_at
 from lubfric.oil import Lubricant, shear_stress, viscosity
 
 T0 = 343.15

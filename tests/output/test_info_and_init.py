@@ -1,6 +1,7 @@
 """`lubfric info` names every input with its unit and tells what will be refused; `lubfric init` writes what runs."""
 
 import pytest
+from instrument_files import write_x3p
 
 import lubfric
 from lubfric.output import main
@@ -84,19 +85,14 @@ def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):
     assert main(["init", str(tmp_path / "nowhere" / "x.toml")]) == 2
 
 
-def test_the_roller_of_the_examples_is_an_answer():
-    """One scene of 25 lines, one command, on a measured map that is not shipped."""
-    import os
-    from pathlib import Path
-
-    scene = Path(__file__).parents[2] / "docs" / "examples" / "roller.toml"
-    assert len(scene.read_text().splitlines()) <= 25
-    folder = Path(os.environ.get("LUBFRIC_SURFACES", Path(__file__).resolve().parents[3] / "shared" / "surfaces"))
-    if not (folder / "ground-77nm.x3p").is_file():
-        pytest.skip("the measured map ground-77nm.x3p is not here (LUBFRIC_SURFACES)")
-    loaded = lubfric.load_scene(scene, surface_file=folder / "ground-77nm.x3p")
-    curve = lubfric.stribeck(loaded, [1.0, 1e-2, 1e-4])
-    assert 0.03 < curve.coefficient[0] < 0.04 and not any("not valid" in text for text in curve.validity)
+def test_the_roller_of_the_examples_is_an_answer(root, tmp_path):
+    """One scene of 25 lines, one command, on a ground surface such as the measured one that is not shipped."""
+    scene, lay = root / "docs" / "examples" / "roller.toml", {"correlation_length": (2.2e-6, 20e-6), "acf": "gaussian"}
+    assert len(scene.read_text(encoding="utf-8").splitlines()) <= 25
+    ground = lubfric.generate_surface((166, 102), (0.5e-6, 2e-6), sq=77e-9, **lay, seed=3)
+    path = write_x3p(tmp_path / "ground.x3p", ground.heights, steps=ground.spacing)
+    curve = lubfric.stribeck(lubfric.load_scene(scene, surface_file=path), [1.0, 1e-2, 1e-4])
+    assert 0.02 < curve.coefficient[0] < 0.05 and not any("not valid" in text for text in curve.validity)
     assert curve.coefficient[2] == pytest.approx(0.12, rel=2e-3)  # f -> f_b
     assert curve.coefficient[0] < curve.coefficient[1] < curve.coefficient[2]
 

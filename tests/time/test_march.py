@@ -7,7 +7,7 @@ import pytest
 
 from lubfric import InputError
 from lubfric.film import step_length
-from lubfric.film.newton import FILM_STEP, VISCOSITY_STEP
+from lubfric.film.reynolds import FILM_STEP, VISCOSITY_STEP
 from lubfric.scene import Table
 from lubfric.time import Level, Progress, Step, checked_times, plan_of, report_of, steps
 
