@@ -14,11 +14,13 @@ from .figures import (
     make_ready,
     new_figure,
     plain_ticks,
+    plain_words,
     speed_label,
 )
 from .files import (
-    PART,
     FolderLock,
+    OwnFiles,
+    clear_checked,
     clear_parts,
     read_checked,
     saying,

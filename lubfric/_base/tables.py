@@ -58,11 +58,12 @@ class Columns(dict):
         raise InputError(f"the table has no column {name!r}; give a table that 'lubfric run' wrote")
 
 
-def read_table(path: Path) -> Columns:
-    """The columns that `table_bytes` wrote, by name. Raises `InputError` for a damaged table or another one."""
+def read_table(path: Path, content: bytes | None = None) -> Columns:
+    """The columns that `table_bytes` wrote, by name. ``content``: that of the file ``path`` where it is not yet there.
+    Raises `InputError` for a damaged table or another one."""
     try:
-        with Path(path).open(encoding="utf-8", newline="") as file:
-            heading, *rows = list(csv.reader(file))
+        text = (Path(path).read_bytes() if content is None else content).decode()
+        heading, *rows = list(csv.reader(io.StringIO(text, newline="")))
         columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
         return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
     except (ValueError, IndexError, csv.Error) as problem:

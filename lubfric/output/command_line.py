@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .._base import __version__
 from ..errors import ConvergenceError, InputError, LubfricError
-from .console import INTERRUPTED, Interrupted, interruptible, put, say
+from .commands import INTERRUPTED, Interrupted, interruptible, put, say
 
 CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
 OPTIONS = {"ratios": RATIOS, "animation": IN_TIME}  # of ``lubfric run``, and what they are for
@@ -169,7 +169,7 @@ def _study(arguments) -> None:
 
 
 def _fit(arguments) -> None:
-    from .run_fit import run_fit
+    from .run_study import run_fit
 
     run_fit(_scene(arguments), arguments)
 

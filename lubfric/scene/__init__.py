@@ -9,4 +9,5 @@ from .roughness import Roughness, named
 from .scene import Scene, check_resolved_gap, resolves_gap, scene_as_dict
 from .sections import SECTIONS
 from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
+from .transient import UNITS as CHANGING
 from .transient import Transient, checked_history, read_history

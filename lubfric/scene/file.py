@@ -118,8 +118,6 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
                 check_fields(given)  # refuses keys that do not apply, whatever their value
         if section != "transient" and (section in table or section != "counterface"):
             parts[section] = made_section(section, given)
-    if not isinstance(table.get("name", name), str):
-        raise InputError(f"name = {validate.shown(table['name'])}; write words in quotes")
     return Scene(**parts, name=table.get("name", name), transient=plan)
 
 
@@ -164,13 +162,13 @@ def _read(source) -> tuple[dict, Path, str]:
     if not os.path.isfile(path):
         said = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
         raise InputError(f"{said}{validate.nearest(source, names)}; built in: {', '.join(names)}")
-    return read_toml(path, "scene"), path.parent, path.stem
+    return read_toml(path, "scene"), path.parent, os.fsencode(path.stem).decode("utf-8", "replace")
 
 
 def write_template(path: Path) -> None:
     """Write a scene that is complete, commented and ready to run to ``path``; raises `InputError` if something is there
     already."""
-    if path.exists():
+    if os.path.lexists(path):
         raise InputError(f"{path} exists; give another name, so that no scene is lost")
     if not path.parent.is_dir():
         raise InputError(f"{path.parent} is no folder; give a file in an existing one")

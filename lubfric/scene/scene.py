@@ -57,6 +57,8 @@ class Scene(Shown):
     counterface: Roughness | None = None
 
     def __post_init__(self):
+        if not isinstance(self.name, str) or _halved(self.name):
+            raise InputError(f" = {validate.shown(self.name)}", "name", "words, of whole characters (no surrogates)")
         if self.numerics.heat == "on" and not self.lubricant.heats:
             by_numbers = "lubricant.temperature [K] and temperature_coefficient [1/K]"
             ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"
@@ -100,7 +102,7 @@ class Scene(Shown):
         with its whole path, and an oil as it was given, instead of its numbers at the temperature. Raises `InputError`
         for a history that scene files do not have.
         """
-        lines = [f"name = {json.dumps(self.name)}"]
+        lines = [f"name = {_toml(self.name)}"]
         for section in SECTIONS:
             part = getattr(self, section)
             if part is None:
@@ -158,6 +160,11 @@ def _text_of(value: Any) -> str:
     return str(getattr(value, "name", value))  # an oil by its name
 
 
+def _halved(text: str) -> bool:
+    """Whether there are surrogates in ``text``, which no file in UTF-8 holds."""
+    return any("\ud800" <= mark <= "\udfff" for mark in text)
+
+
 def _toml(value: Any) -> str:
     if isinstance(value, History):
         kind = next((kind for kind, known in KINDS.items() if type(value) is known), None)
@@ -171,7 +178,9 @@ def _toml(value: Any) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False)
+        if _halved(value):  # a path
+            raise InputError(f"{ascii(value)} is not Unicode, and a scene file cannot hold it; rename it")
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # the one control that JSON lets stand
     return f"[{', '.join(_toml(part) for part in value)}]"
 
 

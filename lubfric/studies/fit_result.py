@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base import BLUE, GREY, RED, Shown, axes_or_new, plain_ticks, speed_label
+from .._base import BLUE, GREY, RED, Shown, axes_or_new, plain_ticks, plain_words, speed_label
 from ..errors import Report
 from ..sampling import percent
 from ..scene import Scene
@@ -187,7 +187,8 @@ class FitResult(Shown):
         x, (low, high) = np.abs(self.measured.x), self.band
         order = np.argsort(x)
         error = None if self.measured.deviation is None else 1.96 * self.measured.deviation
-        axes.errorbar(x, self.measured.coefficient, error, fmt="o", ms=4, color=RED, lw=1, label=self.measured.source)
+        source = plain_words(self.measured.source)
+        axes.errorbar(x, self.measured.coefficient, error, fmt="o", ms=4, color=RED, lw=1, label=source)
         axes.plot(x[order], self.predicted[order], color=BLUE, label="fit")
         axes.fill_between(x[order], low[order], high[order], color=BLUE, alpha=0.2, lw=0, label="95 % band")
         self._label(axes, "friction coefficient (-)")

@@ -7,7 +7,7 @@ from importlib import import_module
 
 import numpy as np
 
-from .._base import axes_or_new, table_bytes, whole_file, write_whole
+from .._base import axes_or_new, plain_words, table_bytes, whole_file, write_whole
 from ..errors import InputError
 from ..quantities import KEYS, described, heading
 from .rows import SPEED, STATUS, UNUSED, VALIDITY
@@ -76,7 +76,7 @@ def plot(result, ax=None, **style):
     for index, colour in zip((indices[i] for i in picked), colormaps["viridis"](np.linspace(0.0, 0.9, picked.size))):
         own = {"color": colour, "lw": 1.0} | style
         if picked.size <= NAMED:
-            own = {"label": _label(result, index)} | own
+            own = {"label": plain_words(_label(result, index))} | own
         speed = np.abs(result.columns[SPEED][index] if result.chosen else result.coords[SPEED][1])
         f, curve = result.columns["coefficient"][index], result.curve(index) if result.chosen else None
         good = np.flatnonzero(np.isfinite(f) & (speed > 0))
@@ -90,7 +90,7 @@ def plot(result, ax=None, **style):
     axes.set(xscale="log", xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)")
     if 1 < picked.size <= NAMED:
         axes.legend(frameon=False)
-    axes.set_title(f"{result.plan['name']}: {picked.size} of {len(indices)} curves")
+    axes.set_title(f"{plain_words(result.plan['name'])}: {picked.size} of {len(indices)} curves")
     return axes
 
 

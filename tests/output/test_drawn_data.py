@@ -13,9 +13,8 @@ from matplotlib.figure import Figure
 import lubfric
 from lubfric._base import field_image, new_figure
 from lubfric.output.fields import fields_bytes, grid_bytes
-from lubfric.output.pictures import plot_contact, plot_stribeck, plot_traction
+from lubfric.output.pictures import plot_contact, plot_history, plot_stribeck, plot_traction
 from lubfric.studies import csv_bytes, plot_map
-from lubfric.time import plot_history
 
 UNITS = {  # of the columns of results, typed from docs/results.md
     **dict.fromkeys(

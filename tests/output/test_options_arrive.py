@@ -9,7 +9,7 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric.output import command_line, main, run_curve, run_fit, run_history, run_study
+from lubfric.output import command_line, main, run_curve, run_history, run_study
 
 STUDY = "scene = 's.toml'\nspeeds = [0.1]\n[vary]\n'bodies.load' = [5.0, 6.0]\n"
 
@@ -36,7 +36,7 @@ def work(tmp_path, monkeypatch):
         calls.append((arguments, options))
         raise Reached
 
-    for module, name in ((run_curve, "stribeck"), (run_curve, "traction"), (run_fit, "fit"), (run_study, "study")):
+    for module, name in ((run_curve, "stribeck"), (run_curve, "traction"), (run_study, "fit"), (run_study, "study")):
         monkeypatch.setattr(module, name, solver)
     monkeypatch.setattr(run_history, "transient", solver)
     monkeypatch.chdir(tmp_path)
