@@ -25,6 +25,7 @@ NO_PLACES = "not estimated for one pressure of film and contact"
 FEW_STRIPS = "not known from fewer than three strips"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
+FINER = "a larger numerics.tolerance, or a finer contact.spacing"
 DRAWN, CUT = 0.1, 0.1  # lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
 
 
@@ -55,12 +56,9 @@ def strips_answer(prepared: Prepared, speed: float, found: Found, begun: float) 
         levels.numbers | {"speed": speed},
         results,
         begun,
-        by_film=levels.by_film,
+        decision=_decision(scene, results, _words_of_levels(levels), levels.by_film),
         uncertainty=known,
         errors=field_errors_of(levels.errors, FEW_STRIPS),
-        words=_words_of_levels(levels),
-        strips=len(results),
-        remedy="a larger numerics.tolerance, or a finer contact.spacing",
         balance=found.balance,
         deterministic=Refined(on_grids, levels.numerical),
     )
@@ -81,32 +79,44 @@ def patch_answer(prepared: Prepared, speed: float, begun: float) -> FrictionResu
         numbers_of(scene, surface.sq, result) | {"speed": speed},
         [result],
         begun,
-        by_film=by_film,
+        decision=_decision(scene, [result], f"one pressure with the contact on {shapes} cells{error}", by_film),
         uncertainty=replace(known, model=_film_error(scene, by_film)),
         errors=field_errors_of({} if found.error is None else {"coefficient": found.error}, NO_PLACES),
-        words=f"one pressure with the contact on {shapes} cells{error}",
-        strips=1,
-        remedy="a finer contact.spacing, a larger tolerance",
         deterministic=found,
     )
 
 
-def _answer(prepared, numbers, results, begun: float, *, by_film, uncertainty, words, strips, remedy: str, **parts):
+def _answer(prepared: Prepared, numbers, results, begun: float, *, decision, uncertainty, **parts) -> FrictionResult:
     """The `FrictionResult` of ``numbers``, from the ``results`` of one strip or more."""
-    scene, report = prepared.scene, results[0].report
-    tolerance, numerical = scene.numerics.tolerance, uncertainty.numerical
-    notes = (_division(results), BY_FILM.format(*(100 * change for change in by_film)), *report.notes)
-    decision = Decision("deterministic", words, "boundary film", tolerance, strips=strips, notes=notes)
-    entries = (*_entries(prepared, numbers, results), *of_error(numerical, tolerance, remedy))
-    told = (decision.text, *(entry.text for entry in entries), uncertainty.text)
+    numerics = prepared.scene.numerics
+    numerical, model = uncertainty.numerical, uncertainty.model
+    entries = (
+        *_entries(prepared, numbers, results),
+        *of_error(numerical, numerics.tolerance, FINER),
+        *_of_model(model, numerics.model_tolerance),
+    )
     return FrictionResult(
         **(numbers | {"seconds": time.perf_counter() - begun}),
-        report=replace(report, notes=told),
+        report=replace(results[0].report, notes=(decision.text, *(e.text for e in entries), uncertainty.text)),
         uncertainty=uncertainty,
         decision=decision,
         validity=entries,
         **parts,
     )
+
+
+def _decision(scene: Scene, results: Sequence[DeterministicResult], words: str, by_film) -> Decision:
+    notes = (_division(results), BY_FILM.format(*(100 * change for change in by_film)), *results[0].report.notes)
+    return Decision("deterministic", words, "boundary film", scene.numerics.tolerance, strips=len(results), notes=notes)
+
+
+def _of_model(model: float, tolerance: float) -> tuple[Validity, ...]:
+    """A caution where the error of the model, relative, is above ``tolerance``."""
+    if not model > tolerance:
+        return ()
+    what, consequence = "error of f by the model", "the boundary film, or the scatter between the models, leaves that"
+    remedy = "give bodies.boundary_film if you know it, or a longer map"
+    return (Validity(what, 100 * model, 100 * tolerance, "%", consequence, remedy),)
 
 
 def _sample_notes(sampling: float, levels: Levels, asked: float) -> tuple[str, ...]:
