@@ -96,16 +96,8 @@ def test_what_must_not_change_the_coefficient():
     k = 3.0  # lengths, load a width and speed times 3: every dimensionless group is kept
     similar = Surface(MAP.heights * k, (MAP.spacing[0] * k,) * 2, periodic_axes=(True, True)).resampled(shape=(48, 48))
     line = contact(917.0 * k, 0.03, radius=RADIUS * k)
-    larger = solve_point(
-        lay_out(
-            similar,
-            line,
-            sliding=0.06,
-            boundary_friction=0.09,
-            boundary_film=k * LIGHT.boundary_film,
-            floor=k * LIGHT.floor,
-        )
-    )
+    laid = lay_out(similar, line, sliding=0.06, boundary_friction=0.09, boundary_film=k * LIGHT.boundary_film)
+    larger = solve_point(replace(laid, floor=k * LIGHT.floor))
     for other in (shifted, mirrored, raised, larger):
         assert other.coefficient == pytest.approx(FOUND.coefficient, rel=1e-5)
 

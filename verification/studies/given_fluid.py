@@ -76,7 +76,7 @@ def laid(case: Case, contact: LineContact) -> Problem:
 
     def over(ends) -> Problem:
         rubs = {"sliding": 2 * case.speed, "boundary_friction": 0.09}
-        return lay_out(surface, line, **rubs, hardness=case.hardness, ends=ends, floor=case.floor)
+        return replace(lay_out(surface, line, **rubs, hardness=case.hardness, ends=ends), floor=case.floor)
 
     found = over((upstream, downstream))
     if found.x.size % 2:
