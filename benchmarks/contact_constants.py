@@ -24,10 +24,10 @@ import numpy as np
 from benchmarks import page
 from benchmarks.rough import E_PRIME, surface
 from lubfric import solve_contact
-from lubfric.contact import cells, half_space, problem, rounds, search, solve, stencil
+from lubfric.contact import cells, half_space, problem, rounds, search, solve
 
 SPACING = 2e-6
-MODULES = (cells, problem, rounds, search, solve, stencil)
+MODULES = (cells, problem, rounds, search, solve)
 KINDS = ("exponential", "gaussian", "self-affine")
 CONSTANTS = (
     (search, "FIRST_PACE"),
@@ -46,10 +46,10 @@ CONSTANTS = (
     (problem, "COARSE_TOLERANCE"),
     (problem, "COARSE_ITERATIONS"),
     (cells, "DENSE"),
-    (stencil, "FACTOR"),
-    (stencil, "LEAST"),
+    (cells, "FACTOR"),
+    (cells, "LEAST"),
     (solve, "HEAVIER"),
-    (stencil, "BLOCK"),
+    (cells, "BLOCK"),
 )
 
 COLUMNS = ("constant", "value", "halved: convolutions, mean and worst", "doubled")

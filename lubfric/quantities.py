@@ -147,6 +147,43 @@ INTERVAL = {
     "interval_low": Quantity("-", "lower end of the 95 % interval of f"),
     "interval_high": Quantity("-", "upper end of the 95 % interval of f"),
 }
+OF_MOMENT = {  # of a run in time, in the order of its table
+    "time": Quantity("s", "time"),
+    "entrainment_speed": _OF_POINT["speed"],
+    "sliding_speed": Quantity("m/s", "sliding speed u2 - u1"),
+    "load": Quantity("N", "total load", "F_T"),
+    "contact_load": QUANTITIES["contact_load"],
+    "film_load": QUANTITIES["film_load"],
+    "friction_force": Quantity("N", "tangential force on the upper surface"),
+    "boundary_force": QUANTITIES["boundary_force"],
+    "couette_force": QUANTITIES["couette_force"],
+    "rolling_force": QUANTITIES["rolling_force"],
+    "coefficient": QUANTITIES["coefficient"],
+    "sampling_error": OF_UNCERTAINTY["sampling"],
+    "shear_error": Quantity("-", "estimated relative error of f by the sum of the film's shear stress"),
+    "time_error": Quantity("-", "local error of the last step over its tolerance"),
+    "inlet_film_factor": QUANTITIES["inlet_film_factor"],
+    "heat_change": Quantity("-", "relative change of f by the heat of film and surfaces"),
+    "real_contact_area_fraction": QUANTITIES["real_contact_area_fraction"],
+    "plastic_area_fraction": QUANTITIES["plastic_area_fraction"],
+    "edge_load": Quantity("-", "share of the contact's load on the edge columns of its patch"),
+    "load_residual": _OF_POINT["load_residual"],
+    "volume_residual": _OF_POINT["volume_residual"],
+    "mass_residual": Quantity("-", "what is missing in the balance of the lubricant over the flow"),
+    "steps": Quantity("-", "steps taken so far"),
+    "min_film": QUANTITIES["min_film"],
+    "central_film": QUANTITIES["central_film"],
+    "mean_film": Quantity("m", "mean film thickness over A"),
+    "mean_gap": QUANTITIES["mean_gap"],
+    "wet_from": Quantity("m", "begin of the pressurised film"),
+    "wet_to": Quantity("m", "end of the pressurised film"),
+    "max_pressure": Quantity("Pa", "largest pressure of the film"),
+    "flash_temperature_rise": QUANTITIES["flash_temperature_rise"],
+    "film_temperature_rise": QUANTITIES["film_temperature_rise"],
+    "net_inflow": Quantity("m2/s", "flow into the film per unit width"),
+    "stored": Quantity("m2/s", "growth of the film per unit width"),
+    "cavity_growth": Quantity("m2/s", "growth of the cavities per unit width"),
+}
 KEYS = {  # of a scene, as far as they are numbers
     "speed": _OF_POINT["speed"],
     "bodies.radius": Quantity("m", "reduced radius"),
@@ -198,7 +235,7 @@ OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | { 
     "uncertainty_freedom": Quantity("-", "degrees of freedom of the standard error of f"),
     "uncertainty_tolerance": Quantity("-", "relative standard error of f that was asked for"),
 }
-COLUMNS = KEYS | QUANTITIES | INTERVAL | {q.column or n: q for n, q in OF_UNCERTAINTY.items()} | OF_STUDY
+COLUMNS = OF_MOMENT | KEYS | QUANTITIES | INTERVAL | {q.column or n: q for n, q in OF_UNCERTAINTY.items()} | OF_STUDY
 COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
 
 

@@ -2,7 +2,9 @@
 every time; Ctrl-C interrupts; what is slow."""
 
 import signal
+import sys
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from hypothesis import settings
@@ -34,3 +36,16 @@ def pytest_collection_modifyitems(config, items) -> None:
 def root() -> Path:
     """The checkout: docs, examples and packages are found from here."""
     return Path(__file__).parents[1]
+
+
+@pytest.fixture
+def instruments(monkeypatch) -> None:
+    """What reads files of instruments: the optional package, or where it is not installed a stand-in for it."""
+    try:
+        import SurfaceTopography  # noqa: F401
+    except ImportError:
+        from instrument_files import open_topography
+
+        stand_in = ModuleType("SurfaceTopography")
+        stand_in.open_topography = open_topography
+        monkeypatch.setitem(sys.modules, "SurfaceTopography", stand_in)

@@ -52,3 +52,9 @@ def test_every_slow_test_exists():
 def test_the_measure_sees_every_kind_of_parameter():
     text = "class C:\n    def f(self, a, /, b, *c, d, **e):\n        def g():\n            return 1\n        return g\n"
     assert list(functions(text)) == [("f", 4, 5), ("g", 2, 0)]
+
+
+def test_no_two_test_files_have_one_name(root):
+    """pytest takes the second for the first, and collects neither."""
+    names = [path.name for path in (root / "tests").rglob("test_*.py")]
+    assert sorted(names) == sorted(set(names))

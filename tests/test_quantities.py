@@ -9,7 +9,6 @@ import lubfric
 from lubfric import quantities as q
 from lubfric.sampling import Uncertainty
 from lubfric.scene import SECTIONS, short_keys
-from lubfric.time import UNITS
 
 
 def test_results_have_the_numbers_of_the_table_and_no_others():
@@ -22,8 +21,8 @@ def test_results_have_the_numbers_of_the_table_and_no_others():
 
 
 def test_a_number_has_one_unit_in_steady_motion_and_in_time():
-    for name in set(UNITS) & set(q.QUANTITIES):
-        assert UNITS[name] == q.QUANTITIES[name].unit, name
+    for name in set(q.OF_MOMENT) & set(q.QUANTITIES):
+        assert q.OF_MOMENT[name].unit == q.QUANTITIES[name].unit, name
 
 
 def test_every_key_of_the_table_is_a_key_of_a_scene():

@@ -15,8 +15,8 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, TypeVar
 
-from .parent import end_with_parent
 from .report import finite
+from .run import end_with_parent
 
 Case = TypeVar("Case")
 

@@ -1,5 +1,7 @@
-"""Parts of a result and of a model that a study counts on. A part that is missing ends the study in words."""
+"""What several studies share: smooth line contacts as arguments of the film solvers, in SI units; and the parts of a
+result and of a model that a study counts on. A part that is missing ends the study in words."""
 
+import math
 from typing import TypeVar
 
 from lubfric.contact import ContactResult, ContactState, HalfSpaceContact
@@ -8,6 +10,7 @@ from lubfric.sampling import FrictionResult
 from lubfric.sharing import Prepared
 
 T = TypeVar("T")
+ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
 
 
 def the(part: T | None, name: str) -> T:
@@ -37,3 +40,27 @@ def half_space(model: Prepared) -> HalfSpaceContact:
     if not isinstance(model.contact, HalfSpaceContact):
         raise TypeError(f"this study needs a contact of half-spaces, not {type(model.contact).__name__}")
     return model.contact
+
+
+def case_of_scene(scene, load: float, speed: float) -> dict:
+    """The smooth film of a scene under a load [N] at an entrainment speed [m/s]."""
+    bodies, oil = scene.bodies, scene.lubricant
+    laws = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law")
+    case = {"load_per_width": load / bodies.width, "radius": bodies.radius, "e_prime": bodies.e_prime}
+    return case | {"entrainment_speed": speed} | {name: getattr(oil, name) for name in laws}
+
+
+def case_of(M: float, L: float, law: str = "roelands", density: str = "constant") -> dict:
+    """Arguments of the film solvers, in SI units, with the Moes numbers M and L. L = 0 is a constant viscosity."""
+    law, effective = ("constant", 5.0) if L == 0 else (law, L)
+    u1 = (effective / (ALPHA * E_PRIME)) ** 4
+    return {
+        "load_per_width": M * math.sqrt(u1) * E_PRIME * RADIUS,
+        "radius": RADIUS,
+        "e_prime": E_PRIME,
+        "entrainment_speed": u1 * E_PRIME * RADIUS / (2 * VISCOSITY),
+        "viscosity": VISCOSITY,
+        "pressure_viscosity_coefficient": ALPHA,
+        "viscosity_law": law,
+        "density_law": density,
+    }

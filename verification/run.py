@@ -4,14 +4,16 @@ other."""
 import importlib
 import inspect
 import multiprocessing
+import os
+import threading
 import time
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
+from multiprocessing.connection import wait
 
 from .check import AT_MOST, Check, Field, Figure, Item, Table
-from .parent import end_with_parent
 from .studies import Study
 
 EXTRAS = {"skfem": "scikit-fem", "meshio": "meshio", "pyamg": "pyamg"}
@@ -135,3 +137,16 @@ def explain(exc: BaseException) -> str:
 def raised(study: Study, error: str) -> Check:
     """The failed check that stands for a study that did not reach its end."""
     return Check(f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error)
+
+
+def end_with_parent() -> None:
+    """To be called first in a worker (``initializer`` of a pool): it ends with the process that started it, whatever it
+    is in the middle of. A pool tells its workers that it is over, but one that was killed tells nothing."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_watch, args=(parent.sentinel,), daemon=True).start()
+
+
+def _watch(sentinel: int) -> None:
+    wait([sentinel])
+    os._exit(1)

@@ -14,11 +14,13 @@ from .figures import (
     make_ready,
     new_figure,
     plain_ticks,
+    plain_words,
     speed_label,
 )
 from .files import (
-    PART,
     FolderLock,
+    OwnFiles,
+    clear_checked,
     clear_parts,
     read_checked,
     saying,
@@ -29,7 +31,7 @@ from .files import (
 )
 from .records import Brief, FieldsOnly, FrozenArrays, Shown, changed, table
 from .roots import Root, increasing_root
-from .tables import plain, read_columns, read_table, table_bytes
+from .tables import plain, read_columns, read_json, read_table, table_bytes
 from .validate import (
     array,
     choice,

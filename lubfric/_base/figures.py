@@ -29,6 +29,11 @@ def make_ready() -> None:
     figure.savefig(io.BytesIO())
 
 
+def plain_words(text: str) -> str:
+    """``text`` of a user, such as the name of a scene, for a picture, in which a $ would begin a formula."""
+    return text.replace("$", r"\$")
+
+
 def axes_or_new(ax):
     """``ax``, or the axes of a new figure."""
     if ax is not None:

@@ -1,12 +1,16 @@
-"""Files that appear whole or not at all, files that tell when they were damaged, and one writer a folder."""
+"""Files that appear whole or not at all, files that tell when they were damaged, one writer a folder, and what in a
+folder is ours: only that is ever replaced or removed."""
 
 from __future__ import annotations
 
 import hashlib
+import json
 import os
+import stat
 import uuid
 import weakref
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
+from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +25,8 @@ except ImportError:  # Windows has no fcntl: there the locking of msvcrt serves
 
 MARK = b"lubfric 1 "  # of a checked file, before the SHA-256 of the rest and a line feed
 HEAD = len(MARK) + 65
-LOCK = ".lock"  # the file in a folder that its writer holds locked
+LOCK = ".lubfric.lock"  # the file in a folder that its writer holds locked
+RECORD = ".lubfric"  # in a folder: the files that were written to it, with their checksums
 PART = ".part-"  # begins the name of a file that is being written
 _HELD: weakref.WeakSet = weakref.WeakSet()  # by this process; a forked child must not hold them too
 
@@ -49,7 +54,7 @@ def whole_file(path, *, sync: bool = True):
     path = Path(path)
     with saying(f"{path} was not written"):
         path.parent.mkdir(parents=True, exist_ok=True)
-        part = path.with_name(f"{PART}{uuid.uuid4().hex[:8]}-{path.name}")
+        part = path.with_name(_part(uuid.uuid4().hex[:8], path.name))
         try:
             yield part
             if sync:
@@ -62,6 +67,11 @@ def whole_file(path, *, sync: bool = True):
             raise
         if sync:
             sync_folder(path.parent)
+
+
+def _part(drawn: str, name: str) -> str:
+    """The name of a file that is being written: it tells by a checksum that it is one, and not a file of the user."""
+    return f"{PART}{drawn}-{hashlib.sha256((drawn + name).encode()).hexdigest()[:8]}-{name}"
 
 
 def write_checked(path, *content, sync: bool = True) -> None:
@@ -96,7 +106,26 @@ def saying(what: str):
 def clear_parts(folder) -> None:
     """Remove the half-written files of killed writers in ``folder``. Only the holder of its lock may do this."""
     for path in Path(folder).glob(f"{PART}*"):
-        path.unlink(missing_ok=True)
+        drawn, _, rest = path.name.removeprefix(PART).partition("-")
+        if path.name == _part(drawn, rest.partition("-")[2]):
+            path.unlink(missing_ok=True)
+
+
+def is_checked(path: Path) -> bool:
+    """Whether `write_checked` wrote ``path`` and nobody changed it since. A link to such a file does not count."""
+    return path.is_file() and not path.is_symlink() and read_checked(path) is not None
+
+
+def clear_checked(folder: Path, *patterns: str) -> None:
+    """Remove the files in ``folder`` that match one of ``patterns`` and that `write_checked` wrote; what killed writers
+    left; and the folder, if it is empty then."""
+    if folder.is_dir() and not folder.is_symlink():
+        clear_parts(folder)
+        for path in (path for pattern in patterns for path in folder.glob(pattern)):
+            if is_checked(path):
+                path.unlink()
+        if not any(folder.iterdir()):
+            folder.rmdir()
 
 
 def sync_folder(folder: Path) -> None:
@@ -111,7 +140,7 @@ def sync_folder(folder: Path) -> None:
 
 class FolderLock:
     """``with FolderLock(folder):`` makes the folder and locks it. Refuses with `InputError` while another process holds
-    the lock.
+    the lock, and where a file of the user stands in its place.
 
     The lock is held by the open file. So a killed process leaves no lock behind; only its file stays.
     """
@@ -124,14 +153,18 @@ class FolderLock:
         while self._file is None:
             with saying(f"{self.path.parent} cannot be used"):
                 self.path.parent.mkdir(parents=True, exist_ok=True)
-                self._file = self.path.open("a+")
+                if self.path.is_symlink():
+                    raise InputError(f"{self.path} is a link; remove it, or give another folder")
+                self._file = open(self.path, "a+", encoding="ascii", errors="replace", opener=_no_link)
             self._take()
             if not self._still_there():  # that of a run which ended, and removed it, meanwhile
                 self.drop()
+        if not stat.S_ISREG(os.fstat(self._file.fileno()).st_mode) or self._holder() is None:
+            self.drop()
+            raise InputError(f"{self.path} is no lock of lubfric; move it away, or give another folder")
         with saying(f"{self.path} was not written"):
-            self._file.seek(0)
-            self._file.truncate()
-            self._file.write(str(os.getpid()))
+            self._file.truncate(0)
+            self._file.write(f"lubfric {os.getpid()}")
             self._file.flush()
         _HELD.add(self)
         return self
@@ -156,19 +189,28 @@ class FolderLock:
                 self._file.seek(2**20)  # beyond what is written, so that others can read who holds it
                 msvcrt.locking(self._file.fileno(), msvcrt.LK_NBLCK, 1)
         except OSError:
-            self._file.seek(0)
-            holder = self._file.read().strip() or "unknown"
+            holder = self._holder() or "unknown"
             self.drop()
             raise InputError(
                 f"{self.path.parent} is being written by another run (process {holder}); "
                 "give another folder, or wait until it ends"
             ) from None
 
+    def _holder(self) -> str | None:
+        """The process that is written in the file; None where it holds something else."""
+        self._file.seek(0)
+        words = self._file.read(80).split()
+        return words[1] if len(words) == 2 and words[0] == "lubfric" else None if words else ""
+
     def _still_there(self) -> bool:
         try:
             return os.path.samestat(os.fstat(self._file.fileno()), self.path.stat())
         except FileNotFoundError:
             return False
+
+
+def _no_link(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0), 0o666)
 
 
 def _drop_in_child() -> None:
@@ -178,3 +220,65 @@ def _drop_in_child() -> None:
 
 if hasattr(os, "register_at_fork"):
     os.register_at_fork(after_in_child=_drop_in_child)
+
+
+class OwnFiles:
+    """The files of ``folder`` that this package wrote there, by the record in it.
+
+    A file that somebody changed or put in their place since, or a link, is not ours any more: it is neither replaced
+    nor removed. Raises `InputError` if the record is damaged, or is none.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        self._known: dict[str, list[str]] = {}
+        record = self.folder / RECORD
+        if os.path.lexists(record):
+            try:
+                known: Any = json.loads(read_checked(record) or b"") if is_checked(record) else None
+                self._known = {str(name): list(sums) for name, sums in known.items() if Path(name).name == name}
+            except (ValueError, TypeError, AttributeError, RecursionError):
+                said = f"{record} is damaged, or no record of lubfric"
+                raise InputError(f"{said}; remove it, or give another folder") from None
+
+    def among(self, patterns) -> list[str]:
+        """The names that match one of ``patterns`` (as of a shell) and are ours."""
+        return [name for name in self._known if any(fnmatch(name, p) for p in patterns) and self._owns(name)]
+
+    def _owns(self, name: str) -> bool:
+        path = self.folder / name
+        if path.is_symlink() or not path.is_file():
+            return False
+        return hashlib.sha256(path.read_bytes()).hexdigest() in self._known.get(name, ())
+
+    def check(self, names, inputs=()) -> None:
+        """Raise `InputError` if one of the files ``names`` is there and not ours, or one of the ``inputs``."""
+        for path in (self.folder / name for name in names):
+            if any(path.exists() and os.path.samefile(path, given) for given in inputs):
+                raise InputError(f"{path} is read by this command and would be replaced; give another folder")
+            if os.path.lexists(path) and not self._owns(path.name):
+                said = f"{path} is no file that lubfric wrote, or was changed since, and would be replaced"
+                raise InputError(f"{said}; move it away, or give another folder")
+
+    def replace(self, contents: dict[str, bytes], patterns=()) -> None:
+        """Put ``contents`` by name in the folder, in their order, and remove what else of ours matches ``patterns``.
+
+        Nothing is replaced before all of it is on the disk. The last of ``contents`` says that the others are complete:
+        it is removed first, and appears last. Only the holder of the folder's lock may do this. Raises `OutputError`.
+        """
+        self.check(contents)
+        new = {name: [hashlib.sha256(content).hexdigest()] for name, content in contents.items()}
+        stale, last = self.among(patterns), list(contents)[-1]
+        with ExitStack() as written:  # its files appear in the opposite order
+            for name in reversed(contents):
+                written.enter_context(whole_file(self.folder / name)).write_bytes(contents[name])
+            self._note(self._known | {name: [*self._known.get(name, ()), *new[name]] for name in new})
+            for name in sorted(stale, key=lambda name: name != last):
+                if name == last or name not in new:
+                    (self.folder / name).unlink()
+        kept = {name: sums for name, sums in self._known.items() if name not in stale and name not in new}
+        self._note(kept | new)
+
+    def _note(self, known: dict[str, list[str]]) -> None:
+        write_checked(self.folder / RECORD, json.dumps(known, indent=0).encode())
+        self._known = known

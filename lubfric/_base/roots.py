@@ -14,15 +14,13 @@ NEARER = 0.3  # of the value before: the secant leads on
 
 @dataclass(frozen=True)
 class Root:
-    """x, f(x), its payload, |f| at every step, how it ended, and the slope of f between the last two points (None if
-    they do not determine it)."""
+    """x, f(x), its payload, |f| at every step, and how it ended."""
 
     x: float
     value: float
     payload: Any
     history: tuple[float, ...]
     status: str
-    slope: float | None = None
 
 
 def increasing_root(
@@ -81,13 +79,9 @@ class _Search:
 
     def root(self) -> Root:
         """The result."""
-        slope = None
-        if len(self.points) > 1:
-            (a, fa), (b, fb) = self.points[-2:]
-            slope = (fb - fa) / (b - a) if (fb - fa) * (b - a) > 0 else None
         x, value, payload = self.best
         status = CONVERGED if abs(value) <= self.tolerance else ITERATION_LIMIT
-        return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status, slope)
+        return Root(x, value, payload, tuple(abs(f) for _, f in self.points), status)
 
 
 def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None):

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import csv
 import io
+import json
 import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -42,6 +44,25 @@ def plain(value):
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+def read_json(path, remedy: str) -> Any:
+    """What is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut off,
+    nested too deeply or binary, or if it says a key twice."""
+    if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
+        raise InputError(f"{path} is no file; {remedy}")
+    try:
+        return json.loads(Path(path).read_bytes().decode("utf-8"), object_pairs_hook=_once)
+    except (OSError, ValueError, RecursionError, MemoryError) as problem:
+        why = problem.strerror if isinstance(problem, OSError) else type(problem).__name__
+        raise InputError(f"{path} is damaged, or no such record ({why}); {remedy}") from None
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        raise ValueError("a key twice")
+    return found
+
+
 def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:
     """``columns`` by heading as comma-separated text."""
     file = io.StringIO(newline="")
@@ -58,11 +79,12 @@ class Columns(dict):
         raise InputError(f"the table has no column {name!r}; give a table that 'lubfric run' wrote")
 
 
-def read_table(path: Path) -> Columns:
-    """The columns that `table_bytes` wrote, by name. Raises `InputError` for a damaged table or another one."""
+def read_table(path: Path, content: bytes | None = None) -> Columns:
+    """The columns that `table_bytes` wrote, by name. ``content``: that of the file ``path`` where it is not yet there.
+    Raises `InputError` for a damaged table or another one."""
     try:
-        with Path(path).open(encoding="utf-8", newline="") as file:
-            heading, *rows = list(csv.reader(file))
+        text = (Path(path).read_bytes() if content is None else content).decode()
+        heading, *rows = list(csv.reader(io.StringIO(text, newline="")))
         columns = {name.split(" [")[0]: [row[i] for row in rows] for i, name in enumerate(heading)}
         return Columns({n: np.array(c, str if n in IN_WORDS else float) for n, c in columns.items()})
     except (ValueError, IndexError, csv.Error) as problem:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 import os
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from decimal import Decimal
 from numbers import Real
@@ -45,15 +45,16 @@ def shown(value: Any) -> str:
     return text if len(text) <= LONGEST_SHOWN else f"{text[: LONGEST_SHOWN - 4]} ..."
 
 
-def python_value(value: Any) -> Any:
-    """A number of NumPy as a Python one, an array as a tuple, also inside lists and tuples; anything else as it is."""
+def python_value(value: Any, depth: int = DEEPEST) -> Any:
+    """A number of NumPy as a Python one, an array as a tuple, also inside lists and tuples, nested up to ``depth``
+    times; anything else as it is."""
     if isinstance(value, np.ma.MaskedArray):
         return value
     if isinstance(value, (np.generic, np.ndarray)):
         given = value.tolist()
         return tuple(python_value(part) for part in given) if isinstance(given, list) else given
-    if type(value) in (list, tuple):
-        return type(value)(python_value(part) for part in value)
+    if type(value) in (list, tuple) and depth > 0:
+        return type(value)(python_value(part, depth - 1) for part in value)
     return value
 
 
@@ -228,21 +229,22 @@ def choice(name: str, value: Any, options: Iterable) -> Any:
     raise InputError(f" = {shown(value)} is not known{nearest(value, options)}", name, ", ".join(map(repr, options)))
 
 
-def nearest(word: Any, options: Iterable) -> str:
-    """' (did you mean ...?)' or an empty string."""
+def nearest(word: Any, options: Iterable, cutoff: float = 0.4) -> str:
+    """' (did you mean ...?)' or an empty string; ``cutoff``: the least likeness, 0 to 1."""
     text = word[:LONGEST_SHOWN] if isinstance(word, str) else shown(word)
-    found = difflib.get_close_matches(text, [str(o) for o in options], n=1, cutoff=0.4)
+    found = difflib.get_close_matches(text, [str(o) for o in options], n=1, cutoff=cutoff)
     return f" (did you mean {found[0]!r}?)" if found else ""
 
 
-def keys(where: str, given: Iterable, allowed: Iterable[str]) -> None:
-    """Raise `InputError` for a key of ``given`` that is none of ``allowed``."""
+def keys(where: str, given: Iterable, allowed: Iterable[str], other: Callable[[], dict[str, str]] = dict) -> None:
+    """Raise `InputError` for a key of ``given`` that is none of ``allowed``. ``other`` gives other words for keys, and
+    what to write instead; the likeness of the letters tells where a word is not among them."""
     options = list(allowed)
     for key in given:
         if key not in options:
-            raise InputError(
-                f"unknown key {shown(key)} in {where}{nearest(key, options)}; allowed: {', '.join(options)}"
-            )
+            word, words = key.lower() if isinstance(key, str) else "", other()
+            near = f" (did you mean {words[word]}?)" if word in words else nearest(key, options, 0.6)
+            raise InputError(f"unknown key {shown(key)} in {where}{near}; allowed: {', '.join(options)}")
 
 
 def spacing(name: str, value: Any) -> tuple[float, float]:

@@ -12,10 +12,9 @@ from scipy.fft import next_fast_len
 from .._base import validate
 from ..errors import InputError
 from ..scene import ContactDomain, Roughness, Scene, named
-from ..surface import Surface, generate_surface, outliers, read_surface, rms_slope
+from ..surface import Surface, check_slopes, generate_surface, outliers, read_surface
 
 REACH = 6.0  # length of a measured patch under a cylinder, in Hertz half-widths each side
-STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
 TOO_SHORT = (
     "surface.extension = 'mirror' (continues the map by its mirror image) or contact.geometry = 'flat' (its roughness "
     "spread over the strip)"
@@ -102,12 +101,7 @@ def over(surface: Surface, domain: ContactDomain) -> ContactDomain:
 def check_grid(scene: Scene, surface: Surface) -> None:
     """Raise `InputError` for slopes that no surface has, for cells too coarse for the Hertz strip, and for a patch too
     small for it."""
-    slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
-    if slope > STEEPEST:
-        raise InputError(
-            f"surface: rms slope = {slope:.3g} of heights with Sq {surface.sq:.3g} m on a spacing of "
-            f"{surface.spacing[0]:.3g} m; allowed: up to {STEEPEST:g} (are both in m?)"
-        )
+    check_slopes(surface)
     if scene.contact.geometry == "flat":
         return
     half_width, step, length = scene.bodies.half_width, surface.spacing[0], surface.size[0]

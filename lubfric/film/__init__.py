@@ -6,11 +6,10 @@ heavy piezoviscous contacts. ``shear_force(film, lubricant, ...)`` is its force 
 force that the film knows. The closed forms (`rigid_cylinder`, `formulas`, `hertz`) are checks and starts.
 """
 
-from .deflection import hat_kernel
 from .ehl import Effort, make_problem, solve_ehl, solve_line_contact
 from .ehl_result import EHLResult, cubic, smallest
 from .formulas import moes_film
-from .grid import node_positions, trapezoidal
+from .grid import hat_kernel, node_positions, trapezoidal
 from .heat import (
     FAST,
     LARGEST,
@@ -19,15 +18,13 @@ from .heat import (
     InletHeat,
     Surroundings,
     heated_film,
+    heated_stress,
     inlet_heat,
     isothermal_heat,
 )
-from .heated_stress import heated_stress
-from .hertz import composite_modulus
-from .line_contact import LineContact, OfLineContact
-from .newton import step_length
+from .hertz import LineContact, OfLineContact, composite_modulus
 from .problem import Problem
-from .reynolds import log_mean_fluidity
+from .reynolds import log_mean_fluidity, step_length
 from .rigid_cylinder import true_pressure
 from .shear import ShearForce, rolling_error, shear_force, spike_error
 from .start import State, rupture_guess

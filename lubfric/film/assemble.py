@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from ..errors import CONVERGED, ITERATION_LIMIT, Report
-from .deflection import hat_kernel
-from .ehl_result import EHLResult, Rolling, cubic, smallest
-from .newton import Solution
+from .ehl_result import EHLResult, cubic, smallest
+from .grid import hat_kernel
 from .problem import Problem
+from .reynolds import Solution
 from .start import solution_state
 
 
@@ -63,8 +63,8 @@ def _outlet(problem: Problem, solution: Solution) -> tuple[np.ndarray, np.ndarra
     return X, solution.z[-3] + 0.5 * X * X + bend
 
 
-def rolling_resistance(problem: Problem, levels: list[Solution]) -> Rolling:
-    """Half of ∫ h dp, the resistance to rolling, from the gap of the undeformed bodies.
+def rolling_resistance(problem: Problem, levels: list[Solution]) -> tuple[float, float]:
+    """Half of ∫ h dp, the resistance to rolling [N/m], from the gap of the undeformed bodies, and its estimated error.
 
     The kernel of the half-space is even, so a pressure does no work when it is shifted together with the deflection
     that it causes: ∫ (K p) dp = 0. What is left of ∫ h dp is ∫ (x²/2R + imposed deflection) dp; without an imposed
@@ -78,10 +78,9 @@ def rolling_resistance(problem: Problem, levels: list[Solution]) -> Rolling:
     found = [unit * _half_work(problem, solution) for solution in levels[-3:]]
     steps = np.diff(found) / 3.0
     if not steps.size:
-        return Rolling(found[-1], math.inf)
-    return Rolling(
-        float(found[-1] + steps[-1]), float(max(abs(steps[-1]), abs(steps[0]) / 4.0 if steps.size > 1 else 0.0))
-    )
+        return found[-1], math.inf
+    before = abs(steps[0]) / 4.0 if steps.size > 1 else 0.0
+    return float(found[-1] + steps[-1]), float(max(abs(steps[-1]), before))
 
 
 def _half_work(problem: Problem, solution: Solution) -> float:

@@ -16,13 +16,12 @@ from .._base import instance, integer, number, positive
 from ..errors import CONVERGED, InputError
 from ..oil import Lubricant
 from .assemble import assemble, grid_error
-from .deflection import LinePressure, line_pressure
 from .ehl_result import EHLResult
-from .grid import FAR_INLET, make_grid, node_positions
-from .line_contact import LineContact
-from .newton import Solution, newton
-from .problem import Problem, Seat
-from .start import State, cold_start, find_seats, refined_start, rupture_guess, solution_state, warm_start
+from .grid import FAR_INLET, LinePressure, line_pressure, make_grid, node_positions
+from .hertz import LineContact
+from .problem import Problem
+from .reynolds import Solution, newton
+from .start import State, cold_start, on_seats, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, STARTS, FINEST = 48, 5, 3072  # cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
 WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
@@ -122,18 +121,18 @@ def solve_line_contact(
     problem = make_problem(contact, inlet_length, line_pressure(imposed))
     if start is not None:
         instance("start", start, EHLResult, "an EHLResult or None")
-    seats = find_seats(problem)
+    seated = on_seats(problem)
     levels: list[Solution] = []
     first: list[Solution] = []
     notes: tuple[str, ...] = ()
     if start is not None:
-        alike = [seat for seat in seats if (seat.modulus < 1.0) == (start.state.problem.seat.modulus < 1.0)]
-        problem = replace(problem, seat=(alike or seats)[0])
+        alike = [p for p in seated if (p.seat_modulus < 1.0) == (start.state.problem.seat_modulus < 1.0)]
+        problem = (alike or seated)[0]
         levels = _warm(problem, effort, start.state)
         if not _sound(levels):
             notes = ("the warm start failed; solved again from a cold start",)
     if not _sound(levels):
-        problem, levels, first, retries = _cold(problem, seats, effort)
+        problem, levels, first, retries = _cold(seated, effort)
         notes += retries
     result = assemble(problem, levels, first, effort.tolerance, notes)
     if raise_on_failure:
@@ -166,7 +165,7 @@ def _warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
 
 
 def _cold(
-    problem: Problem, seats: tuple[Seat, ...], effort: Effort
+    seated: tuple[Problem, ...], effort: Effort
 ) -> tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]:
     """A solution from a cold start on grids from the coarsest up; if that fails, from another start or on a finer grid.
 
@@ -174,13 +173,12 @@ def _cold(
     """
     spent: list[Solution] = []
     notes: tuple[str, ...] = ()
-    coarsest = _coarsest(problem)
+    coarsest = _coarsest(seated[0])
     grids = sorted((COARSEST * 2**k for k in range(STARTS)), key=lambda n: n != coarsest)
-    beginnings = [(seat, 0) for seat in seats] + [(seats[0], DOUBLINGS)] * (len(seats) > 1)
-    for n, (seat, doublings) in product(grids, beginnings):
+    beginnings = [(problem, 0) for problem in seated] + [(seated[0], DOUBLINGS)] * (len(seated) > 1)
+    for n, (problem, doublings) in product(grids, beginnings):
         if spent:
             notes += (f"the cold start failed; tried again from {n} cells",)
-        problem = replace(problem, seat=seat)
         state, first = _first_state(problem, n, effort.max_iterations, doublings)
         levels = _ascend(problem, effort, state, n, 2 if effort.tolerance >= COARSE_TOLERANCE else 3)
         if _sound(levels):
@@ -239,8 +237,7 @@ def _first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -
 def _faster(problem: Problem, factor: float) -> Problem:
     """The same contact at ``factor`` times its speed, on the likelier seat there."""
     contact = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * factor)
-    faster = replace(problem, contact=contact)
-    return replace(faster, seat=find_seats(faster)[0])
+    return on_seats(replace(problem, contact=contact))[0]
 
 
 def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
@@ -250,7 +247,7 @@ def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
         distance = problem.inlet_length / problem.length_unit + rupture
     elif problem.imposed is not None:
         distance = 3.0 * problem.flat_half_width + FAR_INLET * math.sqrt(2.0 * problem.film_guess) + rupture
-    return node_positions(problem.seat_half_width, problem.film_guess * problem.seat.radius, n, distance)
+    return node_positions(problem.seat_half_width, problem.film_guess * problem.seat_radius, n, distance)
 
 
 def _sound(levels: list[Solution]) -> bool:

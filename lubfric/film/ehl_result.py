@@ -4,24 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 
 from .._base import Shown
 from ..errors import Report
-from .deflection import LinePressure, line_deflection
-from .line_contact import LineContact, OfLineContact
+from .grid import LinePressure, line_deflection
+from .hertz import LineContact, OfLineContact
 from .start import State
 
 LUMP = 6  # neighbouring nodes that act as one line force far away
-
-
-class Rolling(NamedTuple):
-    """``force`` [N/m]: half of ∫ h dp over the nodes, along the motion; ``error``: estimated."""
-
-    force: float
-    error: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -44,7 +36,8 @@ class EHLResult(Shown, OfLineContact):
     imposed : the pressure, if any, that deflects the film beside its own
     report : how the solve ended
     state : what a neighbouring solve starts from
-    rolling : half of ∫ h dp [N/m] and its estimated error (`lubfric.film.assemble.rolling_resistance`; None: not known)
+    rolling : half of ∫ h dp over the nodes, along the motion, and its estimated error, both in N/m
+        (`lubfric.film.assemble.rolling_resistance`; None: not known)
 
     Notes
     -----
@@ -78,7 +71,7 @@ class EHLResult(Shown, OfLineContact):
     report: Report
     state: State = field(repr=False)
     imposed: LinePressure | None = field(default=None, repr=False)
-    rolling: Rolling | None = None
+    rolling: tuple[float, float] | None = None
 
     @property
     def cells(self) -> int:

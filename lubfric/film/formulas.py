@@ -1,6 +1,6 @@
 """Closed forms of the smooth line contact: fitted films, Grubin's inlet, and the shear of a film that heats itself.
 
-Film formulas are in Moes' numbers M and L, and films in his unit (`lubfric.film.line_contact`), unless said otherwise.
+Film formulas are in Moes' numbers M and L, and films in his unit (`lubfric.film.hertz`), unless said otherwise.
 They are fits to isothermal, Newtonian, fully flooded solutions. Sources: H. Moes, Lubrication and Beyond, Univ. Twente
 2000, and G. Nijenbanning, C. H. Venner, H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3;
 D. Dowson, G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon 1966;

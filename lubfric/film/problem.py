@@ -1,6 +1,6 @@
 """The steady line contact in Moes' similarity variables.
 
-With the units of `lubfric.film.line_contact`, x = R U1^(1/4) X, h = R U1^(1/2) H, p = E' U1^(1/4) P:
+With the units of `lubfric.film.hertz`, x = R U1^(1/4) X, h = R U1^(1/2) H, p = E' U1^(1/4) P:
 
     d/dX( rho H^3/(6 eta) dP/dX ) = d(rho H)/dX                  Reynolds
     H = H00 + X^2/2 - (4/pi) ∫ (P + Pi)(X') ln|X - X'| dX'       elastic film, Pi imposed
@@ -13,29 +13,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from operator import attrgetter
 
 import numpy as np
 
 from ..oil import density_ratio, log_viscosity_ratio
-from .deflection import LinePressure, line_deflection
 from .formulas import moes_film
-from .line_contact import LineContact
+from .grid import LinePressure, line_deflection
+from .hertz import LineContact
 
 STARVED = 0.1  # film of a badly starved contact, relative to the square of the inlet length
-
-
-@dataclass(frozen=True)
-class Seat:
-    """A cylinder that approximates the gap which an imposed pressure leaves: ``radius`` R and ``modulus`` E' (ratios to
-    the real ones) about ``centre`` [m].
-
-    The film in that gap, and the dry contact of the film's own load, are roughly those of this cylinder. It only serves
-    to make grids and starts.
-    """
-
-    centre: float = 0.0
-    radius: float = 1.0
-    modulus: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -43,38 +30,26 @@ class Problem:
     """A line contact in Moes' units, seen along its motion: X points downstream.
 
     inlet_length: None or metres upstream of the centre; imposed: a pressure that deflects the film in addition to its
-    own, and carries none of the load; seat: the cylinder that approximates the gap then, for grids and starts.
+    own, and carries none of the load.
+
+    The seat is a cylinder that approximates the gap which an imposed pressure leaves, about seat_at [m], with
+    seat_radius R and seat_modulus E' (ratios to the real ones). The film in that gap, and the dry contact of the film's
+    own load, are roughly those of this cylinder. It only serves to make grids and starts.
     """
 
     contact: LineContact
     inlet_length: float | None = None
     imposed: LinePressure | None = None
-    seat: Seat = Seat()
+    seat_at: float = 0.0
+    seat_radius: float = 1.0
+    seat_modulus: float = 1.0
 
-    @property
-    def M(self) -> float:
-        """Moes' load number."""
-        return self.contact.M
-
-    @property
-    def L(self) -> float:
-        """Moes' material number (0 for the constant-viscosity law)."""
-        return self.contact.L
-
-    @property
-    def length_unit(self) -> float:
-        """Unit of x [m]."""
-        return self.contact.length_unit
-
-    @property
-    def film_unit(self) -> float:
-        """Unit of h [m]."""
-        return self.contact.film_unit
-
-    @property
-    def pressure_unit(self) -> float:
-        """Unit of p [Pa]."""
-        return self.contact.pressure_unit
+    # the numbers and units of the contact: M, L [-]; units of x [m], h [m], p [Pa]
+    M = property(attrgetter("contact.M"))
+    L = property(attrgetter("contact.L"))
+    length_unit = property(attrgetter("contact.length_unit"))
+    film_unit = property(attrgetter("contact.film_unit"))
+    pressure_unit = property(attrgetter("contact.pressure_unit"))
 
     @property
     def half_width(self) -> float:
@@ -94,13 +69,13 @@ class Problem:
     @property
     def seat_centre(self) -> float:
         """Centre of the seat, in units of x."""
-        return self.seat.centre / self.length_unit
+        return self.seat_at / self.length_unit
 
     @property
     def seat_half_width(self) -> float:
         """Half-width, in units of x, of the dry contact of the film's own load in the gap that the imposed pressure
         leaves."""
-        return math.sqrt(8.0 * self.M * self.seat.radius / (math.pi * self.seat.modulus))
+        return math.sqrt(8.0 * self.M * self.seat_radius / (math.pi * self.seat_modulus))
 
     def imposed_deflection(self, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Deflection by the imposed pressure at ``X`` (n,), and its derivative by X."""
@@ -110,16 +85,14 @@ class Problem:
 
     def alone(self) -> Problem:
         """The problem of the seat's cylinder, without imposed pressure."""
-        whole, seat = self.contact, self.seat
-        cylinder = replace(whole, radius=whole.radius * seat.radius, e_prime=whole.e_prime * seat.modulus)
-        return replace(self, contact=cylinder, imposed=None, seat=Seat())
+        radius, e_prime = self.contact.radius * self.seat_radius, self.contact.e_prime * self.seat_modulus
+        return Problem(replace(self.contact, radius=radius, e_prime=e_prime), self.inlet_length)
 
     @property
     def flooded_film(self) -> float:
         """Moes' film of the cylinder of the seat, in the units of the real one."""
-        seat = self.seat
-        root = math.sqrt(seat.radius * seat.modulus)
-        return moes_film(self.M / root, self.L * seat.modulus / math.sqrt(root)) * seat.radius / root
+        root = math.sqrt(self.seat_radius * self.seat_modulus)
+        return moes_film(self.M / root, self.L * self.seat_modulus / math.sqrt(root)) * self.seat_radius / root
 
     @property
     def film_guess(self) -> float:

@@ -1,4 +1,4 @@
-"""Discrete equations of the line contact: residual and Jacobian.
+"""Discrete equations of the line contact, residual and Jacobian, and Newton's method on one grid.
 
 The unknowns ``z`` are the pressures at the n nodes before the rupture point, H00, the mass flux q and the rupture point
 e (X = e + xi). The film H is carried beside them with its own equation, H = H00 + X²/2 + K P. One undamped Newton step
@@ -22,8 +22,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
 from .problem import Problem
+
+VISCOSITY_STEP = 3.0  # largest change of ln(eta) in one step
+FILM_STEP = 0.7  # largest share of the film (or the flux) that one step may remove
 
 
 @dataclass(frozen=True)
@@ -153,3 +157,55 @@ def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> tupl
     J[n + 2, :n] = grid.kernel[-1, :n] * rho / q
     J[n + 2, n:] = rho / q, -rho * t.H[-1] / q**2, rho * t.by_rupture[-1] / q
     return by_h, rho / q
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Unknowns ``z`` on ``grid`` with their `Terms`; ``error``: largest residual or film defect."""
+
+    grid: Grid
+    z: np.ndarray
+    terms: Terms
+    status: str
+    error: float
+    history: tuple[float, ...]
+
+
+def step_length(log_viscosity_change: np.ndarray, film_loss: float) -> float:
+    """The part of a step to take, 0 to 1. It follows from two effects of the whole step: the change of ln(eta) at the
+    nodes, and ``film_loss``, the largest fraction of the film (or flux) that it removes."""
+    change = float(np.max(np.abs(log_viscosity_change)))
+    length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change
+    return length if film_loss * length <= FILM_STEP else FILM_STEP / film_loss
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
+def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int) -> Solution:
+    """Solve the equations from unknowns z and film H > 0 to max(|residual|, |defect|/H) <= ``tolerance``.
+
+    A step that overflows ends the iteration as "diverged".
+    """
+    from scipy.linalg.lapack import dgesv
+
+    history = []
+    status = ITERATION_LIMIT
+    for step in range(max_steps + 1):
+        R, terms = residual(grid, problem, z, H)
+        error = max(float(np.max(np.abs(R))), float(np.max(np.abs(terms.defect) / H)))
+        history.append(error)
+        if error <= tolerance:
+            status = CONVERGED
+        if status == CONVERGED or not np.isfinite(error) or step == max_steps:
+            break
+        J, shift = linearise(grid, problem, terms)
+        _, _, delta, info = dgesv(J, -(R + shift), overwrite_a=1, overwrite_b=1)
+        if info != 0:
+            break
+        dH = terms.defect + grid.kernel[:, :-1] @ delta[:-3] + (delta[-3] + terms.by_rupture * delta[-1])
+        loss = max(float(np.max(-dH / terms.H)), -delta[-2] / terms.q)
+        length = step_length(delta[:-3] * terms.slope[:-1], loss)
+        z = z + length * delta
+        H = H + length * dH
+    if status != CONVERGED and step < max_steps:
+        status = DIVERGED
+    return Solution(grid, z, terms, status, error, tuple(history))

@@ -11,8 +11,8 @@ H. Blok, Proc. Int. Symp. Lubrication and Wear, Houston 1963 (piezoviscous limit
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import cache, lru_cache
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -29,9 +29,10 @@ def _reduced(theta, rupture):
     return second - fourth / np.cos(rupture) ** 2
 
 
-@dataclass(frozen=True)
-class RigidConstants:
-    """Pure numbers of the rigid cylinder (u_s = 2 U the sum of the surface speeds, L, M of Moes).
+@cache
+def rigid_constants() -> SimpleNamespace:
+    """Pure numbers of the rigid cylinder, from the root of the rupture equation (u_s = 2 U the sum of the surface
+    speeds, L, M of Moes).
 
     rupture : x_e / sqrt(2 R h0), where the film ruptures
     load : w = load * eta U R / h0
@@ -41,21 +42,6 @@ class RigidConstants:
     min_film, flow_film : H M in Moes units
     piezoviscous_min_film, piezoviscous_flow_film : H / L^(2/3) in Moes units (Barus, heavy load)
     """
-
-    rupture: float
-    load: float
-    flow_film_ratio: float
-    couette: float
-    rolling: float
-    min_film: float
-    flow_film: float
-    piezoviscous_min_film: float
-    piezoviscous_flow_film: float
-
-
-@cache
-def rigid_constants() -> RigidConstants:
-    """Solve the rupture equation and derive every constant from its root."""
     from scipy.optimize import brentq
 
     angle = brentq(lambda t: _reduced(t, t), 0.1, 1.0, xtol=1e-15, rtol=1e-15)
@@ -65,7 +51,7 @@ def rigid_constants() -> RigidConstants:
     rolling = 3 * math.sqrt(2) * (swept - ratio * (swept / 2 + math.sin(2 * angle) / 4))
     peak = float(_reduced(-angle, angle))
     blok = (6 * math.sqrt(2) * peak) ** (2 / 3)
-    return RigidConstants(
+    return SimpleNamespace(
         rupture=math.tan(angle),
         load=load,
         flow_film_ratio=ratio,

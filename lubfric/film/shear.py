@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..oil import Lubricant, carried_stress, shear_stress
-from .ehl_result import EHLResult, Rolling
+from .ehl_result import EHLResult
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ def spike_error(x, tau) -> float:
     return abs(coarse - fine) / 24
 
 
-def _rolling(p, h, touched, known: Rolling | None) -> tuple[float, float, float]:
+def _rolling(p, h, touched, known: tuple[float, float] | None) -> tuple[float, float, float]:
     """∫ (h/2) dp [N/m] without the share of the width that is ``touched``, the parts by which an error of the film is
     felt, and the error of the sum."""
     rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p)

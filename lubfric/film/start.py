@@ -7,11 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .deflection import line_deflection
-from .grid import Grid
-from .newton import Solution
-from .problem import Problem, Seat
-from .reynolds import elastic_film
+from .grid import Grid, line_deflection
+from .problem import Problem
+from .reynolds import Solution, elastic_film
 
 FLATTEST = 1e8  # radius of a seat, in radii of the cylinder
 FLAT_WINDOW = 0.8  # of the Hertz half-width of all the load: a film that reaches so far sees the edges of the flat
@@ -35,7 +33,7 @@ class State:
 
 def _expected_rupture(problem: Problem) -> float:
     """Rupture point of the guess, in units of x, from the centre of the seat."""
-    film, b = problem.flooded_film * problem.seat.radius, problem.seat_half_width
+    film, b = problem.flooded_film * problem.seat_radius, problem.seat_half_width
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
 
 
@@ -104,8 +102,8 @@ def refine(values: np.ndarray) -> np.ndarray:
     return fine
 
 
-def find_seats(problem: Problem) -> tuple[Seat, ...]:
-    """The seats of a `Problem`, the likelier one first; a single one if no pressure is imposed.
+def on_seats(problem: Problem) -> tuple[Problem, ...]:
+    """The problem on each of its seats, the likelier one first; a single one if no pressure is imposed.
 
     One seat is flat: it has Johnson's modulus, E' times the film's share of the load. The other is curved. Over a
     window |x - x0| <= s the gap G = x²/2R + imposed deflection is close to a parabola where the Chebyshev mean of G' is
@@ -114,7 +112,7 @@ def find_seats(problem: Problem) -> tuple[Seat, ...]:
     contact and film, s² = b² + 2 h/k.
     """
     if problem.imposed is None:
-        return (Seat(),)
+        return (problem,)
     from scipy.optimize import brentq
 
     imposed, radius = problem.imposed, problem.contact.radius
@@ -139,12 +137,13 @@ def find_seats(problem: Problem) -> tuple[Seat, ...]:
 
     load = problem.contact.load_per_width
     window = math.exp(brentq(surplus, math.log(1e-4 * wide), math.log(2.0 * reach), xtol=1e-2))
-    flat = Seat(0.5 * float(imposed.x[0] + imposed.x[-1]), 1.0, load / (load + imposed.load))
-    curved = Seat(centre_of(window), ratio_of(window))
+    middle = 0.5 * float(imposed.x[0] + imposed.x[-1])
+    flat = replace(problem, seat_at=middle, seat_radius=1.0, seat_modulus=load / (load + imposed.load))
+    curved = replace(problem, seat_at=centre_of(window), seat_radius=ratio_of(window), seat_modulus=1.0)
     return (curved, flat) if window < FLAT_WINDOW * wide else (flat, curved)
 
 
 def _window(problem: Problem, ratio: float) -> float:
     """Half-width of the dry contact and length of the film on a cylinder of ``ratio`` radii, as a hypotenuse [m]."""
-    seated = replace(problem, seat=Seat(0.0, ratio))
+    seated = replace(problem, seat_at=0.0, seat_radius=ratio, seat_modulus=1.0)
     return math.hypot(seated.seat_half_width, math.sqrt(2.0 * seated.film_guess * ratio)) * problem.length_unit

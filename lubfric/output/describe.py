@@ -10,10 +10,14 @@ from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, key_unit
 from ..sampling import forecast
-from ..scene import Scene, told_doubts
+from ..scene import CHANGING, Harmonic, History, Scene, Table, told_doubts
 from ..sharing import expected, gathered, takes_strips
+from ..studies import in_words
 from ..surface import Surface, correlation_length, rms_slope
+from ..time import TIME_SHARE, speeds_of_run
 
+STEP_TOLERANCE, SWING, START = 3e-5, 80.0, 30.0  # of a step; with it, steps in a period of a history; at the start
+FILM_STEP, CELL_STEP = 6e-3, 1.5e-7  # s of a step in time: its film, and a cell of its contact
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
 
 
@@ -25,15 +29,20 @@ def describe_scene(scene: Scene) -> str:
         first = None if strips is None else strips.stack(strips.first)
         surface = contact_map(scene) if first is None or measured(scene) else first
     speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
+    told: list[str] = []
+    if scene.transient is not None:
+        speeds = tuple(speeds_of_run(scene)) or (0.0,)
+        told = [*_histories(scene), _cost(scene, strips, surface, max(speeds))]
     return "\n".join(
         [
             f"scene {scene.name}",
             *_section("bodies", _bodies(scene)),
             *_section("lubricant", _lubricant(scene)),
             *_section("motion", _motion(scene)),
-            *_section("surface", [surface.describe()]),
+            *_section("transient", told),
+            *_section("surface", [surface.describe(), *(note for note in surface.notes if "nm as it is" in note)]),
             *_map_rows(scene, surface),
-            *_section("contact", [f"{_plan(scene, surface)}; {len(speeds)} speeds"]),
+            *_section("contact", [f"{_plan(scene, surface)}; {'a run in time' if told else f'{len(speeds)} speeds'}"]),
             *_section("validity", _validity(scene, surface if first is None else first, sorted(set(speeds)))),
             *_speed_rows(scene, strips, surface, speeds),
         ]
@@ -57,6 +66,51 @@ def _plan(scene: Scene, surface: Surface) -> str:
     return f"{what}; f within {100 * scene.numerics.tolerance:g} %"
 
 
+def _histories(scene: Scene) -> list[str]:
+    """What changes in time, how, how often, and between which values; and the largest speeds."""
+    plan, rows = scene.transient, []
+    assert plan is not None
+    for name, unit in CHANGING.items():
+        history = getattr(plan, name)
+        if history is not None:
+            low, high = history.range(plan.duration)
+            periods = f", {_laps(history, plan.duration):.3g} periods" if _laps(history, plan.duration) else ""
+            said = f"{name}: {type(history).__name__.lower()}, {low:.4g} to {high:.4g} {unit}{periods}"
+            if isinstance(history, Harmonic):
+                said += f" of {1 / history.frequency:.4g} s, amplitude {abs(history.amplitude):.4g} {unit}"
+            rows.append(said + (": the motion reverses" if name == "speed" and low < 0 < high else ""))
+    start = "steady, where there is entrainment, else at rest" if plan.initial == "auto" else plan.initial
+    rows.append(f"start: {start if plan.initial_film is None else f'film of {plan.initial_film:.4g} m'}")
+    return rows
+
+
+def _laps(history: History, duration: float) -> float:
+    """How often a history repeats itself; 0 for one that does not."""
+    if isinstance(history, Harmonic):
+        return history.frequency * duration
+    return duration / history.times[-1] if isinstance(history, Table) and history.repeat else 0.0
+
+
+def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float) -> str:
+    """Steps and time of a run: an order of magnitude, by what runs of the paper's scene took (begin 2 s on its strips,
+    then 8 to 17 ms a step on a patch of 200 x 200 cells and 43 to 56 ms on its strips)."""
+    plan = scene.transient
+    assert plan is not None
+    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
+    swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
+    steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
+    one = forecast(scene, strips, surface.sq, float(surface.heights.max() - surface.heights.mean()), fastest)
+    cells = surface.heights.size
+    if strips is not None and not strips.whole:
+        cells = round(strips.cells.count * one.length / strips.cells.coarse[1])
+    seconds = one.seconds + steps * (FILM_STEP + CELL_STEP * cells)
+    top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
+    return (
+        f"{top}; {plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs; about {in_words(seconds)} "
+        "(orders of magnitude)"
+    )
+
+
 def _validity(scene: Scene, surface: Surface, speeds: list[float]) -> list[str]:
     """What is known before the solve: of bodies and map, and of the speeds."""
     known = expected(scene, surface, speeds)
@@ -76,8 +130,10 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
         asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um"
         rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
         rows[-1] += f" {'strips':>8} {'length (mm)':>12} {'time (s)':>9}"
-    for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], scene.motion.entrainment_speed, speeds[-1]}):
-        one, film = forecast(scene, strips, surface.sq, summit, speed), f"{'no entrainment: all contact':<38}"
+    own = () if scene.transient is not None else (scene.motion.entrainment_speed,)
+    nothing = "no entrainment" if scene.transient is not None else "no entrainment: all contact"
+    for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], *own, speeds[-1]}):
+        one, film = forecast(scene, strips, surface.sq, summit, speed), f"{nothing:<38}"
         if speed != 0:
             line = scene.line_contact(abs(speed))
             ratio = line.moes_film / surface.sq if surface.sq > 0 else math.inf
@@ -161,6 +217,8 @@ def _lubricant(scene: Scene) -> list[str]:
 
 def _motion(scene: Scene) -> list[str]:
     u, ratio = scene.motion.entrainment_speed, scene.motion.slide_roll_ratio
+    if scene.transient is not None:
+        return [*_inputs(scene, "motion")]
     u1, u2 = u * (1 - ratio / 2), u * (1 + ratio / 2)
     surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
     return [*_inputs(scene, "motion"), surfaces]

@@ -1,4 +1,5 @@
-"""Pictures of a run: the Stribeck curve, and the contact of one speed (Akchurin et al. 2015, Figs. 8-10)."""
+"""Pictures of a run: the curve, the contact of one speed (Akchurin et al. 2015, Figs. 8-10), and what changes in
+time."""
 
 from __future__ import annotations
 
@@ -20,11 +21,14 @@ from .._base import (
     log_if_wide,
     new_figure,
     plain_ticks,
+    plain_words,
     speed_label,
 )
 from ..studies import friction_over_speed, interval_band
+from ..time import friction_over_time, time_scale
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
+FRAMES = 150  # of an animation at most, spread over the run
 NEAR = 4.0  # half-widths of the Hertz strip around which a gap is drawn
 
 
@@ -44,7 +48,7 @@ def plot_stribeck(
     speed, ratio = np.abs(c["speed"]), c["film_to_roughness_ratio"]
     if measured is not None:
         error = None if measured.deviation is None else 1.96 * measured.deviation
-        points = {"fmt": "D", "ms": 4, "color": "k", "mfc": "none", "lw": 1, "label": measured.source}
+        points = {"fmt": "D", "ms": 4, "color": "k", "mfc": "none", "lw": 1, "label": plain_words(measured.source)}
         top.errorbar(np.abs(measured.x), measured.coefficient, error, **points)
         top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
     _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
@@ -194,3 +198,69 @@ def _section(axes, micro, surface, smooth, contact, row: int) -> None:
         axes.plot(micro, pressed_under * 1e9, color=RED, label="separation $h_s$ = h − ε")
     axes.set(xlabel="x (µm)", ylabel="height (nm)")
     axes.legend(frameon=False, fontsize=8)
+
+
+def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
+    """Speed and load, film, shares of the load, and friction over time, from the columns of history.csv."""
+    c = columns
+    t = c["time"] * time_scale(c["time"][-1])[0]
+    figure = new_figure(figsize=(7.5, 9))
+    first, second, third, fourth = figure.subplots(4, 1, sharex=True)
+    first.plot(t, c["entrainment_speed"], color=BLUE)
+    first.axhline(0.0, color=GREY, lw=0.6)
+    first.set_ylabel("entrainment speed U (m/s)", color=BLUE)
+    first.set_title(title)
+    load = first.twinx()
+    load.plot(t, c["load"], color=RED, lw=1)
+    load.set_ylim(0.0, 1.15 * c["load"].max())
+    load.set_ylabel("load $F_T$ (N)", color=RED)
+    second.plot(t, c["central_film"] * 1e9, color=BLUE, label="central film")
+    second.plot(t, c["min_film"] * 1e9, color=GREEN, label="minimum film")
+    second.plot(t, c["mean_gap"] * 1e9, color=GREY, lw=0.9, ls="--", label="mean gap over A")
+    second.set_ylabel("film thickness (nm)")
+    second.set_ylim(bottom=0.0)
+    second.legend(frameon=False, ncols=3, fontsize=8)
+    load_shares(third, t, c["contact_load"] / c["load"])
+    third.legend(frameon=False, ncols=2, fontsize=8)
+    error = c.get("sampling_error", np.zeros(0))
+    if np.any(error > 0):
+        low, high = (c["coefficient"] * (1 + sign * 2 * error) for sign in (-1, 1))
+        fourth.fill_between(t, low, high, color=BLUE, alpha=0.2, lw=0, label="2 standard errors: finite surface")
+    friction_over_time(fourth, c)
+    fourth.set_xlim(t[0], t[-1])
+    figure.savefig(path, dpi=150)
+
+
+def animate(path: Path, result, half_width: float) -> None:
+    """GIF of pressure and film along the contact over time (Pillow writer)."""
+    from matplotlib.animation import FuncAnimation, PillowWriter
+
+    count, x, h = result.time.size, result.x, result.film_thickness
+    radius = (x[0] ** 2 - x[1] ** 2) / (2.0 * (h[0, 0] - h[0, 1]))  # of the undeformed gap, far out
+    reach = 3.0 * max(half_width, float(np.sqrt(h.min(axis=1).max() * 2.0 * radius)))
+    seen = np.abs(x) <= reach
+    x, thick = x[seen] * 1e6, h[:, seen] * 1e9
+    figure = new_figure(figsize=(7, 4.5))
+    top = figure.subplots()
+    bottom = top.twinx()
+    (pressure,) = top.plot([], [], color=RED)
+    (film,) = bottom.plot([], [], color=BLUE)
+    top.set(xlim=(x[0], x[-1]), ylim=(0.0, 1.1 * result.pressure.max() / 1e6), xlabel="x (µm)")
+    top.set_ylabel("film pressure (MPa)", color=RED)
+    bottom.set_ylim(0.0, 1.5 * max(result.central_film.max() * 1e9, np.median(thick.min(axis=1)) * 2.0))
+    bottom.set_ylabel("film thickness (nm)", color=BLUE)
+    scale, unit = time_scale(result.time[-1])
+
+    def draw(i):
+        pressure.set_data(x, result.pressure[i, seen] / 1e6)
+        film.set_data(x, thick[i])
+        speed, friction = result.entrainment_speed[i], result.coefficient[i]
+        moment = f"t = {result.time[i] * scale:.4g} {unit},  U = {speed:.3g} m/s,  f = {friction:.4f}"
+        top.set_title(moment, fontsize=10)
+        return pressure, film
+
+    draw(0)
+    figure.canvas.draw()
+    figure.set_layout_engine("none")  # laid out once: the frames must not jump, and are drawn faster
+    frames = np.unique(np.linspace(0, count - 1, min(FRAMES, count)).round().astype(int)).tolist()
+    FuncAnimation(figure, draw, frames=frames, blit=False).save(path, writer=PillowWriter(fps=15), dpi=80)

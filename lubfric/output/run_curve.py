@@ -11,7 +11,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from .._base import make_ready, read_table, validate, whole_file
+from .._base import FolderLock, OwnFiles, make_ready, plain_words, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..quantities import NUMBERS, in_words
 from ..sampling import percent
@@ -29,11 +29,9 @@ from ..studies import (
     stribeck,
     traction,
 )
-from .console import keeping, say
-from .fields import fields_bytes, vtk_bytes
+from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
+from .fields import fields_bytes, report_page, vtk_bytes
 from .pictures import plot_contact, plot_stribeck, plot_traction
-from .report_page import report_page
-from .run_folder import RunFolder, read_record, ready, run_folder
 
 WORTH = 8  # speeds from which a second process gains more than it costs
 CAPTIONS = {"stribeck.png": "Friction, shares of the load and film", "contact.png": "Contact of one speed"}
@@ -51,6 +49,7 @@ def run_sweep(scene: Scene, arguments) -> None:
     begun, out, done_so_far = time.perf_counter(), arguments.out, [0]
     speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
     total, progress = "some" if speeds == AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
+    _check_outputs("stribeck", arguments, len(chosen))
     with pool(_workers(scene, speeds, arguments.workers)) as executor:
         prepared = ready(scene)
 
@@ -62,7 +61,7 @@ def run_sweep(scene: Scene, arguments) -> None:
             points = f"{done_so_far[0]} of {total} points"
             return f"interrupted; {points} are kept in {out}: the same command goes on from there"
 
-        with keeping(kept), run_folder(out, fingerprint(prepared, speeds, chosen), begun) as folder:
+        with keeping(kept), run_folder(out, begun, fingerprint(prepared, speeds, chosen)) as folder:
             threading.Thread(target=make_ready, daemon=True).start()  # while the speeds are solved
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
             curve = stribeck(prepared, speeds, None if speeds == AUTO else executor, **options)
@@ -74,8 +73,9 @@ def run_traction(scene: Scene, arguments) -> None:
     """Compute a traction curve, and write traction.csv, traction.png and, last, result.json to ``arguments.out``."""
     begun = time.perf_counter()
     ratios = parse_speeds("--ratios", arguments.ratios, "(slide-roll ratio)", LARGEST_RATIO)
+    _check_outputs("traction", arguments, 0)
     prepared = ready(scene)
-    with run_folder(arguments.out, fingerprint(prepared, ratios, "traction"), begun) as folder:
+    with run_folder(arguments.out, begun, fingerprint(prepared, ratios, "traction")) as folder:
         progress = _progress("slide-roll ratio {:<9.4g}")
         curve = traction(prepared, ratios, on_point=progress, raise_on_failure=False)
         _write(folder, prepared, curve, arguments, [])
@@ -90,31 +90,40 @@ def _workers(scene: Scene, speeds, given: int | None) -> int:
     return 2 if speeds != AUTO and len(speeds) >= WORTH and takes_strips(scene) and processors() > 1 else 1
 
 
+def _check_outputs(table: str, arguments, contacts: int) -> None:
+    """Refuse a folder in which the files of a curve would replace others."""
+    names = [f"{table}.csv", f"{table}.png", "fields.npz", "contact.png", RESULT]
+    names += ["report.html"] * arguments.report + [f"contact_{i}.vtk" for i in range(contacts)] * arguments.vtk
+    check_outputs(arguments, arguments.out, names, OUTPUTS)
+
+
 def _write(folder: RunFolder, prepared: Prepared, curve: CurveResult, arguments, chosen: list[float]) -> None:
     """The table, the fields of the ``chosen`` speeds, their pictures, the record; and what was asked for beside."""
-    name = "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
-    folder.clear()
-    folder.write(f"{name}.csv", csv_bytes(curve))
+    name, contents = "traction" if curve.SWEPT[0] == "ratio" else "stribeck", folder.contents
+    contents[f"{name}.csv"] = csv_bytes(curve)
     record = folder.record(prepared, curve, points=[_point(curve, i) for i in range(len(curve.points))])
-    if len(curve.errors) < len(curve.points):
-        columns = read_table(folder.path / f"{name}.csv")
+    columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
+    if _drawable(columns).any():
         folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, record["points"])
     points = [p for p in curve.points if p is not None and (p.balance is not None or p.deterministic is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
-        folder.write("fields.npz", fields_bytes(prepared, points))
+        contents["fields.npz"] = fields_bytes(prepared, points)
         folder.draw("contact.png", plot_contact, prepared, points[0])
     if arguments.vtk:
         touching = [p for p in points if p.shows_contact]
-        for i, point in enumerate(touching):
-            folder.write(f"contact_{i}.vtk", vtk_bytes(prepared, point))
+        contents |= {f"contact_{i}.vtk": vtk_bytes(prepared, point) for i, point in enumerate(touching)}
         if not touching:
             say("no .vtk file: none of the speeds of --fields has a contact with fields")
     if arguments.report:
-        made = {text: folder.path / file for file, text in CAPTIONS.items() if file in folder.written}
-        images = {text: path.read_bytes() for text, path in made.items()}
-        folder.write("report.html", report_page(prepared, curve, record, images))
+        images = {text: contents[file] for file, text in CAPTIONS.items() if file in contents}
+        contents["report.html"] = report_page(prepared, curve, record, images)
     folder.finish(record, *_doubts(prepared.scene, curve))
+
+
+def _drawable(columns) -> np.ndarray:
+    """Which rows of the table of a curve its picture can show: f is known, and over speeds something moves."""
+    return np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
 
 
 def _point(curve: CurveResult, index: int) -> dict:
@@ -150,18 +159,32 @@ def plot_again(arguments) -> None:
     points, count = record.get("points", []), columns["coefficient"].size
     if len(points) != count:
         raise InputError(f"{source} has {count} rows and result.json {len(points)} points; run 'lubfric run' again")
-    if not np.isfinite(columns["coefficient"]).any():
-        raise InputError(f"{source} holds no answer to draw; run 'lubfric run' again")
-    with whole_file(folder / f"{name}.png") as part:
-        _plot(part, columns, record["scene"]["name"], points, measured)
+    if not _drawable(columns).any():
+        first = next((f"; first: {point['error']}" for point in points if "error" in point), "")
+        raise InputError(f"nothing to draw: none of the {count} points in {source} moves and has an answer{first}")
+    replot(arguments, f"{name}.png", _plot, columns, record["scene"]["name"], points, measured)
+
+
+def replot(arguments, name: str, plot: Callable, *given) -> None:
+    """Draw the picture ``name`` in the folder of ``lubfric plot`` again by ``plot(path, *given)``."""
+    check_outputs(arguments, arguments.folder, [name])
+    content = made(name, plot, *given)
+    with FolderLock(arguments.folder):
+        OwnFiles(arguments.folder).replace({name: content})
 
 
 def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
     """The picture of the table of a curve; ``points``: those of its record."""
-    entries = [[Validity(**entry) for entry in point["validity"]] for point in points]
+    entries = [[Validity(**entry | _known(entry)) for entry in point["validity"]] for point in points]
+    title = plain_words(title)
     if "ratio" in columns:
         title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured)
+
+
+def _known(entry: dict) -> dict[str, float]:
+    """The numbers of an entry of a record, in which those that are not finite are null."""
+    return {name: math.nan if entry[name] is None else entry[name] for name in ("value", "limit")}
 
 
 def _doubts(scene: Scene, curve: CurveResult) -> list[str]:

@@ -4,15 +4,29 @@ from __future__ import annotations
 
 import time
 
-from .._base import read_table, table_bytes, whole_file
+from .._base import plain_words, read_table, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
+from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
 from ..sharing import in_a_cell
 from ..studies import fingerprint
-from ..time import STATE, UNITS, TransientResult, animate, plot_history, transient
-from .console import Pace, keeping, say
+from ..time import STATE, TransientResult, transient
+from .commands import (
+    CHECKPOINT,
+    OUTPUTS,
+    RESULT,
+    Pace,
+    RunFolder,
+    check_outputs,
+    keeping,
+    read_record,
+    ready,
+    run_folder,
+    say,
+)
 from .fields import npz_bytes
-from .run_folder import CHECKPOINT, RunFolder, read_record, ready, run_folder
+from .pictures import animate, plot_history
+from .run_curve import replot
 
 
 def run_history(scene: Scene, arguments) -> None:
@@ -25,6 +39,8 @@ def run_history(scene: Scene, arguments) -> None:
     """
     begun, reached, pace, out = time.perf_counter(), 0.0, Pace(), arguments.out
     failure: LubfricError | None = None
+    names = ["history.csv", "history.png", "fields.npz", RESULT, *["animation.gif"] * arguments.animation]
+    check_outputs(arguments, out, names, OUTPUTS)
     prepared = ready(scene)
 
     def on_step(now, duration, row):
@@ -40,7 +56,7 @@ def run_history(scene: Scene, arguments) -> None:
     def kept() -> str:
         return f"interrupted; the state at t = {reached:.5g} s is kept in {out}: the same command goes on from there"
 
-    with keeping(kept), run_folder(out, fingerprint(prepared), begun) as folder:
+    with keeping(kept), run_folder(out, begun, fingerprint(prepared)) as folder:
         checkpoint = out / CHECKPOINT
         if (checkpoint / STATE).is_file():
             say(f"going on from {checkpoint}")
@@ -58,20 +74,19 @@ def run_history(scene: Scene, arguments) -> None:
 
 def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
     """All but the result."""
-    folder.clear()
-    columns = {f"{name} [{unit}]": result.columns[name] for name, unit in UNITS.items()}
+    columns = {heading(name): result.columns[name] for name in OF_MOMENT}
     told = {"validity": [in_a_cell(entries) for entries in result.entries]}
-    folder.write("history.csv", table_bytes(columns | told))
+    folder.contents["history.csv"] = table_bytes(columns | told)
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}
-    folder.write("fields.npz", npz_bytes(fields))
+    folder.contents["fields.npz"] = npz_bytes(fields)
     if result.time.size > 1:
-        folder.draw("history.png", plot_history, result.columns, scene.name)
+        folder.draw("history.png", plot_history, result.columns, plain_words(scene.name))
     if animation:
         folder.draw("animation.gif", animate, result, scene.bodies.half_width)
 
 
 def plot_again(arguments) -> None:
     """Draw history.png of ``arguments.folder`` again."""
-    columns, record = read_table(arguments.folder / "history.csv"), read_record(arguments.folder)
-    with whole_file(arguments.folder / "history.png") as part:
-        plot_history(part, columns, record["scene"]["name"])
+    folder = arguments.folder
+    columns, record = read_table(folder / "history.csv"), read_record(folder)
+    replot(arguments, "history.png", plot_history, columns, plain_words(record["scene"]["name"]))

@@ -1,15 +1,33 @@
-"""``lubfric study``: carry out a study file into a folder."""
+"""``lubfric study`` and ``lubfric fit``: carry out a study file, or find numbers of a scene from a measured curve.
+Both write to a folder."""
 
 from __future__ import annotations
 
+import json
+import os
 import sys
 import time
 from pathlib import Path
 
-from .._base import validate
-from ..errors import ITERATION_LIMIT, ConvergenceError, Report
-from ..studies import MOST_WORKERS, check_tools, in_words, load_study, open_study, pool, study
-from .console import Pace, keeping, put, say, say_written
+from .._base import new_figure, plain, shown, validate
+from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
+from ..scene import Scene
+from ..studies import (
+    MOST_WORKERS,
+    FitResult,
+    check_tools,
+    explain_fit,
+    fit,
+    in_words,
+    load_study,
+    open_study,
+    pool,
+    read_measured,
+    study,
+)
+from .commands import Pace, check_outputs, keeping, made, put, run_folder, say
+
+PLAN = "study.json"  # of the store, which replaces it
 
 
 def run_study(arguments) -> None:
@@ -20,28 +38,40 @@ def run_study(arguments) -> None:
         put(sys.stdout, plan.explain(arguments.out) + "\n")
         return
     check_tools(arguments.netcdf, arguments.parquet)
+    wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
+    names = [f"study.{kind}" for kind, given in wanted.items() if given]
+    check_outputs(arguments, arguments.out, names)
+    _check_plan(arguments.out / PLAN)
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
         result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
-    tables = {"study.csv": result.to_csv}
-    if arguments.netcdf:
-        tables["study.nc"] = result.to_netcdf
-    if arguments.parquet:
-        tables["study.parquet"] = result.to_parquet
-    for name, write in tables.items():
-        write(arguments.out / name)
-    if result.cautioned:
-        say(f"{result.cautioned} of {result.solved} points have cautions: column validity of study.csv")
-    say_written(tables, arguments.out, begun)
+    writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
+    with run_folder(arguments.out, begun) as folder:
+        folder.contents |= {name: made(name, writers[name.partition(".")[2]]) for name in names}
+        if result.cautioned:
+            say(f"{result.cautioned} of {result.solved} points have cautions: column validity of study.csv")
+        folder.put()
     if result.failed:
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
         said = f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}"
         raise ConvergenceError(said, report, result)
 
 
-def _kept(folder) -> str:
-    if not (Path(folder) / "study.json").is_file():
+def _check_plan(path: Path) -> None:
+    """Raise `InputError` for a file in the place of the plan that is none, because the study would replace it."""
+    if not os.path.lexists(path):
+        return
+    try:
+        known = {} if path.is_symlink() else json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, OSError, RecursionError):
+        known = {}
+    if not (isinstance(known, dict) and {"format", "lubfric", "keys"} <= known.keys()):
+        raise InputError(f"{path} is no plan of a study, and would be replaced; move it away, or give another folder")
+
+
+def _kept(folder: Path) -> str:
+    if not (folder / PLAN).is_file():
         return "interrupted before the first point"
     found = open_study(folder)
     left = f"{found.missing} {'curves' if found.chosen else 'points'} are left"
@@ -60,3 +90,62 @@ def _progress(begun: float):
             say(f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s{left}")
 
     return on_progress
+
+
+def run_fit(scene: Scene, arguments) -> None:
+    """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json."""
+    check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "fit.json"))
+    scene.to_toml()  # raises InputError now, rather than after the fit
+    bounds, begun, pace = _bounds(arguments.parameter), time.perf_counter(), Pace()
+    columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
+    rolling = not arguments.without_rolling
+    measured = read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
+    say(explain_fit(scene, measured, bounds))
+
+    def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
+        if pace.due(done == 1):
+            off = f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} deviations"
+            best = ", ".join(f"{key} = {value:.4g}" for key, value in values.items())
+            passed = f"{time.perf_counter() - begun:.0f} s, about {in_words(left)} left"
+            say(f"curve {done} of about {total}: nearest so far {off} off at {best}; {passed}")
+
+    found = fit(scene, measured, bounds, on_progress=on_progress)
+    say(found.explain())
+    with run_folder(arguments.out, begun) as folder:
+        folder.contents["fitted.toml"] = found.scene.to_toml().encode()
+        folder.draw("fit.png", _draw, found)
+        folder.contents["fit.json"] = json.dumps(plain(_record(found)), indent=1).encode()
+        folder.put()
+
+
+def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
+    found = {}
+    for text in texts:
+        key, _, ends = text.partition("=")
+        try:
+            low, high = map(float, ends.split(":"))
+        except ValueError:
+            raise InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI units") from None
+        if key.strip() in found:
+            raise InputError(f"--parameter {shown(text)}: {key.strip()} is given twice; give it once")
+        found[key.strip()] = (low, high)
+    return found
+
+
+def _record(found: FitResult) -> dict:
+    names = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
+    return {name: getattr(found, name) for name in names} | {
+        "parameters": list(found.parameters),
+        "x": found.measured.x,
+        "measured": found.measured.coefficient,
+        "fitted": found.predicted,
+        "report": found.report.as_dict(),
+    }
+
+
+def _draw(path: Path, found: FitResult) -> None:
+    figure = new_figure(figsize=(7, 6.5))
+    top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
+    found.plot(top).set_xlabel("")
+    found.plot_residuals(bottom)
+    figure.savefig(path, dpi=150)

@@ -1,14 +1,13 @@
 """What is asked: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
 from .bodies import FASTEST, LARGEST_RATIO, Bodies, ContactDomain, Motion
-from .file import builtin_scenes, load_scene, read_toml
+from .file import builtin_scenes, load_scene, read_toml, write_template
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
 from .plausible import doubts, told_doubts
 from .roughness import Roughness, named
 from .scene import Scene, check_resolved_gap, resolves_gap, scene_as_dict
 from .sections import SECTIONS
-from .short_forms import MOST_SPEEDS, short_keys, speeds_of_range
-from .short_oil import SOURCES
-from .text import write_template
+from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
+from .transient import UNITS as CHANGING
 from .transient import Transient, checked_history, read_history

@@ -1,19 +1,18 @@
-"""Scenes as TOML: strict reading."""
+"""Scenes as TOML: strict reading; a commented one to begin with."""
 
 from __future__ import annotations
 
 import os
 import tomllib
-from copy import deepcopy
 from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 
-from .._base import validate
+from .._base import validate, write_whole
 from ..errors import InputError
 from .roughness import GENERATED, check_fields, named
 from .scene import Scene
-from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section
+from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section, meant
 from .transient import UNITS, Transient, history
 
 SCENES = resources.files(__package__) / "scenes"
@@ -46,7 +45,7 @@ def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
         out of range
     """
     if isinstance(source, dict):
-        table, folder, name = deepcopy(source), Path(), "unnamed"
+        table, folder, name = dict(source), Path(), "unnamed"
     else:
         table, folder, name = _read(source)
     for section, path in zip(ROUGH, (surface_file, counterface_file)):
@@ -68,15 +67,15 @@ def read_toml(path, what: str) -> dict:
 
 def _put_map(table: dict, section: str, path) -> None:
     path = _map_path(f"{section}_file", path, Path())
-    rough, contact = table.setdefault(section, {}), table.setdefault("contact", {})
-    if not isinstance(rough, dict) or not isinstance(contact, dict):
+    if not all(isinstance(table.get(name, {}), dict) for name in (section, "contact")):
         return  # refused by what reads the tables
+    rough, contact = ({**table.get(name, {})} for name in (section, "contact"))
     if "file" not in rough:
         for key in ("sq", *GENERATED):
             rough.pop(key, None)
         if section == "surface":
             contact.pop("shape", None), contact.pop("spacing", None)
-    rough["file"] = str(path)
+    table |= {section: rough | {"file": str(path)}, "contact": contact}
 
 
 def _map_path(name: str, given, folder: Path) -> Path:
@@ -101,7 +100,7 @@ def builtin_scenes() -> tuple[str, ...]:
 
 def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
     """A validated `Scene` from the tables of a TOML file."""
-    validate.keys("scene", table, ("name", *SECTIONS))
+    validate.keys("scene", table, ("name", *SECTIONS), lambda: meant("scene"))
     for section in SECTIONS:
         if not isinstance(table.get(section, {}), dict):
             raise InputError(f"scene entry {section!r} must be a table [{section}]")
@@ -119,8 +118,6 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
                 check_fields(given)  # refuses keys that do not apply, whatever their value
         if section != "transient" and (section in table or section != "counterface"):
             parts[section] = made_section(section, given)
-    if not isinstance(table.get("name", name), str):
-        raise InputError(f"name = {validate.shown(table['name'])}; write words in quotes")
     return Scene(**parts, name=table.get("name", name), transient=plan)
 
 
@@ -165,4 +162,14 @@ def _read(source) -> tuple[dict, Path, str]:
     if not os.path.isfile(path):
         said = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
         raise InputError(f"{said}{validate.nearest(source, names)}; built in: {', '.join(names)}")
-    return read_toml(path, "scene"), path.parent, path.stem
+    return read_toml(path, "scene"), path.parent, os.fsencode(path.stem).decode("utf-8", "replace")
+
+
+def write_template(path: Path) -> None:
+    """Write a scene that is complete, commented and ready to run to ``path``; raises `InputError` if something is there
+    already."""
+    if os.path.lexists(path):
+        raise InputError(f"{path} exists; give another name, so that no scene is lost")
+    if not path.parent.is_dir():
+        raise InputError(f"{path.parent} is no folder; give a file in an existing one")
+    write_whole(path, (resources.files(__package__) / "template.toml").read_bytes())

@@ -77,8 +77,8 @@ class Roughness(Brief):
             raise InputError(f" needs {NEEDED}", "surface")
         if isinstance(self.file, os.PathLike):
             object.__setattr__(self, "file", os.fspath(self.file))
-        if self.file is not None and not isinstance(self.file, str):
-            raise InputError(f" = {validate.shown(self.file)}", "surface.file", way_out="write a path in quotes")
+        if self.file is not None and (not isinstance(self.file, str) or "\0" in self.file):
+            raise InputError(f" = {validate.shown(self.file)} is no path", "surface.file", way_out="write it in quotes")
         for name, check in _CHECKS.items():
             value = getattr(self, name)
             if value is not None:

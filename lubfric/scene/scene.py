@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field, replace
+import json
+from dataclasses import asdict, dataclass, field, fields, replace
 from html import escape
+from pathlib import Path
 from typing import Any
 
 from .._base import Shown, changed, validate
@@ -12,10 +14,12 @@ from ..film import LineContact
 from ..oil import Lubricant
 from ..quantities import key_unit
 from .bodies import Bodies, ContactDomain, Motion
+from .history import History
 from .numerics import Numerics
 from .roughness import Roughness
-from .sections import SECTIONS, changed_section
-from .transient import Transient
+from .sections import ROUGH, SECTIONS, changed_section
+from .short_forms import fields_of
+from .transient import KINDS, Transient
 
 MANY = 8  # values of a list that are shown
 RESOLVED = (  # key, the values that the deterministic model takes, why no other
@@ -53,6 +57,8 @@ class Scene(Shown):
     counterface: Roughness | None = None
 
     def __post_init__(self):
+        if not isinstance(self.name, str) or _halved(self.name):
+            raise InputError(f" = {validate.shown(self.name)}", "name", "words, of whole characters (no surrogates)")
         if self.numerics.heat == "on" and not self.lubricant.heats:
             by_numbers = "lubricant.temperature [K] and temperature_coefficient [1/K]"
             ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"
@@ -90,10 +96,32 @@ class Scene(Shown):
         return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, self.lubricant)
 
     def to_toml(self) -> str:
-        """The scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers."""
-        from .text import scene_as_toml
+        """The whole scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers.
 
-        return scene_as_toml(self)
+        Defaults are written except those of a roughness, and what is None is left out. A ``surface.file`` is written
+        with its whole path, and an oil as it was given, instead of its numbers at the temperature. Raises `InputError`
+        for a history that scene files do not have.
+        """
+        lines = [f"name = {_toml(self.name)}"]
+        for section in SECTIONS:
+            part = getattr(self, section)
+            if part is None:
+                continue
+            lines += ["", f"[{section}]"]
+            keys = changed(part) if section in ROUGH else {f.name: getattr(part, f.name) for f in fields(part)}
+            if keys.get("limiting_stress_coefficient", 0.0) is None:
+                del keys["limiting_stress_offset"]  # refused where it does nothing
+            if keys.get("oil") is not None:
+                oil = keys.pop("oil")  # in place of the numbers that follow from it
+                followed = fields_of(oil, keys["temperature"])
+                own = {
+                    key: value for key, value in keys.items() if key == "temperature" or followed.get(key, ...) != value
+                }
+                keys = oil.said | own
+            if "file" in keys:
+                keys["file"] = str(Path(keys["file"]).absolute())
+            lines += [f"{key} = {_toml(value)}" for key, value in keys.items() if value is not None and value != ()]
+        return "\n".join(lines) + "\n"
 
     def _facts(self) -> dict[str, str]:
         rough = self.surface
@@ -130,6 +158,30 @@ def _text_of(value: Any) -> str:
         shown = ", ".join(_text_of(part) for part in value[:MANY])
         return f"{shown}, ... ({len(value)} values)" if len(value) > MANY else shown
     return str(getattr(value, "name", value))  # an oil by its name
+
+
+def _halved(text: str) -> bool:
+    """Whether there are surrogates in ``text``, which no file in UTF-8 holds."""
+    return any("\ud800" <= mark <= "\udfff" for mark in text)
+
+
+def _toml(value: Any) -> str:
+    if isinstance(value, History):
+        kind = next((kind for kind, known in KINDS.items() if type(value) is known), None)
+        if kind is None:
+            said = f"a history of type {type(value).__name__} has no form in a scene file"
+            raise InputError(said, allowed=", ".join(KINDS))
+        inner = ", ".join(f"{name} = {_toml(part)}" for name, part in vars(value).items())
+        return f'{{ kind = "{kind}", {inner} }}'
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float)):
+        return repr(value)
+    if isinstance(value, str):
+        if _halved(value):  # a path
+            raise InputError(f"{ascii(value)} is not Unicode, and a scene file cannot hold it; rename it")
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # the one control that JSON lets stand
+    return f"[{', '.join(_toml(part) for part in value)}]"
 
 
 def scene_as_dict(scene: Scene) -> dict:

@@ -10,7 +10,7 @@ from ..errors import InputError
 from ..oil import Lubricant
 from .bodies import Bodies, ContactDomain, Motion
 from .numerics import Numerics, refuse_dropped
-from .plausible import naming_slips
+from .plausible import naming_slips, packaged
 from .roughness import NEEDED, Roughness, as_given, named
 from .short_forms import resolve, short_keys
 from .transient import Transient
@@ -38,11 +38,18 @@ INSTEAD = {  # of a missing key
 }
 
 
+def meant(section: str) -> dict[str, str]:
+    """Other words for the keys of a section ("scene": for the sections), in small letters, and what to write."""
+    groups = packaged("other_words.toml").get(section, {})
+    return {word: text for words, text in groups.items() for word in words.split()}
+
+
 def check_keys(section: str, given: dict, others: tuple[str, ...] = ()) -> None:
     """Raise `InputError` for a key of [``section``] that is not known; ``others`` are known beside its own."""
     if section == "numerics":
         refuse_dropped(given)
-    validate.keys(f"[{section}]", given, (*SECTIONS[section].__dataclass_fields__, *short_keys(section), *others))
+    allowed = (*SECTIONS[section].__dataclass_fields__, *short_keys(section), *others)
+    validate.keys(f"[{section}]", given, allowed, lambda: meant("surface" if section in ROUGH else section))
 
 
 def made_section(section: str, given: dict, old: Any = None) -> Any:

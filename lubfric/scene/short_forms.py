@@ -6,10 +6,7 @@ Scene files and `Scene.with_` share them. A field may be given, or one of the sh
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass
-from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -17,26 +14,33 @@ import numpy as np
 from .._base import python_value, validate
 from ..errors import InputError
 from ..film import composite_modulus
+from ..oil import (
+    CELSIUS,
+    Lubricant,
+    Oil,
+    checked_temperature,
+    from_grade,
+    from_index,
+    from_table,
+    from_viscosities,
+    named_oil,
+)
 from .bodies import pair
-from .short_oil import OIL_KEYS, of_celsius, only_one, resolve_oil, together
+from .plausible import packaged
 
 PRESSURE_PER_HV = 9.80665e6 / 0.9272  # Pa: kgf/mm² over the facets of the pyramid -> pressure over the projected area
 MOST_SPEEDS = 1_000_000
-
-
-@dataclass(frozen=True)
-class ShortForm:
-    """``keys``, which go together, and the ``fields`` that they stand for. ``plain(*values, given, old)`` gives these
-    fields, and others that count where they are not ``given``."""
-
-    keys: tuple[str, ...]
-    fields: tuple[str, ...]
-    plain: Callable[..., dict[str, Any]]
+SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil")
+PROPERTIES = {"base": "base", "density": "density", "density_slope": "density_slope", "alpha_estimate": "estimate"}
+OF_AN_OIL = PROPERTIES | {"pressure_viscosity_coefficient": "alpha", "conductivity": "conductivity"}  # key: its field
+OIL_KEYS = (*SOURCES[:-1], *PROPERTIES)  # of [lubricant], beside its fields
+AT_40 = 40 + CELSIUS
+OFFSET = Lubricant.limiting_stress_offset  # where none is given
 
 
 def short_keys(section: str) -> tuple[str, ...]:
     """Keys of a section that are not fields of it."""
-    keys = tuple(key for form in FORMS.get(section, ()) for key in form.keys)
+    keys = tuple(key for keys, _, _ in FORMS.get(section, ()) for key in keys)
     return (*keys, *OIL_KEYS) if section == "lubricant" else keys
 
 
@@ -46,12 +50,12 @@ def resolve(section: str, given: dict, old=None) -> dict:
     Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
     """
     given, forms = {key: python_value(value) for key, value in given.items()}, FORMS.get(section, ())
-    for name in dict.fromkeys(name for form in forms for name in form.fields):
-        only_one(section, given, name, *("+".join(form.keys) for form in forms if name in form.fields))
-    for form in forms:
-        if together(section, given, *form.keys):
-            values = [given.pop(key) for key in form.keys]
-            given = form.plain(*values, given, old) | given
+    for name in dict.fromkeys(name for _, fields, _ in forms for name in fields):
+        only_one(section, given, name, *("+".join(keys) for keys, fields, _ in forms if name in fields))
+    for keys, _, plain in forms:
+        if together(section, given, *keys):
+            values = [given.pop(key) for key in keys]
+            given = plain(*values, given, old) | given
     return resolve_oil(given, old) if section == "lubricant" else given
 
 
@@ -74,7 +78,7 @@ def _of_radii(radii, *_) -> dict:
 
 def _of_materials(names, *_) -> dict:
     """Fields of one or two named materials (materials.toml)."""
-    known = tomllib.loads((resources.files(__package__) / "materials.toml").read_text(encoding="utf-8"))
+    known = packaged("materials.toml")
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
     first, second = (known[validate.choice("bodies.material", name, known)] for name in both)
     return {
@@ -139,18 +143,140 @@ def speeds_of_range(name: str, value) -> tuple[float, ...]:
     return tuple(float(u) for u in np.geomspace(low, high, count))
 
 
-FORMS = {
+def resolve_oil(given: dict, old) -> dict:
+    """Plain fields of [lubricant] from an oil at ``temperature`` [K]: viscosity, pressure-viscosity coefficient,
+    temperature coefficient and law of the density (as given, else of the oil).
+
+    The oil is given by ``viscosity_index`` with ``grade`` or ``nu40`` [m²/s], by ``nu40`` and ``nu100``, by
+    ``viscosity_table`` (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
+    """
+    limit = given.get("limiting_stress_coefficient", getattr(old, "limiting_stress_coefficient", None))
+    if limit is None and given.get("limiting_stress_offset", OFFSET) != OFFSET:
+        raise InputError(
+            "[lubricant] limiting_stress_offset does nothing without limiting_stress_coefficient (some 0.05 to 0.1); "
+            "give both, or neither"
+        )
+    before = getattr(old, "oil", None)
+    if given.get("oil", "") is None or not any(key in given for key in (*SOURCES, *PROPERTIES)):
+        if before is None:
+            _check_temperature(given, old)
+            return given
+        if "viscosity" in given:
+            return {"oil": None} | given
+        if not {"temperature", "pressure_viscosity_coefficient", "conductivity"} & set(given):
+            return given
+    if "viscosity" in given:
+        both = "viscosity and an oil (grade, nu40, oil, ...)"
+        raise InputError(f"[lubricant] has {both}, which say the same thing; give one of them")
+    oil = _oil({key: given.pop(key) for key in SOURCES if key in given}, before)
+    changed = {name: given.pop(key) for key, name in OF_AN_OIL.items() if key in given}
+    temperature = given.pop("temperature", getattr(old, "temperature", None))
+    if temperature is None:
+        raise InputError("[lubricant] with an oil needs its temperature in K, or temperature_celsius")
+    found = fields_of(oil.with_(**changed), temperature)
+    if before is not None:
+        found["density_law"] = old.density_law
+        if old.temperature_coefficient != before.temperature_coefficient(old.temperature):
+            found["temperature_coefficient"] = old.temperature_coefficient  # it was given
+    return found | given
+
+
+def _check_temperature(given: dict, old) -> None:
+    """Raise `InputError` for a new temperature that would leave the viscosity, a number, as it is."""
+    if old is None or "viscosity" in given or given.get("temperature") in (None, old.temperature):
+        return
+    if old.temperature is None and given.get("temperature_coefficient", old.temperature_coefficient):
+        return  # from now on the heat of the film can be found
+    raise InputError(
+        "[lubricant] temperature moves no viscosity that is given as a number; give the viscosity there as well, or an "
+        "oil (grade, nu40 and nu100, oil, viscosity_table) in place of it"
+    )
+
+
+def fields_of(oil: Oil, temperature: float) -> dict:
+    """Fields of a `Lubricant` of ``oil`` at ``temperature`` [K]."""
+    temperature = checked_temperature(temperature, "lubricant.temperature")
+    return {
+        "viscosity": oil.viscosity(temperature),
+        "pressure_viscosity_coefficient": oil.pressure_viscosity_coefficient(temperature).value,
+        "temperature": temperature,
+        "temperature_coefficient": oil.temperature_coefficient(temperature),
+        "conductivity": oil.thermal_conductivity,
+        "density_law": "dowson-higginson",
+        "oil": oil,
+    }
+
+
+def of_celsius(celsius, *_) -> dict:
+    """The temperature [K] of ``lubricant.temperature_celsius``."""
+    degrees = validate.number("lubricant.temperature_celsius", celsius, "°C")
+    if degrees > 250:
+        allowed = "up to 250 °C (K were meant? temperature)"
+        raise InputError(f" = {degrees:g} °C", "lubricant.temperature_celsius", allowed)
+    return {"temperature": degrees + CELSIUS}
+
+
+def _oil(source: dict, before: Oil | None) -> Oil:
+    """The oil that ``source`` names. It keeps the properties of the one ``before`` that ``source`` does not change."""
+    only_one("lubricant", source, "grade", "nu40+nu100", "viscosity_table", "oil")
+    only_one("lubricant", source, "viscosity_index", "nu100", "viscosity_table", "oil")
+    kept = {} if before is None else {name: getattr(before, name) for name in OF_AN_OIL.values()}
+    if "oil" in source:
+        return source["oil"] if isinstance(source["oil"], Oil) else named_oil(source["oil"])
+    if "viscosity_table" in source:
+        table = source["viscosity_table"]
+        if not isinstance(table, (list, tuple)) or not table:
+            raise InputError(f" = {validate.shown(table)}", "lubricant.viscosity_table", "pairs of K and m²/s")
+        rows = [pair("lubricant.viscosity_table", row, "K, m²/s") for row in table]
+        return from_table(*zip(*rows), **kept)
+    index = source.get("viscosity_index")
+    if "grade" in source:
+        index = index if index is not None or before is None else before.index
+        if index is None:
+            raise InputError("[lubricant] grade needs viscosity_index as well (95 is common for mineral oils)")
+        return from_grade(source["grade"], index, **kept)
+    if index is None and together("lubricant", source, "nu40", "nu100"):
+        return from_viscosities(source["nu40"], source["nu100"], **kept)
+    nu40 = source.get("nu40", before and before.kinematic_viscosity(AT_40))
+    if index is not None and nu40 is not None:
+        return from_index(nu40, index, **kept)
+    if before is None:
+        key = next(iter(source), "base, density or another property")
+        raise InputError(f"[lubricant] {key} needs an oil: grade, nu40 and nu100, viscosity_table or oil")
+    return before
+
+
+def only_one(section: str, given: dict, *keys: str) -> None:
+    """At most one of ``keys`` (each a key, or several that go together joined by '+') is given."""
+    found = [key for key in keys if any(k in given for k in key.split("+"))]
+    if len(found) > 1:
+        names = " and ".join(found)
+        raise InputError(f"[{section}] has {names}, which say the same thing; give one of {', '.join(keys)}")
+
+
+def together(section: str, given: dict, *keys: str) -> bool:
+    """True when all ``keys`` are given, False when none is; an error when some are."""
+    there = [key for key in keys if key in given]
+    if there and len(there) < len(keys):
+        missing = ", ".join(key for key in keys if key not in given)
+        raise InputError(f"[{section}] {', '.join(there)} needs {missing} as well")
+    return bool(there)
+
+
+FORMS: dict[str, tuple[tuple[tuple[str, ...], tuple[str, ...], Callable[..., dict[str, Any]]], ...]] = {
+    # section: keys that go together, the fields that they stand for, and the function of (*values, given, old) that
+    # gives these fields, and others that count where they are not given
     "bodies": (
-        ShortForm(("radii",), ("radius",), _of_radii),
-        ShortForm(("material",), ("e_prime",), _of_materials),
-        ShortForm(("young_modulus", "poisson_ratio"), ("e_prime",), _of_moduli),
-        ShortForm(("hardness_hv",), ("hardness",), _of_vickers),
-        ShortForm(("hertz_pressure",), ("load",), _of_hertz_pressure),
+        (("radii",), ("radius",), _of_radii),
+        (("material",), ("e_prime",), _of_materials),
+        (("young_modulus", "poisson_ratio"), ("e_prime",), _of_moduli),
+        (("hardness_hv",), ("hardness",), _of_vickers),
+        (("hertz_pressure",), ("load",), _of_hertz_pressure),
     ),
-    "lubricant": (ShortForm(("temperature_celsius",), ("temperature",), of_celsius),),
+    "lubricant": ((("temperature_celsius",), ("temperature",), of_celsius),),
     "motion": (
-        ShortForm(("surface_speeds",), ("entrainment_speed", "slide_roll_ratio"), _of_surface_speeds),
-        ShortForm(("slip_percent",), ("slide_roll_ratio",), _of_slip),
-        ShortForm(("speed_range",), ("speeds",), _of_range),
+        (("surface_speeds",), ("entrainment_speed", "slide_roll_ratio"), _of_surface_speeds),
+        (("slip_percent",), ("slide_roll_ratio",), _of_slip),
+        (("speed_range",), ("speeds",), _of_range),
     ),
 }

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 from ..contact import ridges
 from ..film import FAST, LARGEST, SLIDING
-from ..oil import NO_LIQUID
+from ..oil import CELSIUS, NO_LIQUID
+from .heat import TYPICAL, typical_heat
 from .validity import Validity
 
 LAMINAR, TURBULENT = 1000.0, 2000.0  # rho U h/eta
@@ -74,29 +75,18 @@ def of_film(scene, thickness: float, peak: float, shear, film_load: float, force
 
 def of_pressure(scene, peak: float) -> Iterator[Validity]:
     """Entries for the highest film pressure ``peak`` [Pa]."""
-    if peak > NO_LIQUID:
-        yield Validity(
-            "film pressure",
-            peak / 1e9,
-            NO_LIQUID / 1e9,
-            "GPa",
-            "no oil is a liquid there",
-            "check bodies.load",
-            True,
-        )
+    law, hertz_peak = scene.lubricant.viscosity_law, 4 / math.pi * scene.bodies.mean_hertz_pressure
+    limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
+    consequence = f"the {law} viscosity law is an extrapolation there"
+    remedy, severe = "the film's friction rests on it: a measured limiting stress is safer", peak > NO_LIQUID
+    if severe:
+        limit, consequence, remedy = NO_LIQUID, "no oil is a liquid there", "check bodies.load"
+    if not peak > limit:
         return
-    law = scene.lubricant.viscosity_law
-    limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law)
-    if limit is None or peak <= limit:
-        return
-    yield Validity(
-        "film pressure",
-        peak / 1e9,
-        limit / 1e9,
-        "GPa",
-        f"the {law} viscosity law is an extrapolation there",
-        "the film's friction rests on it: a measured limiting stress is safer",
-    )
+    if scene.lubricant.density_law == "constant" and hertz_peak < limit:
+        consequence += f"; it is a spike over the {hertz_peak / 1e9:.2g} GPa of Hertz, of an oil that is not compressed"
+        remedy = f"give lubricant.density_law = 'dowson-higginson', which lowers it; {remedy}"
+    yield Validity("film pressure", peak / 1e9, limit / 1e9, "GPa", consequence, remedy, severe)
 
 
 def of_thickness(scene, film: float) -> Iterator[Validity]:
@@ -226,6 +216,23 @@ def of_heat(scene, heat) -> Iterator[Validity]:
         )
 
 
+def of_typical_heat(scene, change: float) -> Iterator[Validity]:
+    """Entries for heat that is left out because the lubricant does not say how its viscosity falls with the
+    temperature. ``change``: the share of f that a typical oil would lose by it (`typical_heat`)."""
+    if change > scene.numerics.tolerance:
+        temperature, coefficient = TYPICAL
+        yield Validity(
+            "share of f that the heat of the film would take away",
+            100 * change,
+            100 * scene.numerics.tolerance,
+            "%",
+            "heat is left out, as the viscosity is a number; that is its effect, at most, on a typical oil, whose "
+            f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
+            "give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
+            "'off' leaves it out on purpose",
+        )
+
+
 def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Validity]:
     """A caution if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
     if error is not None and error > tolerance:
@@ -250,6 +257,7 @@ def judged(prepared, speed: float, balance, ends: float) -> tuple[Validity, ...]
         peak, found = float(film.pressure.max()), balance.forces
         force = abs(found.coefficient) * scene.bodies.load
         entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)
+        entries += of_typical_heat(scene, typical_heat(scene, balance))
         if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
             entries += of_deflection(scene, balance.contact.mean_gap)
     return tuple(entries)

@@ -25,8 +25,8 @@ YIELDED = 4.5e9  # Pa, peak Hertz pressure that hard steel does not carry elasti
 def beforehand(scene, surface) -> tuple[Validity, ...]:
     """Entries for values far from the usual, for the bodies and for the map."""
     unusual = [
-        Validity(d.name, d.value, d.limit, d.unit, "unusual", d.meant or "check the value and its unit")
-        for d in doubts(scene)
+        Validity(name, value, limit, unit, "unusual", meant or "check the value and its unit")
+        for name, value, limit, unit, meant in doubts(scene)
     ]
     return (*unusual, *of_bodies(scene.bodies), *of_map(rms_slope(surface)[2], _lengths_across(surface)))
 

@@ -25,6 +25,7 @@ from ..oil import NO_LIQUID, Lubricant, shear_stress
 from ..scene import budget
 
 NOTHING = 1e-9  # of the film: less heat than that is none
+TYPICAL = 343.15, 0.035  # K, 1/K: a mineral oil of ISO VG 68 at 70 °C
 
 
 @dataclass(frozen=True)
@@ -144,16 +145,13 @@ def point_heat(scene, film, contact, contact_load: float, force: float, shear) -
     pressed = float(film.pressure.max()) > NO_LIQUID  # a rigid film far above its range, on the way to one that is not
     if scene.motion.slide_roll_ratio == 0 or pressed or not shear.excess < math.inf:
         return Heat(inlet, used), warm
-    x, p, h, around = _surroundings(scene, film, contact, contact_load)
     lubricant, numerics = scene.lubricant, scene.numerics
-    cold = np.abs(shear_stress(lubricant, p, around.sliding / h))
-    once = isothermal_heat(lubricant, x, p, h, around)
-    change = _force(scene, x, around, cold - np.abs(once.stress)) / max(force, 1e-300)
-    wanted = numerics.heat == "on" or change > budget.HEAT * numerics.tolerance
-    if not wanted:
+    nodes, change_by = _nodes(scene, film, contact, contact_load, force)
+    change = change_by(isothermal_heat(lubricant, *nodes).stress)
+    if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
         return Heat(inlet, used, change, None, _peclet(scene, film)), warm
-    found = heated_film(lubricant, x, p, h, around)
-    change = _force(scene, x, around, cold - np.abs(found.stress)) / max(force, 1e-300)
+    found, (x, *_, around) = heated_film(lubricant, *nodes), nodes
+    change = change_by(found.stress)
 
     def stress(at, pressure, thickness):
         return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, found.wall))[0]
@@ -162,8 +160,9 @@ def point_heat(scene, film, contact, contact_load: float, force: float, shear) -
     return heat, WarmFilm(warm.inlet_viscosity if warm else lubricant.viscosity, stress)
 
 
-def _surroundings(scene, film, contact, contact_load: float):
-    """Nodes running downstream, pressure and film there, and the `Surroundings`."""
+def _nodes(scene, film, contact, contact_load: float, force: float):
+    """Nodes running downstream, pressure and film there, and the `Surroundings`; and the function that tells by what
+    share of ``force`` [N] a stress [Pa] (n,) makes the friction less than the isothermal stress does."""
     bodies, motion = scene.bodies, scene.motion
     speed, direction = abs(film.entrainment_speed), math.copysign(1.0, film.entrainment_speed)
     order = np.argsort(film.x * direction)
@@ -177,11 +176,28 @@ def _surroundings(scene, film, contact, contact_load: float):
     spots = bodies.boundary_friction_coefficient * pressed * abs(sliding)
     surfaces = (abs(speed - 0.5 * sliding), abs(speed + 0.5 * sliding))
     carried = sum(e * math.sqrt(u) for e, u in zip(bodies.effusivity, surfaces))
-    return x, p, h, Surroundings(carried, sliding, wet, spots)
+    cold = np.abs(shear_stress(scene.lubricant, p, sliding / h))
+
+    def change_by(stress) -> float:
+        return float(bodies.width * np.trapezoid(wet * (cold - np.abs(stress)), x)) / max(force, 1e-300)
+
+    return (x, p, h, Surroundings(carried, sliding, wet, spots)), change_by
 
 
-def _force(scene, x, around, stress) -> float:
-    return float(scene.bodies.width * np.trapezoid(around.wet * stress, x))
+def typical_heat(scene, balance) -> float:
+    """Share of f that the heat of film and surfaces would take away, at most, if the viscosity fell with the
+    temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0 where the lubricant says
+    how it falls, where ``numerics.heat`` is off, and where nothing slides."""
+    lubricant, film, shear = scene.lubricant, balance.film, balance.forces.shear
+    known = lubricant.heats or lubricant.temperature_coefficient == 0
+    meaningless = float(film.pressure.max()) > NO_LIQUID or not shear.excess < math.inf
+    if known or scene.numerics.heat == "off" or scene.motion.slide_roll_ratio == 0 or meaningless:
+        return 0.0
+    temperature, coefficient = lubricant.temperature or TYPICAL[0], lubricant.temperature_coefficient or TYPICAL[1]
+    like = replace(lubricant, temperature=temperature, temperature_coefficient=coefficient)
+    force = abs(balance.forces.coefficient) * scene.bodies.load
+    nodes, change_by = _nodes(scene, film, balance.contact, balance.contact_load, force)
+    return change_by(isothermal_heat(like, *nodes).stress)
 
 
 def _peclet(scene, film) -> float:

@@ -2,8 +2,7 @@
 
 from .generate import ACFS, generate_surface, surface_generator
 from .height_map import Surface
-from .instrument import UNITS
 from .prepare import FORMS, outliers
 from .read import read_surface
-from .statistics import correlation_length, rms_slope
-from .text import DECIMALS
+from .statistics import check_slopes, correlation_length, rms_slope
+from .text import DECIMALS, UNITS

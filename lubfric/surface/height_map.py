@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -102,13 +103,24 @@ class Surface(FrozenArrays, Shown):
         return {"": self.describe()}
 
     def level(self, form: str = "plane") -> Surface:
-        """Subtract the least-squares "plane" of the measured points, or "quadratic" (cylinder, paraboloid)."""
+        """Subtract the least-squares ``form`` of the measured points: "plane", "cylinder" (about x or y) or "quadratic"
+        (a paraboloid, and a cylinder about any axis)."""
         validate.choice("form", form, prepare.FORMS)
         fitted, slopes, curvatures = prepare.fitted_form(self.heights, self.mask, self.spacing, form)
         note = f"levelled: slopes {slopes[0]:.3e}, {slopes[1]:.3e}"
-        if form == "quadratic":
+        if form != "plane":
             note += f" and curvatures {curvatures[0]:.3e}, {curvatures[1]:.3e} 1/m"
         return self._with(self.heights - fitted, f"{note} removed")
+
+    def left_by(self) -> dict[str, float]:
+        """Sq [m] that each form of `level` would leave, and as it stands (""). A form that the points do not fix is
+        left out."""
+        left = {"": self.sq}
+        for form in prepare.FORMS:
+            with suppress(InputError):
+                fitted, *_ = prepare.fitted_form(self.heights, self.mask, self.spacing, form)
+                left[form] = float((self.heights - fitted)[... if self.mask is None else self.mask].std())
+        return left
 
     def fill(self) -> Surface:
         """Fill unmeasured points with the harmonic surface through their neighbours (level first).

@@ -8,7 +8,12 @@ import numpy as np
 
 from ..errors import InputError
 
-FORMS = ("plane", "quadratic")
+_PLANE = ((0, 0), (1, 0), (0, 1))  # powers of x and y
+FORMS = {  # the powers of each; of several sets the one that leaves least
+    "plane": (_PLANE,),
+    "cylinder": ((*_PLANE, (2, 0)), (*_PLANE, (0, 2))),
+    "quadratic": ((*_PLANE, (2, 0), (1, 1), (0, 2)),),
+}
 MOST_MISSING = 0.5
 FLAT = 1e-13  # of the largest height: what a fitted form leaves of a map that has it exactly
 DEPENDENT = 1e-13  # least eigenvalue of the normal equations, of the largest
@@ -24,23 +29,27 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
     """Fit a polynomial to the measured points by least squares. Returns it (nx, ny) [m], its slopes [-] and its
     curvatures [1/m] along x and y.
 
-    "plane" is of first order, "quadratic" of second, with the mixed term. An axis of one point has no slope, one of two
-    no curvature. Slopes are those at the middle of the map. If only rounding is left (`FLAT` of the largest height),
-    the form is the map itself. Raises `InputError` when the points do not determine the form.
+    "plane" is of first order, "quadratic" of second, with the mixed term; "cylinder" is a plane curved along x or along
+    y, whichever leaves less. An axis of one point has no slope, one of two no curvature. Slopes are those at the middle
+    of the map. If only rounding is left (`FLAT` of the largest height), the form is the map itself. Raises `InputError`
+    when the points do not determine the form.
     """
-    order, (nx, ny) = 1 + FORMS.index(form), heights.shape
     valid = np.ones(heights.shape, bool) if mask is None else mask
-    powers = [(p, q) for p in range(order + 1) for q in range(order + 1 - p) if p < nx and q < ny]
-    places = [(np.arange(n) - 0.5 * (n - 1)) / n for n in heights.shape]
-    along = [place[:, None] ** np.arange(2 * order + 1) for place in places]
-    z = np.where(valid, heights, 0.0)
-    terms = _normal_solution(z, valid.astype(float), along, powers)
-    if terms is None:
-        curve = "line" if order == 1 else "line or conic"
+    along = [((np.arange(n) - 0.5 * (n - 1)) / n)[:, None] ** np.arange(5) for n in heights.shape]
+    z, fits = np.where(valid, heights, 0.0), []
+    for powers in FORMS[form]:
+        there = [(p, q) for p, q in powers if p < heights.shape[0] and q < heights.shape[1]]
+        terms = _normal_solution(z, valid.astype(float), along, there)
+        if terms is not None:
+            fitted = _polynomial(terms, along)
+            rest = np.where(valid, z - fitted, 0.0)
+            fits.append((float(np.vdot(rest, rest)), float(np.abs(rest).max()), fitted, terms))
+    if not fits:
+        curve = "line" if form == "plane" else "line or conic"
         said = f"{np.count_nonzero(valid)} measured points lie on one {curve}"
-        raise InputError(said, allowed=f"points that fix the {len(powers)} terms of the form {form!r}")
-    fitted = _polynomial(terms, along)
-    if np.abs(z - fitted, where=valid, out=np.zeros(z.shape)).max() <= FLAT * np.abs(z).max():
+        raise InputError(said, allowed=f"points that fix the {len(FORMS[form][0])} terms of the form {form!r}")
+    _, most, fitted, terms = min(fits, key=lambda fit: fit[0])
+    if most <= FLAT * np.abs(z).max():
         fitted = np.where(valid, heights, fitted)
     length = [n * step for n, step in zip(heights.shape, spacing)]
     slopes = terms.get((1, 0), 0.0) / length[0], terms.get((0, 1), 0.0) / length[1]
@@ -133,25 +142,16 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
     far = np.abs(heights - middle) > LIMIT * deviation
     where = np.nonzero(far if mask is None else far & mask)
     parts = [tuple(at[i : i + CHUNK] for at in where) for i in range(0, where[0].size, CHUNK)]
-    around = [_median_around(heights, part, periodic) for part in parts]
+    padded = heights
+    for axis, closed in enumerate(periodic):  # wrapped where periodic, mirrored at open ends
+        width = [(WINDOW // 2, WINDOW // 2) if axis == other else (0, 0) for other in range(2)]
+        padded = np.pad(padded, width, mode="wrap" if closed else "symmetric")
+    windows = np.lib.stride_tricks.sliding_window_view(padded, (WINDOW, WINDOW))
+    around = [np.median(windows[part], axis=(1, 2)) for part in parts]
     off = (heights[where] - np.concatenate([np.empty(0), *around])) / deviation
     same_side = np.sign(off) == np.sign(heights[where] - middle)
     found[where] = np.where((np.abs(off) > LIMIT) & same_side, off, 0.0)
     return found
-
-
-def _median_around(heights: np.ndarray, where: tuple[np.ndarray, ...], periodic: tuple[bool, bool]) -> np.ndarray:
-    """Median of the window around each of the points ``where``; mirrored at open ends."""
-    reach = np.arange(WINDOW) - WINDOW // 2
-    rows, columns = (_inside(at[:, None] + reach, n, closed) for at, n, closed in zip(where, heights.shape, periodic))
-    return np.median(heights[rows[:, :, None], columns[:, None, :]], axis=(1, 2))
-
-
-def _inside(index: np.ndarray, count: int, periodic: bool) -> np.ndarray:
-    if periodic:
-        return index % count
-    folded = index % (2 * count)
-    return np.where(folded < count, folded, 2 * count - 1 - folded)
 
 
 def gaussian_mean(

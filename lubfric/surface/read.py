@@ -1,4 +1,5 @@
-"""Height maps from files: .npy, text matrix, .xyz points and X3P; others through an optional package."""
+"""Height maps from files: .npy, text matrix, .xyz points and X3P; some 40 formats of instruments through the optional
+package SurfaceTopography."""
 
 from __future__ import annotations
 
@@ -10,18 +11,29 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from . import instrument
 from .height_map import Surface
-from .instrument import UNITS
 from .prepare import FORMS
 from .regrid import points
-from .text import DECIMALS, read_matrix, read_points
+from .statistics import check_slopes
+from .text import DECIMALS, UNITS, read_matrix, read_points
 from .x3p import read_x3p
 
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz")
 OWN_GRID = {".x3p": read_x3p}  # formats that carry their grid and their units, and their readers
 SUFFIXES = (".npy", *TEXT, *OWN_GRID)
 MOST_BYTES = 2**30  # of a file of text
+BETTER = 0.9  # of Sq: a form that leaves less than that is worth a word
+# of the formats that SurfaceTopography 1.27 knows; those that lubfric reads itself (.x3p, .xyz, text, .npy) are left
+# out
+INSTRUMENTS = tuple(
+    f".{word}"
+    for word in (
+        "001 002 003 004 005 al3d apx bcr bcrf cur dat datx ezd frt gwy h5 hfm hgt ibw jpk lext mat mdt mi mnt nc nid "
+        "nms npz oir opd opdx os3d plu plux poir qep sdf spm stp sur tif tiff tmd tom top vk3 vk4 vk6 vk7 xlsx zip "
+        "zmg zon"
+    ).split()
+)
+HINT = "pip install 'lubfric[formats]'"
 
 
 def read_surface(
@@ -40,15 +52,17 @@ def read_surface(
     ==================== ==================================================================
 
     In a text file, lines that start with # are skipped, and so are titles without numbers above the table (which are
-    noted in ``surface.notes``). A comma between digits is the decimal mark where semicolons, tabs or blanks separate.
+    noted in ``surface.notes``). Headings with one number are read where they name the steps along X and Y with their
+    unit ("Step X [um];1.0"), and skipped otherwise. An empty cell is unmeasured. A comma between digits is the decimal
+    mark where semicolons, tabs or blanks separate.
     Look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before you trust a file.
 
     Parameters
     ----------
     path : file
     level, fill : subtract the ``form`` of the measured points; fill the others harmonically
-    form : "plane", or "quadratic" (second order: cylinder or paraboloid too), by least squares. This is the F-operation
-        of ISO 25178-2; `Surface.filtered` has the S- and L-filters
+    form : "plane", "cylinder" (about x or y) or "quadratic", by least squares: the F-operation of ISO 25178-2
+        (`Surface.filtered` has the S- and L-filters). A note of the surface tells the Sq that each form leaves
     spacing : (dx, dy) or one length [m], only for files that do not carry their own
     unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in .xyz); only where the file names none
     decimal : "." or ",", the decimal mark of a text file in which commas can be either
@@ -63,21 +77,22 @@ def read_surface(
     ------
     InputError : a file that is missing, truncated, of an unknown kind, inconsistent or hostile; words among the
         numbers; commas that can be read both ways; a title that names a unit when ``unit`` is not given; infinite
-        heights; non-uniform spacing; spacing given twice or not at all
+        heights; non-uniform spacing; spacing given twice or not at all; a levelled map with slopes that no surface has,
+        since heights and spacing are then in different units
     """
     path = _existing(path)
     _check_form(level, form)
     if decimal is not None:
         validate.choice("decimal", decimal, DECIMALS)
     suffix = path.suffix.lower()
-    by_instrument = suffix in TEXT and _binary(path) or suffix not in SUFFIXES and suffix in instrument.SUFFIXES
+    by_instrument = suffix in TEXT and _binary(path) or suffix not in SUFFIXES and suffix in INSTRUMENTS
     if by_instrument or suffix in OWN_GRID:
         _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)
-        surface = instrument.read_instrument(path, 0, None) if by_instrument else OWN_GRID[suffix](path)
+        surface = _instrument(path, 0, None) if by_instrument else OWN_GRID[suffix](path)
     elif suffix in SUFFIXES:
         surface = _plain(path, suffix, spacing, unit, decimal, missing_value)
     else:
-        others = f"with SurfaceTopography ({instrument.HINT}) {', '.join(instrument.SUFFIXES)}"
+        others = f"with SurfaceTopography ({HINT}) {', '.join(INSTRUMENTS)}"
         said = f"path = {str(path)!r} has the unknown suffix {suffix!r}"
         raise InputError(said, allowed=f"{', '.join(SUFFIXES)}, and {others}")
     return _prepared(replace(surface, source=path.name), level, fill, form)
@@ -129,8 +144,11 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
     if own is not None:
         _refuse(suffix, spacing=spacing)
     elif spacing is None:
-        said = f"spacing of {path.name} is missing: the file does not carry it"
-        raise InputError(said, allowed="one length or (dx, dy) in m (of a scene: surface.spacing)")
+        why = next((note for note in notes if note.startswith("steps of")), "the file does not carry it")
+        said = f"spacing of {path.name} is missing: {why}"
+        raise InputError(
+            said, allowed="one length or (dx, dy) in m (of a scene: surface.spacing), dx from line to line"
+        )
     return _masked(heights, scale, missing_value, spacing if own is None else own, notes)
 
 
@@ -154,13 +172,20 @@ def _masked(heights, scale, missing_value, spacing, notes) -> Surface:
 
 def _check_form(level, form) -> None:
     validate.choice("form", form, FORMS)
-    if not level and form != FORMS[0]:
-        raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = {FORMS[0]!r} with level = False")
+    if not level and form != "plane":
+        raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = 'plane' with level = False")
 
 
 def _prepared(surface, level, fill, form) -> Surface:
+    """The map without its ``form``, noted with what the other forms would leave, and filled."""
     if level:
-        surface = surface.level(form)
+        left, surface = surface.left_by(), surface.level(form)
+        check_slopes(surface)
+        words = ", ".join(f"{sq * 1e9:.4g} nm {f'without {name}' if name else 'as it is'}" for name, sq in left.items())
+        least = min(left, key=lambda name: left[name])
+        if left[least] < BETTER * left[form]:
+            words += f"; a form is left in it? give form = {least!r}"
+        surface = replace(surface, notes=(*surface.notes, f"Sq {words}"))
     return surface.fill() if fill else surface
 
 
@@ -193,4 +218,46 @@ def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, form
     channel = validate.integer("channel", channel, minimum=0)
     if lateral_unit is not None:
         validate.choice("lateral_unit", lateral_unit, UNITS)
-    return _prepared(instrument.read_instrument(path, channel, lateral_unit), level, fill, form)
+    return _prepared(_instrument(path, channel, lateral_unit), level, fill, form)
+
+
+def _instrument(path: Path, channel: int, lateral_unit: str | None) -> Surface:
+    """The height map as it stands: unmeasured points NaN, neither levelled nor filled.
+
+    Raises `InputError` without the package, for a file that it cannot read, for one that names no unit of length.
+    """
+    name, open_topography = f"path = {str(path)!r}", _package(path)
+    try:
+        reader = open_topography(str(path))
+        channels = [c.name for c in reader.channels]
+        topography = reader.topography(channel_index=channel)
+        heights, sizes, found = topography.heights(), topography.physical_sizes, topography.unit
+    except Exception as problem:  # the package raises many kinds for files it cannot read
+        said = f", channel {channel}, cannot be read by SurfaceTopography"
+        why = f"({type(problem).__name__}: {validate.shown(str(problem))})"
+        raise InputError(f"{said} {why}", name, way_out="give a complete file of a format it knows") from problem
+    if found not in UNITS:
+        raise InputError(f": heights are in {found!r}", name, f"a channel of heights in {', '.join(UNITS)}")
+    heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
+    if heights.ndim != 2 or not np.isfinite(heights).any():
+        raise InputError(f" holds {heights.shape} heights", name, "a map with measured points")
+    spacing = tuple(size / n * UNITS[lateral_unit or found] for size, n in zip(sizes, heights.shape))
+    notes = [f"read by SurfaceTopography, heights in {found}, lateral in {lateral_unit or found}"]
+    if len(channels) > 1:
+        notes.append(f"channel {channel} ({channels[channel]}) of {len(channels)}")
+    heights = heights * UNITS[found]
+    return Surface(heights, spacing, mask=~np.isnan(heights), source=path.name, notes=tuple(notes))
+
+
+def _package(path: Path):
+    """SurfaceTopography's reader; imported here only, since that takes seconds and hundreds of MB."""
+    import warnings
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of other packages, at their import
+            from SurfaceTopography import open_topography
+    except ImportError as problem:
+        said = f"path = {str(path)!r} needs the package SurfaceTopography, which is not installed ({problem})"
+        raise InputError(said, way_out=f"it is read after {HINT}; or convert it to .x3p") from None
+    return open_topography

@@ -14,6 +14,7 @@ from .._base import validate
 from ..errors import InputError
 
 INVERSE_E = math.exp(-1)
+STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
 
 
 def sa(surface) -> float:
@@ -58,6 +59,16 @@ def rms_slope(surface) -> tuple[float, float, float]:
         step, both = (np.roll(z, -1, 0) - z)[:steps], (np.roll(mask, -1, 0) & mask)[:steps]
         slopes.append(float(np.sqrt(np.mean(step[both] ** 2)) / surface.spacing[axis]) if both.any() else 0.0)
     return slopes[0], slopes[1], math.hypot(*slopes)
+
+
+def check_slopes(surface) -> None:
+    """Raise `InputError` for slopes that no surface has."""
+    slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
+    if slope > STEEPEST:
+        raise InputError(
+            f"surface: rms slope = {slope:.3g} of heights with Sq {surface.sq:.3g} m on a spacing of "
+            f"{surface.spacing[0]:.3g} m; allowed: up to {STEEPEST:g} (are both in m?)"
+        )
 
 
 def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:

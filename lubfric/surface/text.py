@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 import numpy as np
@@ -13,12 +14,17 @@ NEXT_LINE = 0.1  # of the largest gap between coordinates: a larger one leads to
 FARTHEST = 1e15  # in the unit of the file
 UNEVEN = 0.02  # of the spacing: the most a coordinate may be off its grid line
 DECIMALS = (".", ",")
+UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "\N{MICRO SIGN}m": 1e-6, "\N{GREEK SMALL LETTER MU}m": 1e-6, "nm": 1e-9}
 UNIT_WORDS = {"mm": "mm", "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "nm": "nm"}
 MISSING_WORDS = {"na", "n/a", "null", "none", "bad", "missing"}
 
 _NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
-_EMPTY = re.compile(r"\t\s*\t")  # a value left out between tabs
+_EMPTY = re.compile(r"^\t|\t *(?:\t|$)")  # a value left out between tabs
+_HEADING = re.compile(
+    rf"([^\d;:=,\t]*[a-zµμ][^\d;:=,\t]*)[;:=,\t]\s*({_NUMBER.pattern})\s*[;,\t]?\s*([a-zµμ]*)[;,\t\s]*", re.I
+)
+_STEPS = {"step", "spacing", "increment", "pitch", "pixel", "dx", "dy"}
 _BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")  # '1,5 2,5'
 _PAIR = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
 _BOTH_WAYS = re.compile(rf"{_PAIR}(?:,\s*{_PAIR})*")  # '1,5' or '1,5,2,5'
@@ -36,12 +42,14 @@ def _lines(path) -> tuple[list[str], list[tuple[int, str]]]:
         raise InputError(f"path = {str(path)!r} is not text (UTF-8)") from None
     except OSError as problem:
         raise InputError(f"path = {str(path)!r} cannot be read ({problem})") from None
-    text = [(number, line.strip()) for number, line in enumerate(lines, 1) if line.strip()]
-    return [line for _, line in text if line[0] == "#"], [pair for pair in text if pair[1][0] != "#"]
+    text = [(number, line.strip(" \r\f\v")) for number, line in enumerate(lines, 1) if line.strip()]
+    comments = [line.strip() for _, line in text if line.lstrip()[0] == "#"]
+    return comments, [pair for pair in text if pair[1].lstrip()[0] != "#"]
 
 
 def read_matrix(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float, float] | None, tuple[str, ...]]:
-    """heights[ix, iy] with one x per line, the spacing [m] of a ``# spacing = dx dy`` line, notes."""
+    """heights[ix, iy] with one x per line; the spacing [m] of a ``# spacing = dx dy`` line, or of headings where the
+    steps along X and Y are the same (else they do not tell along which a line runs); notes."""
     comments, lines = _lines(path)
     spacing = None
     for line in comments:
@@ -55,13 +63,18 @@ def read_matrix(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float,
             said = f"spacing in {path.name}: {validate.shown(line)}"
             raise InputError(said, allowed="'# spacing = dx dy' in m") from None
         spacing = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
-    heights, notes = read_table(path, lines, decimal, unit)
+    heights, notes, steps = read_table(path, lines, decimal, unit)
+    if spacing is None and len(steps) == 2:
+        if math.isclose(*steps.values()):
+            spacing = validate.spacing("spacing", steps["x"])
+        else:
+            notes += (f"steps of {steps['x']:g} m along X and {steps['y']:g} m along Y: lines may run along either",)
     return heights, spacing, notes
 
 
 def read_points(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float, float], tuple[str, ...]]:
     """heights[ix, iy], NaN where no point is, and (dx, dy), all in the unit of the file; notes."""
-    table, notes = read_table(path, _lines(path)[1], decimal, unit)
+    table, notes, _ = read_table(path, _lines(path)[1], decimal, unit)
     name = f"path = {str(path)!r}"
     if table.shape[1] != 3:
         raise InputError(f" has {table.shape[1]} columns", name, "exactly 3 (x y z)")
@@ -100,8 +113,9 @@ def _grid_lines(name, coordinate) -> tuple[np.ndarray, int, float]:
     return index, count, float(step)
 
 
-def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray, tuple[str, ...]]:
-    """(rows, columns) of the numbers, and notes of the titles skipped and of a decimal comma.
+def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray, tuple[str, ...], dict[str, float]]:
+    """(rows, columns) of the numbers, NaN where a cell is empty; notes of the titles skipped, of a decimal comma and of
+    empty cells; steps [m] along "x" and "y" that headings name.
 
     A point is always a decimal mark. A comma separates values, or it is the decimal mark. It is read where the lines
     admit only one of the two, and is an error where they admit both.
@@ -110,16 +124,19 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
     None makes a title that names another unit than metres an error. Raises `InputError` naming the line.
     """
     titles, lines = _split_titles(path, lines)
+    steps = dict(found for _, text in titles if (found := _step(text)) is not None)
     for number, text in titles if unit is None else ():
         named = sorted({UNIT_WORDS[w] for w in re.findall(r"[a-zµμ]+", text.lower()) if w in UNIT_WORDS})
-        if named:
+        if named and _step(text) is None:
             allowed = f"allowed: unit = {named[0]!r}, or 'm' if it is m after all"
             said = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
             raise _wrong(path, number, text, f"{said}; {allowed}")
-    notes = tuple(f"line {number} skipped as a title: {text[:60]!r}" for number, text in titles)
+    notes = tuple(
+        f"line {number} {'read' if _step(text) else 'skipped'} as a title: {text[:60]!r}" for number, text in titles
+    )
     separator, comma = _marks(path, lines, decimal)
     if separator is not None and all(text.endswith(separator) for _, text in lines):
-        lines = [(number, text[:-1].rstrip()) for number, text in lines]  # a separator behind every line
+        lines = [(number, text[:-1].rstrip(" ")) for number, text in lines]  # a separator behind every line
     if comma:
         for number, text in lines:
             if "." in text:
@@ -127,11 +144,28 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
                 raise _wrong(path, number, text, f"has a point where commas are the decimal mark; {allowed}")
         lines = [(number, re.sub(r",(?=\s)", " ", text).replace(",", ".")) for number, text in lines]
         notes += ("decimal comma",)
+    if separator is not None:
+        cells = [(number, [cell.strip() for cell in text.split(separator)]) for number, text in lines]
+        if empty := sum(row.count("") for _, row in cells):
+            lines = [(number, separator.join(cell or "nan" for cell in row)) for number, row in cells]
+            notes += (f"{empty} empty cells taken for unmeasured",)
     try:
-        return np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None), notes
+        table = np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None)
     except ValueError as problem:
         said = f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}"
         raise InputError(said, allowed="lines of equally many numbers, 'nan' where unmeasured") from None
+    return table, notes, steps
+
+
+def _step(title: str) -> tuple[str, float] | None:
+    """("x" or "y", step [m]) of a heading such as 'Step X [um];1.0'. None where it names no step, axis or unit."""
+    heading = _HEADING.fullmatch(title)
+    words = [] if heading is None else re.findall(r"[a-zµμ]+", f"{heading[1]} {heading[3]}".lower())
+    axes = [word[-1] for word in words if word in ("x", "y", "dx", "dy")]
+    units = [UNIT_WORDS.get(word, word) for word in words if word in UNIT_WORDS or word == "m"]
+    if heading is None or not _STEPS & set(words) or len(axes) != 1 or len(units) != 1:
+        return None
+    return axes[0], float(heading[2].replace(",", ".")) * UNITS[units[0]]
 
 
 def _wrong(path, number, text, words) -> InputError:
@@ -139,14 +173,15 @@ def _wrong(path, number, text, words) -> InputError:
 
 
 def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
-    """Leading lines without any number are titles; a leading line with words and numbers is an error."""
+    """Leading lines without any number, or with a name and one number (`_HEADING`), are titles; any other leading line
+    with words and numbers is an error."""
     for index, (number, text) in enumerate(lines):
         words = [w for w in re.split(r"[\s;,]+", text) if w]
         numbers = sum(_NUMBER.fullmatch(w) is not None for w in words)
-        if numbers and numbers == len(words):
+        if numbers == len(words):
             return lines[:index], lines[index:]
-        unmeasured = words and all(w.lower() in MISSING_WORDS for w in words)
-        if numbers or unmeasured or not any(c.isalpha() for c in text):
+        unmeasured = any(w.lower() in MISSING_WORDS for w in words)
+        if unmeasured or not any(c.isalpha() for c in text) or numbers and not _HEADING.fullmatch(text):
             allowed = "allowed: 'nan' where unmeasured, '#' before a line to be skipped"
             raise _wrong(path, number, text, f"is neither numbers nor a title without numbers; {allowed}")
     raise InputError(f"path = {str(path)!r} holds no numbers")

@@ -1,11 +1,9 @@
 """What changes in time: the march, smooth films, contacts that share their load with a film."""
 
-from .checkpoint import STATE
-from .draw import animate, friction_over_time, plot_history
-from .film import TransientFilm, solve_transient_ehl
+from .begin import speeds_of_run
+from .film import TIME_SHARE, TransientFilm, solve_transient_ehl
 from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import FIRST_STEP, WET, ContactHistory, make_setting
-from .march import Level, Memory, Plan, Progress, Step, advance, checked_times, marched, plan_of, report_of, steps
-from .moment import UNITS
-from .result import TransientResult
-from .run import transient
+from .march import Memory, Plan, Progress, Step, advance, checked_times, marched, plan_of, report_of, steps
+from .result import TransientResult, friction_over_time, time_scale
+from .run import STATE, transient

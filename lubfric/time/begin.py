@@ -1,5 +1,5 @@
-"""The begin of a run in time: its histories, its grid, and its state at t = 0, which is steady, at rest with all load
-on the contact, or a film without pressure."""
+"""The begin of a run in time: its strip of rough surface, from the needs of steady friction; its histories; its grid;
+and its state at t = 0, which is steady, at rest with all load on the contact, or a film without pressure."""
 
 from __future__ import annotations
 
@@ -8,14 +8,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import CONVERGED, ConvergenceError, InputError
+from ..contact import Strips, length_or_half
+from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError
+from ..sampling import sampled
 from ..scene import Constant, Scene
-from ..sharing import Prepared, prepare, scene_of, solve_balance
-from .film_setting import FINER, ContactHistory, FilmStep, discretisation, make_setting, steady_start
-from .scene_now import changes, inlet_viscosity
-from .sharing import Contact, Sharing, make_sharing
-from .steady import strip_for
+from ..sharing import Prepared, on_stack, prepare, scene_of, solve_balance
+from .film_setting import FINER, ContactHistory, discretisation, make_setting, steady_start
+from .march import Step
+from .sharing import Contact, Sharing, changes, inlet_viscosity, make_sharing
 
+SPEEDS = 4  # looked at between the fastest and the slowest of a run
+SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
 DONE = {  # what a run does of the steady options; the film is deflected by its own pressure, whatever the default says
     "model": ("auto", "load-sharing"),
     "film_deflection": ("scaled", "hydrodynamic"),
@@ -24,7 +27,7 @@ DONE = {  # what a run does of the steady options; the film is deflected by its 
 SOFT = 0.3  # of the mean gap: softness of the contact, until a step has measured it
 
 
-def begin(scene: Scene | Prepared) -> tuple[Sharing, FilmStep, float]:
+def begin(scene: Scene | Prepared) -> tuple[Sharing, Step, float]:
     """Check a scene with a ``transient`` and make it ready. Returns the `Sharing`, the state at t = 0, and the relative
     error by the grid of the films of a steady start (NaN for another start)."""
     base = scene_of(scene)
@@ -38,17 +41,18 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, FilmStep, float]:
             f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
             f"{base.bodies.load:g} N, whose Hertz strip is the area A"
         )
-    strip = strip_for(scene if isinstance(scene, Prepared) else prepare(scene))
-    sq, contact = strip.prepared.surface.sq, _contact_history(strip.prepared.scene)
+    prepared, *of_strip = strip_for(scene if isinstance(scene, Prepared) else prepare(scene))
+    sq, contact = prepared.surface.sq, _contact_history(prepared.scene)
     if not sq > 0.0 and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
         raise InputError(
             "smooth surfaces at rest have no film to start from; give transient.initial_film > 0 m, or "
             "an entrainment speed before t = 0"
         )
-    reach = float(np.max(np.abs(strip.prepared.contact.x))) if sq > 0.0 else 0.0
+    reach = float(np.max(np.abs(prepared.contact.x))) if sq > 0.0 else 0.0
     allowed = base.numerics.tolerances.film
     for finer in FINER:
-        sharing = make_sharing(strip, make_setting(contact, allowed, sq=max(sq, 0.0), reach=reach, finer=finer))
+        setting = make_setting(contact, allowed, sq=max(sq, 0.0), reach=reach, finer=finer)
+        sharing = make_sharing(prepared, setting, *of_strip)
         start, grid_error = _first_state(sharing)
         if not grid_error > allowed:  # NaN: no steady start to judge by
             break
@@ -71,7 +75,7 @@ def _contact_history(scene: Scene) -> ContactHistory:
     )
 
 
-def _first_state(sharing: Sharing) -> tuple[FilmStep, float]:
+def _first_state(sharing: Sharing) -> tuple[Step, float]:
     """The state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
     plan = changes(sharing.scene)
     if plan.initial_film is not None:
@@ -84,12 +88,12 @@ def _first_state(sharing: Sharing) -> tuple[FilmStep, float]:
     return _steady(sharing)
 
 
-def _untouched(sharing: Sharing, film: FilmStep) -> FilmStep:
+def _untouched(sharing: Sharing, film: Step) -> Step:
     state = sharing.patch.close(sharing.to_patch @ film.terms.H, 0.0)
     return replace(film, payload=Contact(0.0, state, max(SOFT * state.mean_gap, 1e-12)))
 
 
-def _flying(sharing: Sharing, film: float) -> FilmStep:
+def _flying(sharing: Sharing, film: float) -> Step:
     """No pressure anywhere under a parabola at the height ``film`` [m]."""
     found = _untouched(sharing, sharing.setting.undeformed(film))
     state = found.payload.state
@@ -101,7 +105,7 @@ def _flying(sharing: Sharing, film: float) -> FilmStep:
     return found
 
 
-def _resting(sharing: Sharing) -> FilmStep:
+def _resting(sharing: Sharing) -> Step:
     """The contact carries the load under the undeformed cylinder, its gap full of lubricant without pressure."""
     setting, patch, load = sharing.setting, sharing.patch, sharing.setting.contact.load.before(0.0)
     state = patch.close(patch.x**2 / (2.0 * setting.contact.radius.before(0.0)), load)
@@ -117,7 +121,7 @@ def _resting(sharing: Sharing) -> FilmStep:
     return replace(found, payload=Contact(load, state, SOFT * state.mean_gap))
 
 
-def _steady(sharing: Sharing) -> tuple[FilmStep, float]:
+def _steady(sharing: Sharing) -> tuple[Step, float]:
     """The balance of the steady state, and then the same on the grid of the run."""
     setting, scene, c = sharing.setting, sharing.scene, sharing.setting.contact
     viscosity = changes(scene).viscosity
@@ -127,7 +131,7 @@ def _steady(sharing: Sharing) -> tuple[FilmStep, float]:
         lubricant=replace(scene.lubricant, viscosity=cold),
         numerics={"film_deflection": "hydrodynamic", "accept": True},  # judged with the other moments
     )
-    balance = solve_balance(values, c.speed.before(0.0), sharing.patch, sharing.strip.prepared.surface.sq)
+    balance = solve_balance(values, c.speed.before(0.0), sharing.patch, sharing.prepared.surface.sq)
     film = steady_start(setting, balance.film_load)
     if film.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")
@@ -139,3 +143,70 @@ def _steady(sharing: Sharing) -> tuple[FilmStep, float]:
     if found.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
     return found, error
+
+
+def strip_for(prepared: Prepared) -> tuple[Prepared, float, float, float]:
+    """The strip of rough surface of a run, its correlation length along y [m], and the factors of its contact area and
+    plastic area (`Sharing`).
+
+    Strips as many as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of four speeds of the
+    run, or as memory and map allow. Their cells change f by no more than ``numerics.tolerance`` at any of these speeds,
+    or are the scene's own: a run in time is not corrected for them. The factors of areas are means over the speeds.
+    """
+    strips, speeds = prepared.strips, speeds_of_run(prepared.scene)
+    if strips is None:
+        return prepared, length_or_half(prepared.surface, 1), 1.0, 1.0
+    if strips.whole:
+        while not strips.cells.own:
+            strips = strips.halved()
+        return _made(prepared, strips, 1), strips.lengths[1], 1.0, 1.0
+    if not speeds:
+        known = 1.0 if strips.cells.own else math.nan
+        return prepared, strips.lengths[1], known, known
+    needs = _needs(prepared, strips, speeds)
+    while not strips.cells.own and max(needs[1]) > prepared.scene.numerics.tolerance:
+        strips = strips.halved()
+        needs = _needs(prepared, strips, speeds)
+    made = _made(prepared, strips, min(int(max(needs[0])), strips.available))
+    return made, strips.lengths[1], _mean(needs[2]), _mean(needs[3])
+
+
+def _made(prepared: Prepared, strips: Strips, count: int) -> Prepared:
+    contact = on_stack(prepared, strips, count)
+    surface = replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
+    return replace(prepared, surface=surface, contact=contact, strips=strips)
+
+
+def speeds_of_run(scene: Scene) -> list[float]:
+    """Some speeds [m/s] of a run, at which its strip is judged; none where nothing is entrained."""
+    plan = changes(scene)
+    low, high = (plan.speed or Constant(scene.motion.entrainment_speed)).range(plan.duration)
+    fastest = max(abs(low), abs(high))
+    if fastest == 0.0:
+        return []
+    slowest = max(min(abs(low), abs(high)) if low * high > 0 else 0.0, SLOWEST * fastest)
+    return np.unique(np.geomspace(fastest, slowest, SPEEDS)).tolist() if slowest < fastest else [fastest]
+
+
+def _needs(prepared: Prepared, strips: Strips, speeds: list[float]) -> np.ndarray:
+    """What each steady speed needs, in rows: the number of strips, the relative change of f by their cells (infinite if
+    finer ones were needed), and the factors of `Sharing`. A speed without a steady solution needs the first strips."""
+    found = []
+    for speed in speeds:
+        try:
+            one = sampled(replace(prepared, strips=strips), speed)
+        except LubfricError:
+            found.append((strips.first, 0.0, math.nan, math.nan))
+            continue
+        assert one.strips is not None
+        plastic, corrected = one.solved.contact.plastic_area_fraction, one.balance.contact.plastic_area_fraction
+        area = one.effect.area if one.response is not None else math.nan
+        same = one.strips.cells.factors == strips.cells.factors
+        by_cells = one.change("gap") if same else math.inf
+        found.append((one.count, by_cells, area, corrected / plastic if plastic else math.nan))
+    return np.array(found, dtype=float).T
+
+
+def _mean(factors: np.ndarray) -> float:
+    known = factors[np.isfinite(factors)]
+    return float(known.mean()) if known.size else math.nan

@@ -11,8 +11,8 @@ from ..errors import CONVERGED, ConvergenceError, InputError, Report
 from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
-from .film_setting import FINER, ContactHistory, FilmStep, Setting, discretisation, make_setting, steady_start
-from .march import Plan, checked_times, marched, plan_of, report_of
+from .film_setting import FINER, ContactHistory, Setting, discretisation, make_setting, steady_start
+from .march import Plan, Step, checked_times, marched, plan_of, report_of
 
 TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step
 
@@ -101,7 +101,7 @@ def solve_transient_ehl(
     return result
 
 
-def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, FilmStep, dict[str, float]]:
+def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, dict[str, float]]:
     """Setting, state at t = 0 and residual of its grid. The grid is refined until a steady start is as accurate as
     asked."""
     if contact.initial_film is not None:
@@ -121,7 +121,7 @@ def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, FilmStep
     raise ConvergenceError("transient: no steady film on the grid of the run to start from")
 
 
-def _marched(setting: Setting, start: FilmStep, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
+def _marched(setting: Setting, start: Step, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
     now, found, films = marched(setting, plan, start)
     p, x = setting.problem, setting.grid.x
     H, P = (np.array([getattr(s.terms, name) for s in films]).reshape(-1, x.size) for name in "HP")

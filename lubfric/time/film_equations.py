@@ -31,16 +31,6 @@ _POINTS, _WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
 
 
 @dataclass(frozen=True)
-class Conditions:
-    """Speed u, load M, curvature c = R_ref/R and ambient viscosity nu at one time, relative to the reference."""
-
-    speed: float
-    load: float
-    curvature: float = 1.0
-    viscosity: float = 1.0
-
-
-@dataclass(frozen=True)
 class Spring:
     """A spring that carries load beside the film; its load falls exponentially with the mean film ``weights`` @ H.
 
@@ -124,42 +114,43 @@ class StepTerms:
 
 @dataclass(frozen=True)
 class StepEquations:
-    """The equations of one implicit step ``now``, with a ``memory`` of the past. ``spring``: carries load beside the
-    film."""
+    """The equations of one implicit step, with a ``memory`` of the past: at a speed u, a load M, a curvature c =
+    R_ref/R and an ambient viscosity nu, relative to the reference. ``spring``: carries load beside the film."""
 
     grid: FixedGrid
     problem: Problem
-    now: Conditions
     memory: Memory
+    speed: float
+    load: float
+    curvature: float = 1.0
+    viscosity: float = 1.0
     spring: Spring | None = None
 
     def evaluate(self, z: np.ndarray) -> StepTerms:
         """All equations at z."""
-        grid, now, memory = self.grid, self.now, self.memory
+        grid, memory, speed = self.grid, self.memory, self.speed
         P = z[:-1]
-        H = grid.kernel @ P + (z[-1] + 0.5 * now.curvature * grid.x**2)
+        H = grid.kernel @ P + (z[-1] + 0.5 * self.curvature * grid.x**2)
         log_eta, log_slope = self.problem.log_viscosity(P)
         rho = self.problem.density(P)
-        up, centred = grid.upwind(now.speed), grid.centred
+        up, centred = grid.upwind(speed), grid.centred
         up_rho, up_H, mid_rho, mid_H = up(rho[0]), up(H), centred(rho[0]), centred(H)
-        fluidity = tuple(f / now.viscosity for f in log_mean_fluidity(log_eta))
+        fluidity = tuple(f / self.viscosity for f in log_mean_fluidity(log_eta))
         gradient = np.diff(P) / (6.0 * grid.cells)
-        flux = now.speed * up_rho * up_H - mid_rho * mid_H**3 * fluidity[0] * gradient
+        flux = speed * up_rho * up_H - mid_rho * mid_H**3 * fluidity[0] * gradient
         stored = memory.rate * (rho[0] * H - memory.film) * grid.weights
         r = np.empty_like(P)
         r[1:-1] = stored[1:-1] + flux[1:] - flux[:-1]
         ends, carried = [], float(grid.weights @ P)
         for end, sign in ((0, 1.0), (-1, -1.0)):
             flow, rate = sign * flux[end] + stored[end], memory.rate * (H[end] - memory.film[end])
-            pressure, load = outside(
-                abs(grid.x[end]), H[end], now.curvature, now.viscosity, sign * now.speed, flow, rate
-            )
+            pressure, load = outside(abs(grid.x[end]), H[end], self.curvature, self.viscosity, sign * speed, flow, rate)
             r[end] = P[end] - pressure[0]
             carried += load[0] if pressure[0] > 0.0 else 0.0
             ends.append((pressure, load))
         shared = self.spring.at(H) if self.spring else (0.0, 0.0)
         flows = (up_rho, up_H), (mid_rho, mid_H), fluidity, gradient, flux, stored
-        balance = carried + shared[0] - now.load
+        balance = carried + shared[0] - self.load
         return StepTerms(P, H, rho, log_slope, *flows, r, tuple(ends), carried, shared, balance)
 
     def jacobian(self, t: StepTerms) -> np.ndarray:
@@ -194,7 +185,7 @@ class StepEquations:
 
     def _flux_slopes(self, t: StepTerms) -> np.ndarray:
         """Derivatives (n, n + 2) of the fluxes through the faces by z: by film, gradient, viscosity and density."""
-        grid, speed, n = self.grid, self.now.speed, self.grid.n
+        grid, speed, n = self.grid, self.speed, self.grid.n
         up, centred = grid.upwind(speed), grid.centred
         mean, by_left, by_right = t.fluidity
         rho, H = t.centre
@@ -218,11 +209,11 @@ class StepEquations:
         """The largest relative residual: of the mass in the pressurised control volumes (relative to what they contain,
         per step or per passage of their film), of tension in the cavitated ones and of lubricant created there, of the
         load, and of the pressure at the ends."""
-        scale = t.H * (self.memory.rate * self.grid.weights + abs(self.now.speed)) + 1e-300
+        scale = t.H * (self.memory.rate * self.grid.weights + abs(self.speed)) + 1e-300
         top = max(float(t.P.max()), 1e-300)
         mass, wet = t.r[1:-1] / scale[1:-1], t.P[1:-1] > 0.0
         missing = np.max(np.abs(mass[wet]), initial=0.0)
         created = np.max(-mass[~wet], initial=0.0)
         ends = np.max(np.abs(np.minimum(t.P, t.r)[[0, -1]])) / top
-        load = abs(t.balance) / max(abs(self.now.load), 1e-300)
+        load = abs(t.balance) / max(abs(self.load), 1e-300)
         return float(np.max([missing, created, -t.P.min() / top, ends, load]))

@@ -11,7 +11,7 @@ from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ..film import Effort, LineContact, Problem, hertz, solve_line_contact, step_length
 from ..oil import Lubricant
 from ..scene import History
-from .film_equations import Conditions, Spring, StepEquations, StepTerms
+from .film_equations import Spring, StepEquations, StepTerms
 from .film_grid import FixedGrid, make_fixed_grid, symmetric_nodes
 from .march import Memory, Step
 
@@ -47,13 +47,6 @@ class ContactHistory:
     width: float = 1.0
 
 
-@dataclass(frozen=True, kw_only=True)
-class FilmStep(Step):
-    """A step of the film, with its terms at z. It remembers rho H."""
-
-    terms: StepTerms
-
-
 @dataclass(frozen=True)
 class Setting:
     """The contact in the units of a reference ``problem``, on ``grid``."""
@@ -67,35 +60,35 @@ class Setting:
         """The unit of the load [N]."""
         return self.problem.contact.e_prime * self.problem.film_unit * self.contact.width
 
-    def conditions(self, time: float) -> Conditions:
-        """Speed, load, curvature and viscosity just before ``time`` [s]."""
+    def equations(self, time: float, memory: Memory | None = None, spring: Spring | None = None) -> StepEquations:
+        """Those of the step that ends at ``time`` [s], with a ``memory`` in SI units (None: of a steady state), at the
+        speed, load, curvature and viscosity just before that time."""
         c, reference = self.contact, self.problem.contact
-        return Conditions(
+        time_unit = self.problem.length_unit / reference.entrainment_speed
+        memory = memory or Memory(0.0, np.zeros(self.grid.n + 1))
+        return StepEquations(
+            self.grid,
+            self.problem,
+            Memory(memory.rate * time_unit, memory.film),
             c.speed.before(time) / reference.entrainment_speed,
             c.load.before(time) / self.load_unit,
             reference.radius / c.radius.before(time),
             c.viscosity.before(time) / reference.lubricant.viscosity,
+            spring,
         )
 
-    def equations(self, time: float, memory: Memory | None = None, spring: Spring | None = None) -> StepEquations:
-        """Those of the step that ends at ``time`` [s], with a ``memory`` in SI units (None: of a steady state)."""
-        memory = memory or Memory(0.0, np.zeros(self.grid.n + 1))
-        time_unit = self.problem.length_unit / self.problem.contact.entrainment_speed
-        memory = Memory(memory.rate * time_unit, memory.film)
-        return StepEquations(self.grid, self.problem, self.conditions(time), memory, spring)
-
-    def solve(self, time: float, memory: Memory | None, z: np.ndarray, spring: Spring | None = None) -> FilmStep:
+    def solve(self, time: float, memory: Memory | None, z: np.ndarray, spring: Spring | None = None) -> Step:
         """The step that ends at ``time`` [s] (a solver of `lubfric.time.march`). ``spring``: carries the rest of the
         load."""
         return solve_step(self.equations(time, memory, spring), z)
 
-    def error_of(self, solution: FilmStep, difference: np.ndarray) -> float:
+    def error_of(self, solution: Step, difference: np.ndarray) -> float:
         """Root mean square of a difference of films over the pressurised film, relative to the film."""
         P = solution.terms.P
         weights = self.grid.weights * (P > WET * P.max())
         return math.sqrt(float(weights @ (difference / solution.film) ** 2 / max(weights.sum(), 1e-300)))
 
-    def undeformed(self, film: float) -> FilmStep:
+    def undeformed(self, film: float) -> Step:
         """The state at t = 0 without pressure: a parabola with the smallest film [m]."""
         z = np.append(np.zeros(self.grid.n + 1), film / self.problem.film_unit)
         return solve_step(self.equations(0.0), z, max_steps=0)
@@ -158,7 +151,7 @@ def _reference(contact: ContactHistory, sq: float) -> tuple[Problem, tuple[float
     return Problem(reference), (min(films) / reference.film_unit, max(films) / reference.film_unit)
 
 
-def steady_start(setting: Setting, load: float | None = None) -> FilmStep:
+def steady_start(setting: Setting, load: float | None = None) -> Step:
     """The steady state of the conditions just before t = 0, with ``load`` [N] instead of the history's if it is
     given."""
     c, p, grid, equations = setting.contact, setting.problem, setting.grid, setting.equations(0.0)
@@ -174,15 +167,13 @@ def steady_start(setting: Setting, load: float | None = None) -> FilmStep:
     guess[beyond] = pressure * (inlet / grid.x[beyond]) ** 3
     centre = grid.n // 2
     z = np.append(guess, found.central_film / p.film_unit - grid.kernel[centre] @ guess)
-    now = replace(equations.now, load=load / setting.load_unit)
-    return solve_step(replace(equations, now=now), z, max_steps=40)
+    return solve_step(replace(equations, load=load / setting.load_unit), z, max_steps=40)
 
 
-def discretisation(setting: Setting, solution: FilmStep) -> float:
+def discretisation(setting: Setting, solution: Step) -> float:
     """Relative error of minimum and central film of a steady solution, from the grid of every other node."""
     coarse = replace(setting, grid=make_fixed_grid(setting.grid.x[::2]))
-    equations, fine = coarse.equations(0.0), solution.terms.H
-    equations = replace(equations, now=replace(equations.now, load=solution.terms.carried))
+    equations, fine = replace(coarse.equations(0.0), load=solution.terms.carried), solution.terms.H
     centre, middle = setting.grid.n // 2, coarse.grid.n // 2
     z = np.append(solution.z[:-1:2], solution.z[-1])
     z[-1] += fine[centre] - (coarse.grid.kernel[middle] @ z[:-1] + z[-1])
@@ -193,7 +184,7 @@ def discretisation(setting: Setting, solution: FilmStep) -> float:
     return float(max(abs(H[middle] / fine[centre] - 1.0), abs(H.min() / fine.min() - 1.0))) / 3.0
 
 
-def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e-7, max_steps: int = 25) -> FilmStep:
+def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e-7, max_steps: int = 25) -> Step:
     """Solve the complementarity equations from z until ``equations.residual`` <= tolerance.
 
     A node counts as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is negative. This
@@ -208,8 +199,8 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
         done, stage = 0.0, 0.25
         while done < 1.0 and stage >= SMALLEST_STAGE:
             goal = min(1.0, done + stage)
-            now = replace(equations.now, load=first * (equations.now.load / first) ** goal)
-            found = _iterated(replace(equations, now=now), z, tolerance, max_steps)
+            staged = replace(equations, load=first * (equations.load / first) ** goal)
+            found = _iterated(staged, z, tolerance, max_steps)
             if found.status == CONVERGED:
                 done, stage, z = goal, 1.5 * stage, found.z
             else:
@@ -217,7 +208,7 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
     return found
 
 
-def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_steps: int) -> FilmStep:
+def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_steps: int) -> Step:
     for step in range(max_steps + 1):
         t = equations.evaluate(z)
         residual, status = equations.residual(t), ITERATION_LIMIT
@@ -236,7 +227,7 @@ def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_ste
         loss = float(np.max(-(equations.grid.kernel @ delta[:-1] + delta[-1]) / t.H))
         z = z + step_length(delta[:-1] * t.log_slope, loss) * delta
         z[:-1][cavitated & (z[:-1] < 1e-14 * t.P.max())] = 0.0
-    return FilmStep(status=status, film=t.rho[0] * t.H, z=z, terms=t)
+    return Step(status=status, film=t.rho[0] * t.H, z=z, terms=t)
 
 
 def _newton(J: np.ndarray, t: StepTerms, cavitated: np.ndarray) -> np.ndarray | None:

@@ -41,33 +41,28 @@ class Memory:
 @dataclass(frozen=True, kw_only=True)
 class Step:
     """One solved step: ``film`` is the y that the next step remembers, ``z`` the unknowns, ``payload`` whatever else
-    the next solve starts from. The run continues only from a ``status`` of "converged"."""
+    the next solve starts from, ``terms`` what the solver can tell of it. The run continues only from a ``status`` of
+    "converged". The march sets the ``time`` at its end [s]."""
 
-    status: str
     film: np.ndarray
     z: np.ndarray
+    status: str = CONVERGED
     payload: Any = None
-
-
-@dataclass(frozen=True)
-class Level:
-    """The state at one time [s]: the film that is differentiated (n + 1) and the unknowns z."""
-
-    time: float
-    film: np.ndarray
-    z: np.ndarray
+    terms: Any = None
+    time: float = 0.0
 
 
 @dataclass(frozen=True)
 class Progress:
     """How far a run has come. It can continue from any progress.
 
-    ``levels``: up to three, oldest first, since the last jump; ``step``: the next [s]; ``payload``: what the solver
-    returned beside its unknowns. ``steps`` taken and ``rejected``; ``worst``: largest local error so far, over the
-    tolerance. Of the last step its ``solution``, its ``error``, and whether it ended at an output time.
+    ``levels``: up to three steps, oldest first, since the last jump, of which film and unknowns are kept; ``step``: the
+    next [s]; ``payload``: what the solver returned beside its unknowns. ``steps`` taken and ``rejected``; ``worst``:
+    largest local error so far, over the tolerance. Of the last step its ``solution``, its ``error``, and whether it
+    ended at an output time.
     """
 
-    levels: tuple[Level, ...]
+    levels: tuple[Step, ...]
     step: float
     payload: Any = None
     steps: int = 0
@@ -132,7 +127,12 @@ def _onto(known: np.ndarray, found: list[float]) -> np.ndarray:
 
 def begun(first: Step, plan: Plan) -> Progress:
     """The progress at t = 0 with the state ``first``."""
-    return Progress((Level(0.0, first.film, first.z),), plan.first_step, first.payload, solution=first)
+    return Progress((_level(first),), plan.first_step, first.payload, solution=first)
+
+
+def _level(step: Step) -> Step:
+    """What later steps need of ``step``."""
+    return replace(step, payload=None, terms=None)
 
 
 def steps(solver, plan: Plan, now: Progress) -> Iterator[Progress]:
@@ -196,12 +196,12 @@ def advance(now: Progress, until: float, solver, tolerance: float, shortest: flo
     return None
 
 
-Attempt = tuple[tuple[Level, ...], Step, float, int]  # levels after the step, its solution, error, order
+Attempt = tuple[tuple[Step, ...], Step, float, int]  # levels after the step, its solution, error, order
 
 
 def _solved(solver, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step | None:
     solution = solver.solve(time, memory, z, payload)
-    return solution if solution.status == CONVERGED else None
+    return replace(solution, time=time) if solution.status == CONVERGED else None
 
 
 def _pair(now: Progress, end: float, solver) -> Attempt | None:
@@ -214,8 +214,7 @@ def _pair(now: Progress, end: float, solver) -> Attempt | None:
     second = first and _solved(solver, end, Memory(2.0 / step, first.film), first.z, first.payload)
     if whole is None or first is None or second is None:
         return None
-    levels = (start, Level(middle, first.film, first.z), Level(end, second.film, second.z))
-    return levels, second, solver.error_of(second, whole.film - second.film), 1
+    return (start, _level(first), _level(second)), second, solver.error_of(second, whole.film - second.film), 1
 
 
 def _bdf2(now: Progress, end: float, solver) -> Attempt | None:
@@ -230,7 +229,7 @@ def _bdf2(now: Progress, end: float, solver) -> Attempt | None:
     solution = _solved(solver, end, memory, guess, now.payload) or _solved(solver, end, memory, last.z, now.payload)
     if solution is None:
         return None
-    levels = (*now.levels, Level(end, solution.film, solution.z))
+    levels = (*now.levels, _level(solution))
     if len(levels) < 4:
         return levels, solution, 0.0, 2
     curve = _divided([level.time for level in levels], [level.film for level in levels])

@@ -15,31 +15,18 @@ from ..sampling import moment_error
 from ..scene import Scene
 from ..sharing import Heat, Validity, inlet_at, of_deflection, of_ends, of_film, of_motion, point_heat
 from .film_equations import outside_shear
-from .film_setting import WET, FilmStep
-from .march import Progress
-from .scene_now import scene_at, sliding_at
-from .sharing import Sharing
-from .steady import film_thinning
+from .film_setting import WET
+from .march import Progress, Step
+from .sharing import Sharing, scene_at, sliding_at
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"
-NAMES = {  # of the numbers of a moment, by their units
-    "s": "time",
-    "m/s": "entrainment_speed sliding_speed",
-    "N": "load contact_load film_load friction_force boundary_force couette_force rolling_force",
-    "-": "coefficient sampling_error shear_error time_error inlet_film_factor heat_change real_contact_area_fraction "
-    "plastic_area_fraction edge_load load_residual volume_residual mass_residual steps",
-    "m": "min_film central_film mean_film mean_gap wet_from wet_to",
-    "Pa": "max_pressure",
-    "K": "flash_temperature_rise film_temperature_rise",
-    "m2/s": "net_inflow stored cavity_growth",
-}
-UNITS = {name: unit for unit, names in NAMES.items() for name in names.split()}
+AT_REST, LOAD_STEP = 1e-6, 0.05  # m/s; of ln F_H
 
 
 def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then."""
-    solution, time, setting, strip = now.solution, now.time, sharing.setting, sharing.strip
+    solution, time, setting = now.solution, now.time, sharing.setting
     scene, sliding = scene_at(sharing.scene, time), sliding_at(sharing.scene, time)
     t, p, contact, state = solution.terms, setting.problem, solution.payload, solution.payload.state
     total, film_load, speed = scene.bodies.load, t.carried * setting.load_unit, scene.motion.entrainment_speed
@@ -50,7 +37,7 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
     inlet, _ = inlet_at(scene, speed)
     heated_inlet = setting.contact.viscosity.before(time) != scene.lubricant.viscosity
     film_factor = inlet.factor if inlet is not None and heated_inlet else 1.0
-    length, thinning = strip.correlation_length, film_thinning(scene, film_load)
+    length, thinning = sharing.correlation_length, film_thinning(scene, film_load)
     finite = moment_error(sharing.patch, state, loads, contact.softness, scene.bodies.width, length, parts, thinning)
     touches, wet = contact.load > 0.0, setting.grid.x[t.P > 0.0] * p.length_unit
     row = {
@@ -79,8 +66,8 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
         "max_pressure": t.P.max() * p.pressure_unit,
         "wet_from": wet[0] if wet.size else math.nan,
         "wet_to": wet[-1] if wet.size else math.nan,
-        "real_contact_area_fraction": state.real_contact_area_fraction * strip.area if touches else 0.0,
-        "plastic_area_fraction": state.plastic_area_fraction and state.plastic_area_fraction * strip.plastic,
+        "real_contact_area_fraction": state.real_contact_area_fraction * sharing.area if touches else 0.0,
+        "plastic_area_fraction": state.plastic_area_fraction and state.plastic_area_fraction * sharing.plastic,
         "edge_load": sharing.patch.on_the_ends(state) if touches else 0.0,
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": state.volume_residual if touches else 0.0,
@@ -97,7 +84,7 @@ def _violated(
 ) -> Iterator[Validity]:
     """The assumptions of the steady model and of a run that do not hold at one moment."""
     speed, film, force = row["entrainment_speed"], row["central_film"], abs(row["friction_force"])
-    prepared = sharing.strip.prepared
+    prepared = sharing.prepared
     yield from prepared.known
     yield from of_ends(row["edge_load"], prepared.surface.size[0])
     yield from of_motion(scene, speed, film)
@@ -115,7 +102,7 @@ def _violated(
         yield from of_deflection(scene, row["mean_gap"], STEADY_ONLY)
 
 
-def _mass(sharing: Sharing, solution: FilmStep) -> dict[str, float]:
+def _mass(sharing: Sharing, solution: Step) -> dict[str, float]:
     """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET`` of
     the largest): flow into it, lubricant stored there; and the growth of the gap in the cavitated zone that nothing
     fills. mass_residual: what is missing in the balance, over the larger of the flow and ``NO_FLOW``."""
@@ -135,9 +122,7 @@ def _mass(sharing: Sharing, solution: FilmStep) -> dict[str, float]:
     }
 
 
-def film_shear(
-    sharing: Sharing, scene: Scene, time: float, sliding: float, solution: FilmStep
-) -> tuple[ShearForce, Heat]:
+def film_shear(sharing: Sharing, scene: Scene, time: float, sliding: float, solution: Step) -> tuple[ShearForce, Heat]:
     """Forces [N] along +x on the upper surface, and the heat.
 
     They act where the film is pressurised and not touched, and include the inlet tails. ``scene``: that of the moment.
@@ -173,9 +158,7 @@ def film_shear(
     return _summed(sharing, time, solution, hot), heat
 
 
-def _summed(
-    sharing: Sharing, time: float, solution: FilmStep, stress: Callable, drag: float | None = None
-) -> ShearForce:
+def _summed(sharing: Sharing, time: float, solution: Step, stress: Callable, drag: float | None = None) -> ShearForce:
     """`ShearForce` by trapezes of ``stress(x, pressure, film)`` [Pa]. ``drag``: that times the film [N/m] beyond the
     ends of the grid; None: as at the last node, because at any film its own heat thins it by the same factor."""
     t, p, grid = solution.terms, sharing.setting.problem, sharing.setting.grid
@@ -210,11 +193,11 @@ def _halfway(nodal: np.ndarray) -> np.ndarray:
     return 0.5 * (nodal[1:] + nodal[:-1])
 
 
-def _tails(sharing: Sharing, time: float, drags: np.ndarray, solution: FilmStep) -> tuple[float, float]:
+def _tails(sharing: Sharing, time: float, drags: np.ndarray, solution: Step) -> tuple[float, float]:
     """Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid. ``drags``: shear stress times
     film [N/m] at both ends."""
     setting, t = sharing.setting, solution.terms
-    p, grid, now = setting.problem, setting.grid, setting.conditions(time)
+    p, grid, now = setting.problem, setting.grid, setting.equations(time)
     couette = rolling = 0.0
     for end, sign, drag in ((0, 1.0, drags[0]), (-1, -1.0, drags[1])):
         if t.P[end] > 0.0:
@@ -238,3 +221,14 @@ def full_part(x: np.ndarray, pressure: np.ndarray) -> np.ndarray:
             reach = root[last] * (x[last] - x[before]) / (root[before] - root[last])
             part[i] = min(abs(reach / (x[i + 1] - x[i])), 1.0)
     return part
+
+
+def film_thinning(scene: Scene, film_load: float) -> float:
+    """-d ln h/d ln F_H [-] of Moes' film that carries ``film_load`` [N]. At rest, that of a film that was drawn in
+    slowly; 1 without load."""
+    if film_load <= 0.0:
+        return 1.0
+    line, more = scene.line_contact(scene.motion.entrainment_speed or AT_REST), math.exp(LOAD_STEP)
+    line = replace(line, load_per_width=film_load / scene.bodies.width)
+    heavier = replace(line, load_per_width=more * line.load_per_width)
+    return math.log(line.moes_film / heavier.moes_film) / LOAD_STEP

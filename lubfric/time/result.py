@@ -1,4 +1,4 @@
-"""What a run gives: `TransientResult`, with its report."""
+"""What a run gives: `TransientResult`, with its report, and friction over time and over the speed drawn."""
 
 from __future__ import annotations
 
@@ -7,13 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import Shown, validate
+from .._base import BLUE, FRICTION, GREY, Shown, axes_or_new, friction_lines, validate
 from ..errors import Report
+from ..quantities import OF_MOMENT, axis_label
 from ..sampling import UncertaintyCurve, percent, student
 from ..sharing import Validity, gathered
-from .draw import history_axes, loop_axes
 from .march import Plan, Progress, report_of
-from .moment import UNITS
 from .sharing import Sharing
 
 # at an output time: numbers by name, assumptions that do not hold, pressures and films in the units of the setting
@@ -42,7 +41,7 @@ class TimeAverage:
 
 @dataclass(frozen=True, repr=False)
 class TransientResult(Shown):
-    """Numbers of a run over time: one array (nt,) for each name of `lubfric.time.moment.UNITS`, also as attributes.
+    """Numbers of a run over time: one array (nt,) for each name of `lubfric.quantities.OF_MOMENT`, also as attributes.
 
     Attributes
     ----------
@@ -110,11 +109,28 @@ class TransientResult(Shown):
 
     def plot(self, ax=None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
-        return history_axes(self, ax)
+        axes, (low, high) = axes_or_new(ax), self.uncertainty.interval.T
+        if (high > low).any():
+            time = self.time * time_scale(self.time[-1])[0]
+            axes.fill_between(time, low, high, color=BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
+        friction_over_time(axes, self.columns)
+        return axes
 
     def plot_loop(self, ax=None):
-        """Friction over speed, the hysteresis loop, on ``ax`` or new axes, which are returned."""
-        return loop_axes(self, ax)
+        """Friction over speed, the hysteresis loop with its start marked, on ``ax`` or new axes, which are returned.
+        At a standstill no friction coefficient is defined, and none is drawn."""
+        axes, speed = axes_or_new(ax), self.entrainment_speed
+        moving = (speed != 0) | (self.sliding_speed != 0)
+        friction, begin = np.where(moving, self.coefficient, np.nan), np.flatnonzero(moving)[:1]
+        axes.plot(speed, friction, color=BLUE)
+        axes.plot(speed[begin], friction[begin], "o", color=GREY, label="start")
+        middle = self.time.size // 2
+        if self.time.size > 2 and moving[middle : middle + 2].all():
+            ends = [(speed[i], friction[i]) for i in (middle, middle + 1)]
+            axes.annotate("", ends[1], ends[0], arrowprops={"arrowstyle": "->", "color": BLUE, "mutation_scale": 18})
+        axes.set(xlabel=axis_label("speed"), ylabel=FRICTION)
+        axes.legend(frameon=False)
+        return axes
 
     def _facts(self) -> dict[str, str]:
         facts, t, f = {"": f"{self.time.size} times"}, self.time, self.coefficient
@@ -132,7 +148,7 @@ class TransientResult(Shown):
 def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
     """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
     p, x = sharing.setting.problem, sharing.setting.grid.x
-    columns = {name: np.array([row[name] for row, *_ in outputs], float) for name in UNITS}
+    columns = {name: np.array([row[name] for row, *_ in outputs], float) for name in OF_MOMENT}
     P, H = (np.array([output[k] for output in outputs]).reshape(-1, x.size) for k in (2, 3))
     worst = {
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / MASS,
@@ -142,7 +158,7 @@ def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outp
         worst["grid"] = grid_error / sharing.scene.numerics.tolerances.film
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
-    prepared, renewal = sharing.strip.prepared, math.nan
+    prepared, renewal = sharing.prepared, math.nan
     if prepared.strips is not None and not prepared.strips.whole:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
     return TransientResult(
@@ -156,3 +172,25 @@ def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outp
         width=prepared.scene.bodies.width,
         renewal=renewal,
     )
+
+
+def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
+    """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`."""
+    sense = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
+    sense = np.where(sense < 0, -1.0, 1.0)  # of the coefficient
+    scale, unit = time_scale(c["time"][-1])
+    film = (c["couette_force"] + c["rolling_force"]) * sense / c["load"]
+    parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film
+    friction_lines(axes, c["time"] * scale, parts)
+    axes.set(xlabel=f"time ({unit})", ylabel=FRICTION)
+    low, high = axes.get_ylim()
+    axes.set_ylim(low, high + 0.15 * (high - low))
+    axes.legend(frameon=False, ncols=3, fontsize=8, loc="upper center")
+
+
+def time_scale(longest: float) -> tuple[float, str]:
+    """(factor, unit) that shows times up to ``longest`` [s] as numbers above one."""
+    for scale, unit in ((1.0, "s"), (1e3, "ms")):
+        if longest * scale >= 1.0:
+            return scale, unit
+    return 1e6, "µs"

@@ -1,23 +1,27 @@
-"""Friction in time: `transient`."""
+"""Friction in time: `transient`, and its state on disk after every step, so that a kill loses nothing."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from .._base import clear_checked, read_checked, validate, write_checked
 from ..errors import InputError
 from ..scene import Scene, Transient
-from ..sharing import Prepared, refused, scene_of
+from ..sharing import Prepared, Validity, refused, scene_of
+from ..studies import classes_of, decode, encode, fingerprint
 from .begin import begin
-from .checkpoint import Checkpoint
 from .film import TIME_SHARE
-from .film_setting import FilmStep
-from .march import Plan, Progress, begun, checked_times, plan_of, steps
+from .march import Plan, Progress, Step, begun, checked_times, plan_of, steps
 from .moment import moment
 from .result import Output, TransientResult, collect
-from .scene_now import changes
-from .sharing import Sharing
+from .sharing import Contact, Sharing, changes
+
+STATE, OUTPUTS = "state.bin", "output_*.bin"  # of a checkpoint
+CLASSES = classes_of(Progress, Contact, Validity)  # that a state or an output may hold
 
 
 def transient(
@@ -64,10 +68,10 @@ def transient(
     - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
     """
     scene, times = _with_plan(scene, times)
+    folder = None if checkpoint is None else _folder(checkpoint)
     sharing, start, grid_error = begin(scene)
-    scene = sharing.scene
-    plan, prepared = changes(scene), sharing.strip.prepared
-    store = None if checkpoint is None else Checkpoint(checkpoint, prepared, plan, times)
+    scene, plan = sharing.scene, changes(sharing.scene)
+    store = None if folder is None else Checkpoint(folder, sharing.prepared, plan, times)
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
     course = plan_of(times, plan.histories, sharing.setting.first_step, tolerance)
     now, outputs = _marched(sharing, start, course, store, on_step)
@@ -83,7 +87,7 @@ def transient(
 
 
 def _marched(
-    sharing: Sharing, start: FilmStep, plan: Plan, store: Checkpoint | None, on_step
+    sharing: Sharing, start: Step, plan: Plan, store: Checkpoint | None, on_step
 ) -> tuple[Progress, list[Output]]:
     def put_out(now: Progress) -> None:
         terms = now.solution.terms
@@ -124,3 +128,74 @@ def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.nda
     last = float(times[-1])
     base = replace(base, transient=Transient(last) if plan is None else replace(plan, duration=last))
     return (replace(scene, scene=base) if isinstance(scene, Prepared) else base), times
+
+
+class Checkpoint:
+    """A folder that holds the state of one run: files with checksums, each replaced as a whole. The state carries a
+    fingerprint of the problem and the number of outputs so far, which are written before it.
+
+    ``description``: everything that decides the result, for `lubfric.studies.fingerprint`: the prepared scene with its
+    heights and spacing, the histories, the output times.
+    """
+
+    def __init__(self, folder: Path, *description):
+        self.folder, self.fingerprint = folder, fingerprint(*description)
+        self._count = 0
+
+    def load(self) -> tuple[Any, list[Any]] | None:
+        """The state and the outputs of an interrupted run of the same problem, or None if there is none.
+
+        Raises `InputError` for the state of another problem, and for files that were cut off or overwritten.
+        """
+        if not (self.folder / STATE).is_file():
+            return None
+        content = _content(self.folder / STATE)
+        try:
+            kept = decode(content, CLASSES)
+        except ValueError:  # of another version
+            kept = {"fingerprint": None}
+        if kept["fingerprint"] != self.fingerprint:
+            raise InputError(
+                f"checkpoint in {self.folder} belongs to another run (scene, height map, times or version differ); "
+                "run the same scene, or give an empty folder"
+            )
+        self._count = kept["outputs"]
+        return kept["state"], [decode(_content(self._output(number)), CLASSES) for number in range(self._count)]
+
+    def append(self, output) -> None:
+        """Add one output: like the state, of dataclasses of this package, dicts, numbers and arrays."""
+        write_checked(self._output(self._count), *encode(output))
+        self._count += 1
+
+    def save(self, state) -> None:
+        """Replace the state."""
+        kept = {"fingerprint": self.fingerprint, "outputs": self._count, "state": state}
+        write_checked(self.folder / STATE, *encode(kept))
+
+    def clear(self) -> None:
+        """Remove the files of a finished run, and its folder if it is empty then."""
+        clear_checked(self.folder, STATE, OUTPUTS)
+
+    def _output(self, number: int) -> Path:
+        return self.folder / OUTPUTS.replace("*", f"{number:07d}")
+
+
+def _folder(given) -> Path:
+    """The folder of a checkpoint. Raises `InputError` where a file of somebody else has its name, or that of one of its
+    own."""
+    folder = validate.folder("checkpoint", given)
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f" = {str(folder)!r} is a file", "checkpoint", "a folder, existing or not")
+    for path in (*folder.glob(STATE), *folder.glob(OUTPUTS)):
+        _content(path)
+    return folder
+
+
+def _content(path: Path) -> bytes:
+    content = read_checked(path) if path.is_file() and not path.is_symlink() else None
+    if content is None:
+        raise InputError(
+            f"checkpoint file {path} is damaged (cut or overwritten), or not of lubfric; give an empty folder to begin "
+            "again"
+        )
+    return content

@@ -1,25 +1,111 @@
-"""Load sharing in time: a film that remembers its past and the rough contact share the load of the moment."""
+"""A run in time at one moment: its scene, in which the values of the histories replace the constants; its warm
+inlet; and how a film that remembers its past and the rough contact share the load."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
 from ..film import cubic
-from ..scene import Scene
+from ..scene import Constant, History, Scene, Transient
+from ..sharing import Prepared, film_lubricant, inlet_at
 from .film_equations import Spring
-from .film_setting import FilmStep, Setting
-from .march import Memory
-from .steady import Strip
+from .film_setting import Setting
+from .march import Memory, Step
 
+FASTER = 1e6  # slide-roll ratio beyond which a moment counts as one of sliding alone
+LOOKS = 257  # times at which a run is looked through
 FIRST_TOUCH = 1e-3  # of the load: tried when the film has just come too thin for separated surfaces
 LAST_TOUCH = 1e-5  # of the load: below it, ask whether the film clears the surface
 MOST_TRIALS = 16
 LOOSEST = 1e-4  # tolerance on the volume
+
+
+def changes(scene: Scene) -> Transient:
+    """What changes in a scene of a run in time."""
+    assert scene.transient is not None
+    return scene.transient
+
+
+def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
+    """``scene``, whose ``transient`` says what changes, just "before" ``time`` [s], or "at" it: just after. It has the
+    load, radius, speed, slide-roll ratio and viscosity of the moment. Its hardness is left out, because the contact has
+    it."""
+
+    def now(name: str, constant: float) -> float:
+        return _value(scene, name, constant, time, side)
+
+    bodies, oil = scene.bodies, scene.lubricant
+    bodies = replace(bodies, load=now("load", bodies.load), radius=now("radius", bodies.radius), hardness=None)
+    oil = replace(oil, viscosity=now("viscosity", oil.viscosity))
+    speed, sliding = now("speed", scene.motion.entrainment_speed), sliding_at(scene, time, side)
+    alone = abs(sliding) > FASTER * abs(speed)
+    ratio = math.copysign(FASTER, sliding) if alone else sliding / speed if sliding else 0.0
+    motion = replace(scene.motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
+    return replace(scene, bodies=bodies, lubricant=oil, motion=motion)
+
+
+def sliding_at(scene: Scene, time: float, side: str = "before") -> float:
+    """u2 - u1 [m/s]."""
+    motion = scene.motion
+    speed = _value(scene, "speed", motion.entrainment_speed, time, side)
+    return _value(scene, "sliding", motion.slide_roll_ratio * speed, time, side)
+
+
+def _value(scene: Scene, name: str, constant: float, time: float, side: str) -> float:
+    history = getattr(changes(scene), name)
+    return constant if history is None else getattr(history, side)(time)
+
+
+@dataclass(frozen=True)
+class WarmInlet(History):
+    """Ambient viscosity [Pa s] in the inlet, which the shear of the moment keeps warmer than the oil around. The inlet
+    is passed in less than b/U, so its heat is taken as that of steady motion."""
+
+    scene: Scene
+
+    def at(self, time: float) -> float:
+        return self._warm(time, "at")
+
+    def before(self, time: float) -> float:
+        return self._warm(time, "before")
+
+    def range(self, duration: float) -> tuple[float, float]:
+        """The range that `LOOKS` times and every stop show."""
+        return self._seen
+
+    @cached_property
+    def _seen(self) -> tuple[float, float]:
+        found = [self._warm(t, side) for t in _looks(self.scene) for side in ("before", "at")]
+        return min(found), max(found)
+
+    def _warm(self, time: float, side: str) -> float:
+        now = scene_at(self.scene, time, side)
+        return film_lubricant(now, now.motion.entrainment_speed).viscosity
+
+
+def inlet_viscosity(scene: Scene) -> History:
+    """The viscosity [Pa s] with which the film is solved: that of the scene, or its history. If the heat of the inlet
+    would at some time thin the film by more than its share of the tolerance, it is that of the warm inlet."""
+    cold = changes(scene).viscosity or Constant(scene.lubricant.viscosity)
+    if scene.numerics.heat == "off" or not scene.lubricant.heats:
+        return cold
+    if scene.numerics.heat == "auto":
+        moments = (scene_at(scene, time) for time in _looks(scene))
+        if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in moments):
+            return cold
+    return WarmInlet(scene.with_(numerics={"heat": "on"}))
+
+
+def _looks(scene: Scene) -> list[float]:
+    plan = changes(scene)
+    stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
+    return sorted({*np.linspace(0, plan.duration, LOOKS).tolist(), *stops})
 
 
 @dataclass(frozen=True)
@@ -35,31 +121,36 @@ class Contact:
 class Sharing:
     """A solver of `lubfric.time.march`: film and rough contact share the load of the moment.
 
-    ``setting``: of the film; ``to_patch`` gives the film [m] at the points of the contact's patch from H, and its
-    ``mean_row`` the mean film over A; ``tolerance``: of the volume.
+    ``prepared``: the strip of rough surface of the run; ``setting``: of the film; ``to_patch`` gives the film [m] at
+    the points of the contact's patch from H, and its ``mean_row`` the mean film over A; ``tolerance``: of the volume.
+    ``correlation_length``: of the heights along y [m]; ``area``, ``plastic``: factors by which contact area and plastic
+    area on the strip's cells are those on the scene's own (NaN: not known).
     """
 
-    strip: Strip
+    prepared: Prepared
     setting: Setting
     to_patch: np.ndarray
     mean_row: np.ndarray
     tolerance: float
+    correlation_length: float
+    area: float = 1.0
+    plastic: float = 1.0
 
     @property
     def scene(self) -> Scene:
         """With all that changes in time."""
-        return self.strip.prepared.scene
+        return self.prepared.scene
 
     @property
     def patch(self) -> RoughContact:
         """The rough contact."""
-        return self.strip.prepared.contact
+        return self.prepared.contact
 
-    def error_of(self, solution: FilmStep, difference: np.ndarray) -> float:
+    def error_of(self, solution: Step, difference: np.ndarray) -> float:
         """Error of the film."""
         return self.setting.error_of(solution, difference)
 
-    def solve(self, time: float, memory: Memory | None, z: np.ndarray, past: Contact) -> FilmStep:
+    def solve(self, time: float, memory: Memory | None, z: np.ndarray, past: Contact) -> Step:
         """Film and contact at ``time`` [s]; the `Contact` is the payload of the solution.
 
         A `Spring` stands for the contact in the film's load balance. Then the contact is solved at the load of the
@@ -68,7 +159,7 @@ class Sharing:
         touch, softness, seen = past.load, past.softness, None
         total = self.setting.contact.load.before(time)
         state, mean = past.state, past.state.mean_gap
-        solution: FilmStep
+        solution: Step
         for _ in range(MOST_TRIALS):
             spring = None
             if touch > 0.0:
@@ -111,14 +202,15 @@ class Sharing:
             return None
 
 
-def make_sharing(strip: Strip, setting: Setting) -> Sharing:
-    """The `Sharing` on ``strip``, with the operators between the film's grid and the patch."""
-    p, patch = setting.problem, strip.prepared.contact
+def make_sharing(prepared: Prepared, setting: Setting, *of_strip: float) -> Sharing:
+    """The `Sharing` on the strip ``prepared``, with the operators between the film's grid and the patch. ``of_strip``:
+    its correlation length and factors."""
+    p, patch = setting.problem, prepared.contact
     x = patch.x / p.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit
-    tolerance = min(strip.prepared.scene.numerics.tolerances.balance, LOOSEST)
-    return Sharing(strip, setting, to_patch, patch.weight @ to_patch / patch.weight.sum(), tolerance)
+    tolerance = min(prepared.scene.numerics.tolerances.balance, LOOSEST)
+    return Sharing(prepared, setting, to_patch, patch.weight @ to_patch / patch.weight.sum(), tolerance, *of_strip)
 
 
 def _softness(old: float, seen, load: float, found: ContactState) -> float:

@@ -9,11 +9,11 @@ from lubfric.deterministic import Problem, lay_out, solve_point
 from lubfric.deterministic.flow import balance, derivatives
 from lubfric.deterministic.inlet import inlet
 from lubfric.deterministic.linear import Patterns
-from lubfric.deterministic.rheology import mean_fluidity, thinning
+from lubfric.deterministic.rheology import mean_fluidity
 from lubfric.deterministic.state import _opened
 from lubfric.film import LineContact
 from lubfric.film import rigid_cylinder as rigid
-from lubfric.oil import Lubricant, shear_stress
+from lubfric.oil import Lubricant
 from lubfric.surface import Surface
 
 RADIUS, SPEED = 2e-3, 0.1
@@ -44,18 +44,6 @@ def test_mean_fluidity_is_the_mean_of_the_exponential_and_its_derivatives(left, 
         up = mean_fluidity(np.array([left + dl]), np.array([right + dr]))[0]
         down = mean_fluidity(np.array([left - dl]), np.array([right - dr]))[0]
         assert by[0] == pytest.approx((up - down)[0] / (2 * step), abs=2e-4)
-
-
-@pytest.mark.parametrize("rate", [1e2, 1e4, 1e6, 1e8])
-def test_thinning_of_an_eyring_film_is_tangent_along_and_secant_across(rate):
-    """Against the library's own shear law: eta over d tau/d rate, and eta over tau/rate."""
-    oil, p = LAWS["Eyring"], 3e8
-    stress = oil.viscosity * np.exp(np.log(shear_stress(Lubricant(0.36, 25e-9), p, 1.0) / 0.36)) * rate
-    law = lambda g: float(shear_stress(oil, p, g))  # noqa: E731
-    tangent = (law(rate * 1.0001) - law(rate * 0.9999)) / (2e-4 * rate)
-    eta = stress / rate
-    assert thinning(oil, np.array([stress]), None, True).factor[0] == pytest.approx(eta / tangent, rel=1e-5)
-    assert thinning(oil, np.array([stress]), None, False).factor[0] == pytest.approx(eta * rate / law(rate), rel=1e-9)
 
 
 @pytest.mark.parametrize("name", LAWS)

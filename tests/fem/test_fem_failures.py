@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 import skfem
 
-from verification.cases import case_of
 from verification.fem import contact, ehl, layer3d, reynolds, sharing
 from verification.fem.compliance import Elastic
 from verification.fem.fluid import Fluid
 from verification.fem.harmonic import Strip, compliance, press
 from verification.fem.layer import graded_mesh, make_layer
 from verification.fem.report import InputError, SolveError
+from verification.parts import case_of
 from verification.studies.reynolds import PARABOLA, parabola_mesh
 
 UNIT, STEEL = Elastic(1.0, 0.3), Elastic.from_e_prime(231e9, 0.3)

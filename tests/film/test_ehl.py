@@ -14,7 +14,7 @@ from lubfric.film import LineContact, grid, hat_kernel, problem, reynolds, start
 from lubfric.film import ehl as solve
 from lubfric.film import formulas as film
 from lubfric.film import rigid_cylinder as rigid
-from lubfric.film.deflection import LinePressure
+from lubfric.film.grid import LinePressure
 from lubfric.oil import Lubricant
 
 ALPHA, Z = 2.2e-8, 0.68
@@ -181,7 +181,7 @@ def test_jacobian_matches_differences(density, options):
         x = np.linspace(-0.8, 1.2, 33) * line.half_width
         options["imposed"] = LinePressure(x, line.peak_pressure * np.sin(np.linspace(0, math.pi, 33)) ** 2)
     p = problem.Problem(line, **options)
-    p = replace(p, seat=start.find_seats(p)[0])
+    p = start.on_seats(p)[0]
     g = grid.make_grid(solve.problem_nodes(p, 24, start.rupture_guess(p)))
     z, _ = start.cold_start(g, p)
     _, terms = reynolds.residual(g, p, z, reynolds.elastic_film(g, p, z)[0])

@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_bvp
 
 import lubfric
-from lubfric.film import Surroundings, formulas, heated_film, heated_stress, hertz, inlet_heat, isothermal_heat
-from lubfric.film.heat import flash_matrix
-from lubfric.film.heated_stress import limiting_stress_at, viscosity_at
+from lubfric.film import Surroundings, formulas, heated_film, heated_stress, hertz, isothermal_heat
+from lubfric.film.heat import flash_matrix, limiting_stress_at, viscosity_at
 from lubfric.oil import Lubricant, shear_stress, viscosity
 
 T0 = 343.15
@@ -161,19 +160,6 @@ def test_traction_rises_peaks_and_falls_at_1_gpa():
     assert np.all(np.diff(f[: top + 1]) > 0) and np.all(np.diff(f[top:]) < 0)
     cold = [np.trapezoid(shear_stress(OIL, p, s * 2.0 / h), x) / load for s in ratios]
     assert np.all(np.diff(cold) > 0)
-
-
-def test_inlet_factors():
-    given_ = {"viscosity": 1.0, "temperature_coefficient": 0.13, "conductivity": 0.13, "speed": 1.0}
-    sliding = inlet_heat(**given_, slide_roll_ratio=2.0, pressure_ratio=0.0025)
-    assert sliding.thermal_number == pytest.approx(1.0)
-    assert sliding.factor == pytest.approx(0.47, abs=0.005)
-    assert sliding.other == pytest.approx(0.27, abs=0.005)
-    slow = inlet_heat(**given_ | {"speed": 1e-4}, slide_roll_ratio=2.0, pressure_ratio=0.004)
-    assert slow.factor == pytest.approx(1, abs=1e-4) and slow.other == pytest.approx(1, abs=1e-4)
-    rolling = [inlet_heat(**given_ | {"speed": u}, slide_roll_ratio=0.0, pressure_ratio=0.0) for u in (0.3, 1, 3)]
-    assert all(abs(r.factor / r.other - 1) < 0.35 for r in rolling)
-    assert rolling[0].factor > rolling[1].factor > rolling[2].factor
 
 
 def test_a_limit_far_below_the_newtonian_stress_is_found():

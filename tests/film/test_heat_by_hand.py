@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 import lubfric
 from lubfric.film import heated_stress, inlet_heat
-from lubfric.film.heated_stress import eyring_stress_at, limiting_stress_at, viscosity_at
+from lubfric.film.heat import eyring_stress_at, limiting_stress_at, viscosity_at
 from lubfric.oil import Lubricant
 
 T0, BETA, ETA, ALPHA, K = 350.0, 0.035, 0.05, 2.0e-8, 0.15

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 from lubfric import ConvergenceError, InputError, solve_ehl
 from lubfric.film import hat_kernel, hertz
-from lubfric.film.deflection import line_deflection
+from lubfric.film.grid import line_deflection
 
 E, R = 231e9, 10e-3
 OIL = {"radius": R, "e_prime": E, "viscosity": 0.1, "pressure_viscosity_coefficient": 2e-8}

@@ -49,11 +49,6 @@ def test_laws_agree_at_low_pressure_and_roelands_stays_below_barus():
     assert np.all(np.diff(ratio) < 0) and ratio[0] == pytest.approx(1.0, abs=1e-6)
 
 
-def test_density_limit():
-    oil = Lubricant(0.04, 2.2e-8, density_law="dowson-higginson")
-    assert float(density_ratio(oil, 1e14)[0]) == pytest.approx(1.34, rel=1e-4)
-
-
 def test_shear_stress_laws():
     rate = np.array([-1e7, -1.0, 0.0, 1.0, 1e7])
     newtonian = shear_stress(OIL, 5e8, rate)

@@ -49,6 +49,7 @@ def run(tmp_path_factory):
 
 def test_run_writes_its_record(run):
     assert {p.name for p in run.iterdir()} == {
+        ".lubfric",
         "result.json",
         "stribeck.csv",
         "stribeck.png",
@@ -226,9 +227,10 @@ def test_nothing_of_an_earlier_run_stays(tmp_path, capsys):
     (tmp_path / "small.toml").write_text(SCENE)
     out = tmp_path / "o"
     out.mkdir()
-    for name in ("contact.png", "notes.txt"):
-        (out / name).write_text("old")
-    assert main(["run", str(tmp_path / "small.toml"), "--out", str(out), "--speeds", "0.3", "--fields", "0.3"]) == 0
+    (out / "notes.txt").write_text("old")
+    command = ["run", str(tmp_path / "small.toml"), "--out", str(out), "--speeds", "0.3", "--fields", "0.3"]
+    assert main([*command, "--report"]) == 0 and (out / "report.html").is_file()
+    assert main(command) == 0 and not (out / "report.html").exists()
     assert (out / "notes.txt").read_text() == "old" and (out / "contact.png").stat().st_size > 10_000
     assert "notes.txt" not in capsys.readouterr().err
     assert main(["run", str(tmp_path / "small.toml"), "--out", str(out / "notes.txt")]) == 2

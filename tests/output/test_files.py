@@ -1,9 +1,16 @@
 """Files for eyes: a report that stands alone, a file for ParaView read by another reader, measured points drawn."""
 
+import json
+import tempfile
+import tomllib
+from dataclasses import replace
 from html.parser import HTMLParser
+from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from scene_text import BODIES_AND_OIL
 
 import lubfric
@@ -115,3 +122,124 @@ def test_the_command_takes_speeds_of_its_own_choice(tmp_path, capsys):
     rows = (out / "stribeck.csv").read_text().splitlines()[1:]
     speeds = [float(row.split(",")[0]) for row in rows]
     assert speeds == sorted(speeds) and 6 <= len(speeds) <= 12 and 0.01 in speeds
+
+
+ODD = ["$$", r"$\unknowncmd$", r"\$ a $x_", "100 % $5", "a\nb 😀 {x} <b>&"]
+COLUMNS = "--speed", "U", "--coefficient", "mu"
+
+
+@pytest.mark.parametrize("name", ODD)
+def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name):
+    """Title, legend of a measured curve and file names: as they are, whatever matplotlib takes for a formula."""
+    from matplotlib.figure import Figure
+
+    titles, real = [], Figure.savefig
+
+    def savefig(self, *arguments, **options):
+        texts = [axes.title for axes in self.axes]
+        legends = [text for axes in self.axes if axes.get_legend() for text in axes.get_legend().get_texts()]
+        titles.extend(text._preprocess_math(text.get_text()) for text in (*texts, *legends))
+        return real(self, *arguments, **options)
+
+    monkeypatch.setattr(Figure, "savefig", savefig)
+    scene = lubfric.load_scene("paper").with_(
+        numerics={"sampling": "patch", "accept": True}, motion={"speeds": [0.3, 1.0], "entrainment_speed": 1.0}
+    )
+    (tmp_path / "s.toml").write_text(replace(scene, name=name).to_toml(), encoding="utf-8")
+    assert lubfric.load_scene(tmp_path / "s.toml").name == name
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")]) == 0
+    assert (name, False) in titles
+    measured = tmp_path / (name.replace("\n", "").replace("/", "") + ".csv")
+    measured.write_text("U [m/s],mu\n0.3,0.05\n1,0.08\n")
+    assert main(["plot", str(tmp_path / "o"), "--measured", str(measured), *COLUMNS]) == 0
+    assert (measured.name, False) in titles
+
+
+def test_a_history_and_a_traction_curve_have_any_name(tmp_path):
+    scene = replace(lubfric.load_scene("paper").with_(numerics={"sampling": "patch", "accept": True}), name="$$")
+    scene = scene.with_(motion={"entrainment_speed": 1.0})
+    (tmp_path / "s.toml").write_text(scene.to_toml())
+    assert main(["run", str(tmp_path / "s.toml"), "--ratios", "0.5,1", "--out", str(tmp_path / "o")]) == 0
+    (tmp_path / "s.toml").write_text(scene.to_toml() + "[transient]\nduration = 1e-4\noutputs = 2\n")
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o"), "--animation"]) == 0
+    assert main(["plot", str(tmp_path / "o")]) == 0
+
+
+def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys):
+    """Whatever the failure, table, fields and record of the new run are there, and it is said."""
+    (tmp_path / "s.toml").write_text(SCENE)
+    out = tmp_path / "o"
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 0
+    (tmp_path / "s.toml").write_text(SCENE.replace("0.36", "0.3"))
+
+    def broken(*_):
+        raise ZeroDivisionError("no picture")
+
+    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", broken)
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(out), "--report"]) == 2
+    said = capsys.readouterr().err.splitlines()[-1]
+    assert said.startswith("lubfric: stribeck.png was not drawn (ZeroDivisionError") and "all else is in" in said
+    record = json.loads((out / "result.json").read_text())
+    assert record["scene"]["lubricant"]["viscosity"] == 0.3 and record["points"][0]["coefficient"] > 0
+    assert not (out / "stribeck.png").exists() and (out / "report.html").is_file()  # none of another run
+    assert not (out / "unfinished").exists()
+
+
+def test_a_page_that_cannot_be_made_leaves_the_earlier_run(tmp_path, monkeypatch):
+    (tmp_path / "s.toml").write_text(SCENE)
+    out = tmp_path / "o"
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 0
+    before = {path.name: path.read_bytes() for path in out.iterdir()}
+
+    def broken(*_):
+        raise ZeroDivisionError("no page")
+
+    monkeypatch.setattr("lubfric.output.run_curve.report_page", broken)
+    with pytest.raises(ZeroDivisionError):
+        main(["run", str(tmp_path / "s.toml"), "--out", str(out), "--report"])
+    assert {path.name: path.read_bytes() for path in out.iterdir() if path.is_file()} == before
+
+
+@pytest.mark.parametrize("options, table", [([], "stribeck"), (["--ratios", "0.5,2"], "traction")])
+def test_a_run_without_an_answer_says_that_there_is_nothing_to_draw(tmp_path, capsys, options, table):
+    heavy = SCENE.replace("load = 5.5", "load = 2000.0").replace("spacing = [1.1e-6, 0.9e-6]", "spacing = [4e-6, 4e-6]")
+    heavy = heavy.replace("4e-6\n[contact]", "16e-6\n[contact]")
+    (tmp_path / "s.toml").write_text(heavy)
+    out = tmp_path / "o"
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(out), *options]) == 1
+    points = json.loads((out / "result.json").read_text())["points"]
+    assert all("error" in point for point in points) and not (out / f"{table}.png").exists()
+    capsys.readouterr()
+    assert main(["plot", str(out)]) == 2
+    (said,) = capsys.readouterr().err.splitlines()
+    assert said.startswith("lubfric: nothing to draw: none of the 2 points") and points[0]["error"] in said
+
+
+def test_a_contact_at_rest_alone_has_no_curve_to_draw(tmp_path, capsys):
+    (tmp_path / "s.toml").write_text(SCENE)
+    out = tmp_path / "o"
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(out), "--speeds", "0", "--fields", "0"]) == 0
+    assert not (out / "stribeck.png").exists()
+    assert main(["plot", str(out)]) == 2 and "nothing to draw" in capsys.readouterr().err
+
+
+@pytest.mark.filterwarnings("ignore:Glyph")
+@given(st.text())
+@settings(max_examples=100)
+def test_a_scene_reads_back_whatever_its_name(name):
+    scene = lubfric.load_scene("flat")
+    if any("\ud800" <= mark <= "\udfff" for mark in name):
+        with pytest.raises(lubfric.InputError, match="name"):
+            replace(scene, name=name)
+        return
+    text = replace(scene, name=name).to_toml()
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "s.toml"
+        path.write_bytes(text.encode())
+        assert lubfric.load_scene(path) == replace(scene, name=name)
+
+
+def test_every_character_of_a_name_reads_back():
+    """All of Unicode that TOML allows in a string, in one name."""
+    name = "".join(map(chr, [*range(0xD800), *range(0xE000, 0x110000)]))
+    assert tomllib.loads(replace(lubfric.load_scene("flat"), name=name).to_toml())["name"] == name

@@ -1,10 +1,12 @@
 """`lubfric info` names every input with its unit and tells what will be refused; `lubfric init` writes what runs."""
 
 import pytest
+from instrument_files import write_x3p
 
 import lubfric
 from lubfric.output import main
 from lubfric.output.describe import describe_scene
+from lubfric.scene import Harmonic, Ramp, Table
 
 HEAVY = lubfric.load_scene("paper").with_(
     bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "material": "steel"},
@@ -84,19 +86,14 @@ def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):
     assert main(["init", str(tmp_path / "nowhere" / "x.toml")]) == 2
 
 
-def test_the_roller_of_the_examples_is_an_answer():
-    """One scene of 25 lines, one command, on a measured map that is not shipped."""
-    import os
-    from pathlib import Path
-
-    scene = Path(__file__).parents[2] / "docs" / "examples" / "roller.toml"
-    assert len(scene.read_text().splitlines()) <= 25
-    folder = Path(os.environ.get("LUBFRIC_SURFACES", Path(__file__).resolve().parents[3] / "shared" / "surfaces"))
-    if not (folder / "ground-77nm.x3p").is_file():
-        pytest.skip("the measured map ground-77nm.x3p is not here (LUBFRIC_SURFACES)")
-    loaded = lubfric.load_scene(scene, surface_file=folder / "ground-77nm.x3p")
-    curve = lubfric.stribeck(loaded, [1.0, 1e-2, 1e-4])
-    assert 0.03 < curve.coefficient[0] < 0.04 and not any("not valid" in text for text in curve.validity)
+def test_the_roller_of_the_examples_is_an_answer(root, tmp_path):
+    """One scene of 25 lines, one command, on a ground surface such as the measured one that is not shipped."""
+    scene, lay = root / "docs" / "examples" / "roller.toml", {"correlation_length": (2.2e-6, 20e-6), "acf": "gaussian"}
+    assert len(scene.read_text(encoding="utf-8").splitlines()) <= 25
+    ground = lubfric.generate_surface((166, 102), (0.5e-6, 2e-6), sq=77e-9, **lay, seed=3)
+    path = write_x3p(tmp_path / "ground.x3p", ground.heights, steps=ground.spacing)
+    curve = lubfric.stribeck(lubfric.load_scene(scene, surface_file=path), [1.0, 1e-2, 1e-4])
+    assert 0.02 < curve.coefficient[0] < 0.05 and not any("not valid" in text for text in curve.validity)
     assert curve.coefficient[2] == pytest.approx(0.12, rel=2e-3)  # f -> f_b
     assert curve.coefficient[0] < curve.coefficient[1] < curve.coefficient[2]
 
@@ -133,3 +130,39 @@ def test_an_option_that_would_do_nothing_is_refused(tmp_path, capsys, scene, opt
 
 def test_a_command_says_what_it_lacks(capsys):
     assert main(["oils", "show"]) == 2 and "needs a name" in capsys.readouterr().err
+
+
+SWINGING = lubfric.load_scene("paper").with_(
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
+)
+
+
+@pytest.mark.parametrize(
+    "plan, words",
+    [
+        (
+            {"speed": Harmonic(amplitude=0.05, frequency=100.0), "duration": 0.02},
+            ("harmonic, -0.05 to 0.05 m/s, 2 periods of 0.01 s, amplitude 0.05 m/s: the motion reverses", "0.05 m/s;"),
+        ),
+        (
+            {"speed": Table(times=(0, 5e-3, 1e-2), values=(0.0, 0.2, 0.0), repeat=True), "duration": 0.01},
+            ("speed: table, 0 to 0.2 m/s, 1 periods", "top speed 0.2 m/s"),
+        ),
+        ({"load": Ramp(start=1.0, end=5.5, until=5e-3), "duration": 0.01, "speed": 0.1}, ("load: ramp, 1 to 5.5 N",)),
+    ],
+)
+def test_info_tells_the_history_of_a_run_and_what_it_costs(plan, words):
+    """Also of one that begins at rest, as a reciprocating scene does. Steps within a factor of 2.5 of those taken."""
+    scene = SWINGING.with_(transient=lubfric.Transient(outputs=10, **plan))
+    told = describe_scene(scene)
+    for each in (*words, f"{plan['duration']:g} s in about", "10 outputs", "orders of magnitude", "a run in time"):
+        assert each in told, (each, told)
+    assert "no entrainment" not in told and "surface speeds" not in told
+    steps = float(told.partition(" in about ")[2].partition(" steps")[0])
+    assert 1 / 2.5 < steps / lubfric.transient(scene).report.iterations < 2.5
+
+
+def test_info_of_a_squeeze_says_that_nothing_is_entrained():
+    scene = SWINGING.with_(transient=lubfric.Transient(1e-3, speed=0.0, initial_film=2e-6))
+    told = describe_scene(scene)
+    assert "no entrainment" in told and "all contact" not in told and "film of 2e-06 m" in told

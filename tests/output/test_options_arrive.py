@@ -9,7 +9,7 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric.output import command_line, main, run_curve, run_fit, run_history, run_study
+from lubfric.output import command_line, main, run_curve, run_history, run_study
 
 STUDY = "scene = 's.toml'\nspeeds = [0.1]\n[vary]\n'bodies.load' = [5.0, 6.0]\n"
 
@@ -36,7 +36,7 @@ def work(tmp_path, monkeypatch):
         calls.append((arguments, options))
         raise Reached
 
-    for module, name in ((run_curve, "stribeck"), (run_curve, "traction"), (run_fit, "fit"), (run_study, "study")):
+    for module, name in ((run_curve, "stribeck"), (run_curve, "traction"), (run_study, "fit"), (run_study, "study")):
         monkeypatch.setattr(module, name, solver)
     monkeypatch.setattr(run_history, "transient", solver)
     monkeypatch.chdir(tmp_path)
@@ -112,7 +112,9 @@ def test_a_fit_gets_columns_bounds_and_axis(work):
     assert bounds == {"bodies.load": (1.0, 9.0), "lubricant.viscosity": (0.1, 1.0)}
     (_, measured, _), _ = given(work, *named, "--ratio", "srr")
     assert measured.over == "slide_roll_ratio" and measured.x == pytest.approx([0.01, 0.02, 0.04])
-    assert measured.deviation is None
+    assert measured.deviation is None and measured.rolling
+    (_, measured, _), _ = given(work, *named, "--ratio", "srr", "--without-rolling")
+    assert not measured.rolling
 
 
 @pytest.mark.parametrize(

@@ -6,15 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from small_study import SCENE
 
 import lubfric
 from lubfric._base import new_figure
 from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
 from lubfric.time import friction_over_time
 
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
-)
 MODEL = lubfric.prepare(SCENE)
 HISTORY = lubfric.Transient(0.01, outputs=20, speed=Harmonic(mean=0.05, amplitude=0.04, frequency=100.0))
 

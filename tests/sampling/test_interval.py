@@ -174,3 +174,14 @@ def test_a_forecast_is_right_to_a_factor_of_four():
         assert 0.25 < told.length / found.length < 4
         assert speed > 0.02 or 0.3 < told.error / found.sampling < 3
     assert " 1.4 " in describe_scene(PAPER)  # mm
+
+
+def test_ridges_that_yield_are_solved_though_no_spots_can_be_counted(tmp_path):
+    """A map that is constant along y is shorter than its correlation length: no block holds one spot."""
+    x = (np.arange(200) - 100) * 0.45e-6
+    np.save(tmp_path / "ridges.npy", np.repeat(1e-7 * np.cos(2 * np.pi * x / 6e-6)[:, None], 200, 1))
+    surface = {"file": tmp_path / "ridges.npy", "spacing": 0.45e-6}
+    scene = PAPER.with_(surface=surface, bodies={"hardness": 6e8}, numerics={"sampling": "patch"})
+    point = lubfric.friction(scene, 0.003)
+    assert point.plastic_area_fraction > 0 and point.uncertainty.participation == 0
+    assert 0 <= point.errors.plastic_area_fraction < 1

@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 from lubfric.sampling.scatter import BlockError, add_errors, block_error, gap_influence, participation, weighted_errors
-from lubfric.sampling.uncertainty import interval, student
+from lubfric.sampling.uncertainty import student
 
 
 def correlated(rng, count, length):
@@ -86,14 +86,6 @@ def test_independent_errors_add_and_freedom_follows_welch_and_satterthwaite():
         math.sqrt(2.0)
     )
     assert add_errors().error == 0.0
-
-
-@pytest.mark.parametrize("freedom", [1, 7, 31])
-def test_interval_is_students(freedom):
-    low, high = interval(2.0, 0.0, 0.01, freedom)
-    assert (high - low) / 2 == pytest.approx(stats.t.ppf(0.975, freedom) * 0.02, rel=1e-12)
-    assert interval(2.0, 0.03, 0.0, freedom) == pytest.approx((2 - 0.06, 2 + 0.06))
-    assert all(math.isnan(end) for end in interval(2.0, 0.01, math.nan, freedom))
 
 
 def test_there_are_no_more_blocks_than_places():

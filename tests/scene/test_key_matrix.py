@@ -97,7 +97,7 @@ WARM_UNDONE = {  # key: what it is instead
     ("bodies", "conductivity"): (46.0, 46.0),
     ("bodies", "volumetric_heat"): (3.6e6, 3.6e6),
     ("lubricant", "conductivity"): 0.12,
-    ("lubricant", "temperature"): 345.0,
+    ("lubricant", "temperature"): 360.0,
     ("lubricant", "temperature_coefficient"): 0.02,
     ("lubricant", "oil"): "mineral-220",
     ("numerics", "heat"): "off",

@@ -1,10 +1,8 @@
 """Measured maps in scenes: two bodies, short maps, spikes, keys that do not apply; what a scene keeps is its own."""
 
-import os
-from pathlib import Path
-
 import numpy as np
 import pytest
+from instrument_files import write_sdf, write_sur
 from scene_text import BODIES_AND_OIL
 
 import lubfric
@@ -12,8 +10,6 @@ from lubfric.contact import contact_map, whole_map
 from lubfric.output import main
 from lubfric.scene import ContactDomain, Roughness
 
-BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
-MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))
 SCENE = (
     BODIES_AND_OIL
     + """[motion]
@@ -40,14 +36,6 @@ def maps(tmp_path):
         size = shape if name.startswith("long") else (12, 80)
         np.save(tmp_path / name, rough.cropped(size).heights)
     return tmp_path
-
-
-def measured(name):
-    path = MEASURED / name
-    if not path.is_file():
-        pytest.skip(f"{name} not found: set LUBFRIC_SURFACES to the folder of measured surfaces")
-    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
-    return path
 
 
 def test_two_generated_bodies_are_independent_also_with_one_seed(tmp_path):
@@ -196,10 +184,14 @@ def test_the_same_by_call():
     assert paper.with_(counterface={"sq": 1e-8, "correlation_length": 1e-5}).with_(counterface=None) == paper
 
 
-@pytest.mark.parametrize("name", ["areal-optical.al3d", "areal-missing.sur"])
-def test_instrument_files_from_scene_command_and_reader(tmp_path, capsys, name):
+@pytest.mark.parametrize("name", ["smooth.sdf", "spikes.sur"])
+def test_instrument_files_from_scene_command_and_reader(tmp_path, capsys, instruments, name):
     """The same Sq in each; the map with outliers asks for a word."""
-    path = measured(name)
+    rough = lubfric.generate_surface((80, 60), 2e-6, sq=1e-7, correlation_length=9e-6, acf="gaussian", seed=1)
+    z, path = rough.heights.copy(), tmp_path / name
+    if name == "spikes.sur":
+        z[30, 40] = 5e-6
+    (write_sur if name == "spikes.sur" else write_sdf)(path, z, rough.spacing)
     sq = lubfric.read_surface(path).sq
     wide = SCENE.replace("radius = 2e-3", "radius = 2.0").replace("load = 5.5", "load = 300.0")
     text = f"[surface]\nfile = '{path}'\n[contact]\ngeometry = 'flat'\n"

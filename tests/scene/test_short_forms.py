@@ -218,7 +218,7 @@ def test_the_coefficient_of_the_oil_follows_its_temperature():
 def test_a_given_temperature_coefficient_reaches_the_friction_of_a_hot_film():
     base = PAPER.with_(**HOT)
     beside = base.with_(lubricant=GIVEN_OIL | {"temperature_coefficient": 0.01})
-    keys = ("viscosity", "pressure_viscosity_coefficient", "temperature", "conductivity")
+    keys = ("viscosity", "pressure_viscosity_coefficient", "temperature", "conductivity", "density_law")
     numbers = {key: getattr(lubricant(), key) for key in keys} | {"temperature_coefficient": 0.01, "eyring_stress": 5e6}
     f, of_numbers = (lubfric.friction(s, 5.0).coefficient for s in (beside, base.with_(lubricant=numbers)))
     assert f == pytest.approx(of_numbers, rel=1e-12)

@@ -81,9 +81,9 @@ def same(one: Path, other: Path):
 
 
 def complete(out: Path):
-    """Nothing in the folder but what its result names."""
+    """Nothing in the folder but what its result names, and the record of whose files they are."""
     record = json.loads((out / "result.json").read_text())
-    assert record["files"] == sorted(path.name for path in out.iterdir()), list(out.iterdir())
+    assert sorted([".lubfric", *record["files"]]) == sorted(path.name for path in out.iterdir()), list(out.iterdir())
     return record
 
 
@@ -237,7 +237,7 @@ def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tm
 
 
 def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, capsys):
-    from lubfric.time import checkpoint
+    from lubfric.time import run as checkpoint
 
     real, count = checkpoint.Checkpoint.save, [0]
 

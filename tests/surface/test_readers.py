@@ -1,92 +1,26 @@
 """Height maps from files: every format and number type, and files made to mislead."""
 
-import hashlib
-import math
-import os
 import sys
 import zipfile
-from pathlib import Path
 
 import numpy as np
 import pytest
+from instrument_files import write_sdf, write_sur, write_x3p
 
+import lubfric
 from lubfric import InputError, Surface, read_surface
-from lubfric.surface import instrument
-from lubfric.surface.read import SUFFIXES, read_instrument_file
+from lubfric.surface.read import INSTRUMENTS, SUFFIXES, read_instrument_file
 from lubfric.surface.statistics import correlation_length, rms_slope
 
-BESIDE = Path(__file__).resolve().parents[3] / "shared" / "surfaces"
-MEASURED = Path(os.environ.get("LUBFRIC_SURFACES", BESIDE))
-STEP = (1e-6, 2.5e-6)
+STEP, GROUND = (1e-6, 2.5e-6), (0.5e-6, 2e-6)
 RAW = {"level": False, "fill": False}
-
-
-def measured(name):
-    path = MEASURED / name
-    if not path.is_file():
-        pytest.skip(f"{name} not found: set LUBFRIC_SURFACES to the folder of measured surfaces")
-    return path
 
 
 def heights(shape=(7, 5)):
     return 1e-7 * np.random.default_rng(0).standard_normal(shape)
 
 
-# --- X3P: a writer that can also lie ----------------------------------------------------------
-
-
-def write_x3p(
-    path,
-    z,
-    kind="D",
-    *,
-    mask=None,
-    increment=None,
-    offset=0.0,
-    size=None,
-    data=None,
-    xml=None,
-    data_name="bindata/data.bin",
-    stored_name=None,
-    point_md5=None,
-    main_md5=None,
-    skip=(),
-    extra=(),
-):
-    """An X3P file of z[ix, iy]; the keywords override single parts of a correct file."""
-    types = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
-    raw = z if increment is None else np.rint((z - offset) / increment)
-    data = raw.T.astype(types[kind]).tobytes() if data is None else data
-    nx, ny = z.shape if size is None else size
-    valid = None if mask is None else np.packbits(mask.T.ravel(), bitorder="little").tobytes()
-    z_axis = "" if increment is None else f"<Increment>{increment!r}</Increment>"
-    links = f"<PointDataLink>{data_name}</PointDataLink>"
-    point_md5 = point_md5 or hashlib.md5(data).hexdigest().upper()
-    links += f"<MD5ChecksumPointData>{point_md5}</MD5ChecksumPointData>"
-    if valid is not None:
-        links += "<ValidPointsLink>bindata/valid.bin</ValidPointsLink>"
-        links += f"<MD5ChecksumValidPoints>{hashlib.md5(valid).hexdigest()}</MD5ChecksumValidPoints>"
-    text = f"""<?xml version="1.0" encoding="UTF-8"?>
-<p:ISO5436_2 xmlns:p="http://www.opengps.eu/2008/ISO5436_2">
- <Record1><Revision>ISO5436 - 2000</Revision><FeatureType>SUR</FeatureType><Axes>
-  <CX><AxisType>I</AxisType><DataType>L</DataType><Increment>{STEP[0]!r}</Increment><Offset>1e-3</Offset></CX>
-  <CY><AxisType>I</AxisType><DataType>L</DataType><Increment>{STEP[1]!r}</Increment><Offset>0</Offset></CY>
-  <CZ><AxisType>A</AxisType><DataType>{kind}</DataType>{z_axis}<Offset>{offset!r}</Offset></CZ>
- </Axes></Record1>
- <Record3><MatrixDimension><SizeX>{nx}</SizeX><SizeY>{ny}</SizeY><SizeZ>1</SizeZ></MatrixDimension>
-  <DataLink>{links}</DataLink></Record3>
- <Record4><ChecksumFile>md5checksum.hex</ChecksumFile></Record4></p:ISO5436_2>"""
-    text = text.encode() if xml is None else xml(text)
-    members = [
-        ("main.xml", text),
-        (stored_name or data_name, data),
-        ("md5checksum.hex", f"{main_md5 or hashlib.md5(text).hexdigest()} *main.xml".encode()),
-    ]
-    members += [("bindata/valid.bin", valid)] if valid is not None else []
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in [m for m in members if m[0] not in skip] + list(extra):
-            archive.writestr(name, content)
-    return path
+# --- X3P ---------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
@@ -254,7 +188,7 @@ def test_text_nan_is_unmeasured(tmp_path):
     np.savetxt(tmp_path / "a.txt", z)
     surface = read_surface(tmp_path / "a.txt", spacing=1e-6)
     assert not surface.mask[3, 3] and np.isfinite(surface.heights).all()
-    assert surface.notes[0].startswith("levelled") and surface.notes[1].startswith("filled")
+    assert surface.notes[0].startswith("levelled") and surface.notes[-1].startswith("filled")
 
 
 def points(z):
@@ -402,7 +336,7 @@ def test_commas_that_can_be_either_need_a_word(tmp_path, text):
         ("only words\n", {}, "no numbers"),
         ("z (nm)\n3 4\n1 2\n", {}, "line 1 .*unit = 'nm'"),
         ("x/mm z/um\n3 4\n1 2\n", {}, "mm and um"),
-        ("1\t\t2\n3\t4\t5\n", {}, "line 1 has ''"),
+        ("1\t\t2\n3\t4\n", {}, "line 2 has 2 values, the first one 3"),
     ],
 )
 def test_text_errors_name_the_line(tmp_path, text, options, words):
@@ -469,7 +403,7 @@ HUGE_NPY = (
         ("a.npy", b"not an array at all", {"spacing": 1e-6}),
         ("a.txt", b"", {"spacing": 1e-6}),
         ("a.txt", b"\xff\xfe\x00\x81", {"spacing": 1e-6}),
-        ("a.csv", b"1,,3\n4,5,6\n", {"spacing": 1e-6}),
+        ("a.csv", b"1,,3\n4,5\n", {"spacing": 1e-6}),
         ("a.txt", b"1 2\n3 inf\n", {"spacing": 1e-6}),
         ("a.txt", b"nan nan\nnan nan\n", {"spacing": 1e-6}),
         ("a.txt", b"1 2\n3 4\n", {}),
@@ -520,59 +454,69 @@ def test_folders_are_refused(tmp_path):
         read_surface(tmp_path)
 
 
-# --- measured files, where they are -----------------------------------------------------------
+# --- files of instruments ---------------------------------------------------------------------
 
 
-def test_ground_surface():
-    """Sq and size as its supplier states; its lay runs along y (the slow axis of the file)."""
-    path = measured("ground-77nm.x3p")
-    surface = read_surface(path)
-    assert surface.shape == (650, 650) and surface.mask is None
-    assert surface.size == pytest.approx((82.98e-6, 204.48e-6), rel=1e-4)
-    assert surface.sq == pytest.approx(77.19e-9, abs=5e-12)
-    assert read_surface(path, **RAW).sq == pytest.approx(77.28e-9, abs=5e-12)
+def ground(path):
+    """A ground surface whose lay runs along y, the slow axis of the file."""
+    lay = {"correlation_length": (2.2e-6, 20e-6), "acf": "gaussian", "seed": 3}
+    return write_x3p(path, lubfric.generate_surface((166, 102), (0.5e-6, 2e-6), sq=77e-9, **lay).heights, steps=GROUND)
+
+
+def test_ground_surface(tmp_path):
+    """Sq and size as written; the correlation lengths tell the lay, and which axis of the file is which."""
+    surface = read_surface(ground(tmp_path / "ground.x3p"))
+    assert surface.shape == (166, 102) and surface.mask is None
+    assert surface.size == pytest.approx((83e-6, 204e-6)) and surface.sq == pytest.approx(77e-9, rel=0.02)
     across, along = correlation_length(surface, 0), correlation_length(surface, 1)
-    assert along > 15 * across and across == pytest.approx(2.2e-6, rel=0.05)
+    assert along > 6 * across and across == pytest.approx(2.2e-6, rel=0.1)
     assert rms_slope(surface)[0] > 1.8 * rms_slope(surface)[1]
     assert correlation_length(surface.transposed(), 1) == pytest.approx(across, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    "name, raw, levelled, missing, shape, size, largest",
-    [
-        ("ground-77nm.x3p", 77.28e-9, 77.19e-9, 0, (650, 650), (82.98e-6, 204.48e-6), 4.09),
-        ("areal-optical.al3d", 7.69e-6, 0.2898e-6, 0, (200, 296), (87.6e-6, 129.7e-6), 3.71),
-        ("areal-missing.sur", 17.52e-9, 17.10e-9, 117, (563, 484), (1.961e-3, 1.686e-3), 72.4),
-    ],
-)
-def test_instrument_files(name, raw, levelled, missing, shape, size, largest):
-    """Sq, extent and missing points as their supplier states, and the largest height, which tells the outliers."""
-    path = measured(name)
-    if not name.endswith(".x3p"):
-        pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
-    surface = read_surface(path)
-    assert surface.shape == shape and surface.size == pytest.approx(size, rel=1e-3)
-    assert surface.sq == pytest.approx(levelled, rel=1e-3) and surface.largest_ratio == pytest.approx(largest, rel=5e-3)
-    assert surface.missing_fraction == pytest.approx(missing / math.prod(shape), abs=1e-12)
-    assert read_surface(path, **RAW).sq == pytest.approx(raw, rel=1e-3)
-    for option in ({"spacing": 1e-6}, {"unit": "um"}, {"decimal": ","}, {"missing_value": 0.0}):
-        with pytest.raises(InputError, match=next(iter(option))):
-            read_surface(path, **option)
+def tilted(path):
+    """Roughness on a steep tilt, and the roughness by a fit of its own."""
+    z = heights((40, 30))
+    write_sdf(path, z + 1e-2 * STEP[0] * np.arange(40)[:, None], STEP)
+    terms = np.stack([np.ones(z.size), *np.indices(z.shape).reshape(2, -1)], axis=1)
+    return z - (terms @ np.linalg.lstsq(terms, z.ravel(), rcond=None)[0]).reshape(z.shape)
 
 
-def test_outliers_of_a_measured_map():
-    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
-    surface = read_surface(measured("areal-missing.sur"), fill=False).without_outliers()
-    masked = np.count_nonzero(~surface.mask) - 117
-    assert 95 <= masked <= 105 and f"{masked} outliers" in surface.notes[-1]
-    assert surface.level().fill().largest_ratio < 7  # 72 with them
+def with_holes(path):
+    """Points unmeasured, and spikes beside them."""
+    rough = lubfric.generate_surface((60, 50), STEP, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=4)
+    z = rough.heights.copy()
+    z[[20, 40], 31], z[10:13, 8:10] = 4e-6, np.nan
+    return write_sur(path, z, STEP)
+
+
+def test_instrument_files(tmp_path, instruments):
+    """Heights, extent and missing points as written, in another unit each; a key that applies to none is refused."""
+    flat = tilted(tmp_path / "tilted.sdf")
+    surface, raw = read_surface(tmp_path / "tilted.sdf"), read_surface(tmp_path / "tilted.sdf", **RAW)
+    assert surface.shape == (40, 30) and surface.size == pytest.approx((40e-6, 75e-6))
+    assert np.allclose(surface.heights, flat, atol=1e-15) and raw.sq > 1.05 * surface.sq
+    holes = read_surface(with_holes(tmp_path / "holes.sur"), **RAW)
+    assert holes.spacing == pytest.approx(STEP) and holes.missing_fraction == pytest.approx(6 / 3000)
+    assert np.argwhere(~holes.mask).tolist() == [[x, y] for x in (10, 11, 12) for y in (8, 9)]
+    assert holes.heights[20, 31] == pytest.approx(4e-6, rel=1e-6) and holes.largest_ratio > 20
+    for name in ("tilted.sdf", "holes.sur"):
+        for option in ({"spacing": 1e-6}, {"unit": "um"}, {"decimal": ","}, {"missing_value": 0.0}):
+            with pytest.raises(InputError, match=next(iter(option))):
+                read_surface(tmp_path / name, **option)
+
+
+def test_outliers_of_a_measured_map(tmp_path, instruments):
+    surface = read_surface(with_holes(tmp_path / "holes.sur"), fill=False).without_outliers()
+    assert np.count_nonzero(~surface.mask) == 6 + 2 and "2 outliers" in surface.notes[-1]
+    assert surface.level().fill().largest_ratio < 6
     assert "no outliers" in surface.without_outliers().notes[-1]
 
 
-def test_options_of_instrument_files():
-    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
-    path = measured("areal-optical.al3d")
-    assert read_instrument_file(path, lateral_unit="mm").size[0] == pytest.approx(87.6e-9, rel=1e-3)
+def test_options_of_instrument_files(tmp_path, instruments):
+    path = write_sur(tmp_path / "map.sur", heights(), STEP, unit="um")
+    assert read_instrument_file(path, lateral_unit="mm").size[0] == pytest.approx(1e3 * read_surface(path).size[0])
+    assert read_surface(path, **RAW).heights == pytest.approx(heights(), rel=1e-6, abs=1e-15)
     with pytest.raises(InputError, match="lateral_unit"):
         read_instrument_file(path, lateral_unit="inch")
     with pytest.raises(InputError, match="channel 9"):
@@ -584,13 +528,12 @@ def test_every_format_of_the_optional_package_is_known():
     from SurfaceTopography.IO import readers
 
     found = {f".{word}" for reader in readers for word in reader.file_extensions() or ()}
-    assert found <= set(instrument.SUFFIXES) | set(SUFFIXES)
+    assert found <= set(INSTRUMENTS) | set(SUFFIXES)
 
 
 @pytest.mark.parametrize("name", ["map.sur", "map.al3d", "map.opd", "map.dat", "map.zip", "map.mnt", "map.xlsx"])
 @pytest.mark.parametrize("content", [b"", b"\0" * 300, bytes(range(256)) * 40])
-def test_instrument_files_that_are_none(tmp_path, name, content):
-    pytest.importorskip("SurfaceTopography", reason="optional package for instrument formats")
+def test_instrument_files_that_are_none(tmp_path, instruments, name, content):
     (tmp_path / name).write_bytes(content)
     with pytest.raises(InputError, match="path"):
         read_surface(tmp_path / name)

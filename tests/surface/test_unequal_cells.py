@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from lubfric import Surface, generate_surface, read_surface
-from lubfric.contact import half_space
 from lubfric.surface.statistics import autocorrelation, correlation_length, rms_slope
 
 DX, DY = 1e-6, 2.5e-6
@@ -84,13 +83,6 @@ def test_a_generated_map_is_as_correlated_along_each_axis_as_asked(axis):
         assert found == pytest.approx(lengths[along], rel=0.12)
 
 
-def test_the_second_body_is_turned_over_about_the_motion():
-    first = Surface(wave(0, 2)[0], (DX, DY), periodic_axes=CLOSED)
-    z = wave(0, 3)[0] + 1e-7 * np.sin(2 * np.pi * Y / (SHAPE[1] * DY)) * np.sin(2 * np.pi * X / (SHAPE[0] * DX))
-    both = first.combined(Surface(z, (DX, DY), periodic_axes=CLOSED))
-    np.testing.assert_allclose(both.heights, wave(0, 2)[0] + z[:, ::-1], atol=1e-20)
-
-
 def test_other_cells_keep_the_wave_where_it_is():
     for axis in (0, 1):
         z, length = wave(axis, 2)
@@ -148,24 +140,3 @@ def test_a_list_of_points_lies_along_its_own_axes(tmp_path):
     np.testing.assert_allclose(
         surface.heights, [[1e-9 * (i - 2 * j * j) for j in range(5)] for i in range(8)], atol=1e-18
     )
-
-
-WAVES = [
-    (("periodic", "periodic"), 0),
-    (("periodic", "periodic"), 1),
-    (("periodic", "free"), 0),
-    (("free", "periodic"), 1),
-]
-
-
-@pytest.mark.parametrize("boundary, axis", WAVES)
-def test_a_wave_of_pressure_bends_a_half_space_by_its_own_length(boundary, axis):
-    """4 p/(E' k) (Johnson 1985, ch. 13) along a periodic axis; even across it, in the middle of a free one."""
-    operator, e_prime = half_space(SHAPE, (DX, DY), 2e11, boundary), 2e11
-    z, length = wave(axis, 12)
-    middle = np.s_[SHAPE[0] // 2, SHAPE[1] // 2 - 4 : SHAPE[1] // 2 + 4]
-    if axis == 0:
-        middle = np.s_[SHAPE[0] // 2 - 5 : SHAPE[0] // 2 + 5, SHAPE[1] // 2]
-    found = operator.apply(1e8 * z / 1e-7)[middle]
-    expected = 4 * 1e8 * z[middle] / 1e-7 / (e_prime * 2 * np.pi / length)
-    np.testing.assert_allclose(found, expected, atol=2e-3 * np.abs(expected).max())

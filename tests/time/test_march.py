@@ -7,9 +7,9 @@ import pytest
 
 from lubfric import InputError
 from lubfric.film import step_length
-from lubfric.film.newton import FILM_STEP, VISCOSITY_STEP
+from lubfric.film.reynolds import FILM_STEP, VISCOSITY_STEP
 from lubfric.scene import Table
-from lubfric.time import Level, Progress, Step, checked_times, plan_of, report_of, steps
+from lubfric.time import Progress, Step, checked_times, plan_of, report_of, steps
 
 
 @dataclass
@@ -33,7 +33,7 @@ JUMP = Table(times=(0.0, 1.0, 1.0, 9.0), values=(0.0, 0.0, 3.0, 3.0))
 
 
 def begun(step=1e-3):
-    return Progress((Level(0.0, np.array([1.0, 2.0]), np.array([1.0, 2.0, -1.0])),), step)
+    return Progress((Step(film=np.array([1.0, 2.0]), z=np.array([1.0, 2.0, -1.0])),), step)
 
 
 def outputs(solver, plan, now):

@@ -14,7 +14,6 @@ from lubfric.paper import solve_differential_transient
 from lubfric.scene import Constant, Harmonic, Ramp, Table
 from lubfric.time import (
     ContactHistory,
-    Level,
     Memory,
     Progress,
     advance,
@@ -23,7 +22,7 @@ from lubfric.time import (
     solve_transient_ehl,
     symmetric_nodes,
 )
-from lubfric.time.film_equations import Conditions, Spring, StepEquations, outside, outside_shear
+from lubfric.time.film_equations import Spring, StepEquations, outside, outside_shear
 from lubfric.time.film_setting import Setting, steady_start
 
 SQUEEZE = dict(
@@ -102,7 +101,7 @@ def test_second_order_in_time():
     free = SimpleNamespace(solve=setting.solve, error_of=lambda solution, difference: 0.0)
     ends = []
     for steps in (32, 64, 128, 512):
-        now = Progress((Level(0.0, start.film, start.z),), LONG)
+        now = Progress((start,), LONG)
         for k in range(steps):
             now = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, free, 1.0, 0.0)
         ends.append(now.levels[-1].film.min())
@@ -237,7 +236,7 @@ def rough_state():
     P = np.sqrt(np.maximum(0.05, 1 - (grid.x / b) ** 2)) * (1 + 0.01 * rng.standard_normal(grid.n + 1))
     memory = Memory(0.7, 40 + 0.5 * grid.x**2)
     spring = Spring(rng.random(grid.n + 1) / grid.n, 20.0, 2.0, 30.0)
-    return StepEquations(grid, problem, Conditions(0.4, 3.0, 1.2, 0.8), memory, spring), np.append(P, 30.0)
+    return StepEquations(grid, problem, memory, 0.4, 3.0, 1.2, 0.8, spring), np.append(P, 30.0)
 
 
 def test_the_jacobian_is_the_derivative():

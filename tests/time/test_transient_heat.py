@@ -16,6 +16,7 @@ BASE = lubfric.load_scene("flat").with_(
     lubricant={
         "grade": "ISO VG 68",
         "viscosity_index": 95,
+        "density_law": "constant",  # with the spike of pressure, which heats most
         "temperature": 330.0,
         "eyring_stress": 5e6,
         "limiting_stress_coefficient": 0.06,

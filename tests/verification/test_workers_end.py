@@ -13,7 +13,7 @@ PROGRAM = """
 import sys, time
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
-from verification.parent import end_with_parent
+from verification.run import end_with_parent
 from tests_of_workers import sleeping
 if __name__ == "__main__":
     with ProcessPoolExecutor(2, mp_context=get_context(sys.argv[1]), initializer=end_with_parent) as pool:

@@ -9,9 +9,9 @@ import numpy as np
 from lubfric import EHLResult, solve_differential_deflection, solve_ehl
 from lubfric.film import moes_film
 
-from ..cases import case_of
 from ..fem import ehl as fem
 from ..fem.fluid import Fluid
+from ..parts import case_of
 from .measure import interleaved, point
 
 POINTS = ((1, 5), (10, 10), (20, 5), (100, 20), (1000, 20))

@@ -17,7 +17,7 @@ from lubfric.contact import ContactCurve
 from lubfric.film import shear_force, solve_ehl
 from lubfric.scene.scene import Scene
 
-from ..cases import case_of_scene
+from ..parts import case_of_scene
 
 SHARES = np.geomspace(1e-4, 1.0, 13)  # F_H/F_T of the table
 POINTS = 128

@@ -16,7 +16,7 @@ from lubfric import LubfricError, solve_contact, solve_differential_deflection, 
 from lubfric.contact import Strips
 from lubfric.sharing import Prepared
 
-from ..cases import case_of_scene
+from ..parts import case_of_scene
 from .soak_force import friction_force
 from .soak_heat import inlet_viscosity
 

@@ -11,7 +11,7 @@ import numpy as np
 from lubfric import LubfricError, solve_differential_deflection, solve_ehl
 from lubfric.film.formulas import moes_film
 
-from ..cases import E_PRIME, RADIUS, VISCOSITY, case_of
+from ..parts import E_PRIME, RADIUS, VISCOSITY, case_of
 from .cell import Cell
 from .film_check import film_deviations
 

@@ -14,8 +14,8 @@ import numpy as np
 
 import lubfric
 
-from ..cases import case_of_scene
 from ..hostile.soak_judge import verdict
+from ..parts import case_of_scene
 from .cell import Cell
 
 

@@ -68,5 +68,5 @@ STUDIES: tuple[Study, ...] = (
     wiring("time", "motion in time"),
     study("transient", "Smooth contact in time: squeeze, stops, jumps"),
     study("transient_mixed", "Load sharing in time", ("default", "full")),
-    study("mutants", "Mistakes in the text of lubfric, which its tests have to notice", ("default", "full")),
+    study("mutants", "Mistakes in the text of lubfric, which tests and studies have to notice", ("default", "full")),
 )

@@ -7,7 +7,6 @@ import numpy as np
 
 import lubfric
 
-from ..cases import case_of
 from ..check import AT_LEAST, Check, Field, Table, bound, compared
 from ..convergence import Series, convergence, picture
 from ..fem.ehl import LineContact, Solution, solve_ehl
@@ -16,6 +15,7 @@ from ..fem.ehl_film import PENALTY
 from ..fem.fluid import Fluid
 from ..fem.triangles import von_mises
 from ..meshes import mesh_field
+from ..parts import case_of
 
 CONSTANT, COMPRESSIBLE = "constant", "dowson-higginson"
 POINTS = (

@@ -6,10 +6,10 @@ import numpy as np
 
 import lubfric
 
-from ..cases import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of
 from ..check import AT_LEAST, Table, bound, compared
 from ..convergence import Series, convergence
 from ..exact import Parabola
+from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of
 
 # (M, L): smallest film and flow film in Moes' units, constant density
 TABLE = {

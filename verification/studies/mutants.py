@@ -1,9 +1,11 @@
-"""Mistakes in the text of `lubfric`, one at a time, each of which its tests have to notice.
+"""Mistakes in the text of `lubfric`, one at a time, each of which tests or studies have to notice.
 
-The table `mutants.txt` has a mutant a line: ``file | text | what is put there | tests``. The file is named below
-`lubfric`, and holds the text once. The tests are files below `tests`, or ``file::test``, with spaces between them.
+The table `mutants.txt` has a mutant a line: ``place | text | what is put there | who notices``. The place is a file or
+folder below `lubfric`, which holds the text once. Who notices are tests, as files below `tests` or ``file::test``, or
+studies by name, at their quick level; blanks stand between them.
 """
 
+import json
 import os
 import shutil
 import subprocess
@@ -18,69 +20,91 @@ from ..check import AT_LEAST, AT_MOST, Check
 
 ROOT = Path(__file__).parents[2]
 TABLE = Path(__file__).with_suffix(".txt")
-LONGEST = 300  # s
-PASSED, FAILED = 0, 1  # of pytest
+LONGEST = 600  # s
+PASSED, FAILED, BROKEN = 0, 1, -1  # as pytest returns them; BROKEN: neither, such as a test that cannot be loaded
+ON_PURPOSE = "lubfric.errors."
 
 
 @dataclass(frozen=True)
 class Mutant:
     """A line of the table."""
 
-    file: str
+    place: str
     text: str
     wrong: str
-    tests: tuple[str, ...]
+    noticed_by: tuple[str, ...]
 
     @property
     def name(self) -> str:
         """The mistake in a line."""
-        return f"{self.file}: {self.text} -> {self.wrong}"
+        return f"{self.place}: {self.text} -> {self.wrong}"
 
-    def broken(self, library: Path) -> str:
-        """The text of its file with the mistake. Raises ValueError unless the right text stands there once."""
-        whole = (library / self.file).read_text(encoding="utf-8")
-        if whole.count(self.text) != 1:
-            raise ValueError(f"{self.file} holds {self.text!r} {whole.count(self.text)} times; a mutant needs it once")
-        return whole.replace(self.text, self.wrong)
+    def broken(self, library: Path) -> tuple[Path, str]:
+        """The file that holds the text, and its content with the mistake. Raises ValueError unless it stands there
+        once."""
+        place = library / self.place
+        files = {f: f.read_text(encoding="utf-8") for f in ([place] if place.is_file() else place.rglob("*.py"))}
+        times = sum(content.count(self.text) for content in files.values())
+        if times != 1:
+            raise ValueError(f"{self.place} holds {self.text!r} {times} times; a mutant needs it once")
+        file = next(f for f, content in files.items() if self.text in content)
+        return file, files[file].replace(self.text, self.wrong)
 
 
 def table(text: str | None = None) -> list[Mutant]:
     """The mutants of ``text`` (None: of `mutants.txt`)."""
     lines = (TABLE.read_text(encoding="utf-8") if text is None else text).splitlines()
     parts = [line.split(" | ") for line in lines if line.strip() and not line.startswith("#")]
-    return [Mutant(file, right, wrong, tuple(tests.split())) for file, right, wrong, tests in parts]
+    return [Mutant(place, right, wrong, tuple(by.split())) for place, right, wrong, by in parts]
 
 
 def mutants(level: str) -> Iterator[Check]:
-    """Mistakes in the text of `lubfric`, one at a time. Each has to make one of its tests fail; a test that cannot even
-    be loaded, or does not end, is no catch. The library as it is has to pass all of them."""
+    """Mistakes in the text of `lubfric`, one at a time. Each has to make a test or a check of a study fail, or a study
+    end with an error that `lubfric` raises on purpose. A test that cannot be loaded, and any other error, is no catch.
+    The library as it is has to pass all of them."""
     known = table()
-    tests = tuple(dict.fromkeys(test for mutant in known for test in mutant.tests))
-    yield judged("the library as it is", trial(None, tests), PASSED)
+    everyone = dict.fromkeys(each for mutant in known for each in mutant.noticed_by)
+    for what, chosen in (("tests", True), ("studies", False)):
+        names = tuple(each for each in everyone if is_test(each) == chosen)
+        yield judged(f"the library as it is: {what}", trial(None, names), PASSED)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for mutant, code in zip(known, pool.map(lambda m: trial(m, m.tests), known)):
-            yield judged(mutant.name, code, FAILED)
+        for mutant, found in zip(known, pool.map(lambda m: trial(m, m.noticed_by), known)):
+            yield judged(mutant.name, found, FAILED)
 
 
-def trial(mutant: Mutant | None, tests: tuple[str, ...]) -> int:
-    """What pytest returns for ``tests`` on a copy of `lubfric` that has the mistake of ``mutant``."""
+def is_test(name: str) -> bool:
+    """Whether ``name`` is a test, not a study."""
+    return ".py" in name
+
+
+def trial(mutant: Mutant | None, names: tuple[str, ...]) -> int:
+    """What came of the tests or studies ``names`` on a copy of `lubfric` that has the mistake of ``mutant``."""
     with tempfile.TemporaryDirectory() as folder:
-        library = Path(folder) / "lubfric"
+        library, out = Path(folder) / "lubfric", Path(folder) / "out"
         shutil.copytree(ROOT / "lubfric", library)
         if mutant is not None:
-            (library / mutant.file).write_text(mutant.broken(library), encoding="utf-8")
-        options = ["-x", "-q", "-p", "no:cacheprovider", "--rootdir", str(ROOT), "-c", str(ROOT / "pyproject.toml")]
-        command = [sys.executable, "-m", "pytest", *options, *(str(ROOT / "tests" / test) for test in tests)]
+            file, content = mutant.broken(library)
+            file.write_text(content, encoding="utf-8")
+        command = [sys.executable, "-m", "verification", "--quick", "--out", str(out), "--only", *names]
+        if is_test(names[0]):
+            options = ["-x", "-q", "-p", "no:cacheprovider", "--rootdir", str(ROOT), "-c", str(ROOT / "pyproject.toml")]
+            command = [sys.executable, "-m", "pytest", *options, *(str(ROOT / "tests" / name) for name in names)]
         environment = os.environ | {"PYTHONPATH": os.pathsep.join((folder, str(ROOT)))}
         try:
-            done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, timeout=LONGEST)
+            code = subprocess.run(command, cwd=folder, env=environment, capture_output=True, timeout=LONGEST).returncode
         except subprocess.TimeoutExpired:
-            return -1
-        return done.returncode
+            return BROKEN
+        if code == FAILED and not is_test(names[0]):
+            report = out / "report.json"
+            studies = json.loads(report.read_text())["studies"] if report.is_file() else [{"error": "no report"}]
+            meant = all(study["error"].startswith(ON_PURPOSE) for study in studies if study["error"])
+            return FAILED if meant else BROKEN
+        return code if code in (PASSED, FAILED) else BROKEN
 
 
-def judged(name: str, code: int, wanted: int) -> Check:
-    """Whether tests ended with the ``code`` that was ``wanted``."""
-    refused = "" if code in (PASSED, FAILED) else f"pytest ended with {code}"
-    kind = AT_LEAST if wanted else AT_MOST
-    return Check(f"{name}: tests fail", float("nan") if refused else code, wanted, 0.0, "tests", kind, refused=refused)
+def judged(name: str, found: int, wanted: int) -> Check:
+    """Whether what was ``found`` is what was ``wanted``."""
+    refused = "it did not come to an end" if found == BROKEN else ""
+    kind = AT_LEAST if wanted == FAILED else AT_MOST
+    value = float("nan") if refused else found
+    return Check(f"{name}: something fails", value, wanted, 0.0, "tests and studies", kind, refused=refused)

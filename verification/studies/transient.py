@@ -16,7 +16,6 @@ from lubfric.scene import Constant, Harmonic, Ramp
 from lubfric.scene import Table as History
 from lubfric.time import (
     ContactHistory,
-    Level,
     Memory,
     Progress,
     advance,
@@ -26,10 +25,9 @@ from lubfric.time import (
     symmetric_nodes,
 )
 
-from ..cases import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of
 from ..check import AT_LEAST, Check, Table, bound, compared
 from ..convergence import Series, convergence
-from ..parts import the
+from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of, the
 
 SQUEEZE: dict[str, Any] = dict(
     load_per_width=100.0,
@@ -124,7 +122,7 @@ def marched(resolution: float, steps: int) -> float:
     """Film after 0.3 of the squeeze in equal steps, in units of the film at the start."""
     made = setting(resolution)
     first = made.undeformed(1e-6)
-    now = Progress((Level(0.0, first.film, first.z),), LONG)
+    now = Progress((first,), LONG)
     system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
     for k in range(steps):
         found = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)

@@ -9,7 +9,7 @@ from scipy import fft
 import lubfric
 from lubfric.contact import half_space
 
-from ..cases import case_of_scene
+from ..parts import case_of_scene
 
 Cells = tuple[Sequence[str], Sequence[Sequence[str]]]  # titles of the columns, rows of text
 
@@ -81,18 +81,9 @@ def waviness() -> Cells:
     return COLUMNS, rows
 
 
-def mutants() -> Cells:
-    """What catches each mutant (minutes)."""
-    from .. import mutations
-    from ..run import run
-
-    return mutations.COLUMNS, mutations.rows(run(mutations.trials(), "default", workers=2))
-
-
 TABLES: dict[str, Callable[[], Cells]] = {
     "waviness": waviness,
     "stribeck": stribeck,
     "times": times,
     "contact-transforms": contact_transforms,
-    "mutants": mutants,
 }

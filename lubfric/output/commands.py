@@ -1,0 +1,249 @@
+"""What the commands share: messages, interrupts, and the folder that they write, in which only files of ours are ever
+replaced. A broken stream or an interrupt never costs what was computed."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import signal
+import sys
+import tempfile
+import threading
+import time
+import tomllib
+from collections.abc import Callable, Iterable
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import get_type_hints
+
+import numpy as np
+
+from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, read_json, shown
+from ..errors import InputError, OutputError
+from ..scene import Scene, scene_as_dict
+from ..sharing import Prepared, Validity, prepare
+from ..studies import fits
+from ..surface import rms_slope
+
+INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them
+SAY_EVERY = 1.0  # s between two lines of progress
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl-C or SIGTERM, with one line that says what is kept."""
+
+    code = INTERRUPTED
+
+
+class Terminated(Interrupted):
+    """SIGTERM."""
+
+    code = TERMINATED
+
+
+def say(text: str) -> None:
+    """One line on stderr; silence once nobody reads it."""
+    put(sys.stderr, text + "\n")
+
+
+def put(stream, text: str) -> None:
+    """Write to ``stream``; a stream that is closed or broken is replaced by one that goes nowhere."""
+    try:
+        stream.write(text)
+        stream.flush()
+    except (OSError, ValueError, AttributeError):  # a closed pipe, a closed file, no stream at all
+        _silence(stream)
+
+
+def _silence(stream) -> None:
+    try:
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, stream.fileno())
+        os.close(nowhere)
+    except (OSError, ValueError, AttributeError):
+        pass
+
+
+class Pace:
+    """Says when progress is to be reported: a second after the last time, and at the end."""
+
+    def __init__(self) -> None:
+        self._told = time.perf_counter()
+
+    def due(self, end: bool) -> bool:
+        """Whether to report it now."""
+        now = time.perf_counter()
+        if not end and now - self._told < SAY_EVERY:
+            return False
+        self._told = now
+        return True
+
+
+@contextmanager
+def interruptible():
+    """SIGTERM ends what is inside as Ctrl-C does, so that locks are dropped and files closed."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def terminate(*_):
+        raise Terminated("terminated")
+
+    before = signal.signal(signal.SIGTERM, terminate)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+@contextmanager
+def keeping(what):
+    """On an interrupt, say what is kept: the words come from ``what()``."""
+    try:
+        yield
+    except Interrupted as error:
+        raise type(error)(what()) from None
+    except KeyboardInterrupt:
+        raise Interrupted(what()) from None
+
+
+RESULT, UNFINISHED, CHECKPOINT = "result.json", "unfinished", "checkpoint"
+MOST_TOML = 2**20  # bytes: a larger file names no inputs
+INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
+OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
+    *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
+    *("contact.png", "contact_*.vtk", "animation.gif", "fields.npz", "report.html", RESULT),
+)
+
+
+def ready(scene: Scene) -> Prepared:
+    """``scene`` made ready, which is said."""
+    say(f"{scene.name}: preparing the height map and the contact")
+    prepared = prepare(scene)
+    say(prepared.surface.describe())
+    return prepared
+
+
+def read_record(folder: Path) -> dict:
+    """What result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
+    path, again = folder / RESULT, "give a folder that 'lubfric run' wrote, or run it again"
+    if not os.path.lexists(path):
+        raise InputError(f"{folder} holds no {RESULT}; {again}")
+    record = read_json(path, again)
+    numbers = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Validity).items()}
+    kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
+    if not isinstance(record, dict) or not fits({"points": []} | record, kind):
+        raise InputError(f"{path} is damaged, or no record of a run; {again}")
+    return record
+
+
+def files_read(paths: Iterable) -> list[Path]:
+    """The files among ``paths`` (None and what is no file: left out), and those that the TOML files among them name."""
+    found: dict[Path, None] = {}
+    waiting = [Path(path) for path in paths if path is not None]
+    while waiting:
+        path = waiting.pop()
+        if path not in found and os.path.isfile(path):
+            found[path] = None
+            with suppress(ValueError, OSError, RecursionError):  # no TOML
+                if path.stat().st_size < MOST_TOML:
+                    waiting += [path.parent / word for word in _words(tomllib.loads(path.read_text("utf-8-sig")))]
+    return list(found)
+
+
+def _words(value) -> list[str]:
+    """All texts in the tables and lists of ``value``."""
+    if isinstance(value, (dict, list)):
+        return [word for part in (value.values() if isinstance(value, dict) else value) for word in _words(part)]
+    return [value] if isinstance(value, str) else []
+
+
+def check_outputs(arguments, folder: Path, names: Iterable[str], patterns: Iterable[str] = ()) -> None:
+    """Raise `InputError`, before any work, if ``folder`` cannot take the files ``names``: one of them is there and not
+    ours, or one of these, or of ours that match ``patterns``, is an input of the command with these ``arguments``."""
+    if folder.exists() and not folder.is_dir():
+        raise InputError(f"--out {folder} is a file; give a folder, existing or not")
+    own = OwnFiles(folder)
+    inputs = files_read(getattr(arguments, name, None) for name in INPUTS)
+    own.check({*names, *own.among(patterns)}, inputs)
+
+
+def made(name: str, write: Callable, *arguments) -> bytes:
+    """The content of the file that ``write(path, *arguments)`` makes; ``name``: of the file."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / name
+        write(path, *arguments)
+        return path.read_bytes()
+
+
+class RunFolder:
+    """What a command that has ``begun`` (`time.perf_counter`) puts in the folder ``path``: ``contents`` by name. The
+    last says that the others are complete.
+
+    ``unfinished`` has what an interrupted run of the same ``fingerprint`` saved. What others saved is left alone.
+    """
+
+    def __init__(self, path: Path, begun: float, fingerprint: str):
+        self.path, self.begun = path, begun
+        self.unfinished = path / UNFINISHED / fingerprint[:16]
+        self.contents: dict[str, bytes] = {}
+        self.failures: list[str] = []
+
+    def draw(self, name: str, plot: Callable, *arguments) -> None:
+        """Add the picture that ``plot(path, *arguments)`` saves. One that cannot be drawn is told of at the end."""
+        try:
+            self.contents[name] = made(name, plot, *arguments)
+        except Exception as problem:  # of any kind: a picture must not cost the numbers
+            self.failures.append(f"{name} was not drawn ({type(problem).__name__}: {shown(str(problem))})")
+
+    def record(self, prepared: Prepared, result, **numbers: object) -> dict:
+        """The record of a run: resolved input, map, versions, timing, report, violated assumptions, ``numbers``."""
+        import scipy
+
+        surface, versions = prepared.surface, {"lubfric": __version__, "numpy": np.__version__}
+        statistics = {name: getattr(surface, name) for name in ("sq", "sa", "ssk", "sku", "missing_fraction")}
+        statistics["rms_slope"] = dict(zip(("x", "y", "total"), rms_slope(surface)))
+        map_ = {"shape": surface.shape, "spacing": surface.spacing, "statistics": statistics, "notes": surface.notes}
+        return {
+            "scene": scene_as_dict(prepared.scene),
+            "surface": map_,
+            "versions": versions | {"scipy": scipy.__version__, "python": platform.python_version()},
+            "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
+            "seconds": time.perf_counter() - self.begun,
+            "report": result.report.as_dict(),
+            "validity": result.validity,
+            **numbers,
+        }
+
+    def finish(self, record: dict, *doubts: str) -> None:
+        """Put all of a run in the place of an earlier one; ``record``, which names the files, last as result.json. Then
+        violated assumptions, ``doubts`` and files are said, and what was saved for a resume is removed."""
+        whole = plain({"files": sorted([*self.contents, RESULT])} | record)
+        self.contents[RESULT] = json.dumps(whole, indent=1, allow_nan=False).encode()
+        self.put(OUTPUTS, (*record["validity"], *doubts))
+        for folder in (self.unfinished / "points", self.unfinished, self.unfinished.parent):
+            clear_checked(folder, "*.bin")
+
+    def put(self, patterns: Iterable[str] = (), said: Iterable[str] = ()) -> None:
+        """Put ``contents`` in the folder, remove what else of ours matches ``patterns``, and say so."""
+        OwnFiles(self.path).replace(self.contents, patterns)
+        for text in said:
+            say(text)
+        names = ", ".join(sorted(self.contents))
+        say(f"wrote {names} to {self.path} in {time.perf_counter() - self.begun:.1f} s")
+
+
+@contextmanager
+def run_folder(path: Path, begun: float, fingerprint: str = ""):
+    """Lock ``path`` for a command that has ``begun``, and the run with that ``fingerprint``: a `RunFolder`.
+
+    Raises `InputError` if another process writes to it, and `OutputError` if it cannot be used, or if a picture was not
+    drawn.
+    """
+    with FolderLock(path):
+        clear_parts(path)
+        folder = RunFolder(path, begun, fingerprint)
+        yield folder
+    if folder.failures:
+        raise OutputError(f"{'; '.join(folder.failures)}; all else is in {path}")

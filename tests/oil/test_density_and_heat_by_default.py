@@ -1,0 +1,91 @@
+"""The density of an oil that is described follows Dowson and Higginson; heat that is left out is told with its size."""
+
+import numpy as np
+import pytest
+from scene_text import BODIES_AND_OIL, SMALL_PATCH
+
+import lubfric
+from lubfric.oil import named_oil
+from lubfric.scene import write_template
+
+PAPER = lubfric.load_scene("paper")
+AT_70 = {"temperature_celsius": 70}
+OILS = (
+    {"grade": "ISO VG 68", "viscosity_index": 95},
+    {"nu40": 68e-6, "nu100": 8.6e-6},
+    {"oil": "mineral-100"},
+    {"oil": named_oil("pao-220")},
+    {"viscosity_table": [[313.15, 68e-6], [373.15, 8.6e-6]]},
+)
+
+
+@pytest.mark.parametrize("given", OILS, ids=lambda given: next(iter(given)))
+def test_a_described_oil_is_compressed(tmp_path, given):
+    scene = PAPER.with_(lubricant=given | {"temperature": 343.15})
+    assert scene.lubricant.density_law == "dowson-higginson"
+    path = tmp_path / "scene.toml"
+    path.write_text(scene.to_toml(), encoding="utf-8")
+    assert lubfric.load_scene(path).lubricant == scene.lubricant
+    stated = PAPER.with_(lubricant=given | {"temperature": 343.15, "density_law": "constant"})
+    assert stated.lubricant.density_law == "constant"
+    path.write_text(stated.to_toml(), encoding="utf-8")
+    assert lubfric.load_scene(path).lubricant == stated.lubricant
+    assert stated.with_(lubricant={"temperature": 350.0}).lubricant.density_law == "constant"  # it was given
+
+
+def test_a_viscosity_in_numbers_and_the_built_in_scenes_are_not(tmp_path):
+    path = tmp_path / "scene.toml"
+    path.write_text(BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.1\n" + SMALL_PATCH, encoding="utf-8")
+    assert lubfric.load_scene(path).lubricant.density_law == "constant"
+    for name in ("paper", "flat"):
+        assert lubfric.load_scene(name).lubricant.density_law == "constant"
+        assert 'density_law = "constant"' in (lubfric.scene.file.SCENES / f"{name}.toml").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def bearing(tmp_path_factory):
+    """The scene of `lubfric init`, at 0.51 GPa."""
+    path = tmp_path_factory.mktemp("init") / "bearing.toml"
+    write_template(path)
+    assert 'density_law = "dowson-higginson"' in path.read_text(encoding="utf-8")
+    scene = lubfric.load_scene(path).with_(bodies={"hertz_pressure": 0.51e9}, surface={"sq": 2e-8})
+    return scene.with_(numerics={"sampling": "patch", "tolerance": 0.05})
+
+
+def test_the_caution_on_a_pressure_spike_names_the_density(bearing):
+    def told(law):
+        point = lubfric.friction(bearing.with_(lubricant={"density_law": law}), 5.0)
+        return [entry.text for entry in point.validity if entry.what == "film pressure"]
+
+    assert not told("dowson-higginson")
+    (text,) = told("constant")
+    assert "a spike over the 0.51 GPa of Hertz" in text and "lubricant.density_law = 'dowson-higginson'" in text
+
+
+def test_heat_that_is_left_out_is_told_with_its_size():
+    """A gear at 1.2 GPa: the same oil as numbers without a temperature loses the heat, and the caution says how much
+    that is, within a third; where there is none to speak of, or on request, nothing is said."""
+    gear = PAPER.with_(
+        bodies={"radius": 0.02, "width": 0.01, "hertz_pressure": 1.2e9, "hardness": None},
+        lubricant=OILS[0] | AT_70 | {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
+        motion={"slide_roll_ratio": 0.1},
+        surface={"sq": 2e-8, "correlation_length": 30e-6},
+        contact={"shape": (160, 48), "spacing": 8e-6},
+        numerics={"sampling": "patch", "tolerance": 0.05, "film_deflection": "scaled"},
+    )
+    numbers = {"oil": None, "viscosity": gear.lubricant.viscosity, "temperature": None, "temperature_coefficient": None}
+    plain = gear.with_(lubricant=numbers)
+
+    def told(scene, speed=5.0):
+        point = lubfric.friction(scene, speed)
+        return point, [entry for entry in point.validity if "heat" in entry.what]
+
+    hot, none = told(gear)
+    cold, (entry,) = told(plain)
+    lost = 1 - hot.coefficient / cold.coefficient
+    assert not none and lost > 0.08 and entry.value / 100 == pytest.approx(lost, rel=1 / 3)
+    assert not entry.severe and "temperature_coefficient" in entry.remedy and "3.5 % per K" in entry.consequence
+    assert told(plain.with_(numerics={"heat": "off"}))[1] == told(plain, 1e-3)[1] == []
+    assert told(plain.with_(motion={"slide_roll_ratio": 0.0}))[1] == []
+    point, none = told(plain.with_(lubricant={"temperature_coefficient": 0.0}))  # said not to fall
+    assert not none and np.isclose(point.coefficient, cold.coefficient, rtol=1e-9)

@@ -1,0 +1,278 @@
+"""`--out` and the files of the user: whatever they are called, none that lubfric did not write changes or goes."""
+
+import json
+import os
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scene_text import BODIES_AND_OIL, SMALL_PATCH
+
+import lubfric
+from lubfric._base import FolderLock, write_checked
+from lubfric.output import main
+from lubfric.time import STATE
+
+SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\nspeeds = [0.3]\n" + SMALL_PATCH
+SCENE += "[numerics]\nsampling = 'patch'\n"
+MAPPED = SCENE.split("[surface]")[0] + "[surface]\nfile = 'MAP'\nspacing = 0.9e-6\n[numerics]\nsampling = 'patch'\n"
+HISTORY = '[transient]\nduration = 1e-4\noutputs = 2\nspeed = { kind = "file", file = "FILE", column = "U" }\n'
+STUDY = 'scene = "base.toml"\n[vary]\n"motion.slide_roll_ratio" = [1.0, 2.0]\n'
+MEASURED = "U [m/s],f\n0.1,0.05\n0.2,0.05\n0.3,0.05\n0.5,0.052\n"
+FIT = ["--coefficient", "f", "--speed", "U", "--parameter", "lubricant.viscosity=0.2:0.6"]
+NAMES = {  # of files of the user in the folder of the results: (refused with these, beside these), by kind of command
+    "run": (
+        ("stribeck.csv", "stribeck.png", "fields.npz", "contact.png", "result.json", ".lubfric", ".lubfric.lock")
+        + ("unfinished",),
+        ("history.csv", "history.png", "animation.gif", "traction.csv", "traction.png", "report.html", "contact_0.vtk")
+        + ("contact_user.vtk", ".lock", ".part-mine", ".part-12345678-stribeck.csv", "study.csv", "fit.json")
+        + ("notes.txt", "unfinished/notes.bin", "checkpoint/state.bin", "points/a.bin"),
+    ),
+    "history": (
+        (
+            "history.csv",
+            "history.png",
+            "fields.npz",
+            "result.json",
+            "checkpoint/state.bin",
+            "checkpoint/output_1.bin",
+            "checkpoint",
+        ),
+        ("stribeck.csv", "animation.gif", "contact.png", ".lock", ".part-x", "checkpoint/notes.txt", "state.bin"),
+    ),
+    "study": (
+        ("study.csv", "study.json", ".lubfric"),
+        ("study.nc", "study.parquet", "result.json", ".part-x", "points/notes.txt", ".lock", "fitted.toml"),
+    ),
+    "fit": (
+        ("fitted.toml", "fit.png", "fit.json"),
+        (),
+    ),
+}
+CASES = [
+    (kind, name, refused)
+    for kind, both in NAMES.items()
+    for refused, names in zip((True, False), both)
+    for name in names
+]
+
+
+def command(kind, folder, *more):
+    """The command of a ``kind`` on small inputs in ``folder``."""
+    (folder / "base.toml").write_text(SCENE)
+    if kind == "study":
+        (folder / "s.toml").write_text(STUDY)
+        return ["study", str(folder / "s.toml"), *more]
+    if kind == "fit":
+        (folder / "m.csv").write_text(MEASURED)
+        return ["fit", str(folder / "base.toml"), "--measured", str(folder / "m.csv"), *FIT, *more]
+    if kind == "history":
+        (folder / "u.csv").write_text("time [s],U [m/s]\n0,0.3\n1,0.3\n")
+        (folder / "base.toml").write_text(SCENE + HISTORY.replace("FILE", "u.csv"))
+    return ["run", str(folder / "base.toml"), *more]
+
+
+def everything(folder):
+    """What stands in a folder, by name; a link by where it points to."""
+    return {
+        str(path.relative_to(folder)): os.readlink(path) if path.is_symlink() else path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_symlink() or path.is_file()
+    }
+
+
+@pytest.fixture(autouse=True)
+def quick(monkeypatch):
+    """What the pictures show is not the matter here."""
+    for name in ("run_curve.plot_stribeck", "run_curve.plot_contact", "run_history.plot_history"):
+        monkeypatch.setattr(f"lubfric.output.{name}", lambda path, *_: Path(path).write_bytes(b"a picture"))
+
+
+@pytest.mark.parametrize("spelling", ["plain", "link"])
+@pytest.mark.parametrize("kind, name, refused", CASES)
+def test_no_file_that_is_not_ours_changes(tmp_path, capsys, kind, name, refused, spelling):
+    out, user = tmp_path / "out", tmp_path / "user" / "file"
+    user.parent.mkdir()
+    user.write_bytes(b"the user's own\n")
+    (out / name).parent.mkdir(parents=True)
+    if spelling == "link":
+        (out / name).symlink_to(user)
+    else:
+        (out / name).write_bytes(b"the user's own\n")
+    before = everything(out)
+    code = main(command(kind, tmp_path, "--out", str(out)))
+    after = everything(out)
+    assert user.read_bytes() == b"the user's own\n"
+    assert {key: after.get(key) for key in before} == before
+    assert (code == 2) == refused, capsys.readouterr().err
+    if refused:
+        assert after == before
+
+
+INPUTS = [  # (kind, the input that an output of the same command is called like)
+    *(("scene", name) for name in ("result.json", "stribeck.csv", "contact.png", ".lubfric", ".lubfric.lock")),
+    *(("map", name) for name in ("stribeck.csv", "fields.npz", "contact.png")),
+    *(("history", name) for name in ("history.csv", "result.json")),
+    *(("fit", name) for name in ("fitted.toml", "fit.json")),
+    *(("measured", name) for name in ("fit.json", "fitted.toml")),
+    *(("study", name) for name in ("study.csv", "study.json")),
+]
+
+
+@pytest.mark.parametrize("out", [".", "link", "../here"])
+@pytest.mark.parametrize("kind, name", INPUTS)
+def test_an_input_is_never_an_output(tmp_path, monkeypatch, capsys, kind, name, out):
+    here = tmp_path / "here"
+    here.mkdir()
+    (here / "link").symlink_to(here)
+    monkeypatch.chdir(here)
+    text = SCENE
+    if kind == "map":
+        np.savetxt(here / name, np.random.default_rng(1).normal(size=(64, 64)) * 1e-7, delimiter=",")
+        text = MAPPED.replace("MAP", name)
+    elif kind == "history":
+        (here / name).write_text("time [s],U [m/s]\n0,0.3\n1,0.3\n")
+        text += HISTORY.replace("FILE", name)
+    elif kind == "measured":
+        (here / name).write_text(MEASURED)
+    elif kind == "study":
+        (here / name).write_text(STUDY)
+    scene = name if kind in ("scene", "fit") else "base.toml"
+    (here / scene).write_text(text)
+    if kind == "study":
+        given = ["study", name]
+    elif kind in ("fit", "measured"):
+        (here / "m.csv").write_text(MEASURED)
+        given = ["fit", scene, "--measured", name if kind == "measured" else "m.csv", *FIT]
+    else:
+        given = ["run", scene]
+    before = everything(here)
+    assert main([*given, "--out", out]) == 2
+    assert everything(here) == before and "give another folder" in capsys.readouterr().err
+
+
+def test_a_file_of_ours_that_is_an_input_stays(tmp_path, capsys):
+    """fitted.toml of an earlier fit as the scene of the next one, also through a hard link; as the base of a study."""
+    run = command("fit", tmp_path, "--out", str(tmp_path / "out"))
+    (tmp_path / "out").mkdir()
+    from lubfric._base import OwnFiles
+
+    with FolderLock(tmp_path / "out"):
+        OwnFiles(tmp_path / "out").replace({"fitted.toml": SCENE.encode(), "fit.json": b"{}"})
+    os.link(tmp_path / "out" / "fitted.toml", tmp_path / "other.toml")
+    before = everything(tmp_path / "out")
+    for scene in (tmp_path / "out" / "fitted.toml", tmp_path / "other.toml"):
+        assert main(["fit", str(scene), *run[2:]]) == 2
+        assert "is read by this command" in capsys.readouterr().err
+    assert everything(tmp_path / "out") == before
+
+
+def test_a_history_that_an_earlier_run_wrote_is_not_removed_under_the_next(tmp_path):
+    out = tmp_path / "out"
+    assert main(command("history", tmp_path, "--out", str(out))) == 0
+    (out / "again.toml").write_text(
+        SCENE + HISTORY.replace("FILE", "history.csv").replace('"U"', '"entrainment_speed"')
+    )
+    before = everything(out)
+    assert main(["run", str(out / "again.toml"), "--out", str(out)]) == 2
+    assert everything(out) == before
+
+
+def test_a_result_that_the_user_changed_is_not_ours_any_more(tmp_path, capsys):
+    out = tmp_path / "out"
+    run = command("run", tmp_path, "--out", str(out))
+    assert main(run) == 0 and main([*run, "--report", "--vtk"]) == 0
+    (out / "report.html").write_text("with my notes")  # no output of the next command
+    assert main(run) == 0 and (out / "report.html").read_text() == "with my notes"
+    (out / "stribeck.png").write_bytes(b"cropped")
+    before = everything(out)
+    assert main(run) == 2 and "was changed since" in capsys.readouterr().err
+    assert main(["plot", str(out)]) == 2
+    assert everything(out) == before
+    (out / "stribeck.png").unlink()
+    assert main(["plot", str(out)]) == 0 and main(run) == 0
+
+
+def test_commands_share_a_folder_and_take_only_their_own(tmp_path):
+    out = tmp_path / "out"
+    assert main(command("study", tmp_path, "--out", str(out))) == 0
+    kept = (out / "study.csv").read_bytes()
+    assert main(command("run", tmp_path, "--out", str(out))) == 0
+    assert main(command("history", tmp_path, "--out", str(out))) == 0
+    assert (out / "study.csv").read_bytes() == kept and not (out / "stribeck.csv").exists()
+    assert main(command("study", tmp_path, "--out", str(out))) == 0  # over its own
+
+
+@pytest.mark.parametrize("content", ["", "[]", "{}", '{"stribeck.csv": 3}', "[" * 9999, '{"../m.csv": ["0"]}'])
+def test_a_record_that_is_none_is_refused_or_owns_nothing(tmp_path, capsys, content):
+    out = tmp_path / "out"
+    run = command("run", tmp_path, "--out", str(out))
+    assert main(run) == 0
+    write_checked(out / ".lubfric", content.encode())
+    before = everything(out)
+    assert main(run) == 2 and capsys.readouterr().err.splitlines()[-1].startswith("lubfric: ")
+    assert everything(out) == before
+
+
+@pytest.mark.parametrize("at", range(1, 9))
+def test_a_run_stopped_while_it_replaces_another_goes_on(tmp_path, monkeypatch, at):
+    """A kill between any two of the files that appear: all is ours still, and result.json stands for a whole run."""
+    out = tmp_path / "out"
+    run, real, count = command("run", tmp_path, "--out", str(out)), os.replace, [0]
+    assert main([*run, "--report"]) == 0
+
+    def killed(part, path):
+        count[0] += 1
+        if count[0] == at:
+            raise KeyboardInterrupt
+        real(part, path)
+
+    (tmp_path / "base.toml").write_text(SCENE.replace("0.36", "0.3"))
+    monkeypatch.setattr(os, "replace", killed)
+    main(run)
+    monkeypatch.setattr(os, "replace", real)
+    if (out / "result.json").exists():
+        record = json.loads((out / "result.json").read_text())
+        assert all((out / name).is_file() for name in record["files"])
+    assert main(run) == 0
+    assert not (out / "report.html").exists() and not list(out.glob(".part-*"))
+    assert json.loads((out / "result.json").read_text())["scene"]["lubricant"]["viscosity"] == 0.3
+
+
+def test_a_checkpoint_leaves_what_is_not_its_own(tmp_path):
+    folder = tmp_path / "checkpoint"
+    folder.mkdir()
+    (folder / "output_mine.bin").write_bytes(b"mine")
+    scene = lubfric.load_scene(command("history", tmp_path)[1])
+    before = everything(folder)
+    with pytest.raises(lubfric.InputError, match="not of lubfric"):
+        lubfric.transient(scene, checkpoint=folder)
+    assert everything(folder) == before
+    (folder / "output_mine.bin").rename(folder / "mine.txt")
+    (tmp_path / "aim").write_bytes(b"aim")
+    (folder / STATE).symlink_to(tmp_path / "aim")
+    with pytest.raises(lubfric.InputError, match="not of lubfric"):
+        lubfric.transient(scene, checkpoint=folder)
+    (folder / STATE).unlink()
+    lubfric.transient(scene, checkpoint=folder)
+    assert everything(folder) == {"mine.txt": b"mine"} and (tmp_path / "aim").read_bytes() == b"aim"
+
+
+def test_a_lock_is_never_opened_through_a_link(tmp_path):
+    (tmp_path / "aim").write_text("precious")
+    for make in (os.symlink, os.link):
+        make(tmp_path / "aim", tmp_path / ".lubfric.lock")
+        with pytest.raises(lubfric.InputError, match=r"\.lubfric\.lock is"), FolderLock(tmp_path):
+            pass
+        assert (tmp_path / "aim").read_text() == "precious" and (tmp_path / ".lubfric.lock").exists()
+        (tmp_path / ".lubfric.lock").unlink()
+
+
+def test_a_folder_that_was_copied_whole_is_still_ours(tmp_path):
+    out = tmp_path / "out"
+    run = command("run", tmp_path, "--out", str(out))
+    assert main(run) == 0
+    shutil.copytree(out, tmp_path / "copy")
+    assert main([*run[:-1], str(tmp_path / "copy")]) == 0
+    assert Path(tmp_path / "copy" / "result.json").is_file()

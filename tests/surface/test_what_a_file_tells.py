@@ -1,0 +1,117 @@
+"""What a file of heights says of itself: empty cells, steps in headings, the form that is left in it, and units that
+cannot be meant."""
+
+import numpy as np
+import pytest
+from scene_text import BODIES_AND_OIL
+
+import lubfric
+from lubfric import InputError, read_surface
+from lubfric.output.describe import describe_scene
+
+RAW = {"level": False, "fill": False}
+NAN = np.nan
+
+
+@pytest.mark.parametrize(
+    "text, found",
+    [
+        ("1;;3\n4;5;6\n", [[1, NAN, 3], [4, 5, 6]]),
+        ("1,,3\n4,5,6\n", [[1, NAN, 3], [4, 5, 6]]),
+        ("1\t\t3\n4\t5\t6\n", [[1, NAN, 3], [4, 5, 6]]),
+        ("\t2\t3\n4\t5\t\n", [[NAN, 2, 3], [4, 5, NAN]]),  # not shifted to the left
+        ("1;2;\n4;;6\n", [[1, 2, NAN], [4, NAN, 6]]),
+        ("1;;\n4;5;\n", [[1, NAN], [4, 5]]),  # a separator behind every line
+        (";2;3\n;;\n4;5;6\n", [[NAN, 2, 3], [NAN, NAN, NAN], [4, 5, 6]]),
+        ("1,5;;2,5\n3;4;\n", [[1.5, NAN, 2.5], [3, 4, NAN]]),
+    ],
+)
+def test_an_empty_cell_is_unmeasured(tmp_path, text, found):
+    (tmp_path / "a.csv").write_text(text)
+    surface = read_surface(tmp_path / "a.csv", spacing=1.0, **RAW)
+    np.testing.assert_array_equal(surface.heights, found)
+    np.testing.assert_array_equal(surface.mask, np.isfinite(found))
+    assert f"{np.count_nonzero(np.isnan(found))} empty cells taken for unmeasured" in surface.notes
+
+
+@pytest.mark.parametrize(
+    "heading",
+    [
+        "Step X [um];1.5\nStep Y [um];1.5",
+        "Step X;1,5;\u00b5m\nStep Y;1,5;\u00b5m",
+        "Width;3\nStep Y (mm):\t0.0015\nStep X (mm):\t0.0015\nHeights",
+        "dx [nm] = 1500\ndy [nm] = 1500",
+    ],
+)
+def test_steps_in_headings_are_read(tmp_path, heading):
+    (tmp_path / "a.csv").write_text(heading + "\n1;2;3\n4;5;7\n", encoding="utf-8")
+    surface = read_surface(tmp_path / "a.csv", unit="nm", **RAW)
+    assert surface.spacing == pytest.approx((1.5e-6, 1.5e-6), rel=1e-12) and surface.heights[1, 2] == pytest.approx(
+        7e-9
+    )
+    assert surface.notes[0].startswith("line 1") and heading.split("\n")[0] in surface.notes[0]
+    with pytest.raises(InputError, match="spacing = 1e-06 is given"):
+        read_surface(tmp_path / "a.csv", unit="nm", spacing=1e-6)
+
+
+@pytest.mark.parametrize("heading", ["Step X [um];1.5\nStep Y [um];2.5", "Step X;1.5\nStep Y;1.5", "Step [um];1.5"])
+def test_steps_that_do_not_tell_the_grid_leave_it_to_the_user(tmp_path, heading):
+    """Different along X and Y (along which does a line run?), without a unit, without an axis."""
+    path = tmp_path / "a.csv"
+    path.write_text(heading + "\n1;2;3\n4;5;7\n")
+    with pytest.raises(InputError, match="spacing of a.csv is missing"):
+        read_surface(path, unit="nm")
+    assert read_surface(path, unit="nm", spacing=(2.5e-6, 1.5e-6), **RAW).spacing == (2.5e-6, 1.5e-6)
+
+
+def barrel(step=2e-6):
+    """Roughness on a barrel about y and a tilt [m]; and the Sq of what plane, cylinder and quadratic leave, by QR."""
+    z = lubfric.generate_surface((90, 70), step, sq=300e-9, correlation_length=9e-6, acf="gaussian", seed=2).heights
+    x, y = np.meshgrid(np.linspace(-1, 1, 90), np.linspace(-1, 1, 70), indexing="ij")
+    z = z + 1e-6 * (1 - x**2) + 2e-7 * y + 1e-7 * x * y
+    left = {}
+    for name, terms in {"plane": [1 + 0 * x, x, y], "cylinder": [x * x], "quadratic": [x * y, y * y]}.items():
+        left[name] = [*left.get({"cylinder": "plane", "quadratic": "cylinder"}.get(name), []), *terms]
+    for name, terms in left.items():
+        q = np.linalg.qr(np.stack([term.ravel() for term in terms], axis=1))[0]
+        left[name] = (z.ravel() - q @ (q.T @ z.ravel())).std()
+    return z, left
+
+
+def test_a_reader_tells_what_each_form_would_leave(tmp_path):
+    z, left = barrel()
+    np.save(tmp_path / "a.npy", z)
+    surface = read_surface(tmp_path / "a.npy", spacing=2e-6)
+    sq = {"as it is": z.std()} | {f"without {name}": value for name, value in left.items()}
+    note = next(note for note in surface.notes if note.startswith("Sq"))
+    assert note.split(";")[0] == "Sq " + ", ".join(f"{value * 1e9:.4g} nm {name}" for name, value in sq.items())
+    assert left["plane"] > 1.3 * left["cylinder"] and note.endswith("give form = 'quadratic'")
+    for form, value in left.items():
+        assert read_surface(tmp_path / "a.npy", spacing=2e-6, form=form).sq == pytest.approx(value, rel=1e-9)
+    for form in ("cylinder", "quadratic"):
+        notes = read_surface(tmp_path / "a.npy", spacing=2e-6, form=form).notes
+        assert not any("give form" in note for note in notes)
+
+
+def test_a_cylinder_lies_along_x_or_along_y():
+    z, left = barrel()
+    for heights in (z, z.T):
+        assert lubfric.Surface(heights, 2e-6).level("cylinder").sq == pytest.approx(left["cylinder"], rel=1e-9)
+
+
+def test_info_tells_what_each_form_would_leave(tmp_path):
+    np.save(tmp_path / "a.npy", barrel()[0])
+    text = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.1\n[surface]\nfile = 'a.npy'\nspacing = 2e-6\n"
+    (tmp_path / "scene.toml").write_text(text + "[contact]\ngeometry = 'flat'\n")
+    said = describe_scene(lubfric.load_scene(tmp_path / "scene.toml"))
+    assert f"{barrel()[1]['cylinder'] * 1e9:.4g} nm without cylinder" in said and "give form = 'quadratic'" in said
+
+
+def test_heights_and_spacing_that_cannot_be_in_one_unit_are_refused(tmp_path):
+    """A map in um that was taken for m had Sq 4.4e+08 nm."""
+    z = lubfric.generate_surface((40, 40), 2e-6, sq=440e-9, correlation_length=9e-6, acf="gaussian", seed=2).heights
+    np.savetxt(tmp_path / "a.txt", z * 1e6)
+    with pytest.raises(InputError, match="rms slope.*are both in m"):
+        read_surface(tmp_path / "a.txt", spacing=2e-6)
+    assert read_surface(tmp_path / "a.txt", spacing=2e-6, unit="um").sq == pytest.approx(440e-9, rel=0.2)
+    assert read_surface(tmp_path / "a.txt", spacing=2e-6, **RAW).sq == pytest.approx(0.44, rel=0.2)
