@@ -17,7 +17,7 @@ from scipy.sparse.linalg import splu
 from .flow import Stencil, derivatives
 from .state import RUPTURED, TOUCHING, Iterate, State
 
-ACCURACY = 0.03  # of the residual of the linear system
+ACCURACY = 0.01  # of the residual of the linear system; 0.03 costs 7 % less, and fails at 1 GPa and 0.03 m/s
 KRYLOV, CYCLES = 40, 3
 SMALL = 24  # cells that nested dissection does not cut again
 

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import ConvergenceError
 from ..scene import Scene, check_resolved_gap
 from ..surface import Surface
-from .problem import Problem, lay_out
+from .problem import BOUNDARY_FILM, Problem, lay_out
 from .result import DeterministicResult
 from .solve import TOLERANCE, refined_start, solve_point
 
@@ -101,15 +101,15 @@ def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int,
     """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
     times as long (`lay_out`). For a negative speed the map is turned."""
     film = scene.bodies.boundary_film
-    laid = lay_out(
+    return lay_out(
         replace(surface, heights=surface.heights[::-1], mask=None) if speed < 0 else surface,
         scene.line_contact(abs(speed)),
         sliding=2 * abs(speed),
         boundary_friction=scene.bodies.boundary_friction_coefficient,
         hardness=scene.bodies.hardness,
+        boundary_film=BOUNDARY_FILM if film is None else film,
         factors=factors,
     )
-    return laid if film is None else replace(laid, boundary_film=film)
 
 
 @dataclass(frozen=True)

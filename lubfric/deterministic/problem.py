@@ -117,8 +117,8 @@ def lay_out(
     sliding: float,
     boundary_friction: float,
     hardness: float | None = None,
+    boundary_film: float = BOUNDARY_FILM,
     ends: tuple[float, float] | None = None,
-    floor: float = FLOOR,
     factors: tuple[int, int] = (1, 1),
 ) -> Problem:
     """The `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells ``factors`` (fx,
@@ -150,4 +150,4 @@ def lay_out(
     operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
     x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
-    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, floor=floor)
+    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film)

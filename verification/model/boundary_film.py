@@ -66,7 +66,7 @@ def drawn(names: list[str], found: np.ndarray) -> Figure:
             ax.plot(RATIOS, one, "osD"[k // len(PRESSURES)] + ("-", "--", ":")[k % len(PRESSURES)], label=name)
         ax.set(xscale="log", xlabel="film/Sq", title=f"h < {film * 1e9:g} nm")
     grid[0].set_ylabel("share of the load")
-    grid[-1].legend(fontsize=7)
+    canvas.legend(*grid[-1].get_legend_handles_labels(), loc="outside right upper", fontsize=8, frameon=False)
     caption = "Load on gaps thinner than three candidates of the boundary film, roughness at rest"
     return plotting.finish("boundary-film", canvas, caption)
 
