@@ -12,6 +12,9 @@ from dataclasses import dataclass, field, fields
 from inspect import cleandoc
 from typing import Any, Generic, NamedTuple, TypeVar
 
+from .errors import InputError
+from .units import converted
+
 T = TypeVar("T")  # float, or an array over operating points
 
 
@@ -87,6 +90,13 @@ class Quantities(Generic[T]):
         error="heat",
         note="mean across the film; 0 where heat is left out",
     )
+
+    def in_unit(self, name: str, unit: str) -> T:
+        """The number ``name`` in another unit: ``result.in_unit("min_film", "nm")``. Raises `InputError` for a name that
+        is none of `NUMBERS`, and for a unit of another kind."""
+        if name not in NUMBERS:
+            raise InputError(f" = {name!r} is no number of a result", "name", ", ".join(NUMBERS))
+        return converted(getattr(self, name), _OF_POINT[name].unit, unit)
 
 
 @dataclass(frozen=True, repr=False)
@@ -187,9 +197,12 @@ OF_MOMENT = {  # of a run in time, in the order of its table
 KEYS = {  # of a scene, as far as they are numbers
     "speed": _OF_POINT["speed"],
     "bodies.radius": Quantity("m", "reduced radius"),
+    "bodies.radii": Quantity("m", "radii of both bodies"),
     "bodies.width": Quantity("m", "length of the line contact"),
     "bodies.load": Quantity("N", "total load"),
     "bodies.e_prime": Quantity("Pa", "composite modulus E'"),
+    "bodies.young_modulus": Quantity("Pa", "Young's modulus of both bodies"),
+    "bodies.poisson_ratio": Quantity("-", "Poisson ratio of both bodies"),
     "bodies.hardness": Quantity("Pa", "plastic limit of the contact pressure"),
     "bodies.boundary_film": Quantity("m", "gap below which the bodies rub with f_b"),
     "bodies.boundary_friction_coefficient": Quantity("-", "boundary friction coefficient"),
@@ -202,6 +215,8 @@ KEYS = {  # of a scene, as far as they are numbers
     "lubricant.conductivity": Quantity("W/(m K)", "thermal conductivity of the film"),
     "motion.entrainment_speed": Quantity("m/s", "entrainment speed"),
     "motion.speeds": Quantity("m/s", "entrainment speeds"),
+    "motion.surface_speeds": Quantity("m/s", "speeds of both surfaces"),
+    "motion.speed_range": Quantity("m/s, m/s, -", "lowest and highest speed, and how many"),
     "motion.slide_roll_ratio": Quantity("-", "slide-roll ratio"),
     "motion.slip_percent": Quantity("%", "slide-roll ratio in percent"),
     "bodies.conductivity": Quantity("W/(m K)", "thermal conductivity of both bodies"),
@@ -213,17 +228,25 @@ KEYS = {  # of a scene, as far as they are numbers
     "lubricant.viscosity_index": Quantity("-", "viscosity index"),
     "lubricant.nu40": Quantity("m2/s", "kinematic viscosity at 40 °C"),
     "lubricant.nu100": Quantity("m2/s", "kinematic viscosity at 100 °C"),
+    "lubricant.viscosity_table": Quantity("K, m2/s", "temperatures and kinematic viscosities"),
     "lubricant.density": Quantity("kg/m3", "density of the oil at 15 °C"),
     "lubricant.density_slope": Quantity("kg/(m3 K)", "fall of the density with the temperature"),
     "surface.sq": Quantity("m", "root mean square roughness"),
+    "surface.ra": Quantity("m", "mean absolute height Ra of a generated map, turned into Sq"),
+    "surface.rz": Quantity("m", "mean height Rz of five sampling lengths, turned into an estimate of Sq"),
     "surface.correlation_length": Quantity("m", "correlation length"),
     "surface.spacing": Quantity("m", "cell size of the map"),
     "surface.s_filter": Quantity("m", "nesting index below which the map is smoothed"),
     "surface.l_filter": Quantity("m", "nesting index above which the map is levelled"),
     "contact.spacing": Quantity("m", "cell size"),
+    "transient.tolerance": Quantity("-", "largest local error of the film in a step"),
     "transient.duration": Quantity("s", "duration"),
     "transient.initial_film": Quantity("m", "film to start from"),
 }
+KEYS |= {
+    f"numerics.{part}tolerance": Quantity("-", f"relative tolerance {of}")
+    for part, of in {"": "on f", "sampling_": "on f, by sampling", "model_": "on f, by the model"}.items()
+} | {f"numerics.{part}_tolerance": Quantity("-", f"of the {part}") for part in ("film", "contact", "balance")}
 KEYS |= {
     key.replace("surface.", "counterface."): Quantity(unit, f"{label}, of the other body")
     for key, (unit, label, *_) in KEYS.items()

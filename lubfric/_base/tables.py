@@ -15,19 +15,11 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..units import UNITS, converted, kind_of, spelled
 from .validate import nearest, shown
 
 IN_WORDS = ("validity", "uncertainty")  # columns of a result
 MOST_BYTES = 2**27
-UNITS = {  # dimension: {unit: in SI}
-    "s": {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
-    "m/s": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "cm/s": 1e-2, "km/h": 1 / 3.6, "m/min": 1 / 60},
-    "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3, "MN": 1e6},
-    "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3, "kN/mm": 1e6},
-    "m": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "nm": 1e-9},
-    "-": {"": 1.0, "-": 1.0, "%": 0.01},
-    "Pa s": {"Pa s": 1.0, "mPa s": 1e-3, "cP": 1e-3, "P": 0.1},
-}
 HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
 
 
@@ -127,8 +119,9 @@ def read_columns(
             raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}]")
         if given is None:
             _refuse_bare_unit(path, heading, unit)
-        factor = _factor(path, name, given, unit)
-        columns.append([factor * _number(path, line, row, places[0]) for line, row in rows[1:]])
+        word = _unit(path, name, given or "", unit)
+        numbers = [_number(path, line, row, places[0]) for line, row in rows[1:]]
+        columns.append([converted(number, word, kind_of(word)) for number in numbers] if word else numbers)
     return columns
 
 
@@ -141,7 +134,7 @@ def name_and_unit(heading: str) -> tuple[str, str | None]:
 def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
     """Raise `InputError` for a ``heading`` without brackets that ends with a unit other than SI (``time/ms``, ``speed
     mm/s``, ``speed_mm_s``, ``slip %``): its values would be read as SI."""
-    text = _in_ascii(heading)
+    text = spelled(heading)
     for si, table in UNITS.items():
         for unit, factor in table.items():
             if expected != si and (expected is not None or unit.isalpha() and len(unit) < 2):  # a letter may be a name
@@ -155,20 +148,11 @@ def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
                 )
 
 
-def _in_ascii(text: str) -> str:
-    """``text`` with a u for the sign of micro, and single spaces."""
-    return " ".join(text.replace("\N{MICRO SIGN}", "u").replace("\N{GREEK SMALL LETTER MU}", "u").split())
-
-
-def _factor(path: Path, name: str, given: str | None, expected: str | None) -> float:
-    """The factor that turns a value into SI."""
-    if given is None:
-        return 1.0
-    word = re.sub(r"\s*[\N{MIDDLE DOT}.*]\s*s$", " s", _in_ascii(given))  # Pa.s, Pa·s, Pa*s
-    tables = [table for unit, table in UNITS.items() if expected in (None, unit)]
-    for table in tables:
-        if word in table:
-            return table[word]
+def _unit(path: Path, name: str, given: str, expected: str | None) -> str:
+    """The unit ``given`` in a heading as in `UNITS`, "" without one; it has to be of the kind that is ``expected``."""
+    word, tables = spelled(given), [table for unit, table in UNITS.items() if expected in (None, unit)]
+    if not word or any(word in table for table in tables):
+        return word
     allowed = ", ".join(unit for table in tables for unit in table)
     raise InputError(
         f"file {path.name}, column {name!r}: unit {given!r} is not known here; allowed: {allowed}, or no unit for SI"

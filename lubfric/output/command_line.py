@@ -70,7 +70,7 @@ def _add_run(run: argparse.ArgumentParser) -> None:
     _add_out(run, "out")
     _add_texts(
         run,
-        speeds="entrainment speeds in m/s: '0.001,0.01,0.1', 'low:high:count' or 'auto'",
+        speeds="entrainment speeds in m/s, or with units: '0.001,0.01,0.1', '1 mm/s:10 m/s:13' or 'auto'",
         fields="speeds in m/s whose fields go to fields.npz and contact.png (default: the scene's own speed)",
         ratios="the traction curve instead: slide-roll ratios '0.01,0.1,1' or 'low:high:count'",
     )
@@ -106,7 +106,7 @@ def _add_fit(fit: argparse.ArgumentParser) -> None:
     axis = fit.add_mutually_exclusive_group(required=True)
     _add_texts(axis, speed=SPEED, ratio="heading of its column of slide-roll ratios: 'SRR [%%]'")
     _add_texts(fit, deviation="heading of its column of standard deviations")
-    sought = "what is sought, between bounds in SI units: 'lubricant.viscosity=0.05:1'; again for another"
+    sought = "what is sought, between bounds: 'lubricant.viscosity=50 mPa s:1 Pa s' (SI without a unit); again for another"
     fit.add_argument("--parameter", action="append", required=True, metavar="KEY=LOW:HIGH", help=sought)
     fit.add_argument("--without-rolling", action="store_true", help=WITHOUT)
     _add_out(fit, "fit")

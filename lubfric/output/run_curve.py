@@ -28,6 +28,7 @@ from ..studies import (
     stribeck,
     traction,
 )
+from ..units import number_of
 from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
 from .fields import fields_bytes, report_page, vtk_bytes
 from .pictures import plot_contact, plot_stribeck, plot_traction
@@ -71,7 +72,7 @@ def run_sweep(scene: Scene, arguments) -> None:
 def run_traction(scene: Scene, arguments) -> None:
     """Compute a traction curve, and write traction.csv, traction.png and, last, result.json to ``arguments.out``."""
     begun = time.perf_counter()
-    ratios = parse_speeds("--ratios", arguments.ratios, "(slide-roll ratio)", LARGEST_RATIO)
+    ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
     _check_outputs("traction", arguments, 0)
     prepared = ready(scene)
     with run_folder(arguments.out, begun, fingerprint(prepared, ratios, "traction")) as folder:
@@ -240,20 +241,22 @@ def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
 
 
 def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float = FASTEST) -> list[float]:
-    """'a,b,c' or 'low:high:count' (geometric), in ``unit``, of a command's ``option``; none above ``most``."""
+    """'a,b,c' or 'low:high:count' (geometric), in ``unit`` or each with its own, of a command's ``option``; none above
+    ``most``."""
     if text is None:
         return []
     refusal = InputError(
         f"{option} {validate.shown(text)}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low < high, "
-        f"1 <= count <= {MOST_SPEEDS}, in {unit}"
+        f"1 <= count <= {MOST_SPEEDS}, in {unit}, or each with its unit"
     )
     ranged = ":" in text
     words = text.split(":" if ranged else ",")
     if not ranged and any(re.match(r"[+-]?0\d", word.strip()) for word in words):
         raise InputError(f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, 0.01")
     try:
-        numbers = [float(word) for word in words]
-    except ValueError:
+        numbers = [number_of(option, word, "-" if i == 2 and ranged else unit) for i, word in enumerate(words)]
+    except InputError as error:
+        refusal.hint(error.said)
         raise refusal from None
     for speed in numbers[:2] if ranged else numbers:
         validate.number(option, speed, unit, minimum=-most, maximum=most)

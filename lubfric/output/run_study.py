@@ -11,6 +11,7 @@ from pathlib import Path
 
 from .._base import new_figure, plain, shown, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
+from ..quantities import KEYS
 from ..scene import Scene
 from ..studies import (
     MOST_WORKERS,
@@ -25,6 +26,7 @@ from ..studies import (
     read_measured,
     study,
 )
+from ..units import number_of
 from .commands import Pace, check_outputs, keeping, made, put, run_folder, say
 
 PLAN = "study.json"  # of the store, which replaces it
@@ -123,9 +125,12 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
     for text in texts:
         key, _, ends = text.partition("=")
         try:
-            low, high = map(float, ends.split(":"))
-        except ValueError:
-            raise InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI units") from None
+            unit = KEYS[key.strip()].unit if key.strip() in KEYS else "-"
+            low, high = (number_of("--parameter", end, unit) for end in ends.split(":"))
+        except ValueError as error:
+            refusal = InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI or with units")
+            refusal.hint(getattr(error, "said", ""))
+            raise refusal from None
         if key.strip() in found:
             raise InputError(f"--parameter {shown(text)}: {key.strip()} is given twice; give it once")
         found[key.strip()] = (low, high)

@@ -62,7 +62,7 @@ def read_toml(path, what: str) -> dict:
         raise InputError(f"{what} {str(path)!r} cannot be read as UTF-8 text: {error}") from None
     except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
         said = f"{what} {path} is not valid TOML: {validate.shown(str(error))}"
-        raise InputError(f"{said} (numbers have a decimal point and no unit)") from None
+        raise InputError(f"{said} (numbers have a decimal point; one with a unit stands in quotes: '12 mm')") from None
 
 
 def _put_map(table: dict, section: str, path) -> None:

@@ -13,6 +13,8 @@ from importlib import resources
 from typing import Any
 
 from ..errors import ConvergenceError, InputError
+from ..quantities import KEYS
+from ..units import converted
 
 
 @cache
@@ -25,7 +27,12 @@ def packaged(name: str) -> dict[str, Any]:
 def usual() -> dict[str, dict[str, Any]]:
     """Of each key (section.key): ``low``, ``high`` and ``unit`` of its usual range in SI; ``meant``: units that are
     mistaken for it, with their factors, and the key to give instead; ``zero``: whether 0 is usual too."""
-    return {f"{section}.{key}": row for section, rows in packaged("usual.toml").items() for key, row in rows.items()}
+    rows = {f"{section}.{key}": row for section, keys in packaged("usual.toml").items() for key, row in keys.items()}
+    for name, row in rows.items():
+        meant = [[given] if isinstance(given, str) else given for given in row["meant"]]
+        unit = KEYS[name].unit
+        row |= {"unit": unit, "meant": [(other, converted(1.0, other, unit), *advice) for other, *advice in meant]}
+    return rows
 
 
 def slip(name: str, value) -> str | None:

@@ -8,6 +8,8 @@ from typing import Any
 from .._base import validate
 from ..errors import InputError
 from ..oil import Lubricant
+from ..quantities import KEYS
+from ..units import without_unit
 from .bodies import Bodies, ContactDomain, Motion
 from .numerics import Numerics, refuse_dropped
 from .plausible import naming_slips, packaged
@@ -56,8 +58,15 @@ def made_section(section: str, given: dict, old: Any = None) -> Any:
     """The section that the keys ``given`` make, or ``old`` with them changed. An error has the likely slip."""
     check_keys(section, given)
     with naming_slips(section, dict(given)), named(section):
+        given = {key: in_key_unit(section, key, value) for key, value in given.items()}
         plain = {key: tuple(v) if isinstance(v, list) else v for key, v in resolve(section, given, old).items()}
         return SECTIONS[section](**plain) if old is None else replace(old, **plain)
+
+
+def in_key_unit(section: str, key: str, value: Any) -> Any:
+    """``value`` as a number in the unit of the ``key``, if it is text with a unit; of a key without one, as it is."""
+    name = f"{section}.{key}"
+    return without_unit(name, validate.python_value(value), KEYS[name].unit) if name in KEYS else value
 
 
 def changed_section(section: str, old: Any, values: Any) -> Any:

@@ -25,10 +25,10 @@ from ..oil import (
     from_viscosities,
     named_oil,
 )
+from ..units import HV
 from .bodies import pair
 from .plausible import packaged
 
-PRESSURE_PER_HV = 9.80665e6 / 0.9272  # Pa: kgf/mm² over the facets of the pyramid -> pressure over the projected area
 MOST_SPEEDS = 1_000_000
 SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil")
 PROPERTIES = {"base": "base", "density": "density", "density_slope": "density_slope", "alpha_estimate": "estimate"}
@@ -100,7 +100,7 @@ def _of_moduli(moduli, ratios, *_) -> dict:
 
 def _of_vickers(number, *_) -> dict:
     return {
-        "hardness": PRESSURE_PER_HV * validate.number("bodies.hardness_hv", number, "(HV)", minimum=5, maximum=5000)
+        "hardness": HV * validate.number("bodies.hardness_hv", number, "(HV)", minimum=5, maximum=5000)
     }
 
 

@@ -7,12 +7,16 @@ from pathlib import Path
 
 from .._base import read_columns, validate
 from ..errors import InputError
+from ..units import without_unit
 from .history import Constant, Harmonic, History, Ramp, Table
 
 UNITS = {"speed": "m/s", "sliding": "m/s", "load": "N", "radius": "m", "viscosity": "Pa s"}  # of what may change
 MOST_LAPS = 1e5
 LIMITS = {"m/s": (0.0, 1e6), "N": (1e-12, 1e12), "m": (1e-9, 1e3), "Pa s": (1e-9, 1e9)}  # least and largest
 KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
+
+WORDS = ("kind", "file", "column", "time_column")  # keys of histories that are no numbers
+IN_TIME = {"begin": "s", "until": "s", "times": "s", "frequency": "Hz", "phase": "rad"}  # units of others
 
 
 @dataclass(frozen=True)
@@ -79,8 +83,11 @@ def history(name: str, given, unit: str | None = None, folder: Path = Path()) ->
     if isinstance(given, History):
         return given
     if not isinstance(given, dict):
-        return Constant(validate.number(name, given, "(SI)"))
+        return Constant(validate.number(name, without_unit(name, given, unit) if unit else given, "(SI)"))
     table = dict(given)
+    for key in table if unit else ():
+        if key not in WORDS:
+            table[key] = without_unit(f"{name} {key}", table[key], IN_TIME.get(key, str(unit)))
     kind = validate.choice(f"{name} kind", table.pop("kind", None), (*KINDS, "file"))
     allowed = {"file", "column", "time_column", "repeat"} if kind == "file" else {f.name for f in fields(KINDS[kind])}
     validate.keys(name, table, sorted(allowed))

@@ -9,12 +9,14 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
+from ..units import UNITS as KINDS
+from ..units import spelled
 
 NEXT_LINE = 0.1  # of the largest gap between coordinates: a larger one leads to the next grid line
 FARTHEST = 1e15  # in the unit of the file
 UNEVEN = 0.02  # of the spacing: the most a coordinate may be off its grid line
 DECIMALS = (".", ",")
-UNITS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "\N{MICRO SIGN}m": 1e-6, "\N{GREEK SMALL LETTER MU}m": 1e-6, "nm": 1e-9}
+UNITS = {name: KINDS["m"][spelled(name)] for name in ("m", "mm", "um", "µm", "μm", "nm")}  # both signs of micro
 UNIT_WORDS = {"mm": "mm", "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "nm": "nm"}
 MISSING_WORDS = {"na", "n/a", "null", "none", "bad", "missing"}
 

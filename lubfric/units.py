@@ -1,0 +1,116 @@
+"""Units as people write them, once: for scene files, the command line, headings of tables, and results on request.
+
+A row holds the units of one kind of quantity, each as a factor to the SI unit at its head. Numbers are converted in
+decimals, so that "68 mm2/s" is 6.8e-05 m2/s to the last bit.
+"""
+
+from __future__ import annotations
+
+import re
+from decimal import Decimal
+from typing import Any
+
+from .errors import InputError
+
+HV = 9.80665e6 / 0.9272  # Pa: kgf/mm² over the facets of the pyramid -> pressure over the projected area
+CELSIUS = Decimal("273.15")  # K
+UNITS: dict[str, dict[str, float]] = {
+    "s": {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
+    "m/s": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "cm/s": 1e-2, "km/h": 1 / 3.6, "m/min": 1 / 60},
+    "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3, "MN": 1e6, "kgf": 9.80665, "lbf": 4.4482216152605},
+    "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3, "kN/mm": 1e6},
+    "m": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "nm": 1e-9, "in": 0.0254, "uin": 2.54e-8},
+    "-": {"": 1.0, "-": 1.0, "%": 0.01},
+    "Pa s": {"Pa s": 1.0, "mPa s": 1e-3, "cP": 1e-3, "P": 0.1},
+    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "N/mm2": 1e6, "psi": 6894.757293168, "HV": HV},
+    "1/Pa": {"1/Pa": 1.0, "1/MPa": 1e-6, "1/GPa": 1e-9, "mm2/N": 1e-6},
+    "m2/s": {"m2/s": 1.0, "mm2/s": 1e-6, "cSt": 1e-6, "St": 1e-4},
+    "K": {"K": 1.0, "°C": 1.0},
+    "1/K": {"1/K": 1.0, "%/K": 0.01, "1/°C": 1.0},
+    "kg/m3": {"kg/m3": 1.0, "g/cm3": 1e3, "g/ml": 1e3, "kg/l": 1e3},
+    "kg/(m3 K)": {"kg/(m3 K)": 1.0, "g/(cm3 K)": 1e3},
+    "W/(m K)": {"W/(m K)": 1.0, "mW/(m K)": 1e-3, "kW/(m K)": 1e3},
+    "J/(m3 K)": {"J/(m3 K)": 1.0, "kJ/(m3 K)": 1e3, "MJ/(m3 K)": 1e6},
+    "Hz": {"Hz": 1.0, "kHz": 1e3, "1/s": 1.0, "1/min": 1 / 60, "rpm": 1 / 60},
+    "rad": {"rad": 1.0, "°": 3.141592653589793 / 180},
+}
+NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\d.,])\s*(.*?)\s*")
+SPELLINGS = {"\N{MICRO SIGN}": "u", "\N{GREEK SMALL LETTER MU}": "u", "\N{MINUS SIGN}": "-", "\N{SUPERSCRIPT MINUS}": "-"}
+SPELLINGS |= {"¹": "1", "²": "2", "³": "3", "^": "", "*": " ", "\N{MIDDLE DOT}": " ", "\N{DOT OPERATOR}": " "}
+OTHER_WORDS = {"degC": "°C", "C": "°C", "micron": "um", "W/mK": "W/(m K)", "deg": "°"}
+
+
+def spelled(unit: str) -> str:
+    """``unit`` as in the table: a u for the sign of micro, digits for raised ones, single spaces between factors."""
+    text = " ".join(unit.translate(str.maketrans(SPELLINGS)).split())
+    text = re.sub(r"(?<=Pa)\s?\.?\s?s$", " s", text)  # Pa.s
+    text = re.sub(r"^1? ?/ ?", "1/", text)
+    inverse = re.fullmatch(r"(\w+) ?-1", text)  # GPa^-1
+    text = f"1/{inverse[1]}" if inverse else text
+    text = re.sub(r"/(\w+)[ /]K$|/\((\w+)[ .]K\)$", lambda m: f"/({m[1] or m[2]} K)", text)  # W/m K, W/m/K
+    return OTHER_WORDS.get(text, text)
+
+
+def kind_of(unit: str) -> str:
+    """The SI unit of the row that holds ``unit``; KeyError for one that no row holds."""
+    for si, row in UNITS.items():
+        if unit in row:
+            return si
+    raise KeyError(unit)
+
+
+def converted(value: Any, unit: str, to: str) -> Any:
+    """``value`` (a number, an array, or a `Decimal`, which stays one) in the unit ``to`` instead of ``unit``, both in
+    one row of the table. Raises `InputError` for a unit that is not in the row of the other."""
+    unit, to = spelled(unit), spelled(to)
+    row = UNITS[kind_of(unit)]
+    if to not in row:
+        raise InputError(f" = {to!r} is no unit of a number in {unit}", "unit", ", ".join(filter(None, row)))
+    if to == unit:
+        return value
+    exact = isinstance(value, Decimal)
+    first, second = (Decimal(repr(row[name])) if exact else row[name] for name in (unit, to))
+    shift = CELSIUS if exact else float(CELSIUS)
+    in_si = value * first + (shift if unit == "°C" else 0)
+    return (in_si - (shift if to == "°C" else 0)) / second
+
+
+def without_unit(name: str, value: Any, unit: str, depth: int = 3) -> Any:
+    """``value`` in ``unit`` where it is text with a unit, such as "12 mm"; anything else as it is.
+
+    Lists are gone through, nested up to ``depth`` times. ``unit`` may name several, "m/s, m/s, -", one for each part of
+    a list. ``name``: of the key.
+    Raises `InputError` for text that is no number with a unit, and for a unit of another kind.
+    """
+    if isinstance(value, (list, tuple)) and depth:
+        several = unit.split(", ")
+        if len(several) != len(value) or any(isinstance(part, (list, tuple)) for part in value):
+            several = [unit] * len(value)
+        return type(value)(without_unit(name, part, one, depth - 1) for part, one in zip(value, several))
+    if not isinstance(value, str):
+        return value
+    found = NUMBER.fullmatch(value.replace("\N{MINUS SIGN}", "-"))
+    row = UNITS[kind_of(unit)]
+    shown = value if len(value) < 40 else f"{value[:40]} ..."
+    examples = [f"'20{other if other == '%' else ' ' + other}'" for other in row if other not in ("", "-")][:5]
+    allowed = f"a plain number in {unit}, or one with a unit in quotes: {', '.join(examples)}"
+    if found is None or not found[2]:
+        said = " has no unit: leave the quotes out, or add one" if found else " is no number with a unit"
+        raise InputError(f" = {shown!r}{said}", name, allowed)
+    given = spelled(found[2])
+    if given not in row:
+        other = next((si for si, units in UNITS.items() if given in units), "")
+        said = f"is in {found[2]}, a unit of another kind ({other})" if other else f"has an unknown unit, {found[2]!r}"
+        raise InputError(f" = {shown!r} {said}", name, allowed)
+    try:
+        return float(converted(Decimal(found[1]), given, unit))
+    except ArithmeticError:
+        raise InputError(f" = {shown!r} is out of range", name, allowed) from None
+
+
+def number_of(name: str, text: str, unit: str) -> float:
+    """The number in ``unit`` that ``text`` of a command line gives, alone ("0.01") or with a unit ("1 cm")."""
+    try:
+        return float(text)
+    except ValueError:
+        return without_unit(name, text, unit)
