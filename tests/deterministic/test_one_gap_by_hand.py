@@ -72,7 +72,7 @@ def test_sliding_thins_by_eyrings_law_and_by_the_limit(s):
 SCENE = lubfric.load_scene("paper").with_(
     contact={"shape": (40, 24), "spacing": (2.2e-6, 3.1e-6)},
     surface={"acf": "gaussian", "correlation_length": 12e-6},
-    numerics={"model": "deterministic", "grid": "given", "accept": True},
+    numerics={"model": "deterministic", "grid": "given", "accept": True, "sampling": "patch"},
 )
 
 
@@ -87,7 +87,7 @@ def test_pressure_and_spots_add_up_to_the_load(solved):
     found, f_b = point.deterministic.result, SCENE.bodies.boundary_friction_coefficient
     cell = found.spacing[0] / found.pressure.shape[1]
     assert found.boundary == pytest.approx(f_b * found.pressure[found.spots].sum() * cell, rel=1e-12)
-    assert found.pressure.sum() * cell + found.inlet_load == pytest.approx(found.load, rel=1e-4)
+    assert found.pressure.sum() * cell + found.inlet_load == pytest.approx(found.load, rel=1e-3)
 
 
 def test_no_film_beyond_its_range_rubs_more_than_a_spot():
@@ -96,7 +96,7 @@ def test_no_film_beyond_its_range_rubs_more_than_a_spot():
     found = lubfric.friction(smooth, 0.1, fields=True).deterministic.result
     f_b = SCENE.bodies.boundary_friction_coefficient
     own = lubfric.oil.viscosity(SCENE.lubricant, found.pressure) * 0.2 / found.gap
-    capped = found.wet & (found.pressure > 50e6) & (own > f_b * found.pressure)
+    capped = ~found.touching & (found.pressure > 50e6) & (own > f_b * found.pressure)
     assert capped.any()
     np.testing.assert_allclose(found.shear[capped], f_b * found.pressure[capped], rtol=1e-12)
 
