@@ -15,6 +15,7 @@ OPTIONS = {"ratios": RATIOS, "animation": IN_TIME}  # of ``lubfric run``, and wh
 OPTIONS |= dict.fromkeys(("speeds", "fields", "workers", "report", "vtk"), CURVE)
 SPEED = "heading of its column of entrainment speeds, with the unit: 'U [mm/s]'"
 F = "heading of its column of friction coefficients"
+WITHOUT = "the coefficients do not hold the rolling part, as those averaged over both signs of slip"
 
 
 def main(argv=None) -> int:
@@ -107,6 +108,7 @@ def _add_fit(fit: argparse.ArgumentParser) -> None:
     _add_texts(fit, deviation="heading of its column of standard deviations")
     sought = "what is sought, between bounds in SI units: 'lubricant.viscosity=0.05:1'; again for another"
     fit.add_argument("--parameter", action="append", required=True, metavar="KEY=LOW:HIGH", help=sought)
+    fit.add_argument("--without-rolling", action="store_true", help=WITHOUT)
     _add_out(fit, "fit")
 
 

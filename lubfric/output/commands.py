@@ -15,13 +15,15 @@ import tomllib
 from collections.abc import Callable, Iterable
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import get_type_hints
 
 import numpy as np
 
-from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, shown
+from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, read_json, shown
 from ..errors import InputError, OutputError
 from ..scene import Scene, scene_as_dict
-from ..sharing import Prepared, prepare
+from ..sharing import Prepared, Validity, prepare
+from ..studies import fits
 from ..surface import rms_slope
 
 INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them
@@ -125,14 +127,14 @@ def ready(scene: Scene) -> Prepared:
 
 def read_record(folder: Path) -> dict:
     """What result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
-    path = folder / RESULT
-    if not path.is_file():
-        raise InputError(f"{folder} holds no {RESULT}; give a folder that 'lubfric run' wrote")
-    try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        str(record["scene"]["name"])
-    except (ValueError, KeyError, TypeError, RecursionError) as problem:
-        raise InputError(f"{path} is torn, or no record of a run ({problem})") from None
+    path, again = folder / RESULT, "give a folder that 'lubfric run' wrote, or run it again"
+    if not os.path.lexists(path):
+        raise InputError(f"{folder} holds no {RESULT}; {again}")
+    record = read_json(path, again)
+    numbers = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Validity).items()}
+    kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
+    if not isinstance(record, dict) or not fits({"points": []} | record, kind):
+        raise InputError(f"{path} is damaged, or no record of a run; {again}")
     return record
 
 

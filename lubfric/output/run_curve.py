@@ -175,11 +175,16 @@ def replot(arguments, name: str, plot: Callable, *given) -> None:
 
 def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
     """The picture of the table of a curve; ``points``: those of its record."""
-    entries = [[Validity(**entry) for entry in point["validity"]] for point in points]
+    entries = [[Validity(**entry | _known(entry)) for entry in point["validity"]] for point in points]
     title = plain_words(title)
     if "ratio" in columns:
         title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured)
+
+
+def _known(entry: dict) -> dict[str, float]:
+    """The numbers of an entry of a record, in which those that are not finite are null."""
+    return {name: math.nan if entry[name] is None else entry[name] for name in ("value", "limit")}
 
 
 def _doubts(scene: Scene, curve: CurveResult) -> list[str]:

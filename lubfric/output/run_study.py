@@ -98,12 +98,16 @@ def run_fit(scene: Scene, arguments) -> None:
     scene.to_toml()  # raises InputError now, rather than after the fit
     bounds, begun, pace = _bounds(arguments.parameter), time.perf_counter(), Pace()
     columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
-    measured = read_measured(arguments.measured, coefficient=arguments.coefficient, **columns)
+    rolling = not arguments.without_rolling
+    measured = read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
     say(explain_fit(scene, measured, bounds))
 
-    def on_progress(curve: int, done: int, total: int) -> None:
-        if pace.due(done == total):
-            say(f"curve {curve}: [{done}/{total}] {time.perf_counter() - begun:.0f} s")
+    def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
+        if pace.due(done == 1):
+            off = f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} deviations"
+            best = ", ".join(f"{key} = {value:.4g}" for key, value in values.items())
+            passed = f"{time.perf_counter() - begun:.0f} s, about {in_words(left)} left"
+            say(f"curve {done} of about {total}: nearest so far {off} off at {best}; {passed}")
 
     found = fit(scene, measured, bounds, on_progress=on_progress)
     say(found.explain())
@@ -131,7 +135,7 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
 def _record(found: FitResult) -> dict:
     names = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
     return {name: getattr(found, name) for name in names} | {
-        "parameters": list(found.parameters.keys),
+        "parameters": list(found.parameters),
         "x": found.measured.x,
         "measured": found.measured.coefficient,
         "fitted": found.predicted,

@@ -8,8 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from .._base import validate
 from ..errors import InputError
 from ..sampling import FrictionResult
+from ..scene import FASTEST as LARGEST_SPEED
 from ..scene import Scene
 from ..sharing import Prepared
 from .curve import columns_of
@@ -31,14 +33,27 @@ APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
 
+def asked_speeds(scene: Scene, speeds) -> list[float]:
+    """The speeds [m/s] that were asked for, one or many; those of the scene for None, and none for "auto"."""
+    if isinstance(speeds, str):
+        if speeds != AUTO:
+            raise InputError(
+                f"speeds = {speeds!r}; allowed: speeds in m/s, or 'auto', where each curve chooses its own"
+            )
+        return []
+    if speeds is None:
+        speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
+    return validate.numbers("speeds", speeds, "m/s", LARGEST_SPEED).tolist()
+
+
 def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Iterator[tuple[float, Any]]:
     """(speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
-    ``solve(speeds)`` yields these pairs."""
+    ``solve(speed)`` gives an outcome."""
     outcomes: dict[float, Any] = {}
     while ahead and len(outcomes) < MOST:
-        for speed, outcome in solve(ahead):
-            outcomes[speed] = outcome
-            yield speed, outcome
+        for speed in ahead:
+            outcomes[speed] = solve(speed)
+            yield speed, outcomes[speed]
         good = [outcome for outcome in outcomes.values() if isinstance(outcome, FrictionResult)]
         failed = [speed for speed, outcome in outcomes.items() if not isinstance(outcome, FrictionResult)]
         wanted = None

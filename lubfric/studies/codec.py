@@ -1,5 +1,5 @@
-"""Dataclasses of this package as bytes, and back. Reading builds the classes of a given table and nothing else, so a
-file can run no code.
+"""Dataclasses of this package as bytes, and back. Reading builds the classes of a given table, each with values of the
+types that its fields declare, and nothing else. So a file can run no code, and what it holds has the right shape.
 
 A dataclass becomes ``{"class": name, field: ...}``, an array ``{"array": [dtype, shape, order, place]}``, a number that
 is not finite ``{"float": "nan"}``. Tuples become lists, lists ``{"list": [...]}``, dicts ``{"dict": {...}}``. Floats
@@ -10,8 +10,12 @@ from __future__ import annotations
 
 import json
 import math
+import re
+import sys
 from dataclasses import fields, is_dataclass
-from typing import Any, get_args, get_type_hints
+from functools import cache
+from types import UnionType
+from typing import Any, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -20,6 +24,8 @@ from .._base import Shown
 HOME = "lubfric."
 SCALARS = {"float64": np.float64, "int64": np.int64, "bool": np.bool_}
 LENGTH = 8  # bytes of the length of the tree
+DTYPE = re.compile(r"[<>|=][biufc]\d{1,2}|[<>=]U\d{1,6}")  # of arrays: numbers and texts, never objects
+ACCEPTED = {float: (float, int, np.floating, np.integer), int: (int, np.integer), bool: (bool, np.bool_)}
 
 
 def classes_of(*roots) -> dict[str, type]:
@@ -49,14 +55,50 @@ def encode(value, field=getattr) -> list:
     return [len(tree).to_bytes(LENGTH, "little") + tree, *arrays]
 
 
-def decode(content: bytes, classes: dict[str, type]):
-    """What `encode` was given, from its pieces joined. ``classes``: those that it may hold (`classes_of`). Raises
-    `ValueError` for anything else, such as what another version stored."""
+def decode(content: bytes, classes: dict[str, type], kind: Any = Any):
+    """What `encode` was given, from its pieces joined. ``classes``: those that it may hold (`classes_of`); ``kind``:
+    the type that it must have, as in an annotation. Raises `ValueError` for anything else, such as what another version
+    stored."""
     end = LENGTH + int.from_bytes(content[:LENGTH], "little")
     try:
-        return _value(json.loads(content[LENGTH:end]), classes, memoryview(content)[end:])
-    except (KeyError, TypeError, AttributeError, RecursionError) as error:
+        found = _value(json.loads(content[LENGTH:end]), classes, memoryview(content)[end:])
+    except (LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, MemoryError) as error:
         raise ValueError(f"stored by another version ({error})") from None
+    if not fits(found, kind):
+        raise ValueError(f"stored by another version (a {type(found).__name__} is no {kind})")
+    return found
+
+
+def fits(value, kind) -> bool:
+    """Whether ``value`` has the type ``kind``, as in an annotation, and so have its parts. Fields of dataclasses were
+    looked at when these were built, and a named tuple is stored as a plain one. ``kind`` may also be a dict of kinds,
+    for a dict that has these keys at least, and a list of one kind."""
+    if kind is Any:
+        return True
+    if isinstance(kind, dict):
+        return isinstance(value, dict) and all(name in value and fits(value[name], kind[name]) for name in kind)
+    kind = list[kind[0]] if isinstance(kind, list) else kind
+    origin, parts = get_origin(kind) or kind, get_args(kind)
+    if origin in (Union, UnionType):
+        return any(fits(value, part) for part in parts)
+    if isinstance(kind, type) and issubclass(kind, tuple) and kind is not tuple:
+        origin, parts = tuple, tuple(_hints(kind).values())
+    if not isinstance(value, ACCEPTED.get(origin, origin)) or (isinstance(value, bool) and origin in (float, int)):
+        return False
+    if isinstance(value, int) and origin is float:
+        return abs(value) <= sys.float_info.max
+    if origin is dict and parts:
+        return all(fits(key, parts[0]) and fits(item, parts[1]) for key, item in value.items())
+    if origin is tuple and parts and parts[-1] is not Ellipsis:
+        return len(value) == len(parts) and all(map(fits, value, parts))
+    return origin not in (tuple, list) or not parts or all(fits(item, parts[0]) for item in value)
+
+
+@cache
+def _hints(kind: Any) -> dict[str, Any]:
+    """The types of the fields of a dataclass or a named tuple. A type variable stands for a number of one point."""
+    hints, own = get_type_hints(kind), [f.name for f in fields(kind)] if is_dataclass(kind) else kind._fields
+    return {name: float if isinstance(hints[name], TypeVar) else hints[name] for name in own}
 
 
 def _plain(value, arrays: list, field) -> Any:
@@ -94,17 +136,21 @@ def _value(plain, classes: dict[str, type], content: memoryview) -> Any:
     if "class" in plain:
         kind = classes[plain["class"]]
         new: Any = object.__new__(kind)  # as it was: checks and conversions of its constructor had their turn
-        for field in fields(kind):
-            part = _value(plain[field.name], classes, content)
+        for name, hint in _hints(kind).items():
+            part = _value(plain[name], classes, content)
+            if type(part) is not hint and not fits(part, hint):
+                raise ValueError(f"{name} of {kind.__name__} is no {hint}")
             if isinstance(part, np.ndarray):
                 part.flags.writeable = False
-            object.__setattr__(new, field.name, part)
+            object.__setattr__(new, name, part)
         return new
     ((mark, inner),) = plain.items()
     if mark == "float":
         return float(inner)
     if mark == "array":
         dtype, shape, order, place = inner
+        if not DTYPE.fullmatch(dtype):
+            raise ValueError(f"an array of {dtype}")
         flat = np.frombuffer(content, dtype, math.prod(shape), place) if math.prod(shape) else np.empty(0, dtype)
         return flat.copy().reshape(shape, order=order)
     if mark == "list":

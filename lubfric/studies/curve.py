@@ -3,6 +3,7 @@ their tables."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import ClassVar, TypeVar
 
 import numpy as np
@@ -29,6 +30,12 @@ class CurveResult(Shown):
 
     def __getitem__(self, name: str) -> np.ndarray:
         return columns_of(self.points)[validate.choice("column", name, NUMBERS)]
+
+    @property
+    def without_rolling(self) -> np.ndarray:
+        """f at every point without the rolling part of the film's force [-], as the mean over both signs of slip; NaN
+        where a point failed."""
+        return np.array([np.nan if point is None else without_rolling(point) for point in self.points])
 
     @property
     def uncertainty(self) -> UncertaintyCurve:
@@ -62,6 +69,18 @@ class CurveResult(Shown):
             known, f = getattr(self, name)[good], self["coefficient"][good]
             facts |= {symbol: f"{known.min():.4g} to {known.max():.4g} {unit}", "f": f"{f.min():.4g} to {f.max():.4g}"}
         return facts | {"failed": str(len(self.errors)), "cautions": str(len(self.validity))}
+
+
+def parted(outcomes: Sequence) -> tuple[tuple[FrictionResult | None, ...], dict[int, Exception]]:
+    """The points (None for what is no result), and the errors by index, of results, exceptions, or None."""
+    points = tuple(outcome if isinstance(outcome, FrictionResult) else None for outcome in outcomes)
+    return points, {i: outcome for i, outcome in enumerate(outcomes) if isinstance(outcome, Exception)}
+
+
+def without_rolling(point: FrictionResult) -> float:
+    """f of a point without the rolling part of the film's force [-]. That part points the way the surfaces entrain, and
+    the rest the way they slide. So the mean of f over both signs of slip is without it, as some rigs measure it."""
+    return (point.boundary_force + point.couette_force) / (point.contact_load + point.film_load)
 
 
 def columns_of(points) -> dict[str, np.ndarray]:

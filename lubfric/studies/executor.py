@@ -7,7 +7,7 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import contextmanager
 from queue import SimpleQueue
@@ -27,36 +27,36 @@ def checked_executor(executor):
     return executor
 
 
-def spread(executor, work: Callable, pieces: list) -> Iterator:
-    """Yield what ``work(piece)`` yields, for every piece. Done here, the values come at once; from an executor, those
-    of a piece come when it has ended.
+def spread(executor, jobs: Sequence[Callable[[], Iterator]]) -> Iterator:
+    """Yield what the ``jobs`` yield. Done here, the values come at once; from an executor, those of a job come when it
+    has ended.
 
-    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. ``work`` must be importable, and
-    must catch what a piece may rightly raise. Any other exception is an error of the program: pieces not yet begun are
-    cancelled, and it is raised. A *worker* may be lost: killed, or its machine gone. Then its pieces, and those of a
-    pool that broke with it, are done here.
+    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. A job must pickle (a
+    `functools.partial` of what can be imported), and must catch what it may rightly raise. Any other exception is an
+    error of the program: jobs not yet begun are cancelled, and it is raised. A *worker* may be lost: killed, or its
+    machine gone. Then its jobs, and those of a pool that broke with it, are done here.
     """
     if executor is None:
-        for piece in pieces:
-            yield from work(piece)
+        for job in jobs:
+            yield from job()
         return
     ended: SimpleQueue = SimpleQueue()  # `concurrent.futures.wait` would leave locks behind when it is interrupted
     waiting, lost = {}, []
-    for piece in pieces:
+    for job in jobs:
         try:
-            waiting[executor.submit(_attempt, work, piece)] = piece
+            waiting[executor.submit(_attempt, job)] = job
         except BrokenExecutor:  # by a worker that was lost before
-            lost.append(piece)
+            lost.append(job)
     for future in waiting:
         future.add_done_callback(ended.put)
     try:
         while waiting:
             future = ended.get()
-            piece = waiting.pop(future)
+            job = waiting.pop(future)
             try:
                 done, value = future.result()
             except Exception:  # `_attempt` raises nothing: this is the executor's own
-                lost.append(piece)
+                lost.append(job)
                 continue
             if not done:
                 raise value
@@ -64,14 +64,14 @@ def spread(executor, work: Callable, pieces: list) -> Iterator:
     finally:
         for future in waiting:
             future.cancel()
-    for piece in lost:
-        yield from work(piece)
+    for job in lost:
+        yield from job()
 
 
-def _attempt(work, piece):
-    """(True, the values) or (False, the exception): tells errors of the work from those of the executor."""
+def _attempt(job):
+    """(True, the values) or (False, the exception): tells errors of a job from those of the executor."""
     try:
-        return True, list(work(piece))
+        return True, list(job())
     except Exception as error:
         return False, error
 

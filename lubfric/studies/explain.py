@@ -3,6 +3,7 @@ scene."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from numbers import Real
 from textwrap import shorten
@@ -10,31 +11,35 @@ from textwrap import shorten
 import numpy as np
 
 from ..errors import InputError
-from ..scene import Scene
-from ..sharing import prepare
+from ..sharing import Prepared, prepare, takes_strips
 from .choose import CHOSEN, film_ratio, first_speeds
-from .rows import stored_rows
+from .points import stored_rows
 from .store import Store
 
-FILM = 0.01  # processor seconds of the films of a point, about
-CELL = 8e-6  # processor seconds of a cell of a point in contact, about
+FILM, HOT = 0.012, 5.0  # processor seconds of the films of a point, about; how many times as many with heat
+CELL, FLAT = 8e-6, 1e-7  # processor seconds of a cell of a point in contact, about; of a flat one
 FINE = 6  # cells along a correlation length on which a contact is solved, about
-LIFTED = 4.0  # Moes' film of the whole load over Sq beyond which the surfaces hardly touch
+SCARCE, LIFTED = 2.0, 6.0  # Moes' film of the whole load over Sq between which few summits touch; beyond it hardly any
+MORE = 3.0  # times more work on strips where few summits touch: more of them are needed
 SAMPLED = 8  # scenes of a study that are made ready to count their cells
 LISTED = 4  # values of a key that are named one by one
 
 
-def curve_seconds(scene: Scene, speeds: Sequence[float]) -> float:
-    """Processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), to an order of
-    magnitude. The map is made. Raises `InputError` if that is not possible."""
-    surface = prepare(scene).surface
+def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
+    """Processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a factor
+    of about 4: by the films, and by the cells of the contacts where summits touch."""
+    scene, surface = prepared.scene, prepared.surface
     at = speeds or first_speeds(scene, surface.sq)
-    touching = [u for u in at if surface.sq > 0 and (u == 0 or film_ratio(scene, surface.sq, abs(u)) < LIFTED)]
-    cells, given = surface.heights.size, scene.surface.correlation_length
+    cells, given = float(surface.heights.size), scene.surface.correlation_length
     if given is not None:  # a contact is solved on fewer cells than the map has
         for step, length in zip(surface.spacing, np.broadcast_to(given, 2)):
             cells *= min(1.0, FINE * step / length)
-    seconds = FILM * len(at) + CELL * cells * len(touching)
+    seconds = FILM * len(at) * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
+    for speed in at if surface.sq > 0 else ():
+        ratio = film_ratio(scene, surface.sq, abs(speed)) if speed else 0.0
+        if ratio < LIFTED:
+            more = MORE if ratio > SCARCE and takes_strips(scene) else 1.0
+            seconds += (FLAT if scene.contact.geometry == "flat" else CELL) * cells * more
     return seconds if speeds else seconds * CHOSEN / len(at)
 
 
@@ -59,15 +64,15 @@ def explain(plan, store=None) -> str:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
     if plan.scene.transient is not None:
         lines.append("  steady   every point; what changes in time in the scene ([transient]) is left out")
-    rows = stored_rows(Store(store), plan.keys, plan.speeds)
+    rows, ended = stored_rows(Store(store), plan.keys, plan.speeds)
     left = [
-        (scene, tuple(u for u in plan.speeds if u not in rows.points[key]))
+        (scene, tuple(u for u in plan.speeds if u not in rows[key]))
         for key, scene in dict(zip(plan.keys, plan.scenes)).items()
-        if key not in rows.ended and not (plan.speeds and len(rows.points[key]) == len(plan.speeds))
+        if key not in ended and not (plan.speeds and len(rows[key]) == len(plan.speeds))
     ]
-    held = sum(map(len, rows.points.values())) if plan.speeds else len(rows.ended)
+    held = sum(map(len, rows.values())) if plan.speeds else len(ended)
     if held:
-        total, what = len(rows.points) * max(len(plan.speeds), 1), "points" if plan.speeds else "curves"
+        total, what = len(rows) * max(len(plan.speeds), 1), "points" if plan.speeds else "curves"
         lines.append(f"  kept     {held} of {total} {what} are in {store} already")
     if not left:
         return "\n".join([*lines, "  time     nothing is left to solve"])
@@ -75,10 +80,12 @@ def explain(plan, store=None) -> str:
     seconds, failed = 0.0, []
     for scene, speeds in some:
         try:
-            seconds += curve_seconds(scene, speeds) * len(left) / len(some)
+            begun = time.process_time()  # of the map, which takes its time as well
+            counted = curve_seconds(prepare(scene), speeds) + time.process_time() - begun
+            seconds += counted * len(left) / len(some)
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
-    lines.append(f"  time     about {in_words(seconds)} on one core (an order of magnitude)")
+    lines.append(f"  time     about {in_words(seconds)} on one core (within a factor of about 4)")
     return "\n".join([*lines, *dict.fromkeys(failed)])
 
 

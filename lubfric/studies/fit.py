@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import partial
+from itertools import product
 
 import numpy as np
 
@@ -13,17 +14,20 @@ from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, InputError, R
 from ..sampling import FrictionResult, friction
 from ..scene import Scene
 from ..sharing import Prepared, prepare
+from .curve import without_rolling
 from .executor import checked_executor, spread
 from .explain import curve_seconds, in_words
-from .fit_input import SLIP, SPEED, Measured, Parameters, parameters_of
+from .fit_input import SLIP, SPEED, Measured, parameters_of, values_at
 from .fit_result import FitResult
+from .vary import Between
 
 STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
 CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
 RATIO = {"motion.slide_roll_ratio", "motion.slip_percent"}
 LEAST_ERROR, LEAST_SLOPE = 1e-6, 1e-9  # of f, relative, that may be stated; and by a parameter, over its bounds
 MOST = 30  # curves on the way, beside those of the differences
-STEPS = 3  # curves of a search, about, beside those of the differences
+STEPS = 5  # curves of a search, about, beside two for each parameter
+CORNERS = 16  # of the ranges, at which the work of a curve is counted
 
 
 def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=None, on_progress=None) -> FitResult:
@@ -44,8 +48,9 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     start : {"section.key": value} to begin with; default: the scene's own if they lie within the bounds, else the
         middle
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
-    on_progress : called as on_progress(curve, done, total) when ``done`` of the ``total`` points of a curve are solved;
-        curves count from 1
+    on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about ``total``
+        curves, about ``left`` seconds to go on one core, and the least root mean square misfit so far (relative, or in
+        deviations if these are given) with the ``values`` {"section.key": value} that have it
 
     Returns a `FitResult`.
 
@@ -56,33 +61,27 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     """
     from scipy.optimize import least_squares
 
-    instance("scene", scene, Scene, "a scene to change: what lubfric.load_scene returned, not lubfric.prepare")
-    instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
-    found = parameters_of(scene, parameters)
-    if measured.over == SLIP and (given := RATIO.intersection(found.keys)):
-        raise InputError(f"parameters: {', '.join(given)} is measured, not fitted; name another number of the scene")
-    if measured.x.size <= len(found.keys):
-        raise InputError(f"{measured.x.size} measured points for {len(found.keys)} parameters; give more points")
+    found = _checked(scene, measured, parameters)
     begin = _begin(scene, found, {} if start is None else start)
     search = Search(scene, measured, found, checked_executor(executor), on_progress)
-    scale = measured.coefficient if measured.deviation is None else measured.deviation
     end = least_squares(
-        lambda unit: (search.at(unit).coefficient - measured.coefficient) / scale,
+        search.residuals,
         begin,
-        lambda unit: search.slopes(unit) / scale[:, None],
+        lambda unit: search.slopes(unit) / measured.scale[:, None],
         bounds=(0.0, 1.0),
         xtol=CLOSE,
         ftol=1e-4,
         gtol=1e-12,
         max_nfev=MOST,
     )
-    result = _result(search, scale, end)
+    result = _result(search, end)
     result.report.raise_if_failed(result)
     return result
 
 
 def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
-    """What a fit will do and about how long it will take, in words. The map is made, and no point is solved.
+    """What a fit will do and about how long it will take, in words: by the work counted where it may begin and at the
+    corners of the ranges. Maps are made, and no point is solved.
 
     Parameters
     ----------
@@ -96,100 +95,137 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     ------
     InputError : a parameter is not one
     """
-    found = parameters_of(scene, parameters)
-    count = f"{len(found.keys)} parameter{'s' if len(found.keys) > 1 else ''}"
+    found = _checked(scene, measured, parameters)
+    count = f"{len(found)} parameter{'s' if len(found) > 1 else ''}"
     lines = [f"fit of {count} of {scene.name} to {measured.x.size} points of {measured.source}"]
-    for key, low, high, logarithmic in zip(found.keys, found.low, found.high, found.logarithmic):
-        lines.append(f"  {key}: {low:g} to {high:g}{', sought in its logarithm' if logarithmic else ''}")
-    speeds = measured.x.tolist() if measured.over == SPEED else [scene.motion.entrainment_speed] * measured.x.size
-    curves = len(found.keys) + STEPS
-    seconds = curves * curve_seconds(scene, speeds)
-    return "\n".join(
-        [*lines, f"  time: about {in_words(seconds)} on one core (an order of magnitude): {curves} curves"]
-    )
+    for key, bounds in found.items():
+        logarithmic = ", sought in its logarithm" if bounds.scale == "log" else ""
+        lines.append(f"  {key}: {bounds.low:g} to {bounds.high:g}{logarithmic}")
+    if measured.over == SLIP:
+        held = "they hold" if measured.rolling else "they do not hold"
+        lines.append(f"  {held} the rolling part of the friction, which averaging over both signs of slip takes out")
+    search = Search(scene, measured, found)
+    corners = list(product((0.0, 1.0), repeat=len(found)))
+    places = [_begin(scene, found, {}), *map(np.array, corners[:: -(-len(corners) // CORNERS)])]
+    curves, work = 2 * len(found) + STEPS, [search.foretold(unit)[1] for unit in places]
+    seconds = in_words(curves * 0.5 * (float(np.mean(work)) + max(work)))
+    return "\n".join([*lines, f"  time: about {seconds} on one core (within a factor of about 4): {curves} curves"])
 
 
-def _begin(scene: Scene, found: Parameters, start: dict) -> np.ndarray:
+def _checked(scene: Scene, measured: Measured, parameters) -> dict[str, Between]:
+    """What is sought, if data and scene can tell it."""
+    instance("scene", scene, Scene, "a scene to change: what lubfric.load_scene returned, not lubfric.prepare")
+    instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
+    found = parameters_of(scene, parameters)
+    if measured.over == SLIP and (given := RATIO.intersection(found)):
+        raise InputError(f"parameters: {', '.join(given)} is measured, not fitted; name another number of the scene")
+    if measured.x.size <= len(found):
+        raise InputError(f"{measured.x.size} measured points for {len(found)} parameters; give more points")
+    return found
+
+
+def _begin(scene: Scene, found: dict[str, Between], start: dict) -> np.ndarray:
     """Where the search begins, as positions between the bounds."""
     for key in start:
-        if key not in found.keys:
-            raise InputError(f"start holds {key!r}, which is no parameter; allowed: {', '.join(found.keys)}")
-    values = found.values(np.full(len(found.keys), 0.5))
-    for i, (key, low, high) in enumerate(zip(found.keys, found.low, found.high)):
+        if key not in found:
+            raise InputError(f"start holds {key!r}, which is no parameter; allowed: {', '.join(found)}")
+    unit = np.full(len(found), 0.5)
+    for i, (key, bounds) in enumerate(found.items()):
         section, _, name = key.partition(".")
         own = vars(getattr(scene, section)).get(name)  # a short form has none there
         if key in start:
-            values[i] = number(f"start[{key!r}]", start[key], "(of the key)", minimum=low, maximum=high)
-        elif isinstance(own, (int, float)) and low < own < high:
-            values[i] = own
-    return np.clip(found.unit(values), 0.02, 0.98)
-
-
-@dataclass(frozen=True)
-class Curve:
-    """The computed curve at a position ``unit`` of the parameters: f (n,), and its points."""
-
-    unit: np.ndarray
-    coefficient: np.ndarray
-    points: tuple[FrictionResult, ...]
+            own = number(f"start[{key!r}]", start[key], "(of the key)", minimum=bounds.low, maximum=bounds.high)
+        elif not isinstance(own, (int, float)) or not bounds.low < own < bounds.high:
+            continue
+        unit[i] = bounds.share(own)
+    return np.clip(unit, 0.02, 0.98)
 
 
 class Search:
-    """f of ``scene`` at the points of ``measured``, and its slopes, for any values of ``parameters``. Two curves are
-    kept: the last, and that of the last slopes."""
+    """f of ``scene`` at the points of ``measured``, and its slopes, for any positions of ``parameters`` between their
+    bounds, each computed once."""
 
-    def __init__(self, scene: Scene, measured: Measured, parameters: Parameters, executor=None, on_progress=None):
+    def __init__(self, scene: Scene, measured: Measured, parameters, executor=None, on_progress=None):
         self.scene, self.measured, self.parameters = scene, measured, parameters
-        deviation = measured.deviation
-        scatter = 0.05 if deviation is None else float(np.median(deviation / np.abs(measured.coefficient)))
+        scatter = (
+            0.05 if measured.deviation is None else float(np.median(measured.scale / np.abs(measured.coefficient)))
+        )
         self.tolerance = min(scene.numerics.tolerance, max(0.2 * scatter, 1e-3))  # as tight as the measurement requires
         self._executor, self._on_progress = executor, on_progress
-        self._curves = 0
-        self._last: Curve | None = None
-        self._base: Curve | None = None
-        self._slopes = np.empty((0, 0))
+        self._curves: dict[bytes, tuple[FrictionResult, ...]] = {}
+        self._spent = self._counted = 0.0  # seconds of the points so far, and those that were foretold of them
+        self._nearest = np.inf, np.empty(0), 0.0  # misfit, where, and the seconds that were foretold there
+        self._base, self._slopes = np.full(len(parameters), np.inf), np.empty((0, 0))
+        self._ready: Prepared | None = None
 
-    def at(self, unit: np.ndarray) -> Curve:
-        """The curve at positions of the parameters between their bounds. Raises `ConvergenceError` when a point
-        fails."""
-        if self._last is None or not np.array_equal(self._last.unit, unit):
-            self._last = self._curve(unit)
-        return self._last
+    def at(self, unit: np.ndarray) -> tuple[FrictionResult, ...]:
+        """The points there. Raises `ConvergenceError` when one of them fails."""
+        if unit.tobytes() not in self._curves:
+            prepared, counted = self.foretold(unit)
+            work = partial(_point, prepared, self.measured.over == SPEED)
+            jobs = [partial(work, place) for place in enumerate(self.measured.x.tolist())]
+            found = dict(spread(self._executor, jobs))
+            self._curves[unit.tobytes()] = tuple(found[i] for i in range(len(jobs)))
+            if self._on_progress:
+                self._tell(unit, counted)
+        return self._curves[unit.tobytes()]
+
+    def coefficient(self, unit: np.ndarray) -> np.ndarray:
+        """f (n,), with the rolling part of the film's force or without it, as was measured."""
+        points = self.at(unit)
+        return np.array([p.coefficient if self.measured.rolling else without_rolling(p) for p in points])
+
+    def residuals(self, unit: np.ndarray) -> np.ndarray:
+        """The misfits of the points over their scale, (n,)."""
+        return (self.coefficient(unit) - self.measured.coefficient) / self.measured.scale
 
     def slopes(self, unit: np.ndarray) -> np.ndarray:
         """df/d(unit), (n, p), by differences at the curve there, or the last ones if these were computed near by."""
-        if self._base is None or np.abs(unit - self._base.unit).max() > STEP:
-            self._base = self.at(unit)
-            self._slopes = self.differences(self._base, STEP)
+        if np.abs(unit - self._base).max() > STEP:
+            self._base, self._slopes = unit.copy(), self.differences(unit, STEP)
         return self._slopes
 
-    def differences(self, here: Curve, step: float) -> np.ndarray:
-        """df/d(unit), (n, p), at the curve ``here``, by differences of ``step`` that stay within the bounds."""
+    def differences(self, here: np.ndarray, step: float) -> np.ndarray:
+        """df/d(unit), (n, p), by differences of ``step`` that stay within the bounds."""
         columns = []
-        for i, key in enumerate(self.parameters.keys):
-            moved = here.unit.copy()
+        for i, key in enumerate(self.parameters):
+            moved = here.copy()
             moved[i] += step if moved[i] + step <= 1.0 else -step
             try:
-                away = self._curve(moved).coefficient
+                away = self.coefficient(moved)
             except ConvergenceError as error:
                 raise ConvergenceError(
                     f"{key} moved by {step:g} of its range: {error}", error.report, error.result
                 ) from error
-            columns.append((away - here.coefficient) / (moved[i] - here.unit[i]))
+            columns.append((away - self.coefficient(here)) / (moved[i] - here[i]))
         return np.stack(columns, axis=1)
 
-    def _curve(self, unit: np.ndarray) -> Curve:
-        scene = self.parameters.into(self.scene, self.parameters.values(np.clip(unit, 0.0, 1.0)))
-        prepared = prepare(scene.with_(numerics={"tolerance": self.tolerance}))
-        work = partial(_point, prepared, self.measured.over == SPEED)
-        self._curves += 1
-        found: dict[int, FrictionResult] = {}
-        for index, point in spread(self._executor, work, list(enumerate(self.measured.x.tolist()))):
-            found[index] = point
-            if self._on_progress:
-                self._on_progress(self._curves, len(found), self.measured.x.size)
-        points = tuple(found[i] for i in range(self.measured.x.size))
-        return Curve(unit.copy(), np.array([point.coefficient for point in points]), points)
+    def foretold(self, unit: np.ndarray) -> tuple[Prepared, float]:
+        """The scene made ready there, with the map of the last one where that is the same; and the processor seconds of
+        a curve, by its counted work."""
+        begun, x = time.process_time(), self.measured.x.tolist()
+        scene = self.scene.with_keys(values_at(self.parameters, np.clip(unit, 0.0, 1.0)))
+        scene, last = scene.with_(numerics={"tolerance": self.tolerance}), self._ready
+        self._ready = prepare(scene, like=last if last is not None and _same_map(scene, last.scene) else None)
+        speeds = x if self.measured.over == SPEED else [scene.motion.entrainment_speed] * len(x)
+        return self._ready, curve_seconds(self._ready, speeds) + time.process_time() - begun
+
+    def _tell(self, unit: np.ndarray, counted: float) -> None:
+        """Tell ``on_progress`` of the curve that was solved last, of which ``counted`` seconds were foretold."""
+        self._spent += sum(point.seconds for point in self.at(unit))
+        self._counted += counted
+        misfit = float(np.sqrt(np.mean(self.residuals(unit) ** 2)))
+        if misfit < self._nearest[0]:
+            self._nearest = misfit, unit.copy(), counted
+        done, (least, nearest, each) = len(self._curves), self._nearest
+        total = max(2 * len(self.parameters) + STEPS, done + 1)
+        left = float((total - done) * each * self._spent / self._counted)
+        self._on_progress(done, total, left, least, values_at(self.parameters, nearest))
+
+
+def _same_map(one: Scene, other: Scene) -> bool:
+    parts = ((s.surface, s.counterface, s.contact, s.bodies.e_prime) for s in (one, other))
+    return next(parts) == next(parts)
 
 
 def _point(prepared: Prepared, speeds: bool, place: tuple[int, float]) -> Iterator[tuple[int, FrictionResult]]:
@@ -210,13 +246,14 @@ def _numerical_variance(points, tolerance: float, relative: np.ndarray) -> float
     return float(np.mean((known * relative) ** 2))
 
 
-def _result(search: Search, scale: np.ndarray, end) -> FitResult:
+def _result(search: Search, end) -> FitResult:
     """The result of a ``search`` whose derivatives were computed where it ended (``end``, of SciPy), or near by."""
-    measured, curve = search.measured, search.at(end.x)
+    measured, points, predicted = search.measured, search.at(end.x), search.coefficient(end.x)
     n, p = end.jac.shape
     squares = float(end.fun @ end.fun)
     variance = squares / (n - p) if measured.deviation is None else 1.0
-    variance += _numerical_variance(curve.points, search.tolerance, curve.coefficient / scale)
+    f = np.array([point.coefficient for point in points])  # whose error is told; the rolling part has as much of it
+    variance += _numerical_variance(points, search.tolerance, f / measured.scale)
     _, singular, axes = np.linalg.svd(end.jac, full_matrices=False)
     known = np.maximum(singular, max(1e-8 * singular[0], LEAST_SLOPE))  # a direction without effect: a huge variance
     status = CONVERGED if end.status > 0 else ITERATION_LIMIT
@@ -235,10 +272,9 @@ def _result(search: Search, scale: np.ndarray, end) -> FitResult:
         parameters=search.parameters,
         unit=np.clip(end.x, 0.0, 1.0),
         unit_covariance=variance * (axes.T / known**2) @ axes,
-        predicted=curve.coefficient,
-        slopes=end.jac * scale[:, None],
-        scale=scale,
+        predicted=predicted,
+        slopes=end.jac * measured.scale[:, None],
         report=report,
-        entries=tuple(point.validity for point in curve.points),
-        sampling=np.array([point.uncertainty.sampling for point in curve.points]),
+        entries=tuple(point.validity for point in points),
+        sampling=np.array([point.uncertainty.sampling for point in points]),
     )

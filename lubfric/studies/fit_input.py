@@ -9,7 +9,7 @@ import numpy as np
 from .._base import read_columns, validate
 from ..errors import InputError
 from ..scene import Scene
-from .vary import check_temperature
+from .vary import Between, check_temperature
 
 SPEED, SLIP = "speed", "slide_roll_ratio"
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
@@ -25,6 +25,8 @@ class Measured:
     coefficient : friction coefficients [-], (n,)
     deviation : standard deviation of each coefficient, (n,); None: the same share of each, not known
     over : "speed" (a Stribeck curve) or "slide_roll_ratio" (a traction curve, at the speed of the scene)
+    rolling : whether the coefficients hold the rolling part of the friction of the film, as the force on one body does.
+        False: it is taken out, as a rig does that averages over both signs of slip
     """
 
     x: np.ndarray
@@ -32,9 +34,11 @@ class Measured:
     deviation: np.ndarray | None = None
     over: str = SPEED
     source: str = "measured"
+    rolling: bool = True
 
     def __post_init__(self):
         validate.choice("over", self.over, (SPEED, SLIP))
+        validate.instance("rolling", self.rolling, bool, "True, or False if rolling is taken out of the coefficients")
         x = validate.array("x", self.x, "m/s" if self.over == SPEED else "-", ndim=1)
         values = {"x": x, "coefficient": validate.array("coefficient", self.coefficient, "-", ndim=1)}
         if self.deviation is not None:
@@ -53,6 +57,11 @@ class Measured:
         if np.unique(x).size < x.size:
             raise InputError("x holds a value twice; average repeated measurements")
 
+    @property
+    def scale(self) -> np.ndarray:
+        """What misfits are counted in: the deviations, or the coefficients themselves, (n,)."""
+        return self.coefficient if self.deviation is None else self.deviation
+
 
 def read_measured(
     path,
@@ -61,6 +70,7 @@ def read_measured(
     speed: str | None = None,
     slide_roll_ratio: str | None = None,
     deviation: str | None = None,
+    rolling: bool = True,
 ) -> Measured:
     """Read a measured curve from a text file with a heading; commas, semicolons or tabs separate its columns.
 
@@ -72,6 +82,7 @@ def read_measured(
     coefficient : heading of the friction coefficients, as it stands in the file
     speed, slide_roll_ratio : heading of the speeds, or of the slide-roll ratios (one of the two)
     deviation : heading of the standard deviations; None: not known
+    rolling : False where the rolling part is taken out of the coefficients (`Measured`)
 
     Returns
     -------
@@ -96,63 +107,32 @@ def read_measured(
     columns = [np.array(c) for c in read_columns(file, names, units, must_say=("m/s",))]
     order = np.argsort(columns[0], kind="stable")
     x, f, *spread = (column[order] for column in columns)
-    return Measured(x, f, spread[0] if spread else None, over, file.name)
+    return Measured(x, f, spread[0] if spread else None, over, file.name, rolling)
 
 
-@dataclass(frozen=True)
-class Parameters:
-    """``keys`` "section.name" of a scene, and their ``low`` and ``high`` bounds, arrays (p,)."""
-
-    keys: tuple[str, ...]
-    low: np.ndarray
-    high: np.ndarray
-
-    @property
-    def logarithmic(self) -> np.ndarray:
-        """Which parameters are searched in their logarithm."""
-        return (self.low > 0) & (self.high >= LOGARITHMIC * np.where(self.low > 0, self.low, 1.0))
-
-    def values(self, unit: np.ndarray) -> np.ndarray:
-        """Values at positions in [0, 1]."""
-        low, high = self._scaled(self.low), self._scaled(self.high)
-        found = low + unit * (high - low)
-        return np.where(self.logarithmic, np.exp(np.where(self.logarithmic, found, 0.0)), found)
-
-    def unit(self, values: np.ndarray) -> np.ndarray:
-        """Positions in [0, 1] of values."""
-        low, high = self._scaled(self.low), self._scaled(self.high)
-        return (self._scaled(values) - low) / (high - low)
-
-    def slopes(self, unit: np.ndarray) -> np.ndarray:
-        """d value/d unit."""
-        width = self._scaled(self.high) - self._scaled(self.low)
-        return np.where(self.logarithmic, self.values(unit) * width, width)
-
-    def _scaled(self, values: np.ndarray) -> np.ndarray:
-        """Logarithms of the values that are searched in these, and the others as they are."""
-        return np.where(self.logarithmic, np.log(np.maximum(values, 1e-300)), values)
-
-    def into(self, scene: Scene, values: np.ndarray) -> Scene:
-        """``scene`` with these values."""
-        return scene.with_keys(dict(zip(self.keys, values.tolist())))
+def values_at(parameters: dict[str, Between], unit: np.ndarray) -> dict[str, float]:
+    """{key: value} of ``parameters`` at positions ``unit`` in [0, 1] between their bounds, (p,)."""
+    return {key: float(bounds.at(share)) for (key, bounds), share in zip(parameters.items(), unit)}
 
 
-def parameters_of(scene: Scene, bounds) -> Parameters:
-    """The `Parameters` of {"section.key": (low, high)}, the scene checked at both ends of each."""
+def parameters_of(scene: Scene, bounds) -> dict[str, Between]:
+    """What is sought, of {"section.key": (low, high)}: in its logarithm where the bounds are a factor of 10 or more
+    apart. The scene is checked at both ends of each."""
     if not isinstance(bounds, dict) or not bounds:
         raise InputError('parameters must be a dict such as {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
     check_temperature("parameters", scene, set(bounds))
-    low, high = [], []
+    found = {}
     for key, pair in bounds.items():
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
             raise InputError(f"parameters[{key!r}] = {pair!r}; allowed: a pair (lowest, highest)")
-        low.append(validate.number(f"parameters[{key!r}] lowest", pair[0], "(of the key)"))
-        high.append(validate.number(f"parameters[{key!r}] highest", pair[1], "(of the key)", above=low[-1]))
+        low = validate.number(f"parameters[{key!r}] lowest", pair[0], "(of the key)")
+        high = validate.number(f"parameters[{key!r}] highest", pair[1], "(of the key)", above=low)
         section, _, name = str(key).partition(".")
         if section not in ("bodies", "lubricant", "motion", "surface") or not name:
             raise InputError(f"parameters: {key!r}; allowed: a number of [bodies], [lubricant], [motion] or [surface]")
         if key in ("motion.entrainment_speed", "motion.speeds"):
             raise InputError(f"parameters: {key!r} is measured, not fitted; name another number of the scene")
-        for end in (low[-1], high[-1]):
+        for end in (low, high):
             scene.with_keys({key: end})
-    return Parameters(tuple(bounds), np.array(low), np.array(high))
+        found[key] = Between(low, high, "log" if low > 0 and high >= LOGARITHMIC * low else "linear")
+    return found

@@ -12,7 +12,8 @@ from ..errors import Report
 from ..sampling import percent
 from ..scene import Scene
 from ..sharing import Validity, gathered
-from .fit_input import SPEED, Measured, Parameters
+from .fit_input import SPEED, Measured, values_at
+from .vary import Between
 
 LEVEL = 0.95
 AT_BOUND = 5e-3  # of the bounds
@@ -43,12 +44,11 @@ class FitResult(Shown):
 
     base: Scene
     measured: Measured
-    parameters: Parameters
+    parameters: dict[str, Between]
     unit: np.ndarray
     unit_covariance: np.ndarray
     predicted: np.ndarray
     slopes: np.ndarray
-    scale: np.ndarray
     report: Report
     entries: tuple[tuple[Validity, ...], ...] = ()
     sampling: np.ndarray = field(default_factory=lambda: np.empty(0))
@@ -56,18 +56,18 @@ class FitResult(Shown):
     @property
     def values(self) -> dict[str, float]:
         """The parameters."""
-        return dict(zip(self.parameters.keys, self.parameters.values(self.unit).tolist()))
+        return values_at(self.parameters, self.unit)
 
     @property
     def covariance(self) -> np.ndarray:
         """Covariance of the parameters, (p, p) in their units, to first order."""
-        slopes = self.parameters.slopes(self.unit)
+        slopes = self._slopes
         return self.unit_covariance * slopes[:, None] * slopes
 
     @property
     def deviations(self) -> dict[str, float]:
         """Standard deviations of the parameters."""
-        return dict(zip(self.parameters.keys, np.sqrt(np.diag(self.covariance)).tolist()))
+        return dict(zip(self.parameters, np.sqrt(np.diag(self.covariance)).tolist()))
 
     @property
     def correlation(self) -> np.ndarray:
@@ -78,14 +78,13 @@ class FitResult(Shown):
     @property
     def intervals(self) -> dict[str, tuple[float, float]]:
         """95 % intervals of the parameters, cut at their bounds."""
-        low = self.parameters.values(np.clip(self.unit - self._reach, 0.0, 1.0))
-        high = self.parameters.values(np.clip(self.unit + self._reach, 0.0, 1.0))
-        return dict(zip(self.parameters.keys, zip(low.tolist(), high.tolist())))
+        low, high = (values_at(self.parameters, np.clip(self.unit + s * self._reach, 0.0, 1.0)) for s in (-1, 1))
+        return {key: (low[key], high[key]) for key in self.parameters}
 
     @property
     def undetermined(self) -> tuple[str, ...]:
         """Parameters that the data cannot determine: their 95 % interval is as wide as their bounds."""
-        return tuple(key for key, reach in zip(self.parameters.keys, self._reach) if not 2 * reach < 1.0)
+        return tuple(key for key, reach in zip(self.parameters, self._reach) if not 2 * reach < 1.0)
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -97,12 +96,12 @@ class FitResult(Shown):
     def at_bounds(self) -> tuple[str, ...]:
         """Parameters that ended on a bound: a value beyond it would fit the data better."""
         edge = np.minimum(self.unit, 1.0 - self.unit) < AT_BOUND
-        return tuple(key for key, there in zip(self.parameters.keys, edge) if there)
+        return tuple(key for key, there in zip(self.parameters, edge) if there)
 
     @cached_property
     def scene(self) -> Scene:
         """The scene with the values found."""
-        return self.parameters.into(self.base, self.parameters.values(self.unit))
+        return self.base.with_keys(self.values)
 
     @property
     def band(self) -> tuple[np.ndarray, np.ndarray]:
@@ -116,10 +115,10 @@ class FitResult(Shown):
 
         It would move f by ``sampling``, at all points together or at each by itself; the larger effect counts.
         """
-        off = np.where(np.isfinite(self.sampling), self.sampling, 0.0) * np.abs(self.predicted) / self.scale
-        effects = np.linalg.pinv(self.slopes / self.scale[:, None], rcond=1e-8) * off
+        off = np.where(np.isfinite(self.sampling), self.sampling, 0.0) * np.abs(self.predicted) / self.measured.scale
+        effects = np.linalg.pinv(self.slopes / self.measured.scale[:, None], rcond=1e-8) * off
         moved = np.maximum(np.abs(effects.sum(axis=1)), np.sqrt((effects**2).sum(axis=1)))
-        return dict(zip(self.parameters.keys, (moved * self.parameters.slopes(self.unit)).tolist()))
+        return dict(zip(self.parameters, (moved * self._slopes).tolist()))
 
     def _misfit(self) -> str:
         """In words that the points lie farther from the fit than their deviations allow (chi-squared, 95 %); "" if
@@ -152,7 +151,7 @@ class FitResult(Shown):
         """Whether parameters lie in the joint 95 % region (F distribution of p and n - p)."""
         from scipy.stats import f
 
-        away = self.parameters.unit(np.array([values[key] for key in self.parameters.keys])) - self.unit
+        away = np.array([bounds.share(values[key]) for key, bounds in self.parameters.items()]) - self.unit
         p, n = away.size, self.predicted.size
         distance = away @ np.linalg.solve(self.unit_covariance, away) / p
         return bool(distance <= f.ppf(LEVEL, p, n - p))
@@ -165,7 +164,7 @@ class FitResult(Shown):
             note = " - the data do not determine it" if key in self.undetermined else ""
             note += " - on its bound" if key in self.at_bounds else ""
             lines.append(f"  {key} = {self.values[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}{note}")
-        keys, correlation = self.parameters.keys, self.correlation
+        keys, correlation = [*self.parameters], self.correlation
         for i in range(len(keys)):
             for j in range(i):
                 if abs(correlation[i, j]) > 0.9:
@@ -213,6 +212,11 @@ class FitResult(Shown):
             axes.set_xscale("log")
             plain_ticks(axes.xaxis)
         axes.set(xlabel=speed_label(self.measured.x) if over_speed else "slide-roll ratio (-)", ylabel=label)
+
+    @property
+    def _slopes(self) -> np.ndarray:
+        """d value/d ``unit``, (p,)."""
+        return np.array([bounds.slope(share) for bounds, share in zip(self.parameters.values(), self.unit)])
 
     @property
     def _reach(self) -> np.ndarray:

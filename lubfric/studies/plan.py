@@ -1,19 +1,28 @@
-"""All points of a study, laid out before the first is solved."""
+"""All points of a study, laid out before the first is solved: from arguments, or from a study file, which is read
+strictly."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, fields, is_dataclass, replace
 from itertools import product
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from .._base import validate
+from .._base import __version__, plain, validate
 from ..errors import InputError
-from ..scene import FASTEST, Scene
-from .choose import AUTO, CHOSEN, MOST
+from ..scene import Scene, load_scene, read_toml, scene_as_dict, speeds_of_range
+from .choose import AUTO, CHOSEN, MOST, asked_speeds
+from .codec import fits
 from .explain import explain
 from .store import fingerprint
-from .vary import Axis, axes_of
+from .vary import Axis, Between, axes_of, sample
+
+KEYS = ("scene", "speeds", "speed_range", "vary", "together", "sample")
+SAMPLE_KEYS = ("count", "sampler", "seed")
 
 
 @dataclass(frozen=True)
@@ -72,20 +81,139 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
         others = [getattr(one, f.name) for f in fields(one) if f.name not in ("name", "surface", "counterface")]
         scenes.append(one)
         keys.append(fingerprint(maps[rough], *others))
-    return StudyPlan(scene, axes, _speeds(scene, speeds), tuple(scenes), tuple(keys))
-
-
-def _speeds(scene: Scene, speeds) -> tuple[float, ...]:
-    """The speeds in m/s: those of the scene for None, none for "auto"."""
-    if isinstance(speeds, str):
-        if speeds != AUTO:
-            raise InputError(
-                f"speeds = {speeds!r}; allowed: speeds in m/s, or 'auto', where each curve chooses its own"
-            )
-        return ()
-    if speeds is None:
-        speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    speeds = validate.numbers("speeds", speeds, "m/s", FASTEST)
-    if np.unique(speeds).size < speeds.size:
+    asked = asked_speeds(scene, speeds)
+    if len(set(asked)) < len(asked):
         raise InputError("speeds hold a value twice; give each once, in m/s")
-    return tuple(speeds.tolist())
+    return StudyPlan(scene, axes, tuple(asked), tuple(scenes), tuple(keys))
+
+
+def plan_as_dict(plan: StudyPlan) -> dict:
+    """A `StudyPlan` in plain JSON types."""
+    return {
+        "format": 2,
+        "lubfric": __version__,
+        "name": plan.scene.name,
+        "scene": plain(scene_as_dict(plan.scene)),
+        "axes": [
+            {"name": a.name, "keys": list(a.keys), "values": [_worded(row) for row in a.values]} for a in plan.axes
+        ],
+        "speeds": list(plan.speeds) or AUTO,
+        "shape": list(plan.shape),
+        "keys": list(plan.keys),
+    }
+
+
+def is_plan(plan) -> bool:
+    """Whether what was read from a file has the form of `plan_as_dict`, its parts being as many as each other."""
+    axis = {"name": str, "keys": list[str], "values": list[list]}
+    whole = {"name": str, "lubfric": str, "axes": [axis], "keys": list[str], "shape": list[int], "speeds": Any}
+    if not fits(plan, whole):
+        return False
+    axes, speeds = plan["axes"], plan["speeds"]
+    if speeds != AUTO and not (fits(speeds, list[float]) and np.isfinite(speeds).all()):
+        return False
+    shape = [*(len(axis["values"]) for axis in axes), MOST if speeds == AUTO else len(speeds)]
+    names, keys = [axis["name"] for axis in axes], [key for axis in axes for key in axis["keys"]]
+    once = len(set(names)) == len(names) and len(set(keys)) == len(keys)
+    rows = all(len(row) == len(axis["keys"]) for axis in axes for row in axis["values"])
+    return once and rows and plan["shape"] == shape and math.prod(shape[:-1]) == len(plan["keys"])
+
+
+def _worded(row: tuple) -> list:
+    """Values in plain JSON types; an oil or a whole section in words."""
+    return [repr(value) if is_dataclass(value) else plain(value) for value in row]
+
+
+def load_study(path) -> StudyPlan:
+    """The plan in a study file.
+
+    - ``scene``: a file relative to this one, or a built-in scene.
+    - ``speeds`` or ``speed_range``: in m/s.
+    - [vary]: keys with lists of values.
+    - [[together]]: keys whose lists go together.
+    - [sample]: keys with {low, high, scale}, and count, sampler, seed.
+
+    Raises `InputError` for anything else, naming the nearest valid key.
+    """
+    path = Path(path)
+    table = read_toml(path, "study")
+    validate.keys(path.name, table, KEYS)
+    name = table.get("scene")
+    if not isinstance(name, str):
+        raise InputError(f'{path.name} needs scene = "a file or a built-in scene", found {name!r}')
+    beside = path.parent / name
+    scene = load_scene(beside if beside.is_file() else name)
+    vary: dict[Any, list] = _lists(table.get("vary", {}), "vary", path.parent)
+    together = table.get("together", [])
+    for group in together if isinstance(together, list) else [together]:
+        lists = _lists(group, "together", path.parent)
+        if len({len(values) for values in lists.values()}) != 1:
+            found = ", ".join(f"{key} with {len(values)}" for key, values in lists.items()) or "none"
+            raise InputError(f"[[together]] of {path.name} needs lists of one length; found {found}")
+        _add(vary, tuple(lists), list(zip(*lists.values())))
+    if "sample" in table:
+        _add(vary, *_sampled(table["sample"], path.name))
+    speeds = table.get("speeds")
+    if "speed_range" in table:
+        if speeds is not None:
+            raise InputError("a study takes speeds or speed_range, not both")
+        speeds = speeds_of_range("speed_range", table["speed_range"])
+    return plan_study(scene, vary, speeds)
+
+
+def _add(known: dict, key, values) -> None:
+    """Put ``values`` into ``known``. Raises `InputError` for a key that is there already, whose values would be
+    lost."""
+    if key in known:
+        raise InputError(f"vary: {', '.join(key) if isinstance(key, tuple) else key} is given twice; give it once")
+    known[key] = values
+
+
+def _flat(table: dict, is_value: Callable[[Any], bool]) -> dict[str, Any]:
+    """{"section.key": value} from ``"section.key" = value`` or ``section.key = value``."""
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        inner = {key: value} if is_value(value) else {f"{key}.{name}": part for name, part in value.items()}
+        for name, part in inner.items():
+            _add(found, name, part)
+    return found
+
+
+def _lists(table, where: str, folder: Path) -> dict[str, list]:
+    """The lists of values by their keys. Files are relative to ``folder``."""
+    if not isinstance(table, dict):
+        raise InputError(f"[{where}] = {table!r}; allowed: keys of a scene with lists of values")
+    found = _flat(table, lambda value: not isinstance(value, dict))
+    for key, values in found.items():
+        if not isinstance(values, list):
+            raise InputError(f"[{where}] {key} = {values!r}; allowed: a list of values")
+    for section in ("surface", "counterface"):
+        key = f"{section}.file"
+        if key in found:
+            found[key] = [_beside(folder, key, name) for name in found[key]]
+        for part in found.get(section, []):
+            if isinstance(part, dict) and "file" in part:
+                part["file"] = _beside(folder, key, part["file"])
+    return found
+
+
+def _beside(folder: Path, key: str, name) -> str:
+    path = (folder / str(name)).resolve()
+    if not path.is_file():
+        raise InputError(f"{key} = {name!r}: no such file in {folder}")
+    return str(path)
+
+
+def _sampled(table, file: str) -> tuple:
+    """The key, or the keys, of [sample], and their values."""
+    if not isinstance(table, dict):
+        raise InputError("[sample] must be a table")
+    options = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}
+    if "count" not in options:
+        raise InputError(f"[sample] of {file} needs count, the number of points")
+    ranges = _flat(table, lambda value: not isinstance(value, dict) or "low" in value)
+    for key, given in ranges.items():
+        if not isinstance(given, dict) or not {"low", "high"} <= set(given) <= {"low", "high", "scale"}:
+            raise InputError(f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}")
+    drawn = sample([Between(**given) for given in ranges.values()], **options)
+    return (*ranges,) if len(ranges) > 1 else [*ranges][0], drawn

@@ -1,76 +1,76 @@
-"""The unit of work of sweeps and studies: points of one scene. A point is a function of its scene and speed alone, so
-one process or many, in any order, in one call or several, give the same bits."""
+"""The unit of work of curves, studies and fits: points of one scene, solved or found in a store, and their rows of
+numbers. A point is a function of its scene and speed alone, so one process or many, in any order, in one call or
+several, give the same bits."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import partial
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from .._base import instance
 from ..errors import LubfricError, ValidityError
+from ..quantities import NUMBERS
 from ..sampling import FrictionResult, friction
 from ..scene import Scene
-from ..sharing import Prepared, prepare
+from ..sharing import Prepared, in_a_cell, prepare
 from .choose import chosen, first_speeds
-from .store import Store, digest, fingerprint, point_key
+from .store import CHOSEN, OUTCOME, Store, digest, fingerprint, point_key
 
 Outcome = FrictionResult | LubfricError
+Rows = dict[str, dict[float, dict[str, Any]]]  # by the key of a curve and the speed [m/s], in the order of solving
+SPEED, STATUS, CONVERGED, VALIDITY = "speed", "status", "converged", "validity"
+MISSING = "not computed"
+UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
 
 
-@dataclass(frozen=True)
-class Piece:
-    """Points of one scene, as a process receives them: at ``speeds`` [m/s], or at speeds that the curve chooses (none).
+def solved(
+    scene: Scene | Prepared,
+    key: str,
+    speeds: Sequence[float],
+    kept: frozenset[float] = frozenset(),
+    folder: str | None = None,
+) -> Iterator[tuple[str, float, Outcome | None]]:
+    """(key, speed, outcome) of each point of a scene, when it is in the store. A point that fails has its error as
+    outcome. If the scene cannot be made ready, that is the error of all.
 
-    ``key``: of the scene (`key_of`); ``kept``: speeds at which film and contact are kept, which chosen ones include;
-    ``folder``: of the store, or None.
+    Parameters
+    ----------
+    key : of the scene (`key_of`)
+    speeds : [m/s]; none: the curve chooses them, and ends with the outcome None
+    kept : speeds at which film and contact are kept, which chosen ones include
+    folder : of the store, or None
     """
-
-    scene: Scene | Prepared
-    key: str
-    speeds: tuple[float, ...]
-    kept: frozenset[float] = frozenset()
-    folder: str | None = None
-
-
-def solved(piece: Piece) -> Iterator[tuple[str, float, Outcome | None]]:
-    """(key of the scene, speed, outcome) of each point, when it is in the store. A point that fails has its error as
-    outcome. If the scene cannot be made ready, that is the error of all. A curve that chose its speeds ends with None.
-    """
-    store, speeds = Store(piece.folder), piece.speeds
-    try:
-        model = piece.scene if isinstance(piece.scene, Prepared) else prepare(piece.scene)
-        first = speeds or sorted({*first_speeds(model.scene, model.surface.sq), *piece.kept}, reverse=True)
-    except LubfricError as error:
-        points = _points(store, piece, error, speeds or (math.nan,))
-    else:
-        solve = partial(_points, store, piece, model)
-        points = solve(first) if speeds else chosen(model, first, solve)
+    store = Store(folder)
     done: tuple[float, ...] = ()
-    for speed, outcome in points:
+    model: Prepared | LubfricError
+    try:
+        model = scene if isinstance(scene, Prepared) else prepare(scene)
+        first = speeds or sorted({*first_speeds(model.scene, model.surface.sq), *kept}, reverse=True)
+    except LubfricError as error:
+        model, first = error, speeds or (math.nan,)
+
+    def solve(speed: float) -> Outcome:
+        own = point_key(key, speed, speed in kept)
+        outcome = store.get(own, OUTCOME)
+        if outcome is None:
+            outcome = model if isinstance(model, LubfricError) else outcome_of(model, speed, speed in kept)
+            store.add(own, outcome)
+        return outcome
+
+    choosing = chosen(model, first, solve) if isinstance(model, Prepared) and not speeds else None
+    for speed, outcome in choosing or ((speed, solve(speed)) for speed in first):
         done = (*done, speed)
         if not speeds:
-            store.add(digest(piece.key), (done, False))
-        yield piece.key, speed, outcome
+            store.add(digest(key), (done, False))
+        yield key, speed, outcome
     if not speeds:
-        store.add(digest(piece.key), (done, True))
-        yield piece.key, math.nan, None
+        store.add(digest(key), (done, True))
+        yield key, math.nan, None
 
 
-def _points(store: Store, piece: Piece, model: Prepared | LubfricError, speeds) -> Iterator[tuple[float, Outcome]]:
-    """(speed, outcome) at ``speeds`` [m/s]: from the store, or solved and then in the store, without fields unless they
-    are wanted. ``model``: the scene made ready, or why that failed."""
-    for speed in speeds:
-        key = point_key(piece.key, speed, speed in piece.kept)
-        outcome = store.get(key)
-        if outcome is None:
-            outcome = model if isinstance(model, LubfricError) else _solved(model, speed, speed in piece.kept)
-            store.add(key, outcome)
-        yield speed, outcome
-
-
-def _solved(prepared: Prepared, speed: float, fields: bool) -> Outcome:
+def outcome_of(prepared: Prepared, speed: float, fields: bool = False) -> Outcome:
+    """`lubfric.friction`, or the `LubfricError` that it raised; without fields unless they are wanted."""
     try:
         found = friction(prepared, speed, fields=fields)
         return found if fields else found.without_fields()
@@ -95,3 +95,36 @@ def made_ready(scene: Scene | Prepared, tolerance: float | None = None, model: s
         return prepare(scene.with_(numerics=changed))
     asked = scene.scene.with_(numerics=changed)
     return scene if asked == scene.scene else prepare(asked, like=scene)
+
+
+def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
+    """The numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and in words its status and
+    the assumptions that do not hold."""
+    if not isinstance(outcome, FrictionResult):
+        return {STATUS: f"{type(outcome).__name__}: {outcome}", SPEED: speed}
+    numbers = {name: getattr(outcome, name) for name in NUMBERS}
+    numbers |= {f"uncertainty_{n}": v for n, v in vars(outcome.uncertainty).items() if isinstance(v, float)}
+    numbers |= zip(("uncertainty_low", "uncertainty_high"), outcome.uncertainty.interval)
+    return {STATUS: outcome.report.status, VALIDITY: in_a_cell(outcome.validity), **numbers}
+
+
+def stored_rows(store: Store, keys: Sequence[str], speeds: Sequence[float]) -> tuple[Rows, set[str]]:
+    """The `Rows` that a store has of the curves ``keys`` at ``speeds`` [m/s], or at those that they chose (none); and
+    the keys of the curves that chose all their speeds."""
+    rows: Rows = {key: {} for key in keys}
+    ended: set[str] = set()
+    places = {point_key(key, u): (key, u) for key in rows for u in speeds}
+    if not speeds:
+        lists = store.known({digest(key): key for key in rows}, CHOSEN)
+        for key in rows:
+            own, complete = lists.get(digest(key), ((), False))
+            places |= {point_key(key, u): (key, u) for u in own}
+            if complete:
+                ended.add(key)
+    known = store.known(places, OUTCOME)
+    for place, (key, speed) in places.items():
+        if place in known:
+            rows[key][speed] = row_of(speed, known[place])
+        elif not speeds:
+            ended.discard(key)  # a record of it was damaged
+    return rows, ended

@@ -1,24 +1,31 @@
-"""The numbers of a study, as arrays over what was varied."""
+"""`study`: carry out a plan on any executor, keep it point by point, and read it back; its numbers, as arrays over what
+was varied."""
 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, is_dataclass
+import os
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 
 import numpy as np
 
-from .._base import Shown, __version__, plain, validate
+from .._base import Shown, read_json, validate, write_whole
 from ..errors import InputError
 from ..quantities import NUMBERS
-from ..scene import scene_as_dict
+from ..scene import Scene
 from .choose import AUTO
+from .executor import checked_executor, spread
 from .interpolate import Interpolant, through
-from .plan import StudyPlan
-from .rows import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, stored_rows
-from .store import Store
+from .plan import StudyPlan, is_plan, plan_as_dict, plan_study
+from .points import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, row_of, solved, stored_rows
+from .store import Store, opened
 from .tables import plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN = "study.json"
+TOGETHER = 8  # speeds of a curve that a process of an executor receives at once, with one preparation of the scene
 POINT = "point"  # the last dimension where speeds are chosen
 
 
@@ -51,8 +58,8 @@ class StudyResult(Shown):
     to_xarray, to_netcdf = to_xarray, to_netcdf
 
     @classmethod
-    def of_rows(cls, plan: dict, rows: Rows) -> StudyResult:
-        """The result of the ``rows``, in the order of a plan (`plan_as_dict`)."""
+    def of_rows(cls, plan: dict, rows: Rows, ended: set[str]) -> StudyResult:
+        """The result of the ``rows``, in the order of a plan (`plan_as_dict`); ``ended``: as of `stored_rows`."""
         chosen, shape = plan["speeds"] == AUTO, tuple(plan["shape"])
         table = (len(plan["keys"]), shape[-1])
         columns = {name: np.full(table, np.nan) for name in NUMBERS if chosen or name != SPEED}
@@ -60,14 +67,14 @@ class StudyResult(Shown):
         validity = np.full(table, "", dtype=object)
         words = {STATUS: status, VALIDITY: validity}
         for curve, key in enumerate(plan["keys"]):
-            own = rows.points[key]
+            own = rows[key]
             for at, speed in enumerate(own if chosen else plan["speeds"]):
                 for name, value in own.get(speed, {}).items():
                     if name in words:
                         words[name][curve, at] = value
                     elif chosen or name != SPEED:
                         columns.setdefault(name, np.full(table, np.nan))[curve, at] = value
-            if chosen and key not in rows.ended:
+            if chosen and key not in ended:
                 status[curve, min(len(own), shape[-1] - 1)] = MISSING
         most = 1 + int(np.flatnonzero((status != UNUSED).any(axis=0)).max(initial=0))
         cut = {name: column.reshape(shape)[..., :most] for name, column in (columns | words).items()}
@@ -155,13 +162,94 @@ class StudyResult(Shown):
         return found
 
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
-        """The curve at one position along the axes, or None if fewer than three of its points are solved, or if they
-        run both ways."""
+        """The curve at one position along the axes, or None if fewer than three of its points are solved, if they run
+        both ways, or if no curve goes through their numbers, as those of a store that somebody changed."""
         numbers = {name: values[index] for name, values in self.columns.items()}
         try:
-            return through(numbers if self.chosen else numbers | {SPEED: self.coords[SPEED][1]})
-        except InputError:
+            found = through(numbers if self.chosen else numbers | {SPEED: self.coords[SPEED][1]})
+            s = found.samples
+            return found if np.allclose(found.at(s.speed), s.boundary + s.film, rtol=1e-3) else None
+        except ValueError:  # InputError, or that of an interpolation
             return None
+
+
+def _column(values: list) -> np.ndarray:
+    """Numbers as floats, anything else as text."""
+    if all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values):
+        return np.array(values, dtype=float)
+    return np.array([v if isinstance(v, str) else json.dumps(v) for v in values])
+
+
+def study(
+    scene: Scene | StudyPlan, vary=None, speeds=None, *, executor=None, store=None, on_progress=None
+) -> StudyResult:
+    """Friction of a scene at every combination of given values, and at every entrainment speed.
+
+    Every point is solved from its scene alone, to the same bits on every executor. A point that fails is a row with
+    its error as its status; the others are solved.
+
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene`; or a plan from `lubfric.plan_study`, whose ``explain()`` says points and cost
+    vary : {"section.key": [values]}, any key of a scene; {("section.key", "other.key"): [(value, value), ...]} for keys
+        that change together (`lubfric.sample` makes random and Sobol samples of them); {"surface": [{...}, {...}]} for
+        whole sections, such as several height maps
+    speeds : entrainment speeds [m/s]; None: those of the scene; "auto": each curve chooses its own, as in
+        `lubfric.stribeck`, and the result has a dimension "point" instead of "speed"
+    executor : None, or any `concurrent.futures.Executor` (process pool, ``dask.distributed.Client.get_executor()``,
+        ``mpi4py.futures.MPIPoolExecutor``)
+    store : folder that receives every finished point at once. The same study, or a longer one, goes on from there and
+        computes nothing twice. On a cluster all processes must see it
+    on_progress : called as on_progress(done, total) when points (with "auto": curves) have ended
+
+    Returns
+    -------
+    StudyResult
+
+    Raises
+    ------
+    InputError : before any work
+
+    Faults of the program are raised as they are.
+    """
+    plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds)
+    if plan is scene and (vary is not None or speeds is not None):
+        raise InputError("vary and speeds belong to the plan; give a scene with them, or a plan alone")
+    executor = checked_executor(executor)
+    with opened(store) as kept:
+        described = plan_as_dict(plan)
+        if kept.root is not None:
+            write_whole(Path(kept.root) / PLAN, json.dumps(described, indent=1).encode())
+        return StudyResult.of_rows(described, *_carried_out(plan, executor, kept, on_progress))
+
+
+def _carried_out(plan: StudyPlan, executor, store: Store, on_progress: Callable | None) -> tuple[Rows, set[str]]:
+    rows, ended = stored_rows(store, plan.keys, plan.speeds)
+    scenes = dict(zip(plan.keys, plan.scenes))  # equal scenes once
+    total = len(scenes) * max(len(plan.speeds), 1)
+
+    def tell() -> None:
+        if on_progress:
+            on_progress(sum(map(len, rows.values())) if plan.speeds else len(ended), total)
+
+    tell()
+    jobs = []
+    for key, scene in scenes.items():
+        left = tuple(u for u in plan.speeds if u not in rows[key])
+        size = TOGETHER if executor is not None else max(len(left), 1)
+        batches = [left[i : i + size] for i in range(0, len(left), size)]
+        if not plan.speeds and key not in ended:
+            rows[key].clear()  # they come again, from the store, in the order in which they were chosen
+            batches = [()]
+        jobs += [partial(solved, scene, key, batch, folder=store.root) for batch in batches]
+    for key, speed, outcome in spread(executor, jobs):
+        if outcome is None:
+            ended.add(key)
+        else:
+            rows[key][speed] = row_of(speed, outcome)
+        if plan.speeds or outcome is None:
+            tell()
+    return rows, ended
 
 
 def open_study(folder) -> StudyResult:
@@ -180,39 +268,11 @@ def open_study(folder) -> StudyResult:
     InputError : the folder holds no study
     """
     path = validate.folder("store", folder) / PLAN
-    if not path.is_file():
+    if not os.path.lexists(path):
         raise InputError(f"{folder} holds no {PLAN}; give the folder of a study")
-    try:
-        plan = json.loads(path.read_text(encoding="utf-8"))
-        keys, speeds = plan["keys"], plan["speeds"]
-    except (ValueError, KeyError, TypeError):
-        raise InputError(f"{path} is damaged; run the study again in this folder, which writes it anew") from None
-    return StudyResult.of_rows(plan, stored_rows(Store(path.parent), keys, () if speeds == AUTO else speeds))
-
-
-def plan_as_dict(plan: StudyPlan) -> dict:
-    """A `StudyPlan` in plain JSON types."""
-    return {
-        "format": 2,
-        "lubfric": __version__,
-        "name": plan.scene.name,
-        "scene": plain(scene_as_dict(plan.scene)),
-        "axes": [
-            {"name": a.name, "keys": list(a.keys), "values": [_worded(row) for row in a.values]} for a in plan.axes
-        ],
-        "speeds": list(plan.speeds) or AUTO,
-        "shape": list(plan.shape),
-        "keys": list(plan.keys),
-    }
-
-
-def _worded(row: tuple) -> list:
-    """Values in plain JSON types; an oil or a whole section in words."""
-    return [repr(value) if is_dataclass(value) else plain(value) for value in row]
-
-
-def _column(values: list) -> np.ndarray:
-    """Numbers as floats, anything else as text."""
-    if all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values):
-        return np.array(values, dtype=float)
-    return np.array([v if isinstance(v, str) else json.dumps(v) for v in values])
+    again = "run the study again in this folder, which writes it anew"
+    plan = read_json(path, again)
+    if not is_plan(plan):
+        raise InputError(f"{path} is damaged, or not that of a study; {again}")
+    speeds = plan["speeds"]
+    return StudyResult.of_rows(plan, *stored_rows(Store(path.parent), plan["keys"], () if speeds == AUTO else speeds))

@@ -9,11 +9,12 @@ from collections.abc import Iterable
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from .._base import FolderLock, __version__, clear_parts, read_checked, saying, validate, write_checked
-from ..errors import ConvergenceError, InputError, LubfricError, Report, ValidityError
+from ..errors import ConvergenceError, InputError, LubfricError, OutputError, Report, ValidityError
 from ..film import EHLResult
 from ..sampling import FrictionResult
 from ..sharing import Validity
@@ -35,6 +36,9 @@ class Failure:
 
 
 CLASSES = classes_of(FrictionResult, EHLResult, Failure)
+ERRORS = {kind.__name__: kind for kind in (InputError, ConvergenceError, ValidityError)}
+OUTCOME = FrictionResult | Failure  # what is stored of a point
+CHOSEN = tuple[tuple[float, ...], bool]  # the same of a curve: its speeds [m/s] so far, and whether these are all
 
 
 class Store:
@@ -54,21 +58,22 @@ class Store:
             stored = _failure(outcome) if isinstance(outcome, LubfricError) else outcome
             write_checked(self._path(key), *encode(stored), sync=False)
 
-    def get(self, key: str):
-        """What was added under ``key``; None for what is absent. A record that is damaged, or of another version, is
-        told of by a `UserWarning`, and does not count."""
-        if self.folder is None or not self._path(key).is_file():
+    def get(self, key: str, kind: Any = Any):
+        """What was added under ``key``, of the type ``kind``; None for what is absent. A record that cannot be read, is
+        damaged, or of another version, is told of by a `UserWarning`, and does not count."""
+        if self.folder is None or not os.path.lexists(self._path(key)):
             return None
         try:
-            found = decode(read_checked(self._path(key)) or b"", CLASSES)
-        except ValueError:
+            content = read_checked(self._path(key)) if self._path(key).is_file() else None
+            found = decode(content or b"", CLASSES, kind)
+        except (ValueError, OutputError):
             warnings.warn(f"{self._path(key)} is damaged and does not count: it is to be solved again", stacklevel=2)
             return None
         return _error(found) if isinstance(found, Failure) else found
 
-    def known(self, keys: Iterable[str]) -> dict:
+    def known(self, keys: Iterable[str], kind: Any = Any) -> dict:
         """All sound records of ``keys``."""
-        found = {key: self.get(key) for key in keys} if self.folder is not None and self.folder.is_dir() else {}
+        found = {key: self.get(key, kind) for key in keys} if self.folder is not None and self.folder.is_dir() else {}
         return {key: outcome for key, outcome in found.items() if outcome is not None}
 
     def _path(self, key: str) -> Path:
@@ -100,11 +105,10 @@ def _failure(error: LubfricError) -> Failure:
 
 
 def _error(stored: Failure) -> LubfricError:
-    if stored.error == "ValidityError":
+    kind = ERRORS.get(stored.error, LubfricError)
+    if kind is ValidityError:
         return ValidityError(stored.message, stored.entries, stored.result)
-    if stored.error == "ConvergenceError":
-        return ConvergenceError(stored.message, stored.report)
-    return InputError(stored.message) if stored.error == "InputError" else LubfricError(stored.message)
+    return ConvergenceError(stored.message, stored.report) if kind is ConvergenceError else kind(stored.message)
 
 
 def fingerprint(*parts) -> str:

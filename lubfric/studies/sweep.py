@@ -1,9 +1,9 @@
-"""Stribeck curves: friction over speed."""
+"""Stribeck curves, friction over the speed; and traction curves, friction over the slide-roll ratio at one speed."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -11,15 +11,15 @@ from .._base import validate, write_whole
 from ..errors import ITERATION_LIMIT, InputError, Report
 from ..quantities import ESTIMATED, PointQuantities, described_in_doc
 from ..sampling import FrictionResult
-from ..scene import FASTEST, Scene
-from ..sharing import Prepared
-from .choose import AUTO, next_speed, span, tolerance_between
-from .curve import CurveResult, columns_of, csv_bytes, judged, report_of
-from .draw import curve_axes
+from ..scene import FASTEST, LARGEST_RATIO, Scene
+from ..sharing import Prepared, prepare
+from .choose import asked_speeds, next_speed, span, tolerance_between
+from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
-from .points import Outcome, Piece, key_of, made_ready, solved
+from .points import Outcome, key_of, made_ready, outcome_of, solved
 from .store import opened
+from .tables import curve_axes
 
 
 @described_in_doc
@@ -129,9 +129,9 @@ def stribeck(
     found: dict[float, Outcome] = {}
     try:
         with opened(store) as folder:
-            piece = Piece(prepared, key_of(prepared), (), frozenset(kept), folder.root)
-            pieces = [replace(piece, speeds=(u,)) for u in dict.fromkeys(asked)] or [piece]
-            for _, speed, outcome in spread(executor, solved, pieces):
+            batches: list[tuple[float, ...]] = [(u,) for u in dict.fromkeys(asked)] or [()]
+            whole = partial(solved, prepared, key_of(prepared), kept=frozenset(kept), folder=folder.root)
+            for _, speed, outcome in spread(executor, [partial(whole, speeds=batch) for batch in batches]):
                 if outcome is None:  # the end of a curve that chose its speeds
                     break
                 found[speed] = outcome
@@ -149,13 +149,11 @@ def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
     kept = []
     if not isinstance(fields, (bool, type(None))) and np.size(fields):
         kept = validate.numbers("fields", fields, "m/s", FASTEST).tolist()
-    if isinstance(speeds, str) and speeds == AUTO:
+    asked = asked_speeds(scene, speeds)
+    if not asked:
         if fields is True:
             raise InputError("fields = True with speeds = 'auto'; give the speeds in m/s whose fields are kept")
         return [], np.abs(kept).tolist()
-    if speeds is None:
-        speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    asked = validate.numbers("speeds", speeds, "m/s", FASTEST).tolist()
     if not set(kept) <= set(asked):
         raise InputError(
             f"fields = {fields!r} m/s are not all among the speeds of the curve; give some of them, or fields = True"
@@ -166,13 +164,10 @@ def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
 def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepared) -> StribeckResult:
     """The curve of the outcomes ``found`` at the speeds ``asked`` for [m/s], or at chosen ones (none). Those that are
     missing have neither point nor error."""
-    outcomes = [found.get(speed) for speed in asked or sorted(found)]
-    points = [outcome if isinstance(outcome, FrictionResult) else None for outcome in outcomes]
-    errors: dict[int, Exception] = {i: o for i, o in enumerate(outcomes) if isinstance(o, Exception)}
+    points, errors = parted([found.get(speed) for speed in asked or sorted(found)])
     speeds = np.array(asked or sorted(found))
     report = report_of("stribeck", [f"speed {u:g} m/s" for u in speeds], "speeds", points, errors)
-    columns = columns_of(points) | {"speed": speeds}
-    curve = StribeckResult(**columns, points=tuple(points), errors=errors, report=report)
+    curve = StribeckResult(**(columns_of(points) | {"speed": speeds}), points=points, errors=errors, report=report)
     if asked or len(points) - len(errors) < FEWEST:
         return curve
     return replace(curve, report=_with_interpolation(curve, tolerance_between(prepared)))
@@ -189,3 +184,87 @@ def _with_interpolation(curve: StribeckResult, tolerance: float) -> Report:
         residuals={"interpolation": error, "points": report.residual},
         advice=report.advice if curve.errors else "solve more speeds of your own, or loosen numerics.tolerance",
     )
+
+
+@dataclass(frozen=True, repr=False)
+class TractionResult(CurveResult):
+    """Friction over the slide-roll ratio, in the order asked for; NaN where a point failed.
+
+    Attributes
+    ----------
+    ratio : slide-roll ratios [-], (n,)
+    speed : entrainment speed [m/s]
+    points : the results, without fields (None where failed). ``result["contact_load"]`` gives one of their numbers
+    errors : {index: exception}
+    report : the largest residual of the points over its tolerance
+    """
+
+    SWEPT = "ratio", "S", "(slide-roll ratio)", "ratios"
+
+    ratio: np.ndarray
+    speed: float
+    points: tuple[FrictionResult | None, ...]
+    errors: dict[int, Exception]
+    report: Report
+
+    @property
+    def coefficient(self) -> np.ndarray:
+        """Friction coefficient [-]. It holds the rolling part of the film's force, which does not vanish with the slip;
+        ``without_rolling`` is f without it."""
+        return self["coefficient"]
+
+    def _facts(self) -> dict[str, str]:
+        rolling = np.abs(self.coefficient - self.without_rolling)
+        known = rolling[np.isfinite(rolling)]
+        return super()._facts() | ({"rolling part of f": f"up to {known.max():.2g}"} if known.size else {})
+
+
+def traction(
+    scene: Scene | Prepared,
+    ratios,
+    *,
+    speed: float | None = None,
+    tolerance: float | None = None,
+    model: str | None = None,
+    on_point=None,
+    raise_on_failure: bool = True,
+) -> TractionResult:
+    """The traction curve of a scene: friction over the slide-roll ratio, at one entrainment speed.
+
+    The ratio changes the shear of the film, its heat, and the heat of the inlet. f holds the rolling part of the film's
+    force, which remains without slip; ``curve.without_rolling`` is f without it, as rigs measure it that average over
+    both signs of slip. A point that fails leaves NaN, and its exception in ``errors``; the others are still solved.
+
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene` or `lubfric.prepare`
+    ratios : slide-roll ratios (u2 - u1)/U [-], (n,)
+    speed : entrainment speed [m/s]; None: the scene's own
+    tolerance, model : as in `lubfric.friction`
+    on_point : called as on_point(done, total, ratio, outcome) as points end
+    raise_on_failure : False returns a curve with failed points
+
+    Returns
+    -------
+    TractionResult
+
+    Raises
+    ------
+    InputError : before any work
+    ConvergenceError : at the end, if a point failed; the whole curve is its ``result``
+    ValidityError : the same, if all points that failed were refused as invalid
+    """
+    ratios = validate.numbers("ratios", ratios, "(slide-roll ratio)", LARGEST_RATIO)
+    if speed is not None:
+        speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+    base = made_ready(scene, tolerance, model)
+    speed = base.scene.motion.entrainment_speed if speed is None else speed
+    models = [prepare(base.scene.with_(motion={"slide_roll_ratio": ratio}), like=base) for ratio in ratios.tolist()]
+    outcomes: list[Outcome] = []
+    for prepared, ratio in zip(models, ratios.tolist()):
+        outcomes.append(outcome_of(prepared, speed))
+        if on_point:
+            on_point(len(outcomes), ratios.size, ratio, outcomes[-1])
+    points, errors = parted(outcomes)
+    report = report_of("traction", [f"slide-roll ratio {ratio:g}" for ratio in ratios], "ratios", points, errors)
+    return judged(TractionResult(ratios, float(speed), points, errors, report), raise_on_failure)

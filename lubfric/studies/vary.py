@@ -36,11 +36,23 @@ class Between:
         low = validate.number("low", self.low, "(of the key)", above=0.0 if self.scale == "log" else -math.inf)
         validate.number("high", self.high, "(of the key)", above=low)
 
-    def at(self, share: np.ndarray) -> np.ndarray:
-        """Values at ``share`` in [0, 1) of the range."""
+    def at(self, share):
+        """Values at ``share`` in [0, 1] of the range, a number or an array."""
         if self.scale == "linear":
             return self.low + share * (self.high - self.low)
         return np.exp(math.log(self.low) + share * math.log(self.high / self.low))
+
+    def share(self, value: float) -> float:
+        """Where a value lies in the range: 0 at its low end, 1 at its high end."""
+        if self.scale == "linear":
+            return (value - self.low) / (self.high - self.low)
+        return math.log(value / self.low) / math.log(self.high / self.low) if value > 0 else -math.inf
+
+    def slope(self, share: float) -> float:
+        """Change of the value over that of ``share``."""
+        if self.scale == "linear":
+            return self.high - self.low
+        return float(self.at(share)) * math.log(self.high / self.low)
 
 
 @dataclass(frozen=True)

@@ -112,7 +112,9 @@ def test_a_fit_gets_columns_bounds_and_axis(work):
     assert bounds == {"bodies.load": (1.0, 9.0), "lubricant.viscosity": (0.1, 1.0)}
     (_, measured, _), _ = given(work, *named, "--ratio", "srr")
     assert measured.over == "slide_roll_ratio" and measured.x == pytest.approx([0.01, 0.02, 0.04])
-    assert measured.deviation is None
+    assert measured.deviation is None and measured.rolling
+    (_, measured, _), _ = given(work, *named, "--ratio", "srr", "--without-rolling")
+    assert not measured.rolling
 
 
 @pytest.mark.parametrize(

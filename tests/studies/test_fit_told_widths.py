@@ -29,7 +29,6 @@ def result(freedom, spread=0.01):
         unit_covariance=np.diag([spread**2, 9 * spread**2]),
         predicted=np.full(n, 0.1),
         slopes=np.tile([0.02, 0.0], (n, 1)),
-        scale=np.full(n, 0.1),
         report=Report("fit", CONVERGED, 1, 0.0, 1.0),
     )
 

@@ -385,14 +385,14 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
     assert "about 12 speeds that each curve chooses" in lubfric.plan_study(SCENE, {}, "auto").explain()
 
 
-def test_the_time_is_foretold_to_an_order_of_magnitude():
+def test_the_time_is_foretold_within_a_factor_of_four():
     paper = lubfric.load_scene("paper")
     for scene, vary in ((SCENE, {"bodies.load": [3.0, 5.5]}), (paper, {"numerics.sampling_tolerance": [0.05]})):
         plan = lubfric.plan_study(scene, vary, np.geomspace(1e-3, 1.0, 7))
         number, unit = plan.explain().partition("time     about ")[2].split()[:2]
         begun = time.process_time()
         lubfric.study(plan)
-        assert unit == "s" and 0.1 < float(number) / (time.process_time() - begun) < 10
+        assert unit == "s" and 0.25 < float(number) / (time.process_time() - begun) < 4
 
 
 @pytest.mark.parametrize("speeds", [(0.003, 0.03, 0.3, 1.0), "auto"])

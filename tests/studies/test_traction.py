@@ -47,6 +47,19 @@ def test_points_are_those_of_friction_in_the_order_asked_for(model):
     assert curve.points[1].boundary_force == 0  # rolling: spots do not slide
 
 
+def test_the_mean_over_both_signs_of_slip_is_f_without_the_rolling_part():
+    """Of a smooth film, which is the same whichever body is the faster: what is taken out is some 1e-4 of the load, and
+    the more of f the less the bodies slide."""
+    smooth = SCENE.with_(surface={"sq": 0.0})
+    slips = np.array([1e-7, 5e-3, 0.2])
+    there, back = (lubfric.traction(smooth, sense * slips) for sense in (1, -1))
+    np.testing.assert_allclose(there.without_rolling, (there.coefficient + back.coefficient) / 2, rtol=1e-6)
+    rolling = there.coefficient - there.without_rolling
+    assert np.all(rolling > 5e-5) and rolling[0] == pytest.approx(rolling[2], rel=0.1)
+    assert f"rolling part of f up to {rolling.max():.2g}" in repr(there)
+    assert there.without_rolling[0] < rolling[0] < 0.01 * there.without_rolling[1]  # the rest vanishes with the slip
+
+
 def test_a_refused_ratio_is_marked_and_the_others_kept():
     plain = SCENE.with_(
         lubricant={"eyring_stress": None, "limiting_stress_coefficient": None}, numerics={"heat": "off"}
@@ -134,7 +147,7 @@ def test_a_map_is_the_same_in_whatever_order_its_values_stand(tmp_path):
 
 
 def test_a_curve_with_a_lost_point_is_raised_whole(model, monkeypatch):
-    module = sys.modules["lubfric.studies.traction"]
+    module = sys.modules["lubfric.studies.points"]
     real = module.friction
 
     def friction(prepared, *arguments, **options):
