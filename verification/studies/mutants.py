@@ -87,10 +87,9 @@ def trial(mutant: Mutant | None, names: tuple[str, ...]) -> int:
             file.write_text(content, encoding="utf-8")
         command = [sys.executable, "-m", "verification", "--quick", "--out", str(out), "--only", *names]
         if is_test(names[0]):
-            options = (
-                f"-x -q -p no:cacheprovider --basetemp {out} --rootdir {ROOT} -c {ROOT / 'pyproject.toml'}".split()
-            )
-            command = [sys.executable, "-m", "pytest", *options, *(str(ROOT / "tests" / name) for name in names)]
+            options = ["-x", "-q", "-p", "no:cacheprovider", f"--basetemp={out}", f"--rootdir={ROOT}"]
+            files = [str(ROOT / "tests" / name) for name in names]
+            command = [sys.executable, "-m", "pytest", *options, "-c", str(ROOT / "pyproject.toml"), *files]
         environment = os.environ | {"PYTHONPATH": os.pathsep.join((folder, str(ROOT)))}
         try:
             code = subprocess.run(command, cwd=folder, env=environment, capture_output=True, timeout=LONGEST).returncode
