@@ -129,11 +129,11 @@ class UncertaintyQuantities(Generic[T]):
     area_needed: T = quantity(
         "-", "how many times more of a measured map would be needed", note="1: enough", default=1.0
     )
-    model_form: T = quantity(
+    model: T = quantity(
         "-",
-        "estimated relative error of load sharing itself",
-        column="model_form_error",
-        note="not in the interval",
+        "relative error of f by the model itself, at 95 %",
+        column="model_error",
+        note="in the interval; NaN where it is not known",
         default=math.nan,
     )
 
@@ -191,6 +191,7 @@ KEYS = {  # of a scene, as far as they are numbers
     "bodies.load": Quantity("N", "total load"),
     "bodies.e_prime": Quantity("Pa", "composite modulus E'"),
     "bodies.hardness": Quantity("Pa", "plastic limit of the contact pressure"),
+    "bodies.boundary_film": Quantity("m", "gap below which the bodies rub with f_b"),
     "bodies.boundary_friction_coefficient": Quantity("-", "boundary friction coefficient"),
     "lubricant.viscosity": Quantity("Pa s", "viscosity at ambient pressure"),
     "lubricant.pressure_viscosity_coefficient": Quantity("1/Pa", "pressure-viscosity coefficient"),

@@ -4,8 +4,14 @@ import numpy as np
 
 import lubfric
 
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"model": "load-sharing"})
+    .with_(
+        contact={"shape": (48, 48), "spacing": 1.1e-6},
+        surface={"correlation_length": 4e-6},
+        numerics={"sampling": "patch"},
+    )
 )
 
 

@@ -9,7 +9,7 @@ from statistics import median
 ROOT = Path(__file__).parents[1]
 FILES = sorted((ROOT / "lubfric").rglob("*.py"))
 LINES, PARAMETERS = 60, 8  # of a function
-LONGEST, TYPICAL = 300, 150  # lines of a module
+LONGEST, TYPICAL = 300, 165  # lines of a module
 PUBLIC = ("lubfric", "lubfric.time", "lubfric.paper")
 
 

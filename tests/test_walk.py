@@ -6,7 +6,7 @@ from pathlib import Path
 import lubfric
 
 HOME = str(Path(lubfric.__file__).parent)
-MOST = 19
+MOST = 22
 VALUES = ("_base", "errors", "scene", "oil")  # rooms of values and checks
 SCENE = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
 

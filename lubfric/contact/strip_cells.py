@@ -1,5 +1,5 @@
-"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the
-scene's."""
+"""The cells of a strip: as long as the correlation length and the Hertz strip allow, in powers of two of the scene's.
+And how strips are cut from a map and joined."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ CELLS_PER_HALF_WIDTH = 2.0  # of the Hertz strip, along x
 EVEN = 4  # cells along x come in fours
 FAST = 16  # and along y in sixteens
 SUMMITS = 4.5  # Sq
+BLEND = 2.0  # correlation lengths along y over which one strip passes into the next
 
 
 @dataclass(frozen=True)
@@ -129,3 +130,44 @@ def _power_of_two(ratio: float) -> int:
     while 2 * factor <= ratio * (1 + 1e-9):
         factor *= 2
     return factor
+
+
+def stacked(strips: list[np.ndarray], blend: int) -> np.ndarray:
+    """Arrays (nx, ny) joined one after the other along y, and the last to the first.
+
+    The last ``blend`` cells of each are laid over the first of the next. Their weights are cos and sin, whose squares
+    add to 1, about the mean of all.
+    """
+    mean = float(np.mean([strip.mean() for strip in strips]))
+    angle = 0.5 * np.pi * (np.arange(blend) + 0.5) / blend
+    out = []
+    for before, strip in zip([strips[-1], *strips[:-1]], strips):
+        part = strip[:, : strip.shape[1] - blend].copy()
+        part[:, :blend] = mean + np.sin(angle) * (strip[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
+        out.append(part)
+    return np.concatenate(out, axis=1)
+
+
+def spread(count: int) -> list[int]:
+    """0 .. count - 1 in an order that begins in the middle, each number as far from those before as possible."""
+    left = set(range(count))
+    order: list[int] = []
+    while left:
+        middle = 0.5 * (count - 1)
+        best = max(left, key=lambda i: (min((abs(i - j) for j in order), default=0), -abs(i - middle), -i))
+        order.append(best)
+        left.remove(best)
+    return order
+
+
+def starts_of(count: int, window: int, step: int, beyond: int) -> list[int]:
+    """First columns of windows that lie ``step`` apart on a map of ``count`` columns. ``beyond``: how many of them
+    reach over either end."""
+    room = count + 2 * beyond - window
+    most = room // step
+    return [(room - most * step) // 2 - beyond + step * k for k in range(most + 1)]
+
+
+def blend_of(correlation: float, step: float) -> int:
+    """Cells of ``step`` [m] over which one strip passes into the next."""
+    return max(1, round(BLEND * correlation / step))

@@ -21,14 +21,25 @@ from ..scene import Roughness, Scene
 from ..surface import Surface, surface_generator
 from .height_map import extended, measured, rough_bodies, statistics, whole_map
 from .rough_contract import centred_axis
-from .strip_cells import EVEN, Cells, cells_of_a_box, choose_cells, correlation_lengths, length_or_half, reach_of
+from .strip_cells import (
+    EVEN,
+    Cells,
+    blend_of,
+    cells_of_a_box,
+    choose_cells,
+    correlation_lengths,
+    length_or_half,
+    reach_of,
+    spread,
+    stacked,
+    starts_of,
+)
 
 STRIP, PIECE = 90.0, 42.0  # correlation lengths: of a strip, of a piece on the scene's own cells
 FIRST = 180.0  # correlation lengths that are solved first
 MOST = 46080.0  # correlation lengths, at most
 MOST_CELLS = 3_000_000  # of a stack: memory
 KEPT_CELLS = 2_000_000  # of the strips from which a longer stack goes on
-BLEND = 2.0  # correlation lengths along y over which one strip passes into the next
 APART = 4.0  # correlation lengths along the motion between windows that are independent
 ENOUGH = 8  # windows for an honest standard error
 STRIPS, PIECES = 0, 1  # streams of seeds
@@ -58,6 +69,10 @@ class Strips:
         """The first ``count`` strips joined along y, periodic, on ``cells``."""
         raise NotImplementedError
 
+    def strip(self, index: int) -> Surface:
+        """Strip number ``index`` alone, its last rows passing into its first: periodic along y, on ``cells``."""
+        raise NotImplementedError
+
     def piece(self, index: int) -> Surface:
         """A piece on the scene's own cells, some 42 correlation lengths long: number ``index`` of ``pieces``. Every
         n-th of its cells, in each direction, gives the coarse cells to compare it with."""
@@ -78,11 +93,17 @@ class GeneratedStrips(FieldsOnly, Strips):
     """Strips of one endless generated surface, or of two whose heights are added."""
 
     def stack(self, count: int) -> Surface:
-        blend = _blend(self.lengths[1], self.cells.coarse[1])
+        return self._joined(range(count))
+
+    def strip(self, index: int) -> Surface:
+        return self._joined([index])
+
+    def _joined(self, indices) -> Surface:
+        blend = blend_of(self.lengths[1], self.cells.coarse[1])
         shape = self.cells.count, self.cells.rows(self.length) + blend
         known, strip = self._known, self._generator(STRIPS, self.cells.coarse, shape)
-        strips = [known.get(index) or strip(index) for index in range(count)]
-        known.update(enumerate(strips[: KEPT_CELLS // math.prod(shape)]))
+        strips = [known.get(index) or strip(index) for index in indices]
+        known.update((i, s) for i, s in zip(indices, strips) if i < KEPT_CELLS // math.prod(shape))
         return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
 
     def piece(self, index: int) -> Surface:
@@ -128,11 +149,17 @@ class MeasuredStrips(Strips):
     starts: tuple[int, ...] = field(kw_only=True)
 
     def stack(self, count: int) -> Surface:
+        return self._joined(self.starts[:count])
+
+    def strip(self, index: int) -> Surface:
+        return self._joined([self.starts[index]])
+
+    def _joined(self, starts) -> Surface:
         fx, fy = self.cells.factors
-        pieces = [self._columns(start)[fx // 2 :: fx] for start in self.starts[:count]]
+        pieces = [self._columns(start)[fx // 2 :: fx] for start in starts]
         heights = stacked(pieces, self._blend)
         rows = heights.shape[1] // (4 * fy) * 4 * fy
-        note = f"{count} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
+        note = f"{len(starts)} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
 
     def piece(self, index: int) -> Surface:
@@ -145,7 +172,7 @@ class MeasuredStrips(Strips):
 
     @property
     def _blend(self) -> int:
-        return min(_blend(self.lengths[1], self.surface.spacing[1]), self.surface.shape[1] // 4)
+        return min(blend_of(self.lengths[1], self.surface.spacing[1]), self.surface.shape[1] // 4)
 
     def _columns(self, start: int) -> np.ndarray:
         columns, last = start + np.arange(self.cells.count * self.cells.factors[0]), self.surface.shape[0] - 1
@@ -167,6 +194,9 @@ class OnePatch(Strips):
     def stack(self, count: int = 1) -> Surface:
         heights = self.cells.thinned(self.surface.heights, self.cells.factors)
         return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
+
+    def strip(self, index: int = 0) -> Surface:
+        return self.stack()
 
     @property
     def whole(self) -> bool:
@@ -228,10 +258,10 @@ def measured_strips(scene: Scene, surface: Surface, lengths: tuple[float, float]
     fine = cells.count * cells.factors[0]
     step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
     beyond = 0 if extended(scene) else min(max(0, math.floor(0.5 * fine - half_width / dx)), surface.shape[0])
-    starts = _starts(surface.shape[0], fine, step, 0)
+    starts = starts_of(surface.shape[0], fine, step, 0)
     if len(starts) < ENOUGH:
-        starts = _starts(surface.shape[0], fine, step, beyond)
-    kept = surface.shape[1] - min(_blend(lengths[1], surface.spacing[1]), surface.shape[1] // 4)
+        starts = starts_of(surface.shape[0], fine, step, beyond)
+    kept = surface.shape[1] - min(blend_of(lengths[1], surface.spacing[1]), surface.shape[1] // 4)
     length, count = kept * surface.spacing[1], len(starts)
     if length < EVEN * cells.coarse[1] * (1 - 1e-9):
         raise InputError(
@@ -253,46 +283,6 @@ def one_patch(scene: Scene, surface: Surface, lengths: tuple[float, float]) -> O
     while scene.numerics.grid == "given" and not cells.own:
         cells = cells.halved()
     return OnePatch(scene, cells, lengths, surface.size[1], surface=surface)
-
-
-def stacked(strips: list[np.ndarray], blend: int) -> np.ndarray:
-    """Arrays (nx, ny) joined one after the other along y, and the last to the first.
-
-    The last ``blend`` cells of each are laid over the first of the next. Their weights are cos and sin, whose squares
-    add to 1, about the mean of all.
-    """
-    mean = float(np.mean([strip.mean() for strip in strips]))
-    angle = 0.5 * np.pi * (np.arange(blend) + 0.5) / blend
-    out = []
-    for before, strip in zip([strips[-1], *strips[:-1]], strips):
-        part = strip[:, : strip.shape[1] - blend].copy()
-        part[:, :blend] = mean + np.sin(angle) * (strip[:, :blend] - mean) + np.cos(angle) * (before[:, -blend:] - mean)
-        out.append(part)
-    return np.concatenate(out, axis=1)
-
-
-def spread(count: int) -> list[int]:
-    """0 .. count - 1 in an order that begins in the middle, each number as far from those before as possible."""
-    left = set(range(count))
-    order: list[int] = []
-    while left:
-        middle = 0.5 * (count - 1)
-        best = max(left, key=lambda i: (min((abs(i - j) for j in order), default=0), -abs(i - middle), -i))
-        order.append(best)
-        left.remove(best)
-    return order
-
-
-def _starts(count: int, window: int, step: int, beyond: int) -> list[int]:
-    """First columns of windows that lie ``step`` apart on a map of ``count`` columns. ``beyond``: how many of them
-    reach over either end."""
-    room = count + 2 * beyond - window
-    most = room // step
-    return [(room - most * step) // 2 - beyond + step * k for k in range(most + 1)]
-
-
-def _blend(correlation: float, step: float) -> int:
-    return max(1, round(BLEND * correlation / step))
 
 
 def _seed_of(*words: int) -> int:

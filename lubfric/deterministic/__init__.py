@@ -1,6 +1,6 @@
 """One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .point import Refined, deterministic_point, estimate, grids, solve_refined
-from .problem import Problem, lay_out, reach
-from .result import DeterministicResult
+from .point import Refined, Strip, change_of, deterministic_point, estimate, grids, solve_strip, work_of, work_of_steps
+from .problem import BOUNDARY_FILM, Problem, lay_out, reach
+from .result import MEANS, DeterministicResult
 from .solve import dry_contact, solve_point

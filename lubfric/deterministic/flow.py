@@ -8,9 +8,9 @@ the upstream difference is added, limited to half of the cell's own film.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
-from scipy.sparse import csr_matrix
 
 from .inlet import Inlet, inlet
 from .problem import Problem
@@ -122,9 +122,32 @@ def balance(problem: Problem, pressure, gap, fill=1.0) -> Balance:
     return Balance(residual, film, fluid, along, across, couette, upstream)
 
 
-def derivatives(problem: Problem, at: Balance, open_) -> tuple[csr_matrix, csr_matrix, csr_matrix]:
-    """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s], sparse (n, n) over all n = nx ny cells in C order; by h of
-    ``open_`` cells (bool) (nx, ny) only."""
+class Stencil:
+    """Coefficients ``data`` (6, nx, ny) of a cell's own value, of its neighbours up and down stream (W, WW; E) and
+    across (S, N)."""
+
+    NAMES = ("WW", "W", "S", 0, "N", "E")
+
+    def __init__(self, shape):
+        self.data = np.zeros((len(self.NAMES), *shape))
+
+    def add(self, name, values, here=slice(None)):
+        """Add ``values`` to the coefficients of the neighbour ``name``, in the rows ``here``."""
+        self.data[self.NAMES.index(name)][here] += values
+
+    @staticmethod
+    @lru_cache(maxsize=8)
+    def neighbours(nx: int, ny: int) -> np.ndarray:
+        """Numbers (i ny + j) of the cells that the coefficients belong to (6, nx, ny); the own where there is none."""
+        own = np.arange(nx * ny).reshape(nx, ny)
+        found = np.stack([own, own, np.roll(own, 1, axis=1), own, np.roll(own, -1, axis=1), own])
+        found[0, 2:], found[1, 1:], found[5, :-1] = own[:-2], own[:-1], own[1:]
+        return found
+
+
+def derivatives(problem: Problem, at: Balance, open_) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s] as the data of a `Stencil` each; by h of ``open_`` cells
+    (bool) (nx, ny) only."""
     dx, dy = problem.spacing
     by_p, by_h, by_fill = (Stencil(at.film.shape) for _ in range(3))
     for stencil, along, across in ((by_p, at.along.by_p, at.across.by_p), (by_h, at.along.by_h, at.across.by_h)):
@@ -146,29 +169,5 @@ def derivatives(problem: Problem, at: Balance, open_) -> tuple[csr_matrix, csr_m
     by_fill.add("W", -at.couette.by_fill[:-1] / dx, here=slice(1, None))
     by_p.add(0, -at.inlet.by_pressure / dx, here=slice(0, 1))
     by_h.add(0, -at.inlet.by_film / dx, here=slice(0, 1))
-    return by_p.matrix(), by_h.matrix(open_), by_fill.matrix()
-
-
-class Stencil:
-    """Coefficients of a cell's own value, of its neighbours up and down stream (W, WW; E) and across (S, N)."""
-
-    NAMES = ("WW", "W", "S", 0, "N", "E")
-
-    def __init__(self, shape):
-        self.data = np.zeros((len(self.NAMES), *shape))
-
-    def add(self, name, values, here=slice(None)):
-        """Add ``values`` to the coefficients of the neighbour ``name``, in the rows ``here``."""
-        self.data[self.NAMES.index(name)][here] += values
-
-    def matrix(self, open_=None) -> csr_matrix:
-        """The sparse matrix, with zeros in the columns of cells that are not ``open_`` (nx, ny)."""
-        _, nx, ny = self.data.shape
-        own = np.arange(nx * ny).reshape(nx, ny)
-        south, north = np.roll(own, 1, axis=1), np.roll(own, -1, axis=1)
-        neighbours = np.stack([own - 2 * ny, own - ny, south, own, north, own + ny])
-        entries = self.data != 0  # beyond the ends there are none
-        data, columns = self.data[entries], neighbours[entries]
-        if open_ is not None:
-            data = data * open_.ravel()[columns]
-        return csr_matrix((data, (np.broadcast_to(own, entries.shape)[entries], columns)), shape=(own.size,) * 2)
+    by_h.data *= np.asarray(open_, bool).ravel()[Stencil.neighbours(*at.film.shape)]
+    return by_p.data, by_h.data, by_fill.data

@@ -36,17 +36,17 @@ def _rule() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 @dataclass(frozen=True)
 class Inlet:
     """Values of every row: flow [m²/s] into the grid, and its derivatives by p of the first cell and by h of the first
-    face. Also the load [N/m] carried upstream, mean over the rows, and its derivatives by the same (ny,); and the
-    integrals upstream ``shearing`` ∫ eta/eta0 dx/h [-] and ``rolling`` ∫ (h/2) dp [N/m], means over the rows."""
+    face. Also the load [N/m] carried upstream, and the derivatives of its mean over the rows by the same; and the
+    integrals upstream ``shearing`` ∫ eta/eta0 dx/h [-] and ``rolling`` ∫ (h/2) dp [N/m]. All arrays (ny,)."""
 
     flow: np.ndarray
     by_pressure: np.ndarray
     by_film: np.ndarray
-    load: float
+    load: np.ndarray
     load_by_pressure: np.ndarray
     load_by_film: np.ndarray
-    shearing: float
-    rolling: float
+    shearing: np.ndarray
+    rolling: np.ndarray
 
 
 def inlet(problem: Problem, pressure, film) -> Inlet:
@@ -83,11 +83,11 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
         flow,
         by_pressure,
         by_film,
-        load=float((p @ (weight * stretch)).mean()),
+        load=p @ (weight * stretch),
         load_by_pressure=by_flow * by_pressure / film.size,
         load_by_film=(by_gap + by_flow * by_film) / film.size,
-        shearing=float(((slope * stretch / gap) @ weight).mean()),
-        rolling=float((0.5 * gap * slope * (a - flow[:, None] * b) @ weight).mean()),
+        shearing=(slope * stretch / gap) @ weight,
+        rolling=0.5 * gap * slope * (a - flow[:, None] * b) @ weight,
     )
 
 

@@ -1,26 +1,115 @@
-"""The deterministic film of a scene at one speed: on finer and finer grids, each started from the last, with an
-estimate of the error that is left."""
+"""A rough surface under the bodies of a scene at one speed: a strip of it on one grid, and on finer and finer grids,
+with an estimate of the error that is left."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..errors import ConvergenceError
 from ..scene import Scene, check_resolved_gap
 from ..surface import Surface
-from .problem import Problem, lay_out
+from .problem import BOUNDARY_FILM, Problem, lay_out
 from .result import DeterministicResult
-from .solve import dry_contact, solve_point
-from .state import FLUID, RUPTURED, State
+from .solve import TOLERANCE, refined_start, solve_point
 
-LEAST, MOST = 32, 512  # cells across, of the coarsest and of the finest grid
-KEPT = 0.9  # of Sq, on the coarsest grid
+ENOUGH = 1e-3  # tolerance of a strip's residuals: f moves by some .1 %
+LOOSE = 1e-2  # on longer cells, from which a strip starts
+FIRST = 12_000  # cells from which longer ones come first
+HEAVIER = 1.03  # times the load: the second solve, for the slope
+# counted work [s of a usual core] a cell: a Newton step, its factorisation over log2 of the cells, a step of GMRES
+STEP, FACTORISATION, KRYLOV = 1.7e-6, 1.35e-7, 1.9e-7
+LEAST = 32  # columns of the coarsest grid
+KEPT = 0.9  # of Sq there
 RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
-UNKNOWN_RATIO = 0.5  # from two grids: between first and second order
-SHARP = 0.3  # share of the load on spots from which on the dry contact is interpolated with the state
+UNKNOWN_RATIO = 0.6  # from two grids: as measured on cells of 3.6, 1.8 and 0.9 um of the built-in surface
+BLOCK = 2  # columns of the coarser of two grids in a place that changes by itself
+
+
+@dataclass(frozen=True)
+class Strip:
+    """A strip that is solved: its ``problem`` and ``result``, and the counted ``work`` of both solves (`work_of`).
+
+    slope: dF/dw [-] of friction and load at one h0, from a second solve at a load 3 % larger; NaN without that.
+    """
+
+    problem: Problem
+    result: DeterministicResult
+    slope: float
+    work: float
+
+    @property
+    def deviations(self) -> np.ndarray:
+        """F_i - slope (w_i - w) - F [N/m] of every column i along y (ny,), with a mean of 0: what places deviate by if
+        the load is balanced."""
+        friction, load = self.result.friction_at, self.result.load_at
+        return friction - friction.mean() - self.slope * (load - load.mean())
+
+
+def solve_strip(
+    scene: Scene,
+    surface: Surface,
+    speed: float,
+    *,
+    factors: tuple[int, int] = (1, 1),
+    start: Strip | None = None,
+    slope: bool = False,
+    tolerance: float = ENOUGH,
+) -> Strip:
+    """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
+
+    The cells are those of the map, or ``factors`` (fx, fy) times as long: they take every fx-th and fy-th height where
+    it stands, so that strips of different factors are the same strip. ``start``: the same strip at another speed, on
+    these cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from
+    cells twice as long. ``slope``: solve it a second
+    time, for `Strip.slope`. ``tolerance``: of the residuals (`lubfric.deterministic.state.residuals`).
+
+    Raises `InputError` and `ConvergenceError`.
+    """
+    check_resolved_gap(scene)
+    problem = problem_of(scene, surface, speed, factors)
+    work, rise, longer = 0.0, math.nan, (2 * factors[0], 2 * factors[1])
+    if start is None and problem.heights.size > FIRST and surface.shape[1] % longer[1] == 0:
+        with suppress(ConvergenceError):
+            start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE)
+            work = start.work
+    near = None if start is None else refined_start(start.problem, problem, start.result)
+    result = solve_point(problem, start=near, tolerance=tolerance)
+    work += work_of(result)
+    if slope:
+        heavier = problem.at_load(HEAVIER * problem.load)
+        second = solve_point(heavier, start=result.state, tolerance=tolerance)
+        work += work_of(second)
+        rise = (second.coefficient * second.load - result.coefficient * result.load) / (second.load - result.load)
+    return Strip(problem, result, rise, work)
+
+
+def work_of(result: DeterministicResult) -> float:
+    """Counted work of a solve in seconds of a usual core: from its cells and steps alone, never from a clock."""
+    return work_of_steps(result.pressure.size, result.report.iterations, result.report.evaluations)
+
+
+def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
+    """The same of so many ``steps`` of Newton's method, with ``krylov`` iterations of GMRES in all."""
+    return cells * (steps * (STEP + FACTORISATION * math.log2(cells)) + krylov * KRYLOV)
+
+
+def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int, int] = (1, 1)) -> Problem:
+    """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
+    times as long (`lay_out`). For a negative speed the map is turned."""
+    film = scene.bodies.boundary_film
+    return lay_out(
+        replace(surface, heights=surface.heights[::-1], mask=None) if speed < 0 else surface,
+        scene.line_contact(abs(speed)),
+        sliding=2 * abs(speed),
+        boundary_friction=scene.bodies.boundary_friction_coefficient,
+        hardness=scene.bodies.hardness,
+        boundary_film=BOUNDARY_FILM if film is None else film,
+        factors=factors,
+    )
 
 
 @dataclass(frozen=True)
@@ -38,127 +127,68 @@ class Refined:
 
 
 def deterministic_point(scene: Scene, surface: Surface, speed: float) -> Refined:
-    """The deterministic film of ``surface`` at ``speed`` [m/s], not 0, on grids that are fine enough for
-    ``numerics.tolerance``. For a negative speed the map is turned.
+    """The deterministic film of ``surface`` at ``speed`` [m/s], not 0, on each of its `grids` until the `estimate` is
+    <= ``numerics.tolerance``. A grid starts from the next coarser one. For a negative speed the map is turned.
 
     Raises `InputError` (`lubfric.scene.resolved_gap`) and `ConvergenceError`.
     """
-    check_resolved_gap(scene)
-    bodies, contact = scene.bodies, scene.line_contact(abs(speed))
-    turned = replace(surface, heights=surface.heights[::-1], mask=None) if speed < 0 else surface
-
-    def lay(shape):
-        return lay_out(
-            turned if shape == turned.shape else turned.resampled(shape=shape),
-            contact,
-            sliding=2 * abs(speed),
-            boundary_friction=bodies.boundary_friction_coefficient,
-            hardness=bodies.hardness,
-        )
-
+    strips: list[Strip] = []
     tolerance = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
-    return solve_refined(lay, grids(scene, surface), tolerance=tolerance)
+    for factors in grids(scene, surface):
+        start = strips[-1] if strips else None
+        strips.append(solve_strip(scene, surface, speed, factors=factors, start=start, tolerance=TOLERANCE))
+        error = estimate([strip.result for strip in strips])
+        if error is not None and error <= tolerance:
+            break
+    return Refined(tuple(strip.result for strip in strips), error)
 
 
 def grids(scene: Scene, surface: Surface) -> tuple[tuple[int, int], ...]:
-    """Shapes of the map on the grids to try, coarsest first. They are the map's own shape, halved as long as it keeps
-    90 % of Sq and 32 cells across, and doubled up to 512 cells across. With ``numerics.grid = "given"``: half of its
-    own, and its own."""
+    """Lengths of the cells to try, in cells of the map, coarsest first. The last are the map's own: there is no more of
+    the surface. They double as long as they keep 90 % of Sq and 32 columns; with ``numerics.grid = "given"`` there are
+    only the next longer ones, for the estimate."""
     nx, ny = surface.shape
-    if scene.numerics.grid == "given":
-        return ((max(nx // 2, 1), max(ny // 2, 1)), (nx, ny))
-    shapes = [(nx, ny)]
-    while shapes[0][1] >= 2 * LEAST:
-        if len(shapes) > 1 and surface.resampled(shape=_half(shapes[0])).sq < KEPT * surface.sq:
+    wider = next((n for n in range(2, ny + 1) if ny % n == 0), 1)
+    found = [(2, wider if scene.numerics.grid == "given" or ny < 2 * LEAST or ny % 2 else 2), (1, 1)]
+    while scene.numerics.grid != "given" and not ny % (2 * found[0][1]) and ny >= 2 * found[0][1] * LEAST:
+        longer = 2 * found[0][0], 2 * found[0][1]
+        if surface.resampled(shape=(max(nx // longer[0], 1), ny // longer[1])).sq < KEPT * surface.sq:
             break
-        shapes.insert(0, _half(shapes[0]))
-    while 2 * shapes[-1][1] <= MOST:
-        shapes.append((2 * shapes[-1][0], 2 * shapes[-1][1]))
-    return tuple(shapes)
+        found.insert(0, longer)
+    return tuple(found)
 
 
-def _half(shape) -> tuple[int, int]:
-    return shape[0] // 2, shape[1] // 2
+def estimate(results) -> float | None:
+    """Relative error of f of the last of ``results`` on grids each twice as fine as the one before; None for one.
 
-
-def solve_refined(
-    lay: Callable[[tuple[int, int]], Problem], grids: tuple[tuple[int, int], ...], *, tolerance: float, least: int = 2
-) -> Refined:
-    """Solve ``lay(shape)``, the map on each of ``grids``, coarsest first, until the estimate is <= ``tolerance``; on at
-    least ``least`` of them.
-
-    The estimate is the geometric series of the changes c0, c1 of f on the last grids, c1 q/(1 - q) with q = c1/c0 kept
-    within 1/4 and 3/4 (1/2 from two grids), over f. A grid starts from the next coarser one, and if that fails from the
-    dry contact. Raises `ConvergenceError`.
+    It is the geometric series of the last `change_of`, with the ratio q of the last two kept within 1/4 and 3/4 (0.6
+    from two grids).
     """
-    results: list[DeterministicResult] = []
-    error: float | None = None
-    coarser: Problem | None = None
-    for shape in grids:
-        problem = lay(shape)
-        start = None if coarser is None else refined_start(coarser, problem, results[-1])
-        results.append(solve_point(problem, start=start))
-        coarser = problem
-        error = estimate([r.coefficient for r in results])
-        if len(results) >= least and error is not None and error <= tolerance:
-            break
-    return Refined(tuple(results), error)
-
-
-def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> State:
-    """The state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells.
-
-    Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the
-    difference from the dry contact is interpolated instead, and added to the dry contact of the finer grid. Beyond the
-    old grid p = 0, with fluid upstream and rupture downstream. h0 is corrected, because the half-space has
-    its zero, u = 0, at the length of the grid from a line load.
-    """
-    old, (nx, ny), (nx_old, ny_old) = result.state, problem.heights.shape, coarse.heights.shape
-    along = (problem.x - coarse.x[0]) / coarse.spacing[0]
-    across = (np.arange(ny) + 0.5) * (ny_old / ny) - 0.5
-    nearest = old.kind[np.clip(np.rint(along).astype(int), 0, nx_old - 1)][:, np.rint(across).astype(int) % ny_old]
-    kind = np.where((along < -0.5)[:, None], FLUID, np.where((along > nx_old - 0.5)[:, None], RUPTURED, nearest))
-    ruptured = kind == RUPTURED
-    fill = np.where(ruptured, _interpolated(old.fill, np.clip(along, 0, nx_old - 1), across), 1.0)
-
-    def finer(pressure):
-        return np.where(ruptured, 0.0, _interpolated(pressure, along, across))
-
-    pressure = finer(old.pressure)
-    if result.split.spots < SHARP * result.load:
-        longer = nx * problem.spacing[0] / (nx_old * coarse.spacing[0])
-        shift = 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)
-        yielded = (pressure >= problem.hardness) & ~ruptured
-        dent = np.where(yielded, _interpolated(old.dent, along, across), 0.0)
-        return State(pressure, fill, dent, kind.astype(np.int8), yielded, old.approach - shift)
-    bare, new = dry_contact(coarse), dry_contact(problem)
-    pressure = np.maximum(new.pressure + pressure - finer(bare.pressure), 0.0)
-    kind = np.where((pressure <= 0) & ruptured, RUPTURED, FLUID).astype(np.int8)
-    yielded = pressure >= problem.hardness
-    dent = np.where(yielded, np.maximum(-new.gap, 0.0), 0.0)
-    approach = old.approach + bare.approach - new.approach
-    return State(np.minimum(pressure, problem.hardness), fill, dent, kind, yielded, approach)
-
-
-def _interpolated(field, along, across) -> np.ndarray:
-    """Linear interpolation at the cells ``along`` x (zero outside) and ``across`` y (periodic), counted in cells."""
-    i, j = np.floor(along).astype(int), np.floor(across).astype(int)
-    s, t = (along - i)[:, None], across - j
-    padded = np.zeros((field.shape[0] + 2, field.shape[1]))
-    padded[1:-1] = field
-    i = np.clip(i + 1, 0, field.shape[0])
-    j0, j1 = j % field.shape[1], (j + 1) % field.shape[1]
-    before = (1 - t) * padded[i][:, j0] + t * padded[i][:, j1]
-    behind = (1 - t) * padded[i + 1][:, j0] + t * padded[i + 1][:, j1]
-    return (1 - s) * before + s * behind
-
-
-def estimate(values) -> float | None:
-    """Relative error of the last of ``values``, found on grids each twice as fine as the one before; None for one
-    value."""
-    if len(values) < 2:
+    if len(results) < 2:
         return None
-    change = abs(values[-1] - values[-2])
-    before = abs(values[-2] - values[-3]) if len(values) > 2 else 0.0
-    ratio = UNKNOWN_RATIO if before == 0 else min(max(change / before, RATIO[0]), RATIO[1])
-    return change * ratio / (1 - ratio) / abs(values[-1]) if change else 0.0
+    changes = [change_of(coarse, fine) for coarse, fine in zip(results[:-1], results[1:])]
+    ratio = UNKNOWN_RATIO
+    if len(changes) > 1 and changes[-2] > 0:
+        ratio = min(max(changes[-1] / changes[-2], RATIO[0]), RATIO[1])
+    return changes[-1] * ratio / (1 - ratio)
+
+
+def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:
+    """Relative change of f from a ``coarse`` to a ``fine`` grid, with the standard error of its mean over places.
+
+    Places change by themselves, some up and some down. On a short map the mean may be small by chance; the scatter of
+    the places tells by how much. Friction that goes with a place's load is left out, since their mean load is kept.
+    """
+    count = max(coarse.load_at.size // BLOCK, 2)
+    load = _blocks(fine.load_at, count) - _blocks(coarse.load_at, count)
+    friction = _blocks(fine.friction_at, count) - _blocks(coarse.friction_at, count)
+    own = friction - load * ((friction @ load) / max(load @ load, 1e-300))
+    scatter = float(np.std(own)) / math.sqrt(count - 1) / fine.load
+    return math.hypot(fine.coefficient - coarse.coefficient, scatter) / fine.coefficient
+
+
+def _blocks(values, count: int) -> np.ndarray:
+    """Means of ``values`` over ``count`` equal parts of their length."""
+    sums = np.append(0.0, np.cumsum(values)) / values.size
+    ends = np.interp(np.linspace(0, 1, count + 1), np.linspace(0, 1, values.size + 1), sums)
+    return np.diff(ends) * count

@@ -27,6 +27,7 @@ from ..oil import Lubricant
 from ..surface import Surface
 
 FLOOR = 1e-9  # m
+BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/deterministic.md)
 ROUGH_INLET, ROUGH_OUTLET = 14.0, 5.0  # the undeformed gap at the ends of the grid, in Sq
 HERTZ_INLET, HERTZ_OUTLET = 3.0, 1.8  # the ends, at least, in Hertz half-widths
 FILM_INLET, FILM_OUTLET = 1.5, 0.8  # and in sqrt(2 R h) of the smooth film
@@ -40,7 +41,7 @@ class Problem(OfLineContact):
     contact: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface
     speeds; x [m] (nx,) centres of the cells around the line of contact; heights z [m] (nx, ny), upwards out of the
     resting body; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf: elastic);
-    boundary_friction: f_b [-] of the spots where the bodies touch; floor [m].
+    boundary_friction: f_b [-] where the gap is thinner than boundary_film [m]; floor [m].
     """
 
     contact: LineContact
@@ -50,6 +51,7 @@ class Problem(OfLineContact):
     operator: HalfSpace
     boundary_friction: float
     hardness: float = math.inf
+    boundary_film: float = BOUNDARY_FILM
     floor: float = FLOOR
 
     @property
@@ -85,6 +87,10 @@ class Problem(OfLineContact):
         """4 w/(pi E') [m]: far upstream the gap is less than the parabola by this times ln|x|."""
         return 4 * self.load / (math.pi * self.e_prime)
 
+    def at_load(self, load: float) -> Problem:
+        """The same problem on the same grid under another load [N/m]."""
+        return replace(self, contact=replace(self.contact, load_per_width=load))
+
     def at_speed(self, speed: float) -> Problem:
         """The same problem on the same grid at another U [m/s], with the same ratio of sliding."""
         faster = replace(self.contact, entrainment_speed=speed)
@@ -111,30 +117,37 @@ def lay_out(
     sliding: float,
     boundary_friction: float,
     hardness: float | None = None,
+    boundary_film: float = BOUNDARY_FILM,
     ends: tuple[float, float] | None = None,
-    floor: float = FLOOR,
+    factors: tuple[int, int] = (1, 1),
 ) -> Problem:
-    """The `Problem` of ``surface`` on its own cells, its middle under the line of contact.
+    """The `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells ``factors`` (fx,
+    fy) times as long, which take every fx-th and fy-th of its heights where they stand.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
-    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`.
+    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`, and for factors
+    that do not divide the map.
     """
-    (nx, ny), (dx, dy) = surface.shape, surface.spacing
+    (nx, ny), (fx, fy) = surface.shape, factors
+    dx, dy = surface.spacing[0] * fx, surface.spacing[1] * fy
+    if ny % fy:
+        raise InputError(f"factors = {factors} do not divide the {ny} cells of the map along y; allowed: its divisors")
     upstream, downstream = reach(contact, surface.sq) if ends is None else ends
-    # the centres of the cells of the map are (i - (nx - 1)/2) dx
-    first = math.floor((nx - 1) / 2 - upstream / dx)
-    last = math.ceil((nx - 1) / 2 + downstream / dx)
-    index = np.arange(first, last + 1)
-    if index.size * ny > LARGEST:
+    # the centres of the cells of the map are (i - (nx - 1)/2) dx/fx; those taken are fx//2, fx//2 + fx, ...
+    middle, taken = (nx - 1) / 2, fx // 2
+    first = math.floor((middle - taken) / fx - upstream / dx)
+    last = math.ceil((middle - taken) / fx + downstream / dx)
+    index = taken + fx * np.arange(first, last + 1)
+    if index.size * (ny // fy) > LARGEST:
         raise InputError(
-            f"contact: a deterministic film needs {index.size} x {ny} cells of {dx:.3g} x {dy:.3g} m here; "
+            f"contact: a deterministic film needs {index.size} x {ny // fy} cells of {dx:.3g} x {dy:.3g} m here; "
             f"allowed: up to {LARGEST:.3g} cells (larger contact.spacing, or a narrower patch)"
         )
     period = nx if surface.periodic_axes[0] else 2 * nx
     place = index % period
     place = np.where(place < nx, place, period - 1 - place)
-    heights = surface.heights[place] - surface.heights.mean()
+    heights = surface.heights[place, fy // 2 :: fy] - surface.heights.mean()
     operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
-    x = (index - (nx - 1) / 2) * dx
+    x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
-    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, floor)
+    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film)

@@ -1,16 +1,12 @@
-"""What a deterministic solve returns: its fields, its friction, and the split of the load between asperity spots and
-the film between them.
+"""What a deterministic solve returns: its fields, its friction, and the part of the load that rubs with f_b.
 
-With one pressure, no equation tells film and contact apart, so the split is a rule:
+With one pressure, no equation tells film and contact apart. What friction needs is where boundary friction begins, and
+that is one length, the thickness of the boundary film:
 
-    A cell belongs to an asperity spot where the bodies touch (h = floor), or where p > 50 MPa, a Newtonian film would
-    be sheared above the boundary friction, eta Δu/h > f_b p, and h is less than half its mean over the section.
+    shear = f_b p where h < boundary film, the bodies' touching cells among them; the lubricant's own law elsewhere.
 
-The second condition finds the summits of a light contact, which carry films of nanometres. Alone it would also mark the
-whole of a thick film at high pressure, whose stress is at its limit for another reason. The third condition leaves that
-to the film. `LoadSplit` has the load by other rules. The friction coefficient hardly depends on the rule, because the
-stress is f_b p on spots, follows the lubricant's law in the film, and is limited to f_b p in a Newtonian film above 50
-MPa too.
+A Newtonian lubricant has no limit of its own. So that of a film above 50 MPa is f_b p. The fields do not depend on that
+length, so f at half and at twice of it costs no solve.
 """
 
 from __future__ import annotations
@@ -20,21 +16,29 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import Report
-from ..oil import shear_stress, viscosity
+from ..oil import shear_stress
 from .state import FLUID, TOUCHING, Iterate, State
 
-PRESSED = 50e6  # Pa
-CLOSE = 0.5  # of the mean gap of the section
+PRESSED = 50e6  # Pa: below it no Newtonian film is taken to be at its cap
+MEANS = (
+    *("coefficient", "at_half_film", "at_twice_film", "boundary", "couette", "rolling", "flow_film", "mean_gap"),
+    *("central_gap", "spot_length", "spot_fraction", "plastic_fraction", "drawn", "inlet_load"),
+)  # fields of a `DeterministicResult` that are means over its length along y, as the loads of its ``split`` are
 
 
 @dataclass(frozen=True)
 class LoadSplit:
-    """Load [N/m] on the cells that three rules select, from the narrowest: ``touching`` (h = floor); ``spots`` (the
-    rule of this module); ``saturated``: p > 50 MPa and eta Δu/h > f_b p, or touching."""
+    """Load [N/m] on touching cells (h = floor); on gaps ``thin``ner than the boundary film, touching ones among them;
+    and on thicker Newtonian films at their cap f_b p, ``capped``."""
 
     touching: float
-    spots: float
-    saturated: float
+    thin: float
+    capped: float
+
+    @property
+    def spots(self) -> float:
+        """The load that rubs with f_b [N/m]."""
+        return self.thin + self.capped
 
 
 @dataclass(frozen=True)
@@ -43,12 +47,16 @@ class DeterministicResult:
 
     - pressure [Pa]: of film and contact together. gap [m]: between the rough surfaces, at least the floor. fill [-]:
       the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. spots (bool):
-      the asperity spots of this module. wet (bool): fluid under pressure outside the spots. shear [Pa]: on the moving
+      where the stress is f_b p. wet (bool): fluid under pressure outside the spots. shear [Pa]: on the moving
       surface. dent [m]: plastic depth.
     - boundary: f_b p over the spots. couette, rolling: shear of the film, with that upstream of the grid. coefficient:
-      (boundary + couette + rolling)/load. split: the load by three rules; ``split.spots`` is the one used.
+      (boundary + couette + rolling)/load; at_half_film, at_twice_film: with half and twice the boundary film. split:
+      the load on spots, and its parts.
     - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
       b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
+    - load_at, friction_at [N/m] (ny,): load and friction of every column of cells along x, with those upstream. Their
+      means are ``load`` and ``coefficient`` times that.
+    - spot_length [m]: area of all spots per length. top_pressure [Pa]: the largest in the film.
     - drawn: of the lubricant in the film, the share that touching cells of the strip give off, because their floor is
       kept full; the rest enters from upstream.
     - approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
@@ -65,16 +73,22 @@ class DeterministicResult:
     wet: np.ndarray
     dent: np.ndarray
     coefficient: float
+    at_half_film: float
+    at_twice_film: float
     boundary: float
     couette: float
     rolling: float
     split: LoadSplit
     load: float
+    load_at: np.ndarray
+    friction_at: np.ndarray
     speed: float
     flow_film: float
     min_gap: float
     mean_gap: float
     spot_fraction: float
+    spot_length: float
+    top_pressure: float
     plastic_fraction: float
     drawn: float
     central_gap: float
@@ -83,23 +97,57 @@ class DeterministicResult:
     report: Report
     state: State = field(repr=False)
 
+    @property
+    def film_error(self) -> float:
+        """The larger relative change of f by half and by twice the boundary film."""
+        return max(abs(f - self.coefficient) for f in (self.at_half_film, self.at_twice_film)) / self.coefficient
 
-def assemble(at: Iterate, report: Report, pressed=PRESSED, close=CLOSE) -> DeterministicResult:
-    """The result at a solved state; ``pressed`` [Pa] and ``close`` [-] are the two numbers of the rule for spots."""
-    problem, state, h, inlet = at.problem, at.state, at.balance.film, at.balance.inlet
-    p, touching, fluid = state.pressure, state.kind == TOUCHING, state.kind == FLUID
-    f_b, rate, cell = problem.boundary_friction, problem.sliding / h, problem.spacing[0] / p.shape[1]
-    with np.errstate(over="ignore"):
-        saturated = fluid & (p > pressed) & (viscosity(problem.lubricant, p) * rate > f_b * p)
-        law = shear_stress(problem.lubricant, p, rate)
-    if problem.lubricant.newtonian:
-        law = np.where(saturated, np.minimum(law, f_b * p), law)
-    spots = touching | saturated & (h < close * h.mean(axis=1)[:, None])
+
+@dataclass(frozen=True)
+class Rubbing:
+    """How the fields shear the moving surface: bools (nx, ny) of the gaps that are ``thin``, of all ``spots`` where the
+    stress is f_b p, and of the ``wet`` rest, fluid under its own law; the ``stress`` [Pa] (nx, ny); and of every column
+    along x the forces [N/m] (ny,) on spots (``boundary``) and in the film (``couette``, ``rolling``), with those
+    upstream of the grid."""
+
+    thin: np.ndarray
+    spots: np.ndarray
+    wet: np.ndarray
+    stress: np.ndarray
+    boundary: np.ndarray
+    couette: np.ndarray
+    rolling: np.ndarray
+
+    @property
+    def friction(self) -> np.ndarray:
+        """All of it [N/m] (ny,)."""
+        return self.boundary + self.couette + self.rolling
+
+
+def rubbing(at: Iterate, law, film: float) -> Rubbing:
+    """With a boundary ``film`` [m]. ``law``: the stress [Pa] that the lubricant has by itself (nx, ny)."""
+    problem, p, h, inlet = at.problem, at.state.pressure, at.balance.film, at.balance.inlet
+    limit, dx, fluid = problem.boundary_friction * p, problem.spacing[0], at.state.kind == FLUID
+    thin = (at.state.kind == TOUCHING) | fluid & (h < film)
+    spots = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.newtonian else thin
     wet = fluid & ~spots
-    shear = np.where(spots, f_b * p, np.where(fluid, law, 0.0))
-    split = LoadSplit(*(float(p[where].sum()) * cell for where in (touching, spots, touching | saturated)))
-    couette = float(shear[wet].sum()) * cell + problem.lubricant.viscosity * problem.sliding * inlet.shearing
-    rolling = _rolling(p, h, wet) + inlet.rolling
+    both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
+    stress = np.where(spots, limit, np.where(wet, law, 0.0))
+    couette = (stress * wet).sum(axis=0) * dx + problem.lubricant.viscosity * problem.sliding * inlet.shearing
+    rolling = (0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]) * both).sum(axis=0) + inlet.rolling
+    return Rubbing(thin, spots, wet, stress, (limit * spots).sum(axis=0) * dx, couette, rolling)
+
+
+def assemble(at: Iterate, report: Report) -> DeterministicResult:
+    """The result at a solved state."""
+    problem, state, h, inlet = at.problem, at.state, at.balance.film, at.balance.inlet
+    p, dx, touching, fluid = state.pressure, problem.spacing[0], state.kind == TOUCHING, state.kind == FLUID
+    with np.errstate(over="ignore"):
+        law = shear_stress(problem.lubricant, p, problem.sliding / h)
+    rubs, *others = (rubbing(at, law, times * problem.boundary_film) for times in (1.0, 0.5, 2.0))
+    coefficients = [float(one.friction.mean()) / problem.load for one in (rubs, *others)]
+    spots = rubs.spots
+    loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, rubs.thin, spots & ~rubs.thin))
     strip = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
     return DeterministicResult(
         x=problem.x,
@@ -107,36 +155,36 @@ def assemble(at: Iterate, report: Report, pressed=PRESSED, close=CLOSE) -> Deter
         pressure=p,
         gap=h,
         fill=state.fill,
-        shear=shear,
+        shear=rubs.stress,
         touching=touching,
         spots=spots,
-        wet=wet,
+        wet=rubs.wet,
         dent=state.dent,
-        coefficient=(f_b * split.spots + couette + rolling) / problem.load,
-        boundary=f_b * split.spots,
-        couette=couette,
-        rolling=rolling,
-        split=split,
+        coefficient=coefficients[0],
+        at_half_film=coefficients[1],
+        at_twice_film=coefficients[2],
+        boundary=float(rubs.boundary.mean()),
+        couette=float(rubs.couette.mean()),
+        rolling=float(rubs.rolling.mean()),
+        split=LoadSplit(*loads),
         load=problem.load,
+        load_at=p.sum(axis=0) * dx + inlet.load,
+        friction_at=rubs.friction,
         speed=problem.speed,
         flow_film=float(inlet.flow.mean()) / problem.speed,
         min_gap=float(h.min()),
         mean_gap=float(h[strip].mean()),
         spot_fraction=float(spots[strip].mean()),
+        spot_length=float(spots.sum()) * dx / p.shape[1],
+        top_pressure=float(p[fluid & ~rubs.thin].max(initial=0.0)),
         plastic_fraction=float((state.yielded & (state.dent > 0))[strip].mean()),
         drawn=_drawn(at, touching, strip),
         central_gap=float(np.interp(0.0, problem.x, h.mean(axis=1))),
         approach=state.approach,
-        inlet_load=inlet.load,
+        inlet_load=float(inlet.load.mean()),
         report=report,
         state=state,
     )
-
-
-def _rolling(p, h, wet) -> float:
-    """∫ (h/2) dp/dx [N/m] on the grid, between cells that are ``wet`` or without pressure."""
-    both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
-    return float((0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]))[both].sum()) / p.shape[1]
 
 
 def _drawn(at: Iterate, touching, strip) -> float:

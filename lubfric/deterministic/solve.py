@@ -26,6 +26,7 @@ THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and a
 # a Newtonian
 DRY_TOLERANCE = 1e-4
 RUPTURE = 0.55  # of sqrt(2 R h): a little behind where a rigid film ruptures, 0.475
+SHARP = 0.02  # share of the load on spots from which on the dry contact is interpolated with the state
 
 
 def solve_point(problem: Problem, *, start: State | None = None, tolerance=TOLERANCE, most=MOST) -> DeterministicResult:
@@ -143,3 +144,52 @@ def _from_faster(problem: Problem, state: State, times: float, tolerance, work: 
 def _in_time(problem: Problem, state: State, tolerance, work: Work) -> Found:
     settled = march(problem, state, work, most=MARCHED)
     return newton(problem, settled, work, tolerance=tolerance, most=DIRECT)
+
+
+def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> State:
+    """The state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells.
+
+    Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the
+    difference from the dry contact is interpolated instead, and added to the dry contact of the finer grid. Beyond the
+    old grid p = 0, with fluid upstream and rupture downstream. h0 is corrected, because the half-space has
+    its zero, u = 0, at the length of the grid from a line load. The cells may also be those of ``coarse`` on a longer
+    or shorter grid.
+    """
+    old, (nx, ny), (nx_old, ny_old) = result.state, problem.heights.shape, coarse.heights.shape
+    along = (problem.x - coarse.x[0]) / coarse.spacing[0]
+    across = (np.arange(ny) + 0.5) * (ny_old / ny) - 0.5
+    nearest = old.kind[np.clip(np.rint(along).astype(int), 0, nx_old - 1)][:, np.rint(across).astype(int) % ny_old]
+    kind = np.where((along < -0.5)[:, None], FLUID, np.where((along > nx_old - 0.5)[:, None], RUPTURED, nearest))
+    ruptured = kind == RUPTURED
+    fill = np.where(ruptured, _interpolated(old.fill, np.clip(along, 0, nx_old - 1), across), 1.0)
+
+    def finer(pressure):
+        return np.where(ruptured, 0.0, _interpolated(pressure, along, across))
+
+    pressure = finer(old.pressure)
+    if result.split.spots < SHARP * result.load or problem.spacing == coarse.spacing:
+        longer = nx * problem.spacing[0] / (nx_old * coarse.spacing[0])
+        shift = 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)
+        yielded = (pressure >= problem.hardness) & ~ruptured
+        dent = np.where(yielded, _interpolated(old.dent, along, across), 0.0)
+        return State(pressure, fill, dent, kind.astype(np.int8), yielded, old.approach - shift)
+    bare, new = dry_contact(coarse), dry_contact(problem)
+    pressure = np.maximum(new.pressure + pressure - finer(bare.pressure), 0.0)
+    kind = np.where((pressure <= 0) & ruptured, RUPTURED, FLUID).astype(np.int8)
+    yielded = pressure >= problem.hardness
+    dent = np.where(yielded, np.maximum(-new.gap, 0.0), 0.0)
+    approach = old.approach + bare.approach - new.approach
+    return State(np.minimum(pressure, problem.hardness), fill, dent, kind, yielded, approach)
+
+
+def _interpolated(field, along, across) -> np.ndarray:
+    """Linear interpolation at the cells ``along`` x (zero outside) and ``across`` y (periodic), counted in cells."""
+    i, j = np.floor(along).astype(int), np.floor(across).astype(int)
+    s, t = (along - i)[:, None], across - j
+    padded = np.zeros((field.shape[0] + 2, field.shape[1]))
+    padded[1:-1] = field
+    i = np.clip(i + 1, 0, field.shape[0])
+    j0, j1 = j % field.shape[1], (j + 1) % field.shape[1]
+    before = (1 - t) * padded[i][:, j0] + t * padded[i][:, j1]
+    behind = (1 - t) * padded[i + 1][:, j0] + t * padded[i + 1][:, j1]
+    return (1 - s) * before + s * behind

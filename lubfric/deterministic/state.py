@@ -62,7 +62,7 @@ class Iterate:
     def load_error(self) -> float:
         """∫ p dx, with the load carried upstream of the grid, minus the load [N/m]."""
         carried = self.state.pressure.sum() * self.problem.spacing[0] / self.gap.shape[1]
-        return float(carried + self.balance.inlet.load - self.problem.load)
+        return float(carried + self.balance.inlet.load.mean() - self.problem.load)
 
 
 def evaluated(problem: Problem, state: State, past: Past | None = None) -> Iterate:

@@ -129,7 +129,7 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
         dx, dy = strips.cells.coarse
         asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um"
         rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
-        rows[-1] += f" {'strips':>8} {'length (mm)':>12} {'time (s)':>9}"
+        rows[-1] += f" {'strips':>8} {'one gap':>8} {'length (mm)':>12} {'time (s)':>9}"
     own = () if scene.transient is not None else (scene.motion.entrainment_speed,)
     nothing = "no entrainment" if scene.transient is not None else "no entrainment: all contact"
     for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], *own, speeds[-1]}):
@@ -140,7 +140,7 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
             film = f"{line.M:9.3g} {line.L:8.3g} {line.moes_film * 1e6:10.4f} {ratio:8.3g}"
         row = f"  {speed:<12.4g} {film}  {one.touching:<22} {one.clearance:>14.2g}"
         if strips is not None:
-            row += f" {one.strips:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
+            row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
         rows.append(row)
     return rows
 

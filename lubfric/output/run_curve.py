@@ -14,7 +14,6 @@ import numpy as np
 from .._base import FolderLock, OwnFiles, make_ready, plain_words, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..quantities import NUMBERS, in_words
-from ..sampling import percent
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
 from ..sharing import Prepared, Validity, takes_strips
 from ..studies import (
@@ -189,8 +188,7 @@ def _known(entry: dict) -> dict[str, float]:
 
 def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
     """The errors of f in words: at how many points, and in full for the least sure of them; at how many points too few
-    spots carry the load; the error of load sharing itself, which the intervals leave out, if it is larger; and that
-    results were accepted."""
+    spots carry the load; and that results were accepted."""
     name, _, unit, plural = curve.SWEPT
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
     noted, said = [point for point in points if point[1].notes], []
@@ -206,24 +204,11 @@ def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
         if few and few != [at]:
             where = ", ".join(f"{value:.4g}" for value in few)
             said.append(f"few spots carry the load at {where} {unit}: these intervals are too narrow")
-    beyond = [point for point in points if point[1].model_form > _half_width(point[1].interval)]
-    if beyond:
-        at, worst = max(beyond, key=lambda p: p[1].model_form)
-        said.append(
-            f"not in the intervals: the error of load sharing itself, up to {percent(worst.model_form)} at {at:.4g} "
-            f"{unit}; it is larger than the interval at {counted(len(beyond))}"
-        )
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.entries(i)):
         said.append(
             "accepted although outside the range of the model: these coefficients are marked, and are no answers"
         )
     return said
-
-
-def _half_width(interval: tuple[float, float]) -> float:
-    """Of an interval, relative to its middle."""
-    low, high = interval
-    return abs(high - low) / abs(high + low) if high + low else math.nan
 
 
 def _raise_if_failed(curve: CurveResult) -> None:

@@ -13,20 +13,20 @@ from ..sharing import exponents as film_exponents
 from .decision import decided
 from .errors_of import errors_of
 from .result import FrictionResult
-from .sample import Found, sampled
+from .sample import Found
 
 CLOSER = "f is good to that error; a tighter numerics.tolerance or a larger map makes it smaller"
 
 
-def load_sharing_answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> FrictionResult:
-    """Solve ``prepared`` at ``speed`` [m/s] on its sample. ``fields``: solve on the map's own cells; ``begun``: the
-    starting time, by `time.perf_counter`."""
-    found, scene = sampled(prepared, speed, own_cells=fields), prepared.scene
+def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: float, why: str = "") -> FrictionResult:
+    """The answer of the sample ``found`` of ``prepared`` at ``speed`` [m/s]. ``begun``: the starting time, by
+    `time.perf_counter`; ``why``: the reason for this model, in words."""
+    scene = prepared.scene
     numbers = _numbers(prepared, speed, found)
     uncertainty, errors = errors_of(scene, found)
     factors, ends = _cells(found)
     sample = {"coarsening": factors, "strips": found.count, "change_by_cells": found.change("gap")}
-    decision = decided(scene, found.contact, found.balance, numbers["clearance"], **sample)
+    decision = decided(scene, found.contact, found.balance, numbers["clearance"], why, **sample)
     passed, tolerance = judged(prepared, speed, found.balance, ends), scene.numerics.tolerance
     cautions = (*_finer(found.change("beyond"), tolerance), *of_error(uncertainty.numerical, tolerance, CLOSER))
     oil, temperature = scene.lubricant.oil, scene.lubricant.temperature

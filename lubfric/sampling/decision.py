@@ -51,11 +51,11 @@ class Decision:
         return f"{text}, each {fx} x {fy} of the map's own, by which f is corrected ({_percent(self.change_by_cells)})"
 
 
-def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, **sample) -> Decision:
+def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample) -> Decision:
     """The decision behind ``balance`` on ``contact``. ``clearance`` [Sq]: between the film and the highest summits, NaN
-    in contact; ``sample``: further fields of `Decision`."""
+    in contact; ``why``: the reason for this model; ``sample``: further fields of `Decision`."""
     tolerance, film, grid = scene.numerics.tolerance, balance.film, contact.grid
-    touching, notes, heat = math.isnan(clearance), balance.notes, ""
+    touching, notes, heat = math.isnan(clearance), (*balance.notes, *filter(None, [why])), ""
     if film is not None:
         heat = balance.forces.heat.text(tolerance)
         if (missed := balance.forces.quadrature) > budget.SHEAR_SUM * tolerance:

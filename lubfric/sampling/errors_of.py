@@ -6,20 +6,31 @@ import math
 from dataclasses import dataclass
 
 from ..quantities import depending_on
-from ..scene import Scene, budget
+from ..scene import Scene, budget, gap_not_resolved
 from ..sharing import Balance, Forces
 from .sample import Found
 from .scatter import BlockError, Scatter
-from .uncertainty import FEW, FieldErrors, Uncertainty, field_errors_of, interval, load_sharing_error, percent, too_few
+from .uncertainty import (
+    FEW,
+    ORDER,
+    FieldErrors,
+    Uncertainty,
+    field_errors_of,
+    interval,
+    load_sharing_error,
+    percent,
+    too_few,
+)
 
 NO_HEAT = "heat was left out"
-ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
 NO_CELLS = "not known: this contact has no places along y to compare"
 TOO_SHORT = (
     "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling out, or give a "
     "map that is longer across the motion)"
 )
+NOT_STUDIED = "the error of the model itself is not known for this contact"
+MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
 MISSED = "not known: the patch is too short along y to tell what contact it misses"
 
 
@@ -57,19 +68,20 @@ def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
     notes = _notes(found, scene, sampling)
     if not math.isfinite(sampling):
         sampling = math.nan
+    model, unknown = model_error(scene, found)
     both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
     known = Uncertainty(
         numerical=relative,
         sampling=sampling,
-        interval=interval(forces.coefficient, relative, sampling, error.freedom),
+        interval=interval(forces.coefficient, relative, sampling, error.freedom, model),
         line_scatter=sampling * math.sqrt(scatter.length / scene.bodies.width),
         participation=scatter.spots,
         length=scatter.length,
         freedom=float(error.freedom),
         tolerance=scene.numerics.sampling_tolerance,
         area_needed=_area_needed(found, scene),
-        model_form=_model_form(scene, found),
-        notes=notes,
+        model=model,
+        notes=(*notes, *unknown),
     )
     left_out = dict.fromkeys(depending_on("heat"), NO_HEAT) if balance.film is not None else {}
     return known, field_errors_of(errors | {"coefficient": both}, why, left_out)
@@ -167,14 +179,22 @@ def _shear_errors(found: Forces, film: float) -> dict[str, float]:
     return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 
 
-def _model_form(scene: Scene, found: Found) -> float:
-    """Error of load sharing; NaN except for a cylinder with a half-space contact, which is the case that was
-    studied."""
+def model_error(scene: Scene, found: Found) -> tuple[float, tuple[str, ...]]:
+    """Relative error of f by load sharing itself, at 95 %; where it is not known NaN, and why."""
+    balance = found.balance
+    if balance.film is None:
+        return 0.0, ()
     if found.strips is None:
-        return math.nan
-    film, sq = found.balance.film, float(found.contact.heights.std())  # type: ignore[attr-defined]
-    ratio = film.central_film / sq if film is not None and sq > 0 else math.inf
-    return load_sharing_error(ratio, found.balance.contact_load / scene.bodies.load)
+        return math.nan, (NOT_STUDIED,)
+    why = gap_not_resolved(scene)
+    if why:
+        return math.nan, (MODEL_UNKNOWN.format(why),)
+    sq, film = float(found.contact.heights.std()), balance.film.central_film  # type: ignore[attr-defined]
+    share = balance.contact_load / scene.bodies.load
+    forces, load = balance.forces, scene.bodies.load
+    return load_sharing_error(
+        film / sq if sq else math.inf, share, forces.boundary / load, forces.shear.total / load
+    ), ()
 
 
 def _area_needed(found: Found, scene: Scene) -> float:

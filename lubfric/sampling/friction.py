@@ -8,13 +8,15 @@ import time
 import numpy as np
 
 from .._base import validate
-from ..errors import InputError
-from ..scene import FASTEST, Scene, told_doubts
+from ..errors import ConvergenceError, InputError
+from ..scene import FASTEST, Scene, gap_not_resolved, told_doubts
 from ..sharing import Prepared, at_tolerance, refused
 from .answer import load_sharing_answer
-from .answer_deterministic import deterministic_answer
+from .answer_deterministic import patch_answer, strips_answer
+from .errors_of import model_error
 from .methods import with_methods
 from .result import FrictionResult
+from .sample import Found, sampled
 
 
 def friction(
@@ -32,14 +34,16 @@ def friction(
     Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of Eq.
     (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries the whole load.
     When the film clears the summits, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of means
-    over A, is <= ``numerics.tolerances.balance`` divided by the share of the film in f.
+    over A, is <= ``numerics.tolerances.balance`` divided by the share of the film in f. Where the error of that model
+    may be more than ``numerics.model_tolerance``, strips of the surface with one gap and one pressure correct it or
+    answer in its place (docs/uncertainty.md).
 
     Parameters
     ----------
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
-    model : "load-sharing", or "deterministic": one gap and one pressure; None: the scene's
+    model : "load-sharing"; "deterministic": one gap and one pressure; "auto"; None: the scene's
     fields : True: ``result.balance`` has film and contact on the cells of the map (on strips: on theirs)
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
 
@@ -62,11 +66,7 @@ def friction(
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):
-        if numerics.model == "deterministic" and speed != 0:
-            result = deterministic_answer(prepared, speed, begun)
-        else:
-            result = load_sharing_answer(prepared, speed, fields, begun)
-    result = with_methods(prepared, result)
+        result = with_methods(prepared, _answer(prepared, speed, fields, begun))
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
@@ -76,3 +76,39 @@ def friction(
         result.report.raise_if_failed(result)
         refused(result.validity, numerics.accept, result)
     return result
+
+
+def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> FrictionResult:
+    """By the cheapest model that is good enough: Eq. (8), without entrainment, where its own error is within
+    ``numerics.model_tolerance``, and where the deterministic model has no answer; that model otherwise."""
+    scene, strips = prepared.scene, prepared.strips
+    asked = scene.numerics.model
+    if asked == "load-sharing" or speed == 0 or strips is None or prepared.surface.sq == 0:
+        return load_sharing_answer(sampled(prepared, speed, own_cells=fields), prepared, speed, begun)
+    if asked == "deterministic" and strips.whole:
+        return patch_answer(prepared, speed, begun)
+    found = sampled(prepared, speed, own_cells=fields)
+    if asked == "auto":
+        why = _enough(prepared, found)
+        if why:
+            return load_sharing_answer(found, prepared, speed, begun, why)
+    try:
+        return strips_answer(prepared, speed, found, begun)
+    except ConvergenceError as error:
+        if asked == "deterministic":
+            raise
+        return load_sharing_answer(found, prepared, speed, begun, f"the deterministic model was not solved ({error})")
+
+
+def _enough(prepared: Prepared, found: Found) -> str:
+    """Why Eq. (8) alone answers, in words; "" if it does not."""
+    scene, balance = prepared.scene, found.balance
+    why = gap_not_resolved(scene)
+    if why:
+        return f"Eq. (8) alone: {why}"
+    heat = balance.forces.heat
+    if heat.heated is not None or 1 - heat.film_factor > scene.numerics.tolerance:
+        return "Eq. (8) alone: heat matters, and the deterministic model is isothermal"
+    if found.response is None and model_error(scene, found)[0] <= scene.numerics.model_tolerance:
+        return "Eq. (8) alone: the film is so thick that the roughness hardly matters"
+    return ""

@@ -7,8 +7,12 @@ import math
 from dataclasses import dataclass
 
 from ..contact import Strips
-from ..scene import Scene
+from ..deterministic import reach, work_of_steps
+from ..scene import Scene, gap_not_resolved
+from .levels import DIFFERENCE
+from .pair import cells_of
 from .sample import SAFETY
+from .uncertainty import OF_FILM, ORDER, student
 
 CELL_SECONDS = 2.5e-6  # processor time of a cell of the strips in balance, about
 PIECE_SECONDS = 1.3e-6  # of a cell of a piece on finer and finer cells, of the finest
@@ -16,6 +20,8 @@ FILM_SECONDS = 0.02  # of a point without contact
 GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
 RISE = 0.4  # of the film of the whole load, by which it is wider, about
 FLOOR = 0.25  # of f_b: friction where the film carries most, about
+STEPS, FINER_STEPS = 9, 6  # of Newton's method on a strip of the deterministic model, and on smaller cells
+UNLIKE = 0.65  # scatter of the difference between the models over that of f
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 SURE = 2.0  # factor between Moes' film and any film: outside of it contact or separation is certain
 
@@ -24,7 +30,8 @@ SURE = 2.0  # factor between Moes' film and any film: outside of it contact or s
 class Forecast:
     """To an order of magnitude, at one ``speed`` [m/s]: in words, whether the summits touch; ``clearance`` [Sq] between
     Moes' film of the whole load and the highest summit; ``error``: relative standard error of f after the first strips;
-    ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m], and the processor time [s]."""
+    ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the
+    deterministic model (0: Eq. (8) alone answers); and the processor time [s]."""
 
     speed: float
     touching: str
@@ -32,6 +39,7 @@ class Forecast:
     error: float
     strips: int
     length: float
+    resolved: int
     seconds: float
 
 
@@ -47,7 +55,7 @@ def forecast(scene: Scene, strips: Strips | None, sq: float, summit: float, spee
     touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
     clearance = (film - summit) / max(sq, 1e-12)
     if strips is None or strips.whole:
-        return Forecast(speed, touching, clearance, math.nan, 1, math.nan, FILM_SECONDS)
+        return Forecast(speed, touching, clearance, math.nan, 1, math.nan, 0, FILM_SECONDS)
     (lx, ly), first, asked = strips.lengths, strips.first * strips.length, scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR * sq:
@@ -63,4 +71,25 @@ def forecast(scene: Scene, strips: Strips | None, sq: float, summit: float, spee
     seconds = FILM_SECONDS
     if touching != "none":
         seconds += CELL_SECONDS * cells.count * count * strips.length / dy + PIECE_SECONDS * piece
-    return Forecast(speed, touching, clearance, error, count, count * strips.length, seconds)
+    resolved, work = _resolved(scene, strips, sq, speed, film, error * math.sqrt(strips.first))
+    return Forecast(speed, touching, clearance, error, count, count * strips.length, resolved, seconds + work)
+
+
+def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float, scatter: float) -> tuple[int, float]:
+    """Number of strips of the deterministic model, and their work [s]. ``film`` [m]: Moes'; ``scatter``: of f between
+    strips, relative."""
+    numerics = scene.numerics
+    thick = film**2 * numerics.model_tolerance > OF_FILM * sq**2
+    if (
+        speed == 0
+        or scene.transient is not None
+        or numerics.model == "load-sharing"
+        or gap_not_resolved(scene)
+        or thick
+    ):
+        return 0, 0.0
+    allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
+    count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)
+    (fx, fy), (dx, dy) = cells_of(strips, scene.bodies.half_width), strips.cells.coarse
+    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
+    return count, count * work_of_steps(cells, STEPS) + work_of_steps(cells * fx * fy, FINER_STEPS)

@@ -29,8 +29,8 @@ class FrictionResult(PointQuantities[float], Shown):
     Attributes
     ----------
     report : of the solve
-    uncertainty : of the coefficient: from solvers and grids, and because a finite surface stands for all of it
-        (`Uncertainty`, docs/uncertainty.md)
+    uncertainty : of the coefficient: from solvers and grids, because a finite surface stands for all of it, and from
+        the model (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
     decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
     validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted

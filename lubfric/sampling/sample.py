@@ -28,7 +28,7 @@ from .scatter import BlockError, Scatter, add_errors, scatter_of
 from .uncertainty import FEW, MATTERS, too_few
 
 SAFETY = 1.3  # of the length that a standard error asks for
-LEAST, GROWTH = 1.5, 4.0  # times the length so far: a standard error from few blocks is no guide further
+LEAST, GROWTH = 1.5, (4.0, 8.0)  # times the length so far: a standard error from few blocks is no guide further
 FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
 LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
 CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
@@ -188,23 +188,33 @@ def _speed_of(scene, film: float) -> float:
 
 
 def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
-    """Number of strips that the standard error ``numerics.sampling_tolerance`` needs, at least as many as there are.
-
-    It is (reached/asked)² x 1.3 times the present number, at least 1.5 and at most four times that. A standard error
-    from few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long
-    enough whenever its blocks happen to scatter little, the stated error would be too small. So the first one counts
-    as long enough only if even 1 + 1/sqrt(nu) times its error is within what is asked.
-    """
-    asked, count = prepared.scene.numerics.sampling_tolerance, found.count
-    reached, spots = found.sampling, found.scatter.spots
-    if found.solved.response is not None and count == strips.first:
-        reached *= 1 + 1 / math.sqrt(max(found.friction_error.freedom, 1))
-    few = found.solved.response is not None and too_few(spots, found.sampling, asked)
-    if reached <= asked and not few:
-        return count
+    """Number of strips that the standard error ``numerics.sampling_tolerance`` needs, at least as many as there are."""
+    asked, spots, touching = prepared.scene.numerics.sampling_tolerance, found.scatter.spots, found.response is not None
+    few = touching and too_few(spots, found.sampling, asked)
     enough = min(FEW / spots, (found.sampling / (MATTERS * asked)) ** 2) if few else 0.0
-    times = SAFETY * max((reached / asked) ** 2, enough) if math.isfinite(reached) else GROWTH
-    return min(strips.available, math.ceil(min(max(times, LEAST), GROWTH) * count - 1e-9))
+    error = BlockError(found.sampling, found.friction_error.freedom if touching else 0)
+    return enlarged(found.count, strips.first, strips.available, error, asked, enough)
+
+
+def enlarged(
+    count: int, first: int, available: int, error: BlockError, asked: float, enough: float = 0.0, growth=GROWTH
+) -> int:
+    """Number of strips at which a standard ``error`` on ``count`` of them falls to the one ``asked``: ``count`` if it
+    has, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
+
+    It is (reached/asked)² x 1.3 times the present number, at least 1.5 times that, and at most by ``growth`` more: of
+    the ``first``, and of a later one. A standard error from few blocks is itself known to 1/sqrt(2 nu) only, with nu
+    degrees of freedom. If a sample counted as long enough whenever its blocks happen to scatter little, the stated
+    error would be too small. So the first one counts as long enough only if even 1 + 1/sqrt(nu) times its error is
+    within what is asked.
+    """
+    doubt = 1 / math.sqrt(error.freedom) if count == first and error.freedom > 0 else 0.0
+    reached = error.error * (1 + doubt)
+    if reached <= asked and not enough:
+        return count
+    most = growth[count > first]
+    times = SAFETY * max((reached / asked) ** 2, enough) if math.isfinite(reached) else most
+    return min(available, math.ceil(min(max(times, LEAST), most) * count - 1e-9))
 
 
 def _missed(prepared: Prepared, found: Found, strips: Strips) -> float:

@@ -112,47 +112,59 @@ class Scatter:
 
 def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips: Strips, count: int) -> Scatter:
     """The `Scatter` of ``contact``, a stack of ``count`` ``strips``, in ``balance``. Of a mirrored map only half
-    counts.
-
-    A place changes f by its influence on the gap, which divides the load, and by where it touches: the film has no
-    shear there. Both together are one influence on f.
-
-    The standard errors come from blocks along y. If there are three windows of a measured map or more, they are the
-    larger of that and the ones from windows, which show whether a surface differs from place to place.
-    """
+    counts."""
     state, response = balance.contact, balance.response
     assert state.fields is not None and response is not None
     slopes = response.slopes
     rows = slice(0, contact.heights.shape[1] // (2 if strips.whole and mirrored(contact.heights) else 1))
     by_place, step = line_load(contact, state)[rows], contact.spacing[1]
     touching = state.fields.pressure[:, rows] > 0
-    touched = touching.sum(axis=0) * contact.spacing[0]
     squares = np.square(contact.heights[:, rows]).mean(axis=0) if strips.exact_sq else None
-    gap = strip_gap(contact, state)[rows]
 
-    def error(values, slope: float) -> BlockError:
-        influence, length = gap_influence(values, by_place, slope), strips.lengths[1]
-        blocks = block_error(influence, step, length, squares)
-        if not strips.windows or count < FEWEST_WINDOWS:
-            return blocks
-        means = _means(influence, count)
-        windows = BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
-        return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
+    def error(influence) -> BlockError:
+        return place_error(influence, step, strips, count, squares)
+
+    def at_given_load(values, slope: float) -> BlockError:
+        return error(gap_influence(values, by_place, slope))
 
     of_friction = BlockError(0.0, 1)
     if balance.film is not None and response.rates and balance.forces.total:
-        lost = _film_stress(scene, contact, balance.film) @ touching * contact.spacing[0]
-        slope = slopes.touched * float(lost.mean()) / max(float(touched.mean()), 1e-300)
-        by_load, force = response.rates["coefficient"] * response.split, balance.forces.total / scene.bodies.width
-        of_friction = error(by_load * gap - lost / force, by_load * slopes.gap - slope / force)
+        of_friction = error(friction_influence(scene, contact, balance)[rows])
     return Scatter(
         by_place.size * step,
-        error(gap, slopes.gap),
-        error(contact.weight @ touching / contact.weight.sum(), slopes.area),
-        error(touched, slopes.touched),
+        at_given_load(strip_gap(contact, state)[rows], slopes.gap),
+        at_given_load(contact.weight @ touching / contact.weight.sum(), slopes.area),
+        at_given_load(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
         of_friction,
         participation(by_place, step, strips.lengths[1]),
     )
+
+
+def friction_influence(scene: Scene, contact: HalfSpaceContact, balance: Balance) -> np.ndarray:
+    """Influence of every place y of ``contact`` on f (ny,), relative, in a ``balance`` of film and contact: by the gap,
+    which divides the load, and by where the place touches, since the film has no shear there. 0 without contact."""
+    state, response, film = balance.contact, balance.response, balance.film
+    if response is None or not response.rates or film is None or state.fields is None:
+        return np.zeros(contact.heights.shape[1])
+    touching = state.fields.pressure > 0
+    touched = max(float(touching.sum(axis=0).mean()) * contact.spacing[0], 1e-300)
+    lost = _film_stress(scene, contact, film) @ touching * contact.spacing[0]
+    by_load, force = response.rates["coefficient"] * response.split, balance.forces.total / scene.bodies.width
+    slope = by_load * response.slopes.gap - response.slopes.touched * float(lost.mean()) / touched / force
+    values = by_load * strip_gap(contact, state) - lost / force
+    return gap_influence(values, line_load(contact, state), slope)
+
+
+def place_error(influence, step: float, strips: Strips, count: int, exact=None) -> BlockError:
+    """Standard error of the mean of the ``influence`` of places along ``count`` strips, on cells of ``step`` [m]: from
+    blocks (`block_error`). If there are three windows of a measured map or more, it is the larger of that and the one
+    from windows, which show whether a surface differs from place to place."""
+    blocks = block_error(influence, step, strips.lengths[1], exact)
+    if not strips.windows or count < FEWEST_WINDOWS:
+        return blocks
+    means = _means(influence, count)
+    windows = BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
+    return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
 
 
 def _film_stress(scene: Scene, contact: HalfSpaceContact, film: EHLResult) -> np.ndarray:

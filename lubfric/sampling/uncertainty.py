@@ -10,9 +10,9 @@ import numpy as np
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 
 CONFIDENCE = 0.95
-MOST_MODEL, LEAST_MODEL = 0.3, 0.02  # error of load sharing: about lift-off, and at least
-STEEPNESS = 0.56  # of that error over the share of the film, from boundary lubrication on
-FULL_FILM = 3.2  # that error times (film/Sq)²
+OF_SHARE, IN_CONTACT = 0.7, 0.25  # error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
+OF_FILM, MOST_OF_FILM = 3.2, 0.3  # error of the film's shear by load sharing: times (film/Sq)², and at most
+ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 FEW = 10.0  # participation below which an interval covers less often than it says
 MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 
@@ -23,12 +23,12 @@ class Uncertainty(UncertaintyQuantities[float]):
     """How sure the friction coefficient of one operating point is. docs/uncertainty.md says what is not included.
 
     A number that is not known is NaN, and ``text`` says why. ``line_scatter`` is between lines at different places on
-    the surface; ``model_form`` (`load_sharing_error`) is not in the interval.
+    the surface.
 
     Attributes
     ----------
-    interval : 95 % interval of f, (low, high), from ``numerical`` and ``sampling``, by Student's t with ``freedom``
-        degrees of freedom
+    interval : 95 % interval of f, (low, high), from ``numerical``, ``sampling`` and ``model`` where that is known; by
+        Student's t with ``freedom`` degrees of freedom
     tolerance : relative standard error asked for
     notes : what a reader should know of these errors
     """
@@ -50,18 +50,16 @@ class Uncertainty(UncertaintyQuantities[float]):
         if not math.isfinite(self.sampling):
             return "; ".join((f"f: numerical {percent(self.numerical)}, surface not known", *self.notes))
         surface = f"surface {percent(self.sampling)} of a line of {1e3 * self.length:.3g} mm"
-        return "; ".join((f"{first}, {surface}", *self.notes))
+        return "; ".join((f"{first}, {surface}, model {percent(self.model)}", *self.notes))
 
     def short(self, coefficient: float) -> str:
-        """f = value ± standard error, and the parts of the error."""
+        """f = value ± half of the interval, and the parts of the error."""
+        parts = f"numerical {percent(self.numerical)}, surface {percent(self.sampling)}, model {percent(self.model)}"
         if not math.isfinite(self.sampling):
-            return f"f = {coefficient:.4g} (numerical {percent(self.numerical)}, surface not known)"
-        both = math.hypot(self.numerical, self.sampling) * abs(coefficient)
-        digits = max(0, 1 - math.floor(math.log10(both))) if both > 0 else 4
-        return (
-            f"f = {coefficient:.{min(digits, 7)}f} ± {both:.1g} "
-            f"(numerical {percent(self.numerical)}, surface {percent(self.sampling)})"
-        )
+            return f"f = {coefficient:.4g} ({parts})"
+        half = 0.5 * (self.interval[1] - self.interval[0])
+        digits = max(0, 1 - math.floor(math.log10(half))) if half > 0 else 4
+        return f"f = {coefficient:.{min(digits, 7)}f} ± {half:.1g} at 95 % ({parts})"
 
 
 def too_few(participation: float, reached: float, asked: float) -> bool:
@@ -70,19 +68,23 @@ def too_few(participation: float, reached: float, asked: float) -> bool:
     return 0 < participation < FEW and reached > MATTERS * asked
 
 
-def load_sharing_error(film_to_roughness_ratio: float, contact_share: float) -> float:
-    """Relative error of f by Eq. (8), as far as a study has shown it (docs/model-error.md).
+def load_sharing_error(film_to_roughness_ratio: float, share: float, boundary: float, shear: float) -> float:
+    """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md).
 
-    In contact ``min(0.3, 0.02 + 0.56 (1 - s))`` with s = F_C/F_T. For a full film ``min(0.3, 3.2/λ²)`` with λ =
-    central film/Sq. 0 if the contact carries the whole load. The rms over surfaces of f/f_deterministic - 1 lies below
-    that: the cylinder of the paper, Sq 100 nm, 5.5 to 110 N, patches of 90 µm, where much of it differs from patch to
-    patch.
+    ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film. Three things may be
+    off: the load that asperities carry, by up to 0.7 sqrt(s (1 - s)) of the whole, which exchanges the friction of one
+    part for that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %;
+    and in contact all of f by 0.25 sqrt(1 - s). 0 without roughness.
     """
-    if contact_share >= 1 or (contact_share <= 0 and film_to_roughness_ratio == math.inf):
+    f = abs(boundary + shear)
+    if film_to_roughness_ratio == math.inf or f == 0:
         return 0.0
-    if contact_share > 0:
-        return min(MOST_MODEL, LEAST_MODEL + STEEPNESS * (1 - contact_share))
-    return min(MOST_MODEL, FULL_FILM / film_to_roughness_ratio**2)
+    of_film = min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear)
+    if not 0 < share < 1:
+        return of_film / f
+    exchanged = abs(boundary / share - shear / (1 - share))
+    of_share = OF_SHARE * math.sqrt(share * (1 - share)) * exchanged
+    return (of_film + of_share) / f + IN_CONTACT * math.sqrt(1 - share)
 
 
 @described_in_doc
@@ -131,11 +133,13 @@ def not_sampled(numerical: float | None, scene, length: float, why: str) -> Unce
     return Uncertainty(numerical=error, length=length, tolerance=asked, notes=(why,))
 
 
-def interval(value: float, numerical: float, sampling: float, freedom: float) -> tuple[float, float]:
-    """value (1 ± sqrt(numerical² + (t sampling)²)), t the 97.5 % quantile of Student's t with ``freedom`` degrees."""
+def interval(value: float, numerical: float, sampling: float, freedom: float, model: float) -> tuple[float, float]:
+    """value (1 ± sqrt(numerical² + (t sampling)² + model²)), t the 97.5 % quantile of Student's t with ``freedom``
+    degrees; ``model`` counts where it is known."""
     if not math.isfinite(sampling):
         return math.nan, math.nan
-    half = abs(value) * math.hypot(numerical, student(freedom) * sampling if sampling else 0.0)
+    known = 0.0 if math.isnan(model) else model
+    half = abs(value) * math.hypot(numerical, student(freedom) * sampling if sampling else 0.0, known)
     return value - half, value + half
 
 

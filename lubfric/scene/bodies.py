@@ -38,6 +38,8 @@ class Bodies(Brief):
     e_prime : E' [Pa], 2/E' = (1-nu1²)/E1 + (1-nu2²)/E2
     hardness : plastic limit P_u of the contact pressure [Pa]; None: elastic
     boundary_friction_coefficient : f_b of the contact spots [-]
+    boundary_film : gap [m] below which the bodies rub with f_b, of the deterministic model; None: lubfric's own value,
+        of which half and twice are part of the error
     conductivity : of both bodies [W/(m K)]; they carry the heat of the film away (default: steel)
     volumetric_heat : rho c of both bodies [J/(m³ K)]
     """
@@ -48,6 +50,7 @@ class Bodies(Brief):
     e_prime: float
     boundary_friction_coefficient: float
     hardness: float | None = None
+    boundary_film: float | None = None
     conductivity: tuple[float, float] = (46.0, 46.0)
     volumetric_heat: tuple[float, float] = (3.6e6, 3.6e6)
 
@@ -68,6 +71,8 @@ class Bodies(Brief):
                 said = f" = {self.load:g} N is above hardness x Hertz area"
                 most = self.hardness * 2 * self.half_width * self.width
                 raise InputError(said, "bodies.load", f"below {most:g} N", also=("bodies.hardness",))
+        if self.boundary_film is not None:
+            validate.number("bodies.boundary_film", self.boundary_film, "m", minimum=0.0, maximum=1e-6)
         for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):
             both = pair(f"bodies.{name}", getattr(self, name), unit)
             object.__setattr__(self, name, tuple(validate.positive(f"bodies.{name}", v, unit) for v in both))

@@ -54,10 +54,11 @@ class Numerics(Brief):
     sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance``
         needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
     sampling_tolerance : standard error of f that a finite surface may leave
+    model_tolerance : relative error of f that the model may leave, at 95 %
     film_deflection : which pressure deforms the film: the whole load, by Johnson's scaled modulus E' F_H/F_T
         ("scaled"); its own ("hydrodynamic", the paper)
     model : "load-sharing": film and contact share the load, Eq. (8); "deterministic": one gap and one pressure
-        (docs/deterministic.md); "auto": load sharing
+        (docs/deterministic.md); "auto": the cheapest that is within ``model_tolerance`` (docs/uncertainty.md)
     grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
     heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how
         its viscosity falls with the temperature), "on", "off"
@@ -77,6 +78,7 @@ class Numerics(Brief):
     grid: str = "auto"
     sampling: str = "strips"
     sampling_tolerance: float = 0.02
+    model_tolerance: float = 0.05
     heat: str = "auto"
     accept: bool = False
 
@@ -90,6 +92,7 @@ class Numerics(Brief):
             validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
         validate.number("numerics.sampling_tolerance", self.sampling_tolerance, "(-)", minimum=1e-3, maximum=0.5)
+        validate.number("numerics.model_tolerance", self.model_tolerance, "(-)", minimum=1e-3, maximum=1.0)
         for name in ("film_tolerance", "contact_tolerance", "balance_tolerance"):
             if getattr(self, name) is not None:
                 validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)

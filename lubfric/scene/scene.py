@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import asdict, dataclass, field, fields, replace
 from html import escape
 from pathlib import Path
@@ -194,12 +195,28 @@ def resolves_gap(scene: Scene) -> bool:
     return scene.numerics.model == "deterministic"
 
 
+def gap_not_resolved(scene: Scene) -> str:
+    """The first key of ``scene`` that the deterministic model does not take, and what it takes, in words; "" if it
+    takes all."""
+    return next(
+        (f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in _not_taken(scene)),
+        "",
+    )
+
+
 def check_resolved_gap(scene: Scene) -> None:
     """Raise `InputError` for keys that the deterministic model does not take."""
+    for name, value, instead in _not_taken(scene):
+        said = f" = {value!r} does not go with numerics.model = 'deterministic'"
+        raise InputError(said, name, f"{instead}, or numerics.model = 'load-sharing'")
+
+
+def _not_taken(scene: Scene) -> Iterator[tuple[str, Any, str]]:
     for name, allowed, why in RESOLVED:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)
         if value not in allowed:
-            said = f" = {value!r} does not go with numerics.model = 'deterministic'"
-            instead = f"{', '.join(map(repr, allowed))}{why}, or numerics.model = 'load-sharing'"
-            raise InputError(said, name, instead)
+            yield name, value, f"{', '.join(map(repr, allowed))}{why}"
+    lubricant = scene.lubricant
+    if lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset == 0:
+        yield "lubricant.limiting_stress_offset", 0.0, "a value above 0, some 1e6 Pa (else no film flows at p = 0)"

@@ -140,10 +140,10 @@ def prepare(
 
 
 def takes_strips(scene: Scene) -> bool:
-    """Whether ``scene`` is solved on strips of its roughness: it has a rough half-space under a cylinder, and asks
-    neither for one patch nor for the deterministic model."""
+    """Whether ``scene`` is solved on strips of its roughness: it has a rough half-space under a cylinder, and does not
+    ask for one patch."""
     numerics, contact = scene.numerics, scene.contact
-    modelled = contact.geometry == "cylinder" and contact.model == "half-space" and numerics.model != "deterministic"
+    modelled = contact.geometry == "cylinder" and contact.model == "half-space"
     return numerics.sampling != "patch" and modelled and any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
 
 
@@ -155,6 +155,16 @@ def on_stack(prepared: Prepared, strips: Strips, count: int) -> HalfSpaceContact
         return _contact(prepared, surface.heights, surface.spacing, strips.cells.axis())
 
     return prepared.remembered(("stack", strips.cells.factors, count), make, lambda made: made.heights.size)
+
+
+def on_strip(prepared: Prepared, strips: Strips, index: int) -> HalfSpaceContact:
+    """The contact on number ``index`` of ``strips`` alone."""
+
+    def make() -> HalfSpaceContact:
+        surface = strips.strip(index)
+        return _contact(prepared, surface.heights, surface.spacing, strips.cells.axis())
+
+    return prepared.remembered(("strip", strips.cells.factors, index), make, lambda made: made.heights.size)
 
 
 def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int]) -> HalfSpaceContact:

@@ -27,6 +27,7 @@ from ..errors import InputError
 from ..quantities import KEYS, axis_label, described, heading
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
+OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
 MOST, NAMED, FINE = 50, 10, 200  # lines, lines with a label, points of a line between solved ones
 
 
@@ -133,10 +134,19 @@ def _tool(name: str):
 
 
 def interval_band(ax, over: np.ndarray, columns) -> None:
-    """The intervals of f as a band ``over`` speeds or ratios, if ``columns`` have them."""
-    if np.isfinite(columns.get("interval_low", np.array([np.nan]))).any():
-        band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, finite surface"}
+    """The intervals of f as a band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what the
+    model and the finite surface leave by themselves."""
+    unknown = np.full(over.shape, np.nan)
+    if np.isfinite(columns.get("interval_low", unknown)).any():
+        band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, surface, model"}
         ax.fill_between(over, columns["interval_low"], columns["interval_high"], **band)
+        for name, times, dashes in OF_INTERVAL:
+            error, f = times * columns.get(name, unknown), columns["coefficient"]
+            label = f"of it {name.partition('_')[0].replace('sampling', 'surface')}"
+            for sign in (1, -1):
+                thin = {"color": BLUE, "lw": 0.6, "ls": dashes, "label": label if sign > 0 else None}
+                if np.nanmax(error, initial=0.0) > 0:
+                    ax.plot(over, f * (1 + sign * error), **thin)
 
 
 def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **style) -> np.ndarray:
@@ -167,6 +177,7 @@ def curve_axes(curve, ax=None, **style):
     names = "speed", "coefficient", "contact_load", "film_load", "boundary_force", "shear_force"
     columns = {name: getattr(curve, name) for name in names}
     columns |= dict(zip(("interval_low", "interval_high"), curve.uncertainty.interval.T))
+    columns |= {"model_error": curve.uncertainty.model, "sampling_error": curve.uncertainty.sampling}
     between = None
     if "interpolation" in curve.report.residuals:
         known = np.abs(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])

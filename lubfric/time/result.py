@@ -103,7 +103,7 @@ class TransientResult(Shown):
             participation=unknown,
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
-            model_form=unknown,
+            model=unknown,
             text=tuple(f"surface {percent(each)}" for each in error),
         )
 

@@ -6,7 +6,7 @@ import pytest
 import lubfric
 from lubfric.contact import strips
 
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
 
 
 @pytest.mark.parametrize("change", [{}, {"counterface": {"sq": 5e-8, "correlation_length": 8e-6}}])

@@ -8,7 +8,7 @@ import lubfric
 from lubfric.oil import named_oil
 from lubfric.scene import write_template
 
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
 AT_70 = {"temperature_celsius": 70}
 OILS = (
     {"grade": "ISO VG 68", "viscosity_index": 95},

@@ -11,7 +11,7 @@ from lubfric.sampling.cells import CellStep, half_again, mean_error, remaining
 from lubfric.sampling.missed import hidden_share
 from lubfric.sampling.scatter import BlockError
 
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
 PATCH = PAPER.with_(numerics={"sampling": "patch"})
 
 

@@ -11,7 +11,7 @@ from lubfric.output.describe import describe_scene
 from lubfric.sampling import forecast
 from verification.hostile.soak_force import friction_force
 
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
 PATCH = PAPER.with_(numerics={"sampling": "patch"})
 
 

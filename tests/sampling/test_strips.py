@@ -7,7 +7,7 @@ import lubfric
 from lubfric.contact.strip_cells import cells_of_a_box, choose_cells
 from lubfric.contact.strips import measured_strips, spread, stacked
 
-PAPER = lubfric.load_scene("paper")
+PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
 
 
 def test_cells_resolve_correlation_length_and_strip():

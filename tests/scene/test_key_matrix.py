@@ -77,13 +77,19 @@ LIMITS = LAWS.with_(
     motion={"entrainment_speed": 0.3, "slide_roll_ratio": 2.0},
     surface={"sq": 1e-8},
 )
-CYLINDER = lubfric.load_scene("paper").with_(
-    bodies={"load": 40.0, "hardness": None, "width": 2e-3},
-    motion={"entrainment_speed": 0.003, "speeds": ()},
-    lubricant={"pressure_viscosity_coefficient": 1e-8},  # no pressure spike, whose shear a transient does not resolve
-    surface={"sq": 1.5e-7, "correlation_length": 12e-6, "oversize": 2},
-    contact={"region": "box", "shape": (64, 24), "spacing": (2e-6, 2.5e-6)},
-    numerics={"accept": True, "film_deflection": "hydrodynamic", "heat": "off", "sampling": "patch"},
+CYLINDER = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"model": "load-sharing"})
+    .with_(
+        bodies={"load": 40.0, "hardness": None, "width": 2e-3},
+        motion={"entrainment_speed": 0.003, "speeds": ()},
+        lubricant={
+            "pressure_viscosity_coefficient": 1e-8
+        },  # no pressure spike, whose shear a transient does not resolve
+        surface={"sq": 1.5e-7, "correlation_length": 12e-6, "oversize": 2},
+        contact={"region": "box", "shape": (64, 24), "spacing": (2e-6, 2.5e-6)},
+        numerics={"accept": True, "film_deflection": "hydrodynamic", "heat": "off", "sampling": "patch"},
+    )
 )
 WARM = BASE.with_(
     bodies={"load": 3000.0, "radius": 1e-2, "width": 1e-2, "conductivity": (12.0, 12.0), "volumetric_heat": (2e6, 2e6)},
@@ -577,10 +583,35 @@ def test_histories_of_a_transient_are_the_values_of_a_steady_scene(name, section
         assert found == pytest.approx(steady, rel=0.01)
 
 
+def test_the_boundary_film_is_the_gap_below_which_the_bodies_rub():
+    """In every way to ask: by sums over the fields, which do not depend on it."""
+    scene = (
+        lubfric.load_scene("paper")
+        .with_(numerics={"model": "load-sharing"})
+        .with_(
+            motion={"entrainment_speed": 0.01, "speeds": ()},
+            bodies={"boundary_film": 3e-8},
+            contact={"shape": (24, 24), "spacing": 90e-6 / 24},
+            numerics={"model": "deterministic", "grid": "given", "accept": True, "sampling": "patch"},
+            lubricant={"limiting_stress_coefficient": 0.03},
+        )
+    )
+    found = lubfric.friction(scene)
+    fields = found.deterministic.result
+    share = fields.pressure[fields.gap < 3e-8].sum() / fields.pressure.sum()
+    carried = 1 - fields.inlet_load / fields.load
+    assert found.contact_load == pytest.approx(scene.bodies.load * share * carried, rel=1e-4)
+    assert answer(scene, "sweep") == found.coefficient
+    other = scene.with_(bodies={"boundary_film": 6e-8})
+    assert lubfric.friction(other).coefficient == pytest.approx(fields.at_twice_film, rel=1e-6)
+    with pytest.raises(lubfric.InputError, match="bodies.boundary_film.*30 nm"):
+        scene.with_(bodies={"boundary_film": 30.0})
+
+
 # --- the list -------------------------------------------------------------------------------------
 
 ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, show their values
-    "bodies": {"hardness"},
+    "bodies": {"hardness", "boundary_film"},
     "motion": {"speeds"},
     "contact": set(),
     "lubricant": set(),

@@ -10,7 +10,7 @@ import lubfric
 from lubfric.scene.file import scene_from_table
 from lubfric.studies import fingerprint
 
-SCENE = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"})
+SCENE = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"sampling": "patch"})
 
 
 @pytest.mark.parametrize(

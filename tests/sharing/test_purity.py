@@ -16,8 +16,10 @@ import lubfric
 SPEEDS = (0.002, 0.05, 0.01, 0.4)
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
 LAW = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.09}
-LINE = lubfric.load_scene("paper").with_(
-    contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling_tolerance": 0.1}
+LINE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"model": "load-sharing"})
+    .with_(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling_tolerance": 0.1})
 )
 PATCH = LINE.with_(numerics={"sampling": "patch"})
 FLAT = lubfric.load_scene("flat").with_(
@@ -34,6 +36,9 @@ SCENES = {
     "flat": FLAT,
     "heat": LINE.with_(lubricant=OIL | LAW, numerics={"heat": "on"}),
     "rolling": LINE.with_(motion={"slide_roll_ratio": 0.0}),
+    "auto": LINE.with_(
+        numerics={"model": "auto", "sampling_tolerance": 0.3, "model_tolerance": 0.3, "tolerance": 0.05}
+    ),
     "measured": None,
 }
 CHEAP = LINE.with_(numerics={"tolerance": 0.05, "sampling_tolerance": 0.3}, surface={"correlation_length": 4e-6})
@@ -45,8 +50,10 @@ def scene_of(tmp_path_factory):
     """The scene of a name; the measured one reads a file."""
     path = tmp_path_factory.mktemp("map") / "map.npy"
     np.save(path, lubfric.generate_surface((400, 240), 0.45e-6, sq=1e-7, correlation_length=4e-6, seed=5).heights)
-    measured = lubfric.load_scene("paper").with_(
-        surface={"file": str(path), "spacing": 0.45e-6}, contact={"shape": None, "spacing": None}
+    measured = (
+        lubfric.load_scene("paper")
+        .with_(numerics={"model": "load-sharing"})
+        .with_(surface={"file": str(path), "spacing": 0.45e-6}, contact={"shape": None, "spacing": None})
     )
     return (SCENES | {"measured": measured}).get
 

@@ -9,9 +9,13 @@ import lubfric
 from lubfric.sharing import solve_balance
 from lubfric.sharing.response import Response, Slopes
 
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (96, 96), "spacing": 0.9e-6},
-    numerics={"sampling": "patch", "grid": "given", "tolerance": 1e-3, "balance_tolerance": 1e-5},
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"model": "load-sharing"})
+    .with_(
+        contact={"shape": (96, 96), "spacing": 0.9e-6},
+        numerics={"sampling": "patch", "grid": "given", "tolerance": 1e-3, "balance_tolerance": 1e-5},
+    )
 )
 
 

@@ -14,6 +14,7 @@ from lubfric.studies.fit_input import parameters_of
 
 SCENE = (
     lubfric.load_scene("paper")
+    .with_(numerics={"model": "load-sharing"})
     .with_(numerics={"sampling": "patch"})
     .with_(
         contact={"shape": (48, 48), "spacing": 1.1e-6},
@@ -405,7 +406,11 @@ def test_the_command_says_the_cost_first_and_writes_the_scene(tmp_path, capsys):
 def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_intervals():
     """In boundary lubrication f goes with the boundary friction coefficient, and so do their relative errors."""
     key, speeds = "bodies.boundary_friction_coefficient", [1e-4, 2e-4, 4e-4]
-    scene = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.1})
+    scene = (
+        lubfric.load_scene("paper")
+        .with_(numerics={"model": "load-sharing"})
+        .with_(numerics={"sampling_tolerance": 0.1})
+    )
     points = [lubfric.friction(scene, speed) for speed in speeds]
     found = lubfric.fit(scene, lubfric.Measured(speeds, [p.coefficient for p in points]), {key: (0.05, 0.2)})
     expected = np.mean([p.uncertainty.sampling for p in points])
@@ -415,7 +420,11 @@ def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_interva
 
 def test_another_piece_moves_a_parameter_as_far_as_is_told():
     key, speeds = "lubricant.viscosity", np.geomspace(5e-3, 0.05, 3)
-    scene = lubfric.load_scene("paper").with_(numerics={"sampling_tolerance": 0.1})
+    scene = (
+        lubfric.load_scene("paper")
+        .with_(numerics={"model": "load-sharing"})
+        .with_(numerics={"sampling_tolerance": 0.1})
+    )
     away = []
     for seed in (2, 3):
         other = lubfric.stribeck(scene.with_(surface={"seed": seed}), speeds)

@@ -12,8 +12,10 @@ from lubfric.studies import store
 from lubfric.studies.store import Store, fingerprint, point_key
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
-SCENE = lubfric.load_scene("paper").with_(
-    lubricant=OIL, transient=lubfric.Transient(duration=1.0, speed=Harmonic(amplitude=0.1, frequency=1.0))
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"model": "load-sharing"})
+    .with_(lubricant=OIL, transient=lubfric.Transient(duration=1.0, speed=Harmonic(amplitude=0.1, frequency=1.0)))
 )
 LABELS = {"name", "motion.speeds"}  # of a scene: no number depends on them
 

@@ -24,8 +24,10 @@ from lubfric.studies import classes_of, decode, encode, fingerprint
 from lubfric.studies.store import Store, digest
 
 ROOT = Path(__file__).parents[2]
-SCENE = lubfric.load_scene("paper").with_(
-    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}
+SCENE = (
+    lubfric.load_scene("paper")
+    .with_(numerics={"model": "load-sharing"})
+    .with_(contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6})
 )
 
 

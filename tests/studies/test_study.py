@@ -147,7 +147,7 @@ def counted(model, speed, **options):
     print("solved", flush=True)
     return found
 points.friction = counted
-scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}).with_(
+scene = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling": "patch"}).with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
 lubfric.study(scene, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, (0.003, 0.03, 0.3), store=sys.argv[1])
 print("done", flush=True)
@@ -386,7 +386,7 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
 
 
 def test_the_time_is_foretold_within_a_factor_of_four():
-    paper = lubfric.load_scene("paper")
+    paper = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
     for scene, vary in ((SCENE, {"bodies.load": [3.0, 5.5]}), (paper, {"numerics.sampling_tolerance": [0.05]})):
         plan = lubfric.plan_study(scene, vary, np.geomspace(1e-3, 1.0, 7))
         number, unit = plan.explain().partition("time     about ")[2].split()[:2]

@@ -160,7 +160,11 @@ def test_a_measured_map_is_slid_along_both_axes_of_its_file(tmp_path):
     for name, heights in (("straight", map_.heights), ("turned", map_.heights.T)):
         np.save(tmp_path / f"{name}.npy", heights)
         keys = {"file": str(tmp_path / f"{name}.npy"), "spacing": map_.spacing, "sq": None, "correlation_length": None}
-        scene = lubfric.load_scene("paper").with_(surface=keys, contact={"shape": None, "spacing": None})
+        scene = (
+            lubfric.load_scene("paper")
+            .with_(numerics={"model": "load-sharing"})
+            .with_(surface=keys, contact={"shape": None, "spacing": None})
+        )
         (tmp_path / f"{name}.toml").write_text(scene.to_toml())
         for axis in "xy":
             setting = points.Setting(0, 5.5, 24, scene=str(tmp_path / f"{name}.toml"), axis=axis)

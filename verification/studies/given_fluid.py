@@ -75,8 +75,9 @@ def laid(case: Case, contact: LineContact) -> Problem:
     upstream, downstream = reach(line, surface.sq)
 
     def over(ends) -> Problem:
-        rubs = {"sliding": 2 * case.speed, "boundary_friction": 0.09}
-        return lay_out(surface, line, **rubs, hardness=case.hardness, ends=ends, floor=case.floor)
+        sliding = 2 * case.speed
+        laid = lay_out(surface, line, sliding=sliding, boundary_friction=0.09, hardness=case.hardness, ends=ends)
+        return replace(laid, floor=case.floor)
 
     found = over((upstream, downstream))
     if found.x.size % 2:
