@@ -36,6 +36,7 @@ shape = [64, 64]
 spacing = 0.9e-6
 [numerics]
 sampling = "patch"
+model = "load-sharing"
 """
 
 
