@@ -93,6 +93,7 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
         return max(enlarged(count, 1, most, error, limit, growth=GROWTH) for error, limit in errors)
 
     same = found.strips is not None and found.strips.cells == strips.cells and math.isfinite(found.sampling)
+    same = same and not strips.whole
     line = found.count if same and wanted(found.count) <= min(wanted(0), found.count) else 0
     while True:
         within = 0 <= _sum(prepared, pairs, found, line)["contact_load"] <= load

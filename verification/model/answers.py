@@ -26,7 +26,6 @@ SEED = 32
 DRAWN = {"quick": 2, "default": 8, "full": 32}  # combinations, drawn from all
 RATIOS = (3.0, 1.5, 0.8, 0.4, 0.2, 0.1)  # Moes' film of the whole load over Sq
 QUICK = (1.5,)
-BOUNDS = (0.90, 0.98)
 ASKED = {"tolerance": 0.005, "sampling_tolerance": 0.01, "model_tolerance": 0.02}  # of the reference
 CELLS, CELL = (640, 448), 1.8e-6  # of a map from a file, and their length [m] over that of the Gaussian correlation
 LENGTH = 8e-6
