@@ -1,8 +1,6 @@
 """Every number of a result and every number of a scene, once: unit, long name, symbol, and what its error depends on.
-
-Results, their errors, tables, pages and pictures take names, units and words from here. A new number of a result is a
-line of `PointQuantities` (of `Quantities` if its error is estimated), and the line that computes it (CONTRIBUTING.md).
-"""
+Results, their errors, tables, pages and pictures take them from here. A new number of a result is a line of
+`PointQuantities` (of `Quantities` if its error is estimated), and the line that computes it (CONTRIBUTING.md)."""
 
 from __future__ import annotations
 
@@ -92,8 +90,7 @@ class Quantities(Generic[T]):
     )
 
     def in_unit(self, name: str, unit: str) -> T:
-        """The number ``name`` in another unit: ``result.in_unit("min_film", "nm")``. Raises `InputError` for a name that
-        is none of `NUMBERS`, and for a unit of another kind."""
+        """The number ``name`` in another unit, ``result.in_unit("min_film", "nm")``; `InputError` for other kinds."""
         if name not in NUMBERS:
             raise InputError(f" = {name!r} is no number of a result", "name", ", ".join(NUMBERS))
         return converted(getattr(self, name), _OF_POINT[name].unit, unit)
@@ -232,8 +229,8 @@ KEYS = {  # of a scene, as far as they are numbers
     "lubricant.density": Quantity("kg/m3", "density of the oil at 15 °C"),
     "lubricant.density_slope": Quantity("kg/(m3 K)", "fall of the density with the temperature"),
     "surface.sq": Quantity("m", "root mean square roughness"),
-    "surface.ra": Quantity("m", "mean absolute height Ra of a generated map, turned into Sq"),
-    "surface.rz": Quantity("m", "mean height Rz of five sampling lengths, turned into an estimate of Sq"),
+    "surface.ra": Quantity("m", "mean absolute height"),
+    "surface.rz": Quantity("m", "height of a sampling length"),
     "surface.correlation_length": Quantity("m", "correlation length"),
     "surface.spacing": Quantity("m", "cell size of the map"),
     "surface.s_filter": Quantity("m", "nesting index below which the map is smoothed"),

@@ -35,7 +35,12 @@ UNITS: dict[str, dict[str, float]] = {
     "rad": {"rad": 1.0, "°": 3.141592653589793 / 180},
 }
 NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\d.,])\s*(.*?)\s*")
-SPELLINGS = {"\N{MICRO SIGN}": "u", "\N{GREEK SMALL LETTER MU}": "u", "\N{MINUS SIGN}": "-", "\N{SUPERSCRIPT MINUS}": "-"}
+SPELLINGS = {
+    "\N{MICRO SIGN}": "u",
+    "\N{GREEK SMALL LETTER MU}": "u",
+    "\N{MINUS SIGN}": "-",
+    "\N{SUPERSCRIPT MINUS}": "-",
+}
 SPELLINGS |= {"¹": "1", "²": "2", "³": "3", "^": "", "*": " ", "\N{MIDDLE DOT}": " ", "\N{DOT OPERATOR}": " "}
 OTHER_WORDS = {"degC": "°C", "C": "°C", "micron": "um", "W/mK": "W/(m K)", "deg": "°"}
 

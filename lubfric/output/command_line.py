@@ -106,7 +106,7 @@ def _add_fit(fit: argparse.ArgumentParser) -> None:
     axis = fit.add_mutually_exclusive_group(required=True)
     _add_texts(axis, speed=SPEED, ratio="heading of its column of slide-roll ratios: 'SRR [%%]'")
     _add_texts(fit, deviation="heading of its column of standard deviations")
-    sought = "what is sought, between bounds: 'lubricant.viscosity=50 mPa s:1 Pa s' (SI without a unit); again for another"
+    sought = "what is sought, between bounds: 'lubricant.viscosity=50 mPa s:1 Pa s' (else SI); again for another"
     fit.add_argument("--parameter", action="append", required=True, metavar="KEY=LOW:HIGH", help=sought)
     fit.add_argument("--without-rolling", action="store_true", help=WITHOUT)
     _add_out(fit, "fit")

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from .._base import validate, write_whole
 from ..errors import InputError
+from ..surface import PER_SQ
 from .roughness import GENERATED, check_fields, named
 from .scene import Scene
 from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section, meant
@@ -71,7 +72,7 @@ def _put_map(table: dict, section: str, path) -> None:
         return  # refused by what reads the tables
     rough, contact = ({**table.get(name, {})} for name in (section, "contact"))
     if "file" not in rough:
-        for key in ("sq", *GENERATED):
+        for key in ("sq", *PER_SQ, *GENERATED):
             rough.pop(key, None)
         if section == "surface":
             contact.pop("shape", None), contact.pop("spacing", None)

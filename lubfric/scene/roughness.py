@@ -11,10 +11,10 @@ from typing import Any
 
 from .._base import Brief, changed, validate
 from ..errors import InputError
-from ..surface import ACFS, DECIMALS, FORMS, UNITS
+from ..surface import ACFS, DECIMALS, FORMS, PER_SQ, UNITS
 from .bodies import lengths
 
-NEEDED = "either 'file', or 'sq' and 'correlation_length' in m"
+NEEDED = "either 'file', or 'sq' (or 'ra', 'rz') and 'correlation_length' in m"
 OUTLIERS = ("refuse", "keep", "mask")
 EXTENSIONS = ("none", "mirror")
 GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize")  # fields of a generated map
@@ -91,7 +91,7 @@ def check_fields(given: dict[str, Any]) -> None:
     generated = "file" not in given
     this, other = ("a map from a file", "generated") if generated else ("a generated map", "read from a file")
     for name, value in given.items():
-        if name not in ("file", "sq") and (name in GENERATED) != generated:
+        if name not in ("file", "sq", *PER_SQ) and (name in GENERATED) != generated:
             said = f" = {validate.shown(value)} applies to {this}, and this one is {other}"
             raise InputError(said, f"surface.{name}", way_out="leave it out")
 

@@ -9,6 +9,7 @@ from .._base import validate
 from ..errors import InputError
 from ..oil import Lubricant
 from ..quantities import KEYS
+from ..surface import PER_SQ
 from ..units import without_unit
 from .bodies import Bodies, ContactDomain, Motion
 from .numerics import Numerics, refuse_dropped
@@ -96,7 +97,8 @@ def check_complete(name: str, table: dict) -> None:
 def _missing(section: str, table: dict) -> str:
     given = dict(table.get(section, {}))
     if section in ROUGH:
-        return "" if "file" in given or {"sq", "correlation_length"} <= set(given) else NEEDED
+        height = any(key in given for key in ("sq", *PER_SQ))
+        return "" if "file" in given or height and "correlation_length" in given else NEEDED
     try:
         plain = resolve(section, given)
     except InputError:

@@ -25,6 +25,7 @@ from ..oil import (
     from_viscosities,
     named_oil,
 )
+from ..surface import PER_SQ
 from ..units import HV
 from .bodies import pair
 from .plausible import packaged
@@ -99,9 +100,7 @@ def _of_moduli(moduli, ratios, *_) -> dict:
 
 
 def _of_vickers(number, *_) -> dict:
-    return {
-        "hardness": HV * validate.number("bodies.hardness_hv", number, "(HV)", minimum=5, maximum=5000)
-    }
+    return {"hardness": HV * validate.number("bodies.hardness_hv", number, "(HV)", minimum=5, maximum=5000)}
 
 
 def _of_hertz_pressure(pressure, given, old) -> dict:
@@ -141,6 +140,18 @@ def speeds_of_range(name: str, value) -> tuple[float, ...]:
         raise InputError(f"{name} highest = {high:g} m/s; it must be above lowest = {low:g} m/s (are they swapped?)")
     count = validate.integer(f"{name} count", value[2], minimum=1, maximum=MOST_SPEEDS)
     return tuple(float(u) for u in np.geomspace(low, high, count))
+
+
+def _of_heights(key: str, per_sq: float) -> Callable[..., dict[str, Any]]:
+    """What turns the ``key`` of a generated map, ``per_sq`` times its Sq, into Sq [m]."""
+
+    def plain(height, given, old) -> dict[str, float]:
+        if given.get("file", getattr(old, "file", None)) is not None:
+            said = " is for generated maps, and this one is read from a file"
+            raise InputError(said, f"surface.{key}", way_out="leave it out, or scale the map by sq")
+        return {"sq": validate.nonnegative(f"surface.{key}", height, "m", maximum=1.0) / per_sq}
+
+    return plain
 
 
 def resolve_oil(given: dict, old) -> dict:
@@ -279,4 +290,6 @@ FORMS: dict[str, tuple[tuple[tuple[str, ...], tuple[str, ...], Callable[..., dic
         (("slip_percent",), ("slide_roll_ratio",), _of_slip),
         (("speed_range",), ("speeds",), _of_range),
     ),
+    "surface": tuple(((key,), ("sq",), _of_heights(key, per_sq)) for key, per_sq in PER_SQ.items()),
 }
+FORMS["counterface"] = FORMS["surface"]

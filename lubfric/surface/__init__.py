@@ -4,5 +4,5 @@ from .generate import ACFS, generate_surface, surface_generator
 from .height_map import Surface
 from .prepare import FORMS, outliers
 from .read import read_surface
-from .statistics import check_slopes, correlation_length, rms_slope
+from .statistics import PER_SQ, check_slopes, correlation_length, rms_slope
 from .text import DECIMALS, UNITS

@@ -83,10 +83,11 @@ class Surface(FrozenArrays, Shown):
         return float(self.measured.std())
 
     def describe(self) -> str:
-        """One line: size, points, Sq, largest height over Sq, missing share, source."""
-        (lx, ly), (nx, ny) = self.size, self.shape
+        """One line: size, points, Sq, Ra, Rz, largest height over Sq, missing share, source."""
+        (lx, ly), (nx, ny), (rz, length) = self.size, self.shape, statistics.rz(self)
         text = (
             f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} um, Sq {self.sq * 1e9:.4g} nm, "
+            f"Ra {self.sa * 1e9:.4g} nm, Rz {rz * 1e9:.4g} nm over {length * 1e3:.3g} mm, "
             f"max |z|/Sq {self.largest_ratio:.3g}, {100 * self.missing_fraction:.3g} % missing"
         )
         return f"{self.source}: {text}" if self.source else text

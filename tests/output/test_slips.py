@@ -93,7 +93,7 @@ SLIPS = {  # name: (changes to GOOD by section; None removes a key, words of the
         },
         "mirror",
     ),
-    "unit behind a number": ({"bodies": {"load": "200 N"}}, "no unit"),
+    "unit behind a number": ({"bodies": {"load": "200 N"}}, "stands in quotes"),
     "decimal comma": ({"bodies": {"width": "0,01"}}, "decimal point"),
 }
 
