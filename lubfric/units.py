@@ -7,6 +7,7 @@ decimals, so that "68 mm2/s" is 6.8e-05 m2/s to the last bit.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from decimal import Decimal
 from typing import Any
 
@@ -80,25 +81,26 @@ def converted(value: Any, unit: str, to: str) -> Any:
     return (in_si - (shift if to == "°C" else 0)) / second
 
 
-def without_unit(name: str, value: Any, unit: str, depth: int = 3) -> Any:
+def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), depth: int = 3) -> Any:
     """``value`` in ``unit`` where it is text with a unit, such as "12 mm"; anything else as it is.
 
     Lists are gone through, nested up to ``depth`` times. ``unit`` may name several, "m/s, m/s, -", one for each part of
-    a list. ``name``: of the key.
+    a list. ``name``: of the key; ``named``: words that it takes too, and that are left as they are.
     Raises `InputError` for text that is no number with a unit, and for a unit of another kind.
     """
     if isinstance(value, (list, tuple)) and depth:
         several = unit.split(", ")
         if len(several) != len(value) or any(isinstance(part, (list, tuple)) for part in value):
             several = [unit] * len(value)
-        return type(value)(without_unit(name, part, one, depth - 1) for part, one in zip(value, several))
-    if not isinstance(value, str):
+        return type(value)(without_unit(name, part, one, named, depth - 1) for part, one in zip(value, several))
+    if not isinstance(value, str) or value in named:
         return value
     found = NUMBER.fullmatch(value.replace("\N{MINUS SIGN}", "-"))
     row = UNITS[kind_of(unit)]
     shown = value if len(value) < 40 else f"{value[:40]} ..."
     examples = [f"'20{other if other == '%' else ' ' + other}'" for other in row if other not in ("", "-")][:5]
     allowed = f"a plain number in {unit}, or one with a unit in quotes: {', '.join(examples)}"
+    allowed += f", or a name: {', '.join(named)}" if named else ""
     if found is None or not found[2]:
         said = " has no unit: leave the quotes out, or add one" if found else " is no number with a unit"
         raise InputError(f" = {shown!r}{said}", name, allowed)

@@ -10,7 +10,7 @@ from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, key_unit
 from ..sampling import forecast
-from ..scene import CHANGING, Harmonic, History, Scene, Table, told_doubts
+from ..scene import CHANGING, Harmonic, History, Scene, Table, told_doubts, typical
 from ..sharing import expected, gathered, takes_strips
 from ..studies import in_words
 from ..surface import Surface, correlation_length, rms_slope
@@ -188,7 +188,12 @@ def _inputs(scene: Scene, section: str) -> list[str]:
             text = f"{len(value)} values, {min(value):.4g} to {max(value):.4g}"
         else:
             text = " and ".join(f"{v:.4g}" for v in (value if isinstance(value, tuple) else (value,)))
-        rows.append(f"{quantity.label}: {text} {key_unit(*key.split('.'))}".rstrip() + f"  ({key})")
+        told = f"{quantity.label}: {text} {key_unit(*key.split('.'))}".rstrip() + f"  ({key})"
+        alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
+        if alike:
+            low, high = (f"{end:.3g}" for end in next(iter(alike.values())))
+            told += f", typical of {' or '.join(alike)}: {low} to {high}"
+        rows.append(told)
     return rows
 
 

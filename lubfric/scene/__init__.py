@@ -4,7 +4,7 @@ from .bodies import FASTEST, LARGEST_RATIO, Bodies, ContactDomain, Motion
 from .file import builtin_scenes, load_scene, read_toml, write_template
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
-from .plausible import doubts, told_doubts
+from .plausible import doubts, told_doubts, typical
 from .roughness import Roughness, named
 from .scene import Scene, check_resolved_gap, gap_not_resolved, resolves_gap, scene_as_dict
 from .sections import SECTIONS

@@ -14,7 +14,7 @@ from typing import Any
 
 from ..errors import ConvergenceError, InputError
 from ..quantities import KEYS
-from ..units import converted
+from ..units import converted, without_unit
 
 
 @cache
@@ -33,6 +33,15 @@ def usual() -> dict[str, dict[str, Any]]:
         unit = KEYS[name].unit
         row |= {"unit": unit, "meant": [(other, converted(1.0, other, unit), *advice) for other, *advice in meant]}
     return rows
+
+
+@cache
+def typical(name: str) -> dict[str, list[float]]:
+    """Words that stand for a value of the key ``name`` (section.key): that value, and the lowest and highest that are
+    usual, in the unit of the key."""
+    section, _, key = name.partition(".")
+    rows = packaged("typical.toml").get(section, {}).get(key, {})
+    return {word: without_unit(name, values, KEYS[name].unit) for word, values in rows.items()}
 
 
 def slip(name: str, value) -> str | None:

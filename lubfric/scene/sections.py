@@ -13,7 +13,7 @@ from ..surface import PER_SQ
 from ..units import without_unit
 from .bodies import Bodies, ContactDomain, Motion
 from .numerics import Numerics, refuse_dropped
-from .plausible import naming_slips, packaged
+from .plausible import naming_slips, packaged, typical
 from .roughness import NEEDED, Roughness, as_given, named
 from .short_forms import resolve, short_keys
 from .transient import Transient
@@ -65,9 +65,14 @@ def made_section(section: str, given: dict, old: Any = None) -> Any:
 
 
 def in_key_unit(section: str, key: str, value: Any) -> Any:
-    """``value`` as a number in the unit of the ``key``, if it is text with a unit; of a key without one, as it is."""
+    """``value`` as a number in the unit of the ``key``, if it is text with a unit, or a name that stands for a typical
+    value (typical.toml); of a key without a unit, as it is."""
     name = f"{section}.{key}"
-    return without_unit(name, validate.python_value(value), KEYS[name].unit) if name in KEYS else value
+    if name not in KEYS:
+        return value
+    known = typical(name)
+    number = without_unit(name, validate.python_value(value), KEYS[name].unit, known)
+    return known[number][0] if isinstance(number, str) else number
 
 
 def changed_section(section: str, old: Any, values: Any) -> Any:
