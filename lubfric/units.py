@@ -21,6 +21,7 @@ UNITS: dict[str, dict[str, float]] = {
     "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3, "MN": 1e6, "kgf": 9.80665, "lbf": 4.4482216152605},
     "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3, "kN/mm": 1e6},
     "m": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "nm": 1e-9, "in": 0.0254, "uin": 2.54e-8},
+    "m2": {"m2": 1.0, "mm2": 1e-6, "um2": 1e-12},
     "-": {"": 1.0, "-": 1.0, "%": 0.01},
     "Pa s": {"Pa s": 1.0, "mPa s": 1e-3, "cP": 1e-3, "P": 0.1},
     "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "N/mm2": 1e6, "psi": 6894.757293168, "HV": HV},
@@ -36,19 +37,14 @@ UNITS: dict[str, dict[str, float]] = {
     "rad": {"rad": 1.0, "°": 3.141592653589793 / 180},
 }
 NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\d.,])\s*(.*?)\s*")
-SPELLINGS = {
-    "\N{MICRO SIGN}": "u",
-    "\N{GREEK SMALL LETTER MU}": "u",
-    "\N{MINUS SIGN}": "-",
-    "\N{SUPERSCRIPT MINUS}": "-",
-}
-SPELLINGS |= {"¹": "1", "²": "2", "³": "3", "^": "", "*": " ", "\N{MIDDLE DOT}": " ", "\N{DOT OPERATOR}": " "}
+MICRO = "\N{MICRO SIGN}\N{GREEK SMALL LETTER MU}"
+SPELLINGS = str.maketrans(f"{MICRO}\N{MINUS SIGN}\N{SUPERSCRIPT MINUS}¹²³·⋅*", "uu--123   ", "^")
 OTHER_WORDS = {"degC": "°C", "C": "°C", "micron": "um", "W/mK": "W/(m K)", "deg": "°"}
 
 
 def spelled(unit: str) -> str:
     """``unit`` as in the table: a u for the sign of micro, digits for raised ones, single spaces between factors."""
-    text = " ".join(unit.translate(str.maketrans(SPELLINGS)).split())
+    text = " ".join(unit.translate(SPELLINGS).split())
     text = re.sub(r"(?<=Pa)\s?\.?\s?s$", " s", text)  # Pa.s
     text = re.sub(r"^1? ?/ ?", "1/", text)
     inverse = re.fullmatch(r"(\w+) ?-1", text)  # GPa^-1

@@ -10,7 +10,7 @@ from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, key_unit
 from ..sampling import forecast
-from ..scene import CHANGING, Harmonic, History, Scene, Table, told_doubts, typical
+from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, told_doubts, typical
 from ..sharing import expected, gathered, takes_strips
 from ..studies import in_words
 from ..surface import Surface, correlation_length, rms_slope
@@ -42,7 +42,8 @@ def describe_scene(scene: Scene) -> str:
             *_section("transient", told),
             *_section("surface", [surface.describe(), *(note for note in surface.notes if "nm as it is" in note)]),
             *_map_rows(scene, surface),
-            *_section("contact", [f"{_plan(scene, surface)}; {'a run in time' if told else f'{len(speeds)} speeds'}"]),
+            *_section("contact", [f"{_plan(scene, surface)}; {'a run in time' if told else _count(speeds)}"]),
+            *_section("model", _model(scene, strips, surface, speeds)),
             *_section("validity", _validity(scene, surface if first is None else first, sorted(set(speeds)))),
             *_speed_rows(scene, strips, surface, speeds),
         ]
@@ -51,6 +52,10 @@ def describe_scene(scene: Scene) -> str:
 
 def _section(name: str, rows) -> list[str]:
     return [f"  {name if i == 0 else '':<14} {text}" for i, text in enumerate(rows)]
+
+
+def _count(speeds) -> str:
+    return "1 speed" if len(speeds) == 1 else f"{len(speeds)} speeds"
 
 
 def _plan(scene: Scene, surface: Surface) -> str:
@@ -64,6 +69,37 @@ def _plan(scene: Scene, surface: Surface) -> str:
     else:
         what = f"semi-periodic contact on {cells} under the film at every speed"
     return f"{what}; f within {100 * scene.numerics.tolerance:g} %"
+
+
+def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
+    """Which model will answer at the ``speeds`` [m/s], why, and what all of them cost (`lubfric.sampling.friction`)."""
+    asked, why = scene.numerics.model, gap_not_resolved(scene)
+    moving = sorted({abs(u) for u in speeds if u != 0})
+    some = moving[:: max(1, len(moving) // 25)]
+    summit = float(surface.heights.max() - surface.heights.mean())
+    found = [forecast(scene, strips, surface.sq, summit, speed) for speed in some]
+    resolved = [one.speed for one in found if one.resolved]
+    unknown = "its error is not known, and not in the interval"
+    if scene.transient is not None:
+        rows = [f"load sharing, Eq. (8), at all times; {unknown}"]
+    elif asked == "load-sharing":
+        rows = [f"load sharing, Eq. (8), as asked: the fast way; {unknown if why else 'its interval is wide'}"]
+    elif asked == "deterministic":
+        rows = ["one gap and one pressure (the deterministic model), as asked"]
+    elif why:
+        rows = [f"load sharing, Eq. (8), alone; {unknown}:", f"  {why}"]
+    elif not resolved:
+        rows = ["load sharing, Eq. (8), alone: the film is thick, or there is no roughness, and the models agree"]
+    else:
+        rows = [
+            f"load sharing, Eq. (8), on strips of the roughness; at {resolved[0]:.3g} to {resolved[-1]:.3g} m/s",
+            f"  corrected by strips with one gap and one pressure to {100 * scene.numerics.model_tolerance:g} % of f",
+            "  (not where heat turns out to matter: these are isothermal)",
+        ]
+    if found and scene.transient is None:
+        seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
+        rows.append(f"cost: about {seconds} of processor time for {_count(moving)} (an order of magnitude)")
+    return rows
 
 
 def _histories(scene: Scene) -> list[str]:

@@ -112,7 +112,8 @@ def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
     """The fields that ``values`` change in ``old``. If a file replaces a generated map, the fields of the generated map
     go."""
     if old is not None and old.file is None and values.get("file") is not None:
-        return {"sq": None, **{name: getattr(Roughness, name) for name in GENERATED}, **values}
+        height = {} if any(key in values for key in PER_SQ) else {"sq": None}
+        return height | {name: getattr(Roughness, name) for name in GENERATED} | values
     return values
 
 

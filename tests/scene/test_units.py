@@ -1,0 +1,227 @@
+"""Numbers as people write them: with units, as Ra or Rz of a drawing, as the name of a steel or an oil. Values on the
+right are typed or measured on the map that is made, and share no code with what turns the words into numbers."""
+
+import math
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.output.run_curve import parse_speeds
+from lubfric.quantities import KEYS, NUMBERS, QUANTITIES
+from lubfric.units import UNITS, kind_of
+
+PAPER = lubfric.load_scene("paper")
+OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C"}
+WORDS = {  # section: key: (as written, what it is in the unit of the key)
+    "bodies": {
+        "radius": ("12 mm", 0.012),
+        "width": ("1.4 cm", 0.014),
+        "load": ("2 kN", 2000.0),
+        "e_prime": ("230 GPa", 230e9),
+        "hardness": ("7400 N/mm²", 7.4e9),
+        "boundary_friction_coefficient": ("9 %", 0.09),
+        "boundary_film": ("20nm", 20e-9),
+        "conductivity": (["46 W/(m·K)", "40 W/m K"], (46.0, 40.0)),
+        "volumetric_heat": (["3.6 MJ/(m³ K)", 3.5e6], (3.6e6, 3.5e6)),
+    },
+    "lubricant": {
+        "viscosity": ("80 mPa·s", 0.08),
+        "pressure_viscosity_coefficient": ("20 1/GPa", 2e-8),
+        "eyring_stress": ("5 MPa", 5e6),
+        "limiting_stress_coefficient": ("6 %", 0.06),
+        "limiting_stress_offset": ("10 bar", 1e6),
+        "temperature": ("70 °C", 343.15),
+        "temperature_coefficient": ("3.5 %/K", 0.035),
+        "conductivity": ("130 mW/(m K)", 0.13),
+    },
+    "motion": {
+        "entrainment_speed": ("18 km/h", 5.0),
+        "slide_roll_ratio": ("3 %", 0.03),
+        "speeds": (["1 mm/s", 0.01, "10 cm/s"], (0.001, 0.01, 0.1)),
+    },
+    "surface": {"sq": ("0.4 µm", 4e-7), "correlation_length": (["8 μm", "20 um"], (8e-6, 2e-5))},
+    "contact": {"spacing": ("800 nm", 8e-7)},
+    "numerics": {"tolerance": ("0.5 %", 0.005), "sampling_tolerance": ("1 %", 0.01), "model_tolerance": ("10 %", 0.1)},
+    "transient": {"duration": ("20 ms", 0.02), "initial_film": ("0.2 um", 2e-7), "tolerance": ("0.01 %", 1e-4)},
+}
+
+
+def test_all_sections_with_units_are_those_with_plain_numbers(tmp_path):
+    """By `with_`, by a dict and by a file; and a scene is stored with plain numbers."""
+    written = {section: {key: pair[0] for key, pair in keys.items()} for section, keys in WORDS.items()}
+    plan = written.pop("transient")
+    scene = PAPER.with_(**written)
+    for section, keys in written.items():
+        for key in keys:
+            assert getattr(getattr(scene, section), key) == WORDS[section][key][1], key
+    tables = written | {
+        "transient": plan | {"load": {"kind": "ramp", "start": "1 kN", "end": 2000.0, "until": "10 ms"}}
+    }
+    tables["motion"] = tables["motion"] | {"sliding_speed": "100 mm/s"}
+    scene = lubfric.load_scene(tables | {"contact": {"shape": [64, 64], "spacing": "800 nm"}})
+    found = scene.transient
+    assert (found.duration, found.initial_film, found.tolerance) == (0.02, 2e-7, 1e-4)
+    assert (found.load.start, found.load.end, found.load.until, found.sliding.value) == (1000.0, 2000.0, 0.01, 0.1)
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    assert lubfric.load_scene(tmp_path / "scene.toml") == scene
+    assert "mm" not in scene.to_toml() and "load = 2000.0" in scene.to_toml()
+
+
+@pytest.mark.parametrize(
+    "section, given, field, value",
+    [
+        ("bodies", {"radii": ["6 mm", "-24 mm"]}, "radius", 0.008),
+        ("bodies", {"young_modulus": ["210 GPa", 210e9], "poisson_ratio": [0.3, 0.3]}, "e_prime", 210e9 / 0.91),
+        ("bodies", {"hardness_hv": "7.4036 GPa"}, "hardness", 7.4036e9),
+        ("bodies", {"hardness": "700 HV"}, "hardness", 700 * 9.80665e6 / math.sin(math.radians(68))),
+        ("bodies", {"hardness": "100Cr6"}, "hardness", 740 * 9.80665e6 / math.sin(math.radians(68))),
+        ("bodies", {"boundary_friction_coefficient": "MoDTC"}, "boundary_friction_coefficient", 0.05),
+        ("lubricant", OIL | {"nu40": "68 mm2/s", "viscosity_index": 95, "grade": None}, "viscosity", 0.016775),
+        ("lubricant", OIL | {"temperature": "343.15 K", "density": "0.88 g/cm³"}, "viscosity", 0.016775),
+        ("lubricant", OIL, "temperature", 343.15),
+        ("lubricant", {"eyring_stress": "mineral"}, "eyring_stress", 5e6),
+        ("lubricant", {"limiting_stress_coefficient": "pao"}, "limiting_stress_coefficient", 0.045),
+        ("motion", {"surface_speeds": ["0.9 m/s", "110 cm/s"]}, "slide_roll_ratio", 0.2),
+        ("motion", {"slip_percent": "3 %"}, "slide_roll_ratio", 0.03),
+        ("motion", {"speed_range": ["1 mm/s", "1 m/s", 4]}, "speeds", (0.001, 0.01, 0.1, 1.0)),
+    ],
+)
+def test_short_forms_and_names_take_units(section, given, field, value):
+    given = {key: one for key, one in given.items() if one is not None}
+    assert getattr(getattr(PAPER.with_(**{section: given}), section), field) == pytest.approx(value, rel=1e-4)
+
+
+def test_a_table_of_viscosities_takes_the_units_of_its_columns():
+    lubricant = {
+        "viscosity_table": [["40 °C", "68 cSt"], [373.15, "8.6 mm2/s"]],
+        "temperature": "100 °C",
+        "density": 870,
+    }
+    made = PAPER.with_(lubricant=lubricant).lubricant
+    assert made.viscosity == pytest.approx(8.6e-6 * (870 - 0.64 * 85), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "key, given, words",
+    [
+        ("bodies.width", "12 kN", r"bodies.width = '12 kN' is in kN, a unit of another kind \(N\).*'20 mm'"),
+        ("bodies.width", "12 furlong", "unknown unit, 'furlong'.*a plain number in m"),
+        ("bodies.width", "12", "no unit: leave the quotes out"),
+        ("bodies.width", "1,2 mm", "no number with a unit"),
+        ("bodies.load", "9e999999999999999999999 N", "bodies.load.*out of range"),
+        ("bodies.load", "1e400 N", "bodies.load.*out of range"),
+        ("bodies.radii", ["6 mm", "2 N"], "bodies.radii = '2 N'"),
+        ("bodies.hardness", "100Cr7", "or a name: 100Cr6, 16MnCr5"),
+        ("counterface.ra", "0.1 s", "counterface.ra = '0.1 s'"),
+        ("motion.speeds", ["1 mm/s", "1 mm"], "motion.speeds = '1 mm'"),
+        ("transient.duration", "1 m", "transient.duration = '1 m'"),
+        ("numerics.tolerance", "1 K", "numerics.tolerance"),
+    ],
+)
+def test_what_is_no_such_number_is_told_with_what_is(key, given, words):
+    section, _, name = key.partition(".")
+    table = {"correlation_length": 1e-5} if section == "counterface" else {}
+    with pytest.raises(lubfric.InputError, match=words):
+        if section == "transient":
+            lubfric.load_scene({"transient": {name: given}})
+        PAPER.with_(**{section: table | {name: given}})
+
+
+def test_the_command_line_takes_units():
+    assert parse_speeds("--speeds", "1 mm/s:1 m/s:4") == pytest.approx([0.001, 0.01, 0.1, 1.0])
+    assert parse_speeds("--speeds", "0.001,2cm/s") == [0.001, 0.02]
+    assert parse_speeds("--ratios", "1 %,0.1", "-") == [0.01, 0.1]
+    with pytest.raises(lubfric.InputError, match="low:high:count.*is in N"):
+        parse_speeds("--speeds", "1 N")
+
+
+def test_every_unit_of_the_table_of_quantities_is_known():
+    units = {part for q in (*KEYS.values(), *QUANTITIES.values()) for part in q.unit.split(", ")}
+    assert all(UNITS[kind_of(unit)] for unit in units)
+
+
+def test_a_result_in_the_unit_asked_for():
+    fields = dict.fromkeys(NUMBERS, 0.25) | {"min_film": np.array([1e-7, 2e-6])}
+    result = lubfric.quantities.PointQuantities(**fields)
+    assert result.in_unit("min_film", "nm") == pytest.approx([100.0, 2000.0])
+    assert (result.in_unit("contact_load", "mN"), result.in_unit("coefficient", "%")) == (250.0, 25.0)
+    for name, unit in (("min_film", "N"), ("film", "m"), ("min_film", "furlong")):
+        with pytest.raises(lubfric.InputError):
+            result.in_unit(name, unit)
+
+
+# --- Ra and Rz -------------------------------------------------------------------------------------
+
+
+def heights_of(**surface):
+    """A long generated map, with ``surface`` in the place of its Sq: what a stylus would see."""
+    scene = PAPER.with_(surface=surface | {"correlation_length": "10 um"})
+    return lubfric.generate_surface(
+        (4000, 400), 1e-6, sq=scene.surface.sq, correlation_length=1e-5, acf="gaussian", seed=5
+    )
+
+
+def test_a_map_made_for_an_ra_has_it_and_one_for_an_rz_about():
+    z = heights_of(ra="0.2 um").heights
+    assert np.abs(z - z.mean()).mean() == pytest.approx(2e-7, rel=0.01)
+    profiles = heights_of(rz="1 um").heights.reshape(5, 800, 400)  # sampling lengths of 0.8 mm, along x
+    assert np.mean(profiles.max(1) - profiles.min(1)) == pytest.approx(1e-6, rel=0.1)
+
+
+def test_ra_and_rz_of_every_map_are_told():
+    """Rz is that along x, over sampling lengths of 0.8 mm, and of the measured points only."""
+    made = heights_of(ra="0.2 um")
+    z, seen = made.heights, np.random.default_rng(0).random(made.shape) < 0.7
+    for heights, mask in ((z, None), (np.where(seen, z, np.nan), seen)):
+        lines = heights.reshape(5, 800, 400)
+        rz = np.mean(np.nanmax(lines, 1) - np.nanmin(lines, 1))
+        told = f"Ra {1e9 * np.nanmean(abs(heights - np.nanmean(heights))):.4g} nm, Rz {1e9 * rz:.4g} nm over 0.8 mm"
+        surface = lubfric.Surface(heights, 1e-6, mask)
+        assert told in repr(surface) and told in surface.describe()
+
+
+@pytest.mark.parametrize("section", ["surface", "counterface"])
+def test_one_of_the_heights_is_given_and_only_of_a_generated_map(section, tmp_path):
+    rough = {"correlation_length": 1e-5, "acf": "gaussian"}
+    ra, rz = (getattr(PAPER.with_(**{section: rough | {key: 1e-7}}), section).sq for key in ("ra", "rz"))
+    assert (ra, rz) == (pytest.approx(1e-7 * math.sqrt(math.pi / 2)), pytest.approx(2e-8))
+    with pytest.raises(lubfric.InputError, match="one of sq, ra, rz"):
+        PAPER.with_(**{section: rough | {"ra": 1e-7, "rz": 1e-6}})
+    np.savetxt(tmp_path / "map.txt", heights_of(ra=1e-7).heights[:60, :60])
+    mapped = {"file": str(tmp_path / "map.txt"), "spacing": "1 um"}
+    with pytest.raises(lubfric.InputError, match=rf"{section}.ra is for generated maps"):
+        PAPER.with_(**{section: mapped | {"ra": 1e-7}})
+
+
+# --- the newcomer ----------------------------------------------------------------------------------
+
+BEARING = """
+bodies.radii = ["6 mm", "30 mm"]
+bodies.width = "14 mm"
+bodies.load = "2 kN"
+bodies.material = "100Cr6"
+bodies.hardness = "100Cr6"
+bodies.boundary_friction_coefficient = "anti-wear"
+lubricant = { grade = "ISO VG 68", viscosity_index = 95, temperature = "70 °C", eyring_stress = "mineral" }
+motion = { entrainment_speed = "3 m/s", slip_percent = "3 %" }
+surface = { ra = "0.2 µm", correlation_length = "20 µm", acf = "gaussian" }
+counterface = { ra = "0.1 µm", correlation_length = "20 µm", acf = "gaussian" }
+contact = { shape = [128, 128], spacing = "4 µm" }
+"""
+
+
+def test_a_roller_bearing_in_the_words_of_its_drawing(tmp_path):
+    """A roller of 12 mm on a ring of 60 mm, in at most 15 lines, to an answer with its interval and picture."""
+    (tmp_path / "bearing.toml").write_text(BEARING, encoding="utf-8")
+    scene = lubfric.load_scene(tmp_path / "bearing.toml")
+    modulus = 210e9 / (1 - 0.3**2)
+    assert len(BEARING.strip().splitlines()) <= 12  # and three of Python: load_scene, stribeck, plot
+    assert scene.bodies.radius == pytest.approx(1 / (1 / 0.006 + 1 / 0.030))
+    assert scene.bodies.half_width == pytest.approx(math.sqrt(8 * 2000 / 0.014 * 0.005 / (math.pi * modulus)))
+    assert math.hypot(scene.surface.sq, scene.counterface.sq) == pytest.approx(math.sqrt(0.05 * math.pi / 2) * 1e-6)
+    curve = lubfric.stribeck(scene, [1.0, 3.0])
+    low, high = curve.uncertainty.interval[1]
+    assert 0.03 < low < curve.coefficient[1] < high < 0.08 and curve.report.converged
+    assert 100 < curve.in_unit("central_film", "nm")[1] < 400
+    assert curve.plot().lines
