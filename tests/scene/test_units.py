@@ -2,6 +2,7 @@
 right are typed or measured on the map that is made, and share no code with what turns the words into numbers."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -196,23 +197,12 @@ def test_one_of_the_heights_is_given_and_only_of_a_generated_map(section, tmp_pa
 
 # --- the newcomer ----------------------------------------------------------------------------------
 
-BEARING = """
-bodies.radii = ["6 mm", "30 mm"]
-bodies.width = "14 mm"
-bodies.load = "2 kN"
-bodies.material = "100Cr6"
-bodies.hardness = "100Cr6"
-bodies.boundary_friction_coefficient = "anti-wear"
-lubricant = { grade = "ISO VG 68", viscosity_index = 95, temperature = "70 °C", eyring_stress = "mineral" }
-motion = { entrainment_speed = "3 m/s", slip_percent = "3 %" }
-surface = { ra = "0.2 µm", correlation_length = "20 µm", acf = "gaussian" }
-counterface = { ra = "0.1 µm", correlation_length = "20 µm", acf = "gaussian" }
-contact = { shape = [128, 128], spacing = "4 µm" }
-"""
+START = (Path(__file__).parents[2] / "docs" / "start.md").read_text(encoding="utf-8")
+BEARING = next(block for block in START.split("```") if "anti-wear" in block).removeprefix("text\n")
 
 
 def test_a_roller_bearing_in_the_words_of_its_drawing(tmp_path):
-    """A roller of 12 mm on a ring of 60 mm, in at most 15 lines, to an answer with its interval and picture."""
+    """A roller of 12 mm on a ring of 60 mm, as docs/start.md has it: in 15 lines to an answer, interval and picture."""
     (tmp_path / "bearing.toml").write_text(BEARING, encoding="utf-8")
     scene = lubfric.load_scene(tmp_path / "bearing.toml")
     modulus = 210e9 / (1 - 0.3**2)
