@@ -103,22 +103,22 @@ class Case:
 
 def heights(kind: str, seed: int) -> np.ndarray:
     """A map of this ``kind``, with a standard deviation of 1, from its spectrum."""
-    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal(CELLS))
     qx, qy = np.meshgrid(*(2 * np.pi * np.fft.fftfreq(n, CELL) for n in CELLS), indexing="ij")
+    rng = np.random.default_rng(seed)
+
+    def drawn(root) -> np.ndarray:
+        z = np.fft.ifft2(np.fft.fft2(rng.standard_normal(CELLS)) * root).real
+        return (z - z.mean()) / z.std()
+
     if kind == "self-affine":
-        root = (1 + (np.hypot(qx, qy) * 20e-6) ** 2) ** -0.9  # Hurst exponent .8
-    elif kind == "ridges at 45 degrees":
+        return drawn((1 + (np.hypot(qx, qy) * 20e-6) ** 2) ** -0.9)  # Hurst exponent .8
+    if kind == "ridges at 45 degrees":
         along, across = (qx + qy) / math.sqrt(2), (qx - qy) / math.sqrt(2)
-        root = np.exp(-((along * 20e-6) ** 2 + (across * 4e-6) ** 2) / 8)
-    else:
-        root = np.exp(-(np.hypot(qx, qy) ** 2) * LENGTH**2 / 8)
-    z = np.fft.ifft2(noise * root).real
-    z /= z.std()
-    if kind in ("plateau", "peaks"):
-        z = np.minimum(z, 0.3) + 0.1 * np.random.default_rng(seed + 1).standard_normal(CELLS)
-        z = z if kind == "plateau" else -z
-    z -= z.mean()
-    return z / z.std()
+        return drawn(np.exp(-((along * 20e-6) ** 2 + (across * 4e-6) ** 2) / 8))
+    smooth = np.hypot(qx, qy) ** 2 * LENGTH**2 / 8
+    z = np.minimum(drawn(np.exp(-smooth)), 0.3) + 0.1 * drawn(np.exp(-smooth / 4))
+    z = (z - z.mean()) / z.std()
+    return z if kind == "plateau" else -z
 
 
 def cases(level: str) -> dict[str, Case]:
