@@ -108,13 +108,6 @@ def test_vickers_hardness_is_load_over_projected_area():
     assert found == pytest.approx(700 * 9.80665e6 / math.sin(math.radians(68)), rel=1e-4)
 
 
-def test_speeds_and_slip_in_with():
-    motion = PAPER.with_(motion={"surface_speeds": [0.9, 1.1]}).motion
-    assert motion.entrainment_speed == 1.0 and motion.slide_roll_ratio == pytest.approx(0.2)
-    assert PAPER.with_(motion={"slip_percent": -3}).motion.slide_roll_ratio == -0.03
-    assert PAPER.with_(motion={"speed_range": [0.01, 1, 3]}).motion.speeds == pytest.approx((0.01, 0.1, 1))
-
-
 @pytest.mark.parametrize(
     "section, keys, words",
     [
