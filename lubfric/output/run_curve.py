@@ -256,7 +256,7 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
     try:
         numbers = [number_of(option, word, "-" if i == 2 and ranged else unit) for i, word in enumerate(words)]
     except InputError as error:
-        refusal.hint(error.said)
+        refusal.hint(error.said.removeprefix(" = "))
         raise refusal from None
     for speed in numbers[:2] if ranged else numbers:
         validate.number(option, speed, unit, minimum=-most, maximum=most)

@@ -129,7 +129,7 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
             low, high = (number_of("--parameter", end, unit) for end in ends.split(":"))
         except ValueError as error:
             refusal = InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI or with units")
-            refusal.hint(getattr(error, "said", ""))
+            refusal.hint(getattr(error, "said", "").removeprefix(" = "))
             raise refusal from None
         if key.strip() in found:
             raise InputError(f"--parameter {shown(text)}: {key.strip()} is given twice; give it once")
