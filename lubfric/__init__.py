@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from .contact import AsperityResult as AsperityResult
     from .contact import ContactResult as ContactResult
     from .contact import asperity_contact as asperity_contact
+    from .contact import run_in as run_in
     from .contact import separation_for_load as separation_for_load
     from .contact import solve_contact as solve_contact
     from .errors import ConvergenceError as ConvergenceError
@@ -65,7 +66,10 @@ _NAMES = {  # by the room that they come from
     "scene": ("load_scene", "Scene", "Bodies", "ContactDomain", "Roughness", "Motion", "Numerics", "Transient"),
     "oil": ("Lubricant",),
     "surface": ("Surface", "generate_surface", "read_surface"),
-    "contact": ("solve_contact", "ContactResult", "asperity_contact", "separation_for_load", "AsperityResult"),
+    "contact": (
+        *("solve_contact", "ContactResult", "run_in"),
+        *("asperity_contact", "separation_for_load", "AsperityResult"),
+    ),
     "film": ("solve_ehl", "EHLResult"),
     "sharing": ("prepare", "Prepared", "Validity"),
     "sampling": ("friction", "FrictionResult"),
