@@ -35,8 +35,8 @@ class RunIn(FrozenArrays, Shown):
     ----------
     before, surface : the map before and after, on the same grid; ``sq`` and ``ssk`` of each tell what has changed
     deepest : deepest new dent of each pass [m], (passes,)
-    sinking : share of the cells that sank in each pass [-], (passes,)
-    shaken_down : True: nothing sank in the last pass. False: asperities still yield, and would in further passes
+    sinking : share of the cells that sank by more than the tolerance in each pass [-], (passes,)
+    shaken_down : True: nothing sank by more than the tolerance in the last pass. False: asperities still yield, and would in further passes
     """
 
     before: Surface
@@ -101,7 +101,8 @@ def run_in(
     scene : from `lubfric.load_scene`, with ``bodies.hardness`` and one rough body
     surface : the map to run in, taken as periodic along y; None: that of the scene, on its own cells, whole
     passes : number of passes after which it ends, if asperities still yield
-    tolerance : dents [m] up to this depth are not made. The default is a third of an atom
+    tolerance : depth [m]. The first pass without a deeper new dent ends it, and is not kept. The default is a third of
+        an atom
     step : of the contact [m], between one cell and the half-width of the Hertz strip (None: half of that)
 
     Returns
@@ -121,7 +122,9 @@ def run_in(
     if step is None:
         step = max(dx, half_width / STEPS)
     columns = round(validate.number("step", step, "m", minimum=dx * (1 - 1e-9), maximum=half_width) / dx)
-    centres = range(0, before.shape[0], columns)[:: -1 if scene.motion.entrainment_speed > 0 else 1]
+    last = before.shape[0] - 1
+    centres = np.linspace(0, last, 1 + math.ceil(last / columns)).round().astype(int)
+    centres = centres[:: -1 if scene.motion.entrainment_speed > 0 else 1]
     heights = before.heights
     operator, shaken = _operator(scene, before), False
     deepest: list[float] = []
