@@ -83,7 +83,7 @@ _NAMES = {  # by the room that they come from
 }
 _HOME = {name: home for home, names in _NAMES.items() for name in names}
 _PACKAGES = ("oil",)
-__all__ = sorted([*(name for name in _HOME if name != "__version__"), *_PACKAGES])
+__all__ = sorted(name for name in _HOME if name != "__version__")
 
 
 def __getattr__(name: str) -> object:
@@ -97,4 +97,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return sorted(set(globals()) | set(__all__))
+    return sorted({*globals(), *__all__, *_PACKAGES})

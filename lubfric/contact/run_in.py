@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -36,7 +37,8 @@ class RunIn(FrozenArrays, Shown):
     before, surface : the map before and after, on the same grid; ``sq`` and ``ssk`` of each tell what has changed
     deepest : deepest new dent of each pass [m], (passes,)
     sinking : share of the cells that sank by more than the tolerance in each pass [-], (passes,)
-    shaken_down : True: nothing sank by more than the tolerance in the last pass. False: asperities still yield, and would in further passes
+    shaken_down : True: nothing sank by more than the tolerance in the last pass. False: asperities still yield, and
+        would in further passes
     """
 
     before: Surface
@@ -185,22 +187,23 @@ def _passed(scene: Scene, surface: Surface, heights, centres: Iterable[int], ope
     bodies, count, nx = scene.bodies, operator.shape[0], surface.shape[0]
     around = np.arange(count) - count // 2
     cylinder = (around * surface.spacing[0])[:, None] ** 2 / (2 * bodies.radius)
+    options: dict[str, Any] = {
+        "mean_pressure": bodies.load / (bodies.width * count * surface.spacing[0]),
+        "hardness": bodies.hardness,
+        "boundary": BOUNDARY,
+        "tolerance": min(SHARP, scene.numerics.tolerances.contact),
+        "operator": operator,
+    }
     left, deepest, pressure, last = heights.copy(), 0.0, None, 0
     for centre in centres:
         columns = (centre + around) % (nx if surface.periodic_axes[0] else 2 * nx)
         columns = np.where(columns < nx, columns, 2 * nx - 1 - columns)  # of the mirror image
         here = left[columns]
-        found = solve_contact(
-            cylinder - here,
-            surface.spacing,
-            bodies.e_prime,
-            mean_pressure=bodies.load / (bodies.width * count * surface.spacing[0]),
-            hardness=bodies.hardness,
-            boundary=BOUNDARY,
-            tolerance=min(SHARP, scene.numerics.tolerances.contact),
-            start=None if pressure is None else _moved(pressure, centre - last),
-            operator=operator,
-        )
+        problem = cylinder - here, surface.spacing, bodies.e_prime
+        start = None if pressure is None else _moved(pressure, centre - last)
+        found = solve_contact(*problem, **options, start=start, raise_on_failure=start is None)
+        if not found.report.converged:
+            found = solve_contact(*problem, **options)
         pressure, last = found.pressure, centre
         dent = np.where(pressure >= bodies.hardness, np.maximum(-found.gap, 0.0), 0.0)
         np.minimum.at(left, columns, here - dent)  # a column may be under the cylinder twice
