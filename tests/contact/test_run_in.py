@@ -105,8 +105,8 @@ def test_summits_become_plateaus(rough):
 
 def test_softer_bodies_run_in_more_but_never_more_than_gears_do():
     """Typical gears, wear and all, end with .68 (carburized, from 25 microinches rms), .5 (medium-hard, 60) and .25
-    (soft, 80) of their roughness (GearCalc manual, Sec. 14.12: gearcalc.com/downloads/manual/manualse81.html). Hardness,
-    pressure and correlation length are assumed: the manual has none."""
+    (soft, 80) of their roughness (GearCalc manual, Sec. 14.12: gearcalc.com/downloads/manual/manualse81.html).
+    Hardness, pressure and correlation length are assumed: the manual has none."""
     left, skewness = [], []
     for sq, hardness, p0 in ((0.635e-6, 7e9, 1.3e9), (1.52e-6, 3.2e9, 0.8e9), (2.03e-6, 1.9e9, 0.5e9)):
         radius, e_prime = 10e-3, 231e9
