@@ -43,6 +43,10 @@ def test_a_module_holds_one_idea():
     assert median(lengths.values()) <= TYPICAL
 
 
+def test_what_a_user_imports_is_fifty_names():
+    assert len(import_module("lubfric").__all__) <= 50
+
+
 def test_every_slow_test_exists():
     for name in (ROOT / "tests" / "slow_tests.txt").read_text(encoding="utf-8").split():
         path, test = name.split("::")
