@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
-import lubfric
 from lubfric.contact import strips
 
-PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+PAPER = paper_scene()
 
 
 @pytest.mark.parametrize("change", [{}, {"counterface": {"sq": 5e-8, "correlation_length": 8e-6}}])

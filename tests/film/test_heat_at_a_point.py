@@ -3,6 +3,7 @@ hotter."""
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.film import Surroundings, heated_film
@@ -11,16 +12,12 @@ from lubfric.sharing import film_lubricant
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
 SHEAR = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.08}
-BASE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
-        lubricant=OIL | SHEAR,
-        contact={"shape": (128, 64), "spacing": 4e-6},
-        surface={"sq": 5e-8, "correlation_length": 3e-5, "acf": "gaussian"},
-        numerics={"sampling": "patch"},
-    )
+BASE = paper_scene(
+    bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
+    lubricant=OIL | SHEAR,
+    contact={"shape": (128, 64), "spacing": 4e-6},
+    surface={"sq": 5e-8, "correlation_length": 3e-5, "acf": "gaussian"},
+    numerics={"sampling": "patch"},
 )
 
 
@@ -117,7 +114,7 @@ def test_the_result_tells_oil_and_ranges(model):
 
 def test_heat_needs_to_know_the_oil():
     with pytest.raises(lubfric.InputError, match="temperature_coefficient"):
-        lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"heat": "on"})
+        paper_scene(numerics={"heat": "on"})
 
 
 def test_hardly_any_heat_is_none_and_more_than_any_film_bears_is_refused_in_words():

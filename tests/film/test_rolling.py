@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.film import shear_force
@@ -83,15 +84,11 @@ def test_spots_take_their_share_of_it():
 
 def test_pure_rolling_of_a_heavy_film_takes_few_cells():
     """Separated at 1 GPa: 1536 cells did not resolve it to 1 % by the sum."""
-    scene = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(
-            bodies={"radius": 0.02, "width": 1e-2, "load": 3e3, "e_prime": 231e9, "hardness": None},
-            lubricant={"viscosity": 0.1, "pressure_viscosity_coefficient": 2.2e-8},
-            motion={"entrainment_speed": 2.0, "slide_roll_ratio": 0.0, "speeds": ()},
-            numerics={"accept": True, "sampling": "patch", "heat": "off"},
-        )
+    scene = paper_scene(
+        bodies={"radius": 0.02, "width": 1e-2, "load": 3e3, "e_prime": 231e9, "hardness": None},
+        lubricant={"viscosity": 0.1, "pressure_viscosity_coefficient": 2.2e-8},
+        motion={"entrainment_speed": 2.0, "slide_roll_ratio": 0.0, "speeds": ()},
+        numerics={"accept": True, "sampling": "patch", "heat": "off"},
     )
     step = 6 * scene.bodies.half_width / 48
     scene = scene.with_(

@@ -8,6 +8,7 @@ import sys
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric._base import read_table
@@ -93,9 +94,7 @@ def test_info_names_the_regime(capsys):
 
 
 def test_info_says_how_the_grid_resolves_the_map(capsys, tmp_path):
-    scene = (
-        lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"sampling": "patch"})
-    )  # on a line it is the line's map
+    scene = paper_scene(numerics={"sampling": "patch"})  # on a line it is the line's map
     (tmp_path / "patch.toml").write_text(scene.to_toml())
     assert main(["info", str(tmp_path / "patch.toml")]) == 0
     text = capsys.readouterr().out
@@ -263,9 +262,7 @@ def test_a_curve_writes_the_table_of_the_command(tmp_path):
     assert (
         main(["run", "paper", "--speeds", "0.1,0.3", "--fields", "0.3", "--out", str(tmp_path), "--workers", "1"]) == 0
     )
-    lubfric.stribeck(lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}), [0.1, 0.3]).to_csv(
-        tmp_path / "own.csv"
-    )
+    lubfric.stribeck(paper_scene(), [0.1, 0.3]).to_csv(tmp_path / "own.csv")
     own, command = (read_table(tmp_path / name) for name in ("own.csv", "stribeck.csv"))
     assert list(own) == list(command)
     for name in set(own) - {"seconds"}:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scene_text import BODIES_AND_OIL
+from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
 from lubfric.output import main
@@ -89,7 +89,7 @@ def test_the_file_for_paraview_is_read_back_by_another_reader(run):
 
 
 def test_what_a_point_has_not_is_refused():
-    model = lubfric.prepare(lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}))
+    model = lubfric.prepare(paper_scene())
     with pytest.raises(lubfric.InputError, match="separated"):
         vtk_bytes(model, lubfric.friction(model, 1.0, fields=True))
     assert grid_bytes(np.arange(2.0), np.arange(3.0), {}, "t").startswith(b"# vtk DataFile Version 3.0\n")

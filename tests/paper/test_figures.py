@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.contact import asperity_curve, contact_curve
@@ -96,9 +97,7 @@ def test_a_load_the_model_cannot_carry_is_not_a_number(small):
 
 
 def test_the_papers_mean_hertz_pressure():
-    assert lubfric.load_scene("paper").with_(
-        numerics={"model": "load-sharing"}
-    ).bodies.mean_hertz_pressure == pytest.approx(102e6, rel=5e-3)
+    assert paper_scene().bodies.mean_hertz_pressure == pytest.approx(102e6, rel=5e-3)
 
 
 @pytest.mark.parametrize("name", ["fig2", "fig4", "fig9", "fig10"])

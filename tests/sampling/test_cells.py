@@ -5,13 +5,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.sampling.cells import CellStep, half_again, mean_error, remaining
 from lubfric.sampling.missed import hidden_share
 from lubfric.sampling.scatter import BlockError
 
-PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+PAPER = paper_scene()
 PATCH = PAPER.with_(numerics={"sampling": "patch"})
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from instrument_files import write_sdf, write_sur
-from scene_text import BODIES_AND_OIL
+from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
 from lubfric.contact import contact_map, whole_map
@@ -168,7 +168,7 @@ def test_a_given_map_with_unmeasured_points_is_refused_as_one():
     heights = np.where(np.eye(64) > 0, np.nan, 1e-9)
     surface = lubfric.Surface(heights, 1e-6, mask=np.isfinite(heights))
     with pytest.raises(lubfric.InputError, match=r"1.56 % of the heights are unmeasured.*level\(\) and fill\(\) first"):
-        lubfric.prepare(lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}), surface)
+        lubfric.prepare(paper_scene(), surface)
 
 
 def test_the_same_by_call():
@@ -176,7 +176,7 @@ def test_the_same_by_call():
         Roughness(file="a.npy", seed=3)
     with pytest.raises(lubfric.InputError, match="surface.s_filter"):
         Roughness(sq=1e-7, correlation_length=1e-6, s_filter=1e-5)
-    paper = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+    paper = paper_scene()
     with pytest.raises(lubfric.InputError, match="counterface.outliers"):
         paper.with_(counterface={"file": "a.npy", "outliers": "perhaps"})
     turned = paper.with_(surface={"file": "a.npy"})  # a file in place of a generated map leaves nothing of that
@@ -231,20 +231,16 @@ def test_scenes_and_results_keep_no_hold_of_the_callers_lists():
 def test_absurd_magnitudes_are_refused_before_any_work(key, value):
     section, name = key.split(".")
     with pytest.raises(lubfric.InputError, match=name):
-        lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(**{section: {name: value}})
+        paper_scene(**{section: {name: value}})
 
 
 def test_pure_rolling_keeps_its_tolerance():
     """Where the rolling force is the small difference of its parts (2.3 % off before): against ten times tighter."""
-    scene = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(
-            bodies={"load": 870.0, "width": 1e-2, "radius": 1.2e-3, "hardness": None},
-            lubricant={"viscosity": 0.011, "pressure_viscosity_coefficient": 2.2e-8},
-            motion={"entrainment_speed": 0.0027, "slide_roll_ratio": 0.0, "speeds": ()},
-            numerics={"accept": True, "film_deflection": "hydrodynamic"},
-        )
+    scene = paper_scene(
+        bodies={"load": 870.0, "width": 1e-2, "radius": 1.2e-3, "hardness": None},
+        lubricant={"viscosity": 0.011, "pressure_viscosity_coefficient": 2.2e-8},
+        motion={"entrainment_speed": 0.0027, "slide_roll_ratio": 0.0, "speeds": ()},
+        numerics={"accept": True, "film_deflection": "hydrodynamic"},
     )
     step = 6 * scene.bodies.half_width / 64
     scene = scene.with_(

@@ -5,12 +5,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.scene.file import scene_from_table
 from lubfric.studies import fingerprint
 
-SCENE = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"sampling": "patch"})
+SCENE = paper_scene(numerics={"sampling": "patch"})
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scene_text import paper_scene
 from toys import Spring
 
 import lubfric
@@ -15,14 +16,10 @@ from lubfric.errors import ITERATION_LIMIT
 from lubfric.film import rigid_cylinder as rigid
 from lubfric.sharing import Point, divided
 
-PATCH = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        contact={"shape": (96, 96), "spacing": 0.6e-6},
-        surface={"correlation_length": 4e-6},
-        numerics={"sampling": "patch", "grid": "given", "tolerance": 1e-3},
-    )
+PATCH = paper_scene(
+    contact={"shape": (96, 96), "spacing": 0.6e-6},
+    surface={"correlation_length": 4e-6},
+    numerics={"sampling": "patch", "grid": "given", "tolerance": 1e-3},
 )
 SCALED = PATCH.with_(numerics={"film_deflection": "scaled"})
 B = PATCH.bodies

@@ -6,21 +6,17 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.output import main
 from lubfric.studies.fit import Search
 from lubfric.studies.fit_input import parameters_of
 
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(numerics={"sampling": "patch"})
-    .with_(
-        contact={"shape": (48, 48), "spacing": 1.1e-6},
-        surface={"correlation_length": 4e-6},
-        lubricant={"eyring_stress": 5e6},
-    )
+SCENE = paper_scene(numerics={"sampling": "patch"}).with_(
+    contact={"shape": (48, 48), "spacing": 1.1e-6},
+    surface={"correlation_length": 4e-6},
+    lubricant={"eyring_stress": 5e6},
 )
 SPEEDS = np.geomspace(1e-3, 0.5, 10)
 TRUTH = {"bodies.boundary_friction_coefficient": 0.12, "lubricant.viscosity": 0.2}
@@ -153,10 +149,7 @@ def test_a_fit_prints_as_one_line_and_a_table_and_draws_its_residuals(fitted):
 
 @pytest.mark.parametrize(
     "arguments, words",
-    [
-        (([0.1, 0.2], [0.1]), "1 values for 2 of x"),
-        (([0.1, 0.2], [0.1, 0.1], [0.01, 0.0]), "not positive"),
-    ],
+    [(([0.1, 0.2], [0.1]), "1 values for 2 of x"), (([0.1, 0.2], [0.1, 0.1], [0.01, 0.0]), "not positive")],
 )
 def test_measured_arrays_belong_together(arguments, words):
     with pytest.raises(lubfric.InputError, match=words):
@@ -337,10 +330,7 @@ def test_a_start_beyond_the_bounds_is_refused():
 def test_cautions_of_the_fitted_curve_are_told():
     """A fit to points that are no answers (accepted: f of 1000) came out without a mark."""
     scene = SCENE.with_(
-        bodies={"load": 60.0},
-        lubricant={"eyring_stress": None},
-        contact={"shape": (72, 48)},
-        numerics={"accept": True},
+        bodies={"load": 60.0}, lubricant={"eyring_stress": None}, contact={"shape": (72, 48)}, numerics={"accept": True}
     )
     speeds = np.array([0.01, 0.03, 0.1])
     curve = lubfric.stribeck(scene, speeds)
@@ -406,11 +396,7 @@ def test_the_command_says_the_cost_first_and_writes_the_scene(tmp_path, capsys):
 def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_intervals():
     """In boundary lubrication f goes with the boundary friction coefficient, and so do their relative errors."""
     key, speeds = "bodies.boundary_friction_coefficient", [1e-4, 2e-4, 4e-4]
-    scene = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(numerics={"sampling_tolerance": 0.1})
-    )
+    scene = paper_scene(numerics={"sampling_tolerance": 0.1})
     points = [lubfric.friction(scene, speed) for speed in speeds]
     found = lubfric.fit(scene, lubfric.Measured(speeds, [p.coefficient for p in points]), {key: (0.05, 0.2)})
     expected = np.mean([p.uncertainty.sampling for p in points])
@@ -420,11 +406,7 @@ def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_interva
 
 def test_another_piece_moves_a_parameter_as_far_as_is_told():
     key, speeds = "lubricant.viscosity", np.geomspace(5e-3, 0.05, 3)
-    scene = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(numerics={"sampling_tolerance": 0.1})
-    )
+    scene = paper_scene(numerics={"sampling_tolerance": 0.1})
     away = []
     for seed in (2, 3):
         other = lubfric.stribeck(scene.with_(surface={"seed": seed}), speeds)

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scene_text import paper_scene
 
 import lubfric
 from lubfric._base import FolderLock, read_checked, write_checked, write_whole
@@ -24,11 +25,7 @@ from lubfric.studies import classes_of, decode, encode, fingerprint
 from lubfric.studies.store import Store, digest
 
 ROOT = Path(__file__).parents[2]
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6})
-)
+SCENE = paper_scene(contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6})
 
 
 def started(code, *arguments):

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 from small_study import SCENE, same
 
 import lubfric
@@ -386,7 +387,7 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
 
 
 def test_the_time_is_foretold_within_a_factor_of_four():
-    paper = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+    paper = paper_scene()
     for scene, vary in ((SCENE, {"bodies.load": [3.0, 5.5]}), (paper, {"numerics.sampling_tolerance": [0.05]})):
         plan = lubfric.plan_study(scene, vary, np.geomspace(1e-3, 1.0, 7))
         number, unit = plan.explain().partition("time     about ")[2].split()[:2]

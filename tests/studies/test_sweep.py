@@ -8,20 +8,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.quantities import NUMBERS
 from lubfric.studies import points
 from lubfric.studies.store import digest
 
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        contact={"shape": (64, 64), "spacing": 0.9e-6},
-        surface={"correlation_length": 4e-6},
-        numerics={"sampling": "patch"},
-    )
+SCENE = paper_scene(
+    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
 SPEEDS = np.geomspace(1e-4, 1.0, 9)
 PARENT, FRICTION = os.getpid(), lubfric.friction

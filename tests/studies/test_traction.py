@@ -7,22 +7,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.output import main
 from lubfric.studies import plot_map
 
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        bodies={"radius": 0.01, "hertz_pressure": 1e9, "width": 0.01, "material": "steel"},
-        lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
-        | {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.08},
-        motion={"entrainment_speed": 2.0},
-        contact={"shape": (128, 64), "spacing": 4e-6},
-        surface={"sq": 2e-8, "correlation_length": 3e-5, "acf": "gaussian"},
-    )
+SCENE = paper_scene(
+    bodies={"radius": 0.01, "hertz_pressure": 1e9, "width": 0.01, "material": "steel"},
+    lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
+    | {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.08},
+    motion={"entrainment_speed": 2.0},
+    contact={"shape": (128, 64), "spacing": 4e-6},
+    surface={"sq": 2e-8, "correlation_length": 3e-5, "acf": "gaussian"},
 )
 
 
@@ -140,7 +137,7 @@ def test_a_map_needs_two_dimensions_and_marks_what_has_no_answer(tmp_path):
 
 
 def test_a_map_is_the_same_in_whatever_order_its_values_stand(tmp_path):
-    smooth = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(surface={"sq": 0.0})
+    smooth = paper_scene(surface={"sq": 0.0})
     for name, viscosities, speeds in (("rising", [0.1, 0.2, 0.4], [1.0, 2.0]), ("mixed", [0.4, 0.1, 0.2], [2.0, 1.0])):
         study = lubfric.study(smooth, {"lubricant.viscosity": viscosities}, speeds)
         plot_map(tmp_path / f"{name}.png", study, "speed", "lubricant.viscosity")
