@@ -82,11 +82,6 @@ def test_what_it_does_not_take_is_refused_before_any_work(change):
         lubfric.stribeck(SCENE.with_(**change), [0.01])
 
 
-def test_a_transient_is_refused():
-    with pytest.raises(lubfric.InputError, match="deterministic"):
-        lubfric.transient(SCENE, [0.0, 1e-3])
-
-
 def test_heat_is_refused_and_not_left_out_in_silence():
     with pytest.raises(lubfric.InputError, match="isothermal"):
         lubfric.prepare(

@@ -1,7 +1,6 @@
 """Viscosity, density and shear-stress laws."""
 
 import math
-import pickle
 
 import numpy as np
 import pytest
@@ -87,9 +86,3 @@ def test_shear_stress_laws():
 def test_bad_input(arguments, word):
     with pytest.raises(InputError, match=word):
         Lubricant(**arguments)
-
-
-def test_frozen_and_picklable():
-    assert pickle.loads(pickle.dumps(OIL)) == OIL
-    with pytest.raises(AttributeError):
-        OIL.viscosity = 1.0

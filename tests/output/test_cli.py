@@ -93,29 +93,6 @@ def test_info_names_the_regime(capsys):
         assert word in text, text
 
 
-def test_info_says_how_the_grid_resolves_the_map(capsys, tmp_path):
-    scene = paper_scene(numerics={"sampling": "patch"})  # on a line it is the line's map
-    (tmp_path / "patch.toml").write_text(scene.to_toml())
-    assert main(["info", str(tmp_path / "patch.toml")]) == 0
-    text = capsys.readouterr().out
-    surface = lubfric.generate_surface((200, 200), 0.45e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=1)
-    lengths = [lubfric.surface.correlation_length(surface, axis) / 0.45e-6 for axis in (0, 1)]
-    for name, value in (
-        ("rms slope", f"{lubfric.surface.rms_slope(surface)[2]:.3g}"),
-        ("Sq", "100 nm"),
-        ("cells per b", f"{scene.bodies.half_width / 0.45e-6:.3g}"),
-        ("length / 2b", f"{45e-6 / scene.bodies.half_width:.3g}"),
-        ("cells", "40000, about 5.19 MiB"),
-    ):
-        assert any(f"{name} " in line and f" {value}" in line for line in text.splitlines()), (name, value, text)
-    assert f"= {lengths[0]:.3g} x {lengths[1]:.3g} cells" in text
-    np.save(tmp_path / "flat.npy", np.zeros((64, 1)))
-    flat = "[surface]\nfile = 'flat.npy'\nspacing = 0.9e-6\n[numerics]\nsampling = 'patch'\n"
-    (tmp_path / "s.toml").write_text(SCENE.split("[surface]")[0] + flat)
-    assert main(["info", str(tmp_path / "s.toml")]) == 0
-    assert "- x - cells" in capsys.readouterr().out
-
-
 def test_the_memory_said_covers_a_contact_solve():
     """Fields of 8 bytes a cell at the peak of a solve, as traced; neither too few nor twice as many."""
     import tracemalloc
@@ -161,28 +138,6 @@ def test_bad_input_ends_with_2_and_one_line(arguments, word, capsys):
 def test_python_dash_m_is_the_same_command():
     done = subprocess.run([sys.executable, "-m", "lubfric", "info", "flat"], capture_output=True, text=True)
     assert done.returncode == 0 and "816 x 816" in done.stdout
-
-
-def test_speeds_and_fields_can_be_chosen(tmp_path):
-    (tmp_path / "small.toml").write_text(SCENE)
-    assert (
-        main(
-            [
-                "run",
-                str(tmp_path / "small.toml"),
-                "--out",
-                str(tmp_path / "o"),
-                "--speeds",
-                "0.01:0.1:2",
-                "--fields",
-                "0.01,1.0",
-            ]
-        )
-        == 0
-    )
-    with np.load(tmp_path / "o" / "fields.npz") as fields:
-        np.testing.assert_allclose(fields["speed"], [0.01, 1.0])
-        assert "contact_pressure_0" in fields and "contact_pressure_1" not in fields
 
 
 def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys):

@@ -1,16 +1,12 @@
 """Friction on coarse cells, corrected, against the map's own cells; what those hide; which cells are chosen."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.sampling.cells import CellStep, half_again, mean_error, remaining
-from lubfric.sampling.missed import hidden_share
-from lubfric.sampling.scatter import BlockError
 
 PAPER = paper_scene()
 PATCH = PAPER.with_(numerics={"sampling": "patch"})
@@ -115,18 +111,6 @@ def test_where_cells_change_more_than_to_first_order_shorter_ones_are_solved(sce
     assert coarse.contact_load == pytest.approx(own.contact_load, rel=1e-6)
 
 
-def test_a_piece_of_strips_lies_on_the_columns_of_the_stack():
-    strips = lubfric.prepare(PAPER).strips
-    cells, piece = strips.cells, strips.piece(0)
-    assert cells.factors == (4, 4) and cells.ladder() == [(4, 4), (2, 2), (1, 1)]
-    coarse, fine = cells.axis(), cells.axis((1, 1))
-    shared = np.isin(np.round(fine / 1e-9), np.round(coarse / 1e-9))
-    np.testing.assert_allclose(fine[shared], coarse, atol=1e-15)
-    thinned = cells.thinned(piece.heights, cells.factors)
-    np.testing.assert_array_equal(piece.heights[shared][:, 2::4], thinned)
-    assert piece.shape[1] * piece.spacing[1] == pytest.approx(42 * strips.lengths[1], rel=0.1)
-
-
 def test_no_piece_of_a_map_is_compared_twice(tmp_path):
     """A map of a single window, ground along x: the same piece again would say that its scatter is none."""
     rough = {"sq": 80e-9, "correlation_length": (2.2e-6, 40e-6), "seed": 2}
@@ -145,31 +129,3 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
     unsure = lubfric.friction(scene, 0.01).uncertainty
     assert np.isnan([unsure.sampling, unsure.area_needed, *unsure.interval]).all()  # not "no more is needed"
     assert "correlation lengths along y are too few" in unsure.text
-
-
-def test_few_short_pieces_scatter_by_as_much_as_they_change():
-    def piece(gap):
-        return CellStep(gap, BlockError(np.inf, 0), 0.0, np.nan, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0)
-
-    assert mean_error([piece(-3e-9)]) == BlockError(pytest.approx(3e-9), 1)
-    assert mean_error([piece(3e-9), piece(4e-9)]) == BlockError(pytest.approx(12.5e-18**0.5 / 2**0.5), 2)
-    assert mean_error([piece(1e-9), piece(2e-9), piece(3e-9)]) == BlockError(pytest.approx(1e-9 / 3**0.5), 2)
-
-
-def test_what_is_still_to_come_follows_a_geometric_series():
-    assert remaining([8.0, 4.0]) == pytest.approx(4.0) and remaining([8.0]) == 8.0
-    assert remaining([1.0, 4.0]) == pytest.approx(12.0)  # no slower than 3/4
-    assert half_again([4.0, 8.0]) == 2.0 and half_again([1.0, 16.0]) == 0.5 and half_again([-3.0]) == 1.5
-
-
-def test_contact_that_cells_hide_matters_most_where_there_is_no_friction():
-    """Its share of f falls as 1/f; of no friction at all it is everything. In pure rolling it is felt by the load that
-    the film loses, and no more than that."""
-    contact = lubfric.prepare(PAPER).contact
-    rolling = PAPER.with_(motion={"slide_roll_ratio": 0.0})
-    by_scene = [
-        [hidden_share(scene, contact, SimpleNamespace(coefficient=f), 1e-9) for f in (0.018, 0.009, 0.0)]
-        for scene in (PAPER, rolling)
-    ]
-    assert by_scene[0][1] == pytest.approx(2 * by_scene[0][0], rel=1e-12) and by_scene[0][2] == math.inf
-    assert 0 < by_scene[1][0] == by_scene[1][1] == pytest.approx(by_scene[0][0] / 5, rel=1e-12)

@@ -457,11 +457,6 @@ def test_the_counterface_adds_its_square():
         assert answer(two, mode) == pytest.approx(answer(two), rel=0.6 * MOVES)
 
 
-def test_speeds_are_those_of_the_sweep():
-    scene = BASE.with_(motion={"speeds": [0.3, 0.003, 0.03]})
-    assert lubfric.stribeck(scene).speed.tolist() == [0.3, 0.003, 0.03]
-
-
 SOLVED_OTHERWISE = [
     {"workers": 2},
     {"model": "load-sharing"},

@@ -140,17 +140,6 @@ def test_contradictions_are_told(section, keys, words):
         PAPER.with_(**{section: keys})
 
 
-@pytest.mark.parametrize(
-    "missing, words",
-    [("e_prime", "material"), ("radius", "radii"), ("load", "hertz_pressure")],
-)
-def test_a_missing_key_names_its_short_form(tmp_path, missing, words):
-    with pytest.raises(lubfric.InputError, match=words):
-        scene(tmp_path, **{missing: None})
-    with pytest.raises(lubfric.InputError, match="grade and viscosity_index"):
-        scene(tmp_path, lubricant="eyring_stress = 5e6")
-
-
 @pytest.mark.parametrize("other", [{"nu40": 68e-6, "nu100": 8.7e-6}, {"oil": "mineral-100"}])
 def test_a_viscosity_index_beside_what_gives_it_is_refused(other):
     """It would do nothing."""

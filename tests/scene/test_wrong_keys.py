@@ -90,18 +90,6 @@ def test_a_dict_of_a_scene_stays_as_it_is(tmp_path):
     assert repr(table) == before
 
 
-def test_no_path_has_a_nul():
-    paper = lubfric.load_scene("paper")
-    for asked in (
-        lambda: paper.with_(surface={"file": "a\0b.npy"}),
-        lambda: lubfric.load_scene("a\0b"),
-        lambda: lubfric.load_scene("paper", surface_file="a\0b"),
-        scene(counterface={"file": "a\0b.npy"}),
-    ):
-        with pytest.raises(lubfric.InputError):
-            asked()
-
-
 def test_a_slide_roll_ratio_in_percent_is_questioned_and_still_solved():
     """3 was meant to be 3 %. A ratio of 3 is possible, where the surfaces move against one another."""
     asked = lubfric.load_scene("paper").with_(motion={"slide_roll_ratio": 3.0}, numerics={"sampling": "patch"})

@@ -10,8 +10,6 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.output import main
-from lubfric.studies.fit import Search
-from lubfric.studies.fit_input import parameters_of
 
 SCENE = paper_scene(numerics={"sampling": "patch"}).with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6},
@@ -65,26 +63,6 @@ def test_the_time_of_a_fit_is_foretold_within_a_factor_of_four(timed):
     assert "bodies.boundary_friction_coefficient: 0.05 to 0.2" in words and "sought in its logarithm" in words
     with pytest.raises(lubfric.InputError, match="a number of"):
         lubfric.explain_fit(SCENE, timed[0].measured, {"numerics.tolerance": (0.01, 0.1)})
-
-
-def test_the_time_is_foretold_where_the_scene_is_cheap_and_the_answer_is_not():
-    """The scene's own viscosity lifts the surfaces off each other; where the fit goes, they touch. After a curve the
-    rest is foretold by what that took."""
-    scene = lubfric.load_scene("paper").with_(numerics={"sampling": "patch"}, lubricant={"viscosity": 3.0})
-    speeds, bounds = np.geomspace(0.03, 0.1, 4), {"lubricant.viscosity": (0.003, 4.0)}
-    made = lubfric.stribeck(scene.with_(lubricant={"viscosity": 0.02}), speeds).coefficient
-    measured, told = lubfric.Measured(speeds, made), []
-    words = lubfric.explain_fit(scene, measured, bounds)
-    begun, clock = time.process_time(), time.perf_counter()
-
-    def on_progress(done, total, left, *_):
-        told.append(time.perf_counter() - clock + left)
-
-    found = lubfric.fit(scene, measured, bounds, start={"lubricant.viscosity": 0.05}, on_progress=on_progress)
-    taken, passed = time.process_time() - begun, time.perf_counter() - clock
-    assert found.values["lubricant.viscosity"] == pytest.approx(0.02, rel=0.01)
-    assert 0.25 < float(words.split("time: about ")[1].split()[0]) / taken < 4
-    assert 0.25 < told[0] / passed < 4  # by the time that the first curve took
 
 
 def hertz_and_eyring(slips, alpha, stress, viscosity=0.05, speed=2.0, radius=0.01, modulus=2.3e11, peak=1e9):
@@ -229,15 +207,6 @@ def test_data_that_fit_exactly_tell_nothing_of_a_parameter_without_effect(noise)
     assert low < 0.09 < high and high / low - 1 < 0.02
 
 
-def test_the_boundary_friction_coefficient_acts_by_the_share_of_the_contact():
-    """Without heat df/df_b is F_C/F_T, whatever was solved for it."""
-    key = "bodies.boundary_friction_coefficient"
-    search = Search(SCENE, made_up(1), parameters_of(SCENE, {key: (0.05, 0.2)}))
-    base = np.array([0.4])
-    share = np.array([point.contact_load for point in search.at(base)]) / SCENE.bodies.load
-    np.testing.assert_allclose(search.differences(base, 0.2)[:, 0], 0.15 * share, atol=2e-3)
-
-
 @pytest.mark.slow
 def test_ninety_of_a_hundred_regions_hold_the_truth():
     held = sum(lubfric.fit(SCENE, made_up(seed), BOUNDS).contains(TRUTH) for seed in range(100))
@@ -256,13 +225,6 @@ def test_a_traction_curve():
     measured = lubfric.Measured(slips, np.array(true), over="slide_roll_ratio")
     found = lubfric.fit(scene, measured, {"lubricant.eyring_stress": (1e4, 2e6)})
     assert found.values["lubricant.eyring_stress"] == pytest.approx(1e5, rel=0.05)
-
-
-def test_parameters_between_their_bounds():
-    for bounds, middle in ((lubfric.Between(0.05, 1.0, "log"), 0.05**0.5), (lubfric.Between(0.1, 0.2), 0.15)):
-        assert (bounds.at(0.0), bounds.at(0.5), bounds.at(1.0)) == pytest.approx((bounds.low, middle, bounds.high))
-        assert bounds.share(bounds.at(0.3)) == pytest.approx(0.3, rel=1e-12)
-        assert bounds.slope(0.3) == pytest.approx((bounds.at(0.3 + 1e-6) - bounds.at(0.3 - 1e-6)) / 2e-6, rel=1e-6)
 
 
 def test_a_file_is_read_by_the_names_of_its_columns(tmp_path):

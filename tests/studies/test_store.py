@@ -72,18 +72,6 @@ def test_a_failed_write_leaves_the_old_file_and_no_rest(tmp_path, monkeypatch):
     assert path.read_bytes() == b"old" and [p.name for p in tmp_path.iterdir()] == ["file"]
 
 
-def test_a_full_disk_is_one_line_and_keeps_what_was_there(tmp_path, monkeypatch):
-    def full(part, path):
-        raise OSError(28, "No space left on device")
-
-    store = Store(tmp_path)
-    store.add("a", (1.0,))
-    monkeypatch.setattr(os, "replace", full)
-    with pytest.raises(lubfric.OutputError, match="No space left") as caught:
-        lubfric.stribeck(SCENE, [1.0], store=tmp_path)
-    assert "\n" not in str(caught.value) and store.get("a") == (1.0,)
-
-
 @given(content=st.binary(max_size=200), data=st.data())
 def test_any_damage_of_a_checked_file_is_seen(tmp_path_factory, content, data):
     path = tmp_path_factory.mktemp("checked") / "file"

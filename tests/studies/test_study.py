@@ -267,17 +267,6 @@ def test_a_scene_that_cannot_be_made_ready_is_a_row_too():
     assert (found.status[0] == "converged").all() and "InputError: correlation_length" in found.status[1, 0]
 
 
-@pytest.mark.parametrize("pool", [None, ThreadPoolExecutor])
-def test_a_fault_of_the_program_is_raised_as_it_is(monkeypatch, pool, tmp_path):
-    def faulty(*_, **__):
-        raise ZeroDivisionError("a fault of the program")
-
-    monkeypatch.setattr(points, "friction", faulty)
-    executor = pool(2) if pool else None
-    with pytest.raises(ZeroDivisionError, match="a fault of the program"):
-        lubfric.study(SCENE, VARY, SPEEDS, executor=executor, store=tmp_path)
-
-
 def test_an_interrupt_keeps_what_is_done_and_progress_counts_it(tmp_path):
     told = []
 
@@ -432,19 +421,6 @@ def test_netcdf_and_parquet_round_trips(serial, tmp_path):
         np.testing.assert_array_equal(again.coefficient, serial["coefficient"])
     serial.to_parquet(tmp_path / "study.parquet")
     assert pandas.read_parquet(tmp_path / "study.parquet")["coefficient"].tolist() == list(serial["coefficient"].flat)
-
-
-def test_zarr_round_trip(serial, tmp_path):
-    """Numbers, names of the axes, status and units, read by xarray alone."""
-    xarray = pytest.importorskip("xarray")
-    pytest.importorskip("zarr", "3")
-    data = serial.to_xarray()
-    data.to_zarr(tmp_path / "study.zarr", zarr_format=2)
-    with xarray.open_zarr(tmp_path / "study.zarr") as again:
-        assert again.sizes == data.sizes and set(again.variables) == set(data.variables) and again.attrs == data.attrs
-        for name in data.variables:
-            np.testing.assert_array_equal(again[name].values, data[name].values, err_msg=name)
-            assert again[name].attrs == data[name].attrs
 
 
 def test_a_missing_tool_is_named_with_its_extra(serial, monkeypatch):

@@ -113,18 +113,6 @@ def test_command_writes_the_curve(tmp_path, capsys, monkeypatch):
     assert main(["plot", str(out)]) == 2 and "traction.csv" in capsys.readouterr().err
 
 
-def test_a_map_over_two_keys_is_drawn(model, tmp_path):
-    study = lubfric.study(SCENE, {"lubricant.temperature_celsius": [40, 60, 80]}, [1.0, 3.0])
-    assert study.status.shape == (3, 2) and study.failed == 0
-    plot_map(tmp_path / "map.png", study, "speed", "lubricant.temperature_celsius")
-    assert (tmp_path / "map.png").stat().st_size > 10_000
-    f = study["coefficient"]
-    single = lubfric.friction(lubfric.prepare(SCENE.with_(lubricant={"temperature_celsius": 80}), like=model), 3.0)
-    assert f[2, 1] == pytest.approx(single.coefficient, rel=0.01)
-    with pytest.raises(lubfric.InputError, match="not varied"):
-        plot_map(tmp_path / "x.png", study, "speed", "bodies.load")
-
-
 def test_a_map_needs_two_dimensions_and_marks_what_has_no_answer(tmp_path):
     small = SCENE.with_(
         numerics={"heat": "off"}, lubricant={"eyring_stress": None, "limiting_stress_coefficient": None}

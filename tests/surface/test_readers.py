@@ -9,7 +9,7 @@ from instrument_files import write_sdf, write_sur, write_x3p
 
 import lubfric
 from lubfric import InputError, Surface, read_surface
-from lubfric.surface.read import INSTRUMENTS, SUFFIXES, read_instrument_file
+from lubfric.surface.read import INSTRUMENTS, SUFFIXES
 from lubfric.surface.statistics import correlation_length, rms_slope
 
 STEP, GROUND = (1e-6, 2.5e-6), (0.5e-6, 2e-6)
@@ -59,16 +59,6 @@ def test_x3p_masks(tmp_path, kind, increment):
         z[4, 4] = np.nan
         both = read_surface(write_x3p(tmp_path / "b.x3p", z, mask=mask), **RAW)
         assert not both.mask[4, 4] and np.count_nonzero(~both.mask) == 3
-
-
-def test_x3p_without_checksums_says_so(tmp_path):
-    path = write_x3p(
-        tmp_path / "a.x3p",
-        heights(),
-        skip=("md5checksum.hex",),
-        xml=lambda t: t.replace("MD5ChecksumPointData", "Nothing").encode(),
-    )
-    assert sum("no checksum" in note for note in read_surface(path).notes) == 2
 
 
 def swap(old, new):
@@ -449,11 +439,6 @@ def test_npy_refuses_objects_vectors_and_complex_numbers(tmp_path):
             read_surface(tmp_path / f"{k}.npy", spacing=1e-6)
 
 
-def test_folders_are_refused(tmp_path):
-    with pytest.raises(InputError, match="no such file"):
-        read_surface(tmp_path)
-
-
 # --- files of instruments ---------------------------------------------------------------------
 
 
@@ -511,16 +496,6 @@ def test_outliers_of_a_measured_map(tmp_path, instruments):
     assert np.count_nonzero(~surface.mask) == 6 + 2 and "2 outliers" in surface.notes[-1]
     assert surface.level().fill().largest_ratio < 6
     assert "no outliers" in surface.without_outliers().notes[-1]
-
-
-def test_options_of_instrument_files(tmp_path, instruments):
-    path = write_sur(tmp_path / "map.sur", heights(), STEP, unit="um")
-    assert read_instrument_file(path, lateral_unit="mm").size[0] == pytest.approx(1e3 * read_surface(path).size[0])
-    assert read_surface(path, **RAW).heights == pytest.approx(heights(), rel=1e-6, abs=1e-15)
-    with pytest.raises(InputError, match="lateral_unit"):
-        read_instrument_file(path, lateral_unit="inch")
-    with pytest.raises(InputError, match="channel 9"):
-        read_instrument_file(path, channel=9)
 
 
 def test_every_format_of_the_optional_package_is_known():
@@ -581,15 +556,3 @@ def test_a_missing_value_is_found_in_the_precision_of_the_file(tmp_path):
         np.save(tmp_path / "map.npy", heights.astype(kind))
         surface = read_surface(tmp_path / "map.npy", spacing=1e-6, missing_value=-99.9, **RAW)
         assert np.argwhere(~surface.mask).tolist() == [[2, 3]] and abs(surface.measured).max() < 1e-6
-
-
-@pytest.mark.parametrize("unit", ["um", "\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m"])
-def test_micrometres_in_each_spelling(tmp_path, unit):
-    np.save(tmp_path / "map.npy", heights((8, 9)) * 1e6)
-    surface = read_surface(tmp_path / "map.npy", spacing=1e-6, unit=unit, **RAW)
-    np.testing.assert_allclose(surface.heights, heights((8, 9)), rtol=1e-12)
-
-
-def test_surface_of_a_reader_is_an_ordinary_surface(tmp_path):
-    surface = read_surface(write_x3p(tmp_path / "a.x3p", heights((30, 20))))
-    assert isinstance(surface, Surface) and surface.periodic(axes=(False, True)).periodic_axes[1]

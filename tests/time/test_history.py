@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lubfric
-from lubfric.scene import Constant, Harmonic, Ramp, Table, Transient, read_history
+from lubfric.scene import Constant, Harmonic, Ramp, Table, Transient
 from lubfric.scene.transient import history
 
 STEP = Table(times=(0.0, 1.0, 1.0, 3.0), values=(2.0, 2.0, 5.0, 6.0))
@@ -53,20 +53,6 @@ def test_the_range_of_a_part_of_a_wave_is_reached(amplitude, phase, duration):
     wave = Harmonic(amplitude=amplitude, frequency=1.0, phase=phase)
     values = [wave.at(t) for t in np.linspace(0, duration, 2001)]
     assert wave.range(duration) == pytest.approx((min(values), max(values)), abs=1e-4 * amplitude)
-
-
-def test_a_csv_file(tmp_path):
-    path = tmp_path / "run.csv"
-    path.write_text("# measured\ntime [s],speed [m/s]\n0,1\n0.5,2\n1,0\n")
-    table = read_history(path, "speed")
-    assert table.times == (0.0, 0.5, 1.0) and table.at(0.25) == 1.5
-    same = history("speed", {"kind": "file", "file": "run.csv", "column": "speed"}, "m/s", tmp_path)
-    assert same == table
-    with pytest.raises(lubfric.InputError, match="'speed'"):
-        read_history(path, "sped")
-    path.write_text("time,speed\n0,1\n1,fast\n")
-    with pytest.raises(lubfric.InputError, match="not a number"):
-        read_history(path, "speed")
 
 
 @pytest.mark.parametrize(

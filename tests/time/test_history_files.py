@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.scene import Harmonic, Ramp, Table, Transient, read_history
+from lubfric.scene import Table, Transient, read_history
 from lubfric.scene.transient import history
 
 LINES = "time [ms],speed [mm/s]\n0,1000\n500,2000\n1000,0\n"
@@ -130,13 +130,6 @@ def test_bad_tables_of_a_scene_are_refused(tmp_path, table, words):
     write(tmp_path, LINES)
     with pytest.raises(lubfric.InputError, match=words):
         history("speed", table, "m/s", tmp_path)
-
-
-def test_kinds_take_keywords_only_and_have_no_dead_fields():
-    for kind, values in ((Ramp, (1.0, 2.0, 0.5)), (Harmonic, (1.0, 2.0)), (Table, ((0, 1), (1, 2)))):
-        with pytest.raises(TypeError):
-            kind(*values)
-        assert "value" not in kind.__dataclass_fields__
 
 
 def test_a_table_keeps_no_hold_of_the_callers_lists():

@@ -91,12 +91,6 @@ def test_films_at_the_corners_of_the_promise():
         assert verdict(judged(cell, film_map.solve, film_map.deviations)) == RIGHT, cell
 
 
-@pytest.mark.parametrize("module", [contact_map, film_map, sharing_map, whole_map])
-def test_every_cell_has_its_own_name(module):
-    names = [cell.name for cell in module.cells(False)]
-    assert len(names) == len(set(names)) > 100
-
-
 @pytest.mark.parametrize("speed", [0.0, 1e-3])
 def test_the_judge_of_load_sharing_sees_a_wrong_answer(speed):
     cell = Cell("sharing: flat", "", 1.0, 1.0, sharing_map.Shared("flat", 100e-9, 32, speed))
