@@ -37,6 +37,7 @@ shape = [64, 64]
 spacing = 0.9e-6
 [numerics]
 sampling = "patch"
+model = "load-sharing"
 """
 
 
