@@ -185,14 +185,10 @@ def test_coarsened_operator():
 @pytest.mark.parametrize(
     "arguments, word",
     [
-        ({"shape": (4,)}, "shape"),
         ({"shape": (0, 4)}, "shape"),
-        ({"shape": (4, 2.5)}, "shape"),
         ({"spacing": 0.0}, "spacing"),
-        ({"spacing": (1.0, -1.0)}, "spacing"),
         ({"spacing": (1, 2, 3)}, "spacing"),
         ({"e_prime": 0.0}, "e_prime"),
-        ({"e_prime": np.nan}, "e_prime"),
         ({"boundary": ("periodic",)}, "boundary"),
         ({"boundary": ("periodic", "fre")}, "free"),
         ({"workers": 0}, "workers"),

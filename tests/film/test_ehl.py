@@ -374,11 +374,8 @@ GOOD = {
     [
         {"load_per_width": 0.0},
         {"viscosity": -1.0},
-        {"tolerance": 0.0},
         {"tolerance": 1.0},
-        {"max_iterations": 0},
         {"max_iterations": 2.5},
-        {"inlet_length": -1.0},
         {"inlet_length": 1e-6},
         {"start": 3},
     ],

@@ -8,37 +8,16 @@ import sys
 
 import numpy as np
 import pytest
-from scene_text import paper_scene
+from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
 from lubfric._base import read_table
 from lubfric.output import main
 
-SCENE = """
-[bodies]
-radius = 2e-3
-width = 6e-3
-load = 5.5
-e_prime = 231e9
-hardness = 6e9
-boundary_friction_coefficient = 0.09
-[lubricant]
-viscosity = 0.36
-pressure_viscosity_coefficient = 25e-9
-[motion]
-entrainment_speed = 0.001
-speeds = [0.001, 0.01, 0.3]
-[surface]
-sq = 1e-7
-correlation_length = 4e-6
-seed = 7
-[contact]
-shape = [64, 64]
-spacing = 0.9e-6
-[numerics]
-sampling = "patch"
-model = "load-sharing"
-"""
+SCENE = BODIES_AND_OIL.replace("[lubricant]", "hardness = 6e9\n[lubricant]")
+SCENE += "[motion]\nentrainment_speed = 0.001\nspeeds = [0.001, 0.01, 0.3]\n"
+SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\nseed = 7\n[contact]\nshape = [64, 64]\nspacing = 0.9e-6\n"
+SCENE += '[numerics]\nsampling = "patch"\nmodel = "load-sharing"\n'
 
 
 @pytest.fixture(scope="module")

@@ -16,22 +16,9 @@ import lubfric
 from lubfric.output import main
 from lubfric.output.fields import grid_bytes, vtk_bytes
 
-SCENE = (
-    BODIES_AND_OIL
-    + """[motion]
-entrainment_speed = 0.01
-speeds = [0.01, 0.3]
-[surface]
-sq = 1e-7
-correlation_length = 4e-6
-[contact]
-shape = [48, 40]
-spacing = [1.1e-6, 0.9e-6]
-[numerics]
-sampling = "patch"
-model = "load-sharing"
-"""
-)
+SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.01, 0.3]\n"
+SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\n[contact]\nshape = [48, 40]\nspacing = [1.1e-6, 0.9e-6]\n"
+SCENE += "[numerics]\nsampling = 'patch'\nmodel = 'load-sharing'\n"
 
 
 class Balanced(HTMLParser):

@@ -198,12 +198,9 @@ def test_a_domain_that_ends_before_rupture_says_so():
         ({"nodes": 20}, "nodes"),
         ({"bandwidth": -1}, "bandwidth"),
         ({"domain": (0, 1e-3)}, "domain"),
-        ({"domain": (-1e-3,)}, "domain"),
         ({"inlet_length": 1e-9}, "inlet_length"),
         ({"domain": (-1e-3, 1e-3), "inlet_length": 1e-3}, "domain"),
         ({"tolerance": 0}, "tolerance"),
-        ({"load_per_width": math.nan}, "load_per_width"),
-        ({"entrainment_speed": 0}, "entrainment_speed"),
     ],
 )
 def test_bad_input(bad, name):

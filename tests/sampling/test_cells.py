@@ -7,6 +7,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric.output import main
 
 PAPER = paper_scene()
 PATCH = PAPER.with_(numerics={"sampling": "patch"})
@@ -62,12 +63,12 @@ def test_windows_on_coarse_cells_have_the_friction_of_their_own(windows, speed):
     assert abs(coarse.coefficient / own.coefficient - 1) <= told
 
 
-def test_summits_that_long_cells_hide_are_found_on_shorter_ones(tmp_path):
-    """Sharp summits of a measured map just below lift-off. On the cells chosen first, 8 x 2 of the map's, few cells
-    touch, under pressures that no steel bears."""
+@pytest.fixture
+def sharp(tmp_path):
+    """Sharp summits of a measured map just below lift-off."""
     rough = {"sq": 77e-9, "correlation_length": (20e-6, 2.2e-6), "acf": "exponential", "seed": 4}
     np.save(tmp_path / "map.npy", lubfric.generate_surface((320, 240), (0.32e-6, 0.16e-6), **rough).heights)
-    scene = lubfric.load_scene(
+    return lubfric.load_scene(
         {
             "bodies": {"radius": 6e-3, "width": 8e-3, "load": 1500.0, "material": "steel"}
             | {"boundary_friction_coefficient": 0.12},
@@ -77,10 +78,29 @@ def test_summits_that_long_cells_hide_are_found_on_shorter_ones(tmp_path):
             "surface": {"file": str(tmp_path / "map.npy"), "spacing": [0.32e-6, 0.16e-6], "extension": "mirror"},
         }
     )
-    found, own = both(scene)
-    assert lubfric.prepare(scene).strips.cells.factors == (8, 2) and found.decision.coarsening == (4, 1)
+
+
+def test_summits_that_long_cells_hide_are_found_on_shorter_ones(sharp):
+    """On the cells chosen first, 8 x 2 of the map's, few cells touch, under pressures that no steel bears."""
+    found, own = both(sharp)
+    assert lubfric.prepare(sharp).strips.cells.factors == (8, 2) and found.decision.coarsening == (4, 1)
     assert found.coefficient == pytest.approx(own.coefficient, rel=1e-3)
     assert 0 < found.contact_load == pytest.approx(own.contact_load, rel=0.05)
+
+
+def test_the_fields_of_a_speed_are_those_of_its_own_cells(sharp, tmp_path):
+    """Kept on the cells that its contact was solved on, shorter than those of the line."""
+    (tmp_path / "sharp.toml").write_text(sharp.to_toml())
+    out = tmp_path / "out"
+    assert main(["run", str(tmp_path / "sharp.toml"), "--speeds", "3.5", "--out", str(out)]) == 0
+    assert (out / "contact.png").stat().st_size > 10_000
+    with np.load(out / "fields.npz") as fields:
+        pressure, gap, heights, x = (fields[n] for n in ("contact_pressure_0", "gap_0", "heights", "contact_x"))
+        assert pressure.shape == gap.shape == heights.shape > lubfric.prepare(sharp).surface.shape
+        assert np.allclose(np.diff(x), fields["spacing"][0]) and x.size == heights.shape[0]
+        touched = pressure > 0  # summits carry: the map is that of the contact
+        assert touched.any() and heights[touched].min() > np.median(heights)
+        assert np.abs(gap[touched]).max() < 1e-3 * heights.std()
 
 
 SMOOTH = {  # a film thinner than a tenth of the roughness, whose contact follows the gap by a third

@@ -10,12 +10,7 @@ from lubfric.contact import contact_map, whole_map
 from lubfric.output import main
 from lubfric.scene import ContactDomain, Roughness
 
-SCENE = (
-    BODIES_AND_OIL
-    + """[motion]
-entrainment_speed = 0.001
-"""
-)
+SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n"
 GENERATED = (
     "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\nacf = 'gaussian'\n[contact]\nshape = [96, 64]\nspacing = 0.6e-6\n"
 )

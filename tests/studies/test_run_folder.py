@@ -17,14 +17,7 @@ from lubfric._base import FolderLock, read_table
 from lubfric.output import main
 
 ROOT = Path(__file__).parents[2]
-SCENE = (
-    BODIES_AND_OIL
-    + """[motion]
-entrainment_speed = 0.01
-speeds = [0.003, 0.01, 0.03, 0.1, 0.3]
-"""
-    + SMALL_PATCH
-)
+SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.003, 0.01, 0.03, 0.1, 0.3]\n" + SMALL_PATCH
 HISTORY = (
     "[transient]\nduration = 0.0005\noutputs = 3\n"
     'speed = { kind = "harmonic", amplitude = 0.05, frequency = 500.0, phase = 1.0 }\n'
