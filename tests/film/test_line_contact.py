@@ -38,12 +38,6 @@ def test_light_contact_has_the_rigid_film():
     assert light.moes_film == pytest.approx(flow, rel=3e-3)
 
 
-def test_backward_motion_has_the_same_regime():
-    back = replace(STEEL, entrainment_speed=-1.5)
-    names = ("M", "L", "length_unit", "film_unit", "pressure_unit", "half_width", "moes_film", "rigid_film")
-    assert [getattr(back, name) for name in names] == [getattr(STEEL, name) for name in names]
-
-
 @pytest.mark.parametrize(
     "name, value",
     [

@@ -83,18 +83,6 @@ def test_a_curve_is_drawn_on_given_axes(curve):
     assert ax.get_xscale() == "log" and "m/s" in ax.get_xlabel()
 
 
-def test_the_band_of_a_curve_is_that_of_its_intervals(curve):
-    wide = [replace(p.uncertainty, interval=(0.9 * p.coefficient, 1.2 * p.coefficient)) for p in curve.points]
-    points = tuple(replace(point, uncertainty=each) for point, each in zip(curve.points, wide))
-    curve, ax = replace(curve, points=points), axes()
-    curve.plot(ax)
-    corners = ax.collections[0].get_paths()[0].vertices
-    for speed, ends in zip(curve.speed, curve.uncertainty.interval):
-        drawn = corners[np.isclose(corners[:, 0], speed), 1]
-        np.testing.assert_allclose([drawn.min(), drawn.max()], ends, rtol=1e-12)
-    assert "95 %" in ax.get_legend().get_texts()[0].get_text()
-
-
 def test_a_history_and_its_loop_are_drawn(history):
     found = lines(history.plot(axes()))
     np.testing.assert_allclose(found["friction coefficient"][:, 0], history.time * 1e3)

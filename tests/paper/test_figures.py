@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from scene_text import paper_scene
 
 import lubfric
 from lubfric.contact import asperity_curve, contact_curve
@@ -94,10 +93,6 @@ def test_a_load_the_model_cannot_carry_is_not_a_number(small):
     curve = flat_model.tabulated(contact_curve(heights, 8e-6, scene.bodies.e_prime, heaviest=1e6))
     (table,) = flat_model.film_tables(scene, 1e-4, scaled=False, laws=[{}])
     assert math.isnan(flat_model.share(table, curve, 1e8, 0.09)[0])
-
-
-def test_the_papers_mean_hertz_pressure():
-    assert paper_scene().bodies.mean_hertz_pressure == pytest.approx(102e6, rel=5e-3)
 
 
 @pytest.mark.parametrize("name", ["fig2", "fig4", "fig9", "fig10"])

@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.contact import contact_map
 from lubfric.scene import builtin_scenes
-from lubfric.scene.scene import scene_as_dict
 
 PAPER = lubfric.load_scene("paper")
 
@@ -222,38 +220,6 @@ def test_with_names_what_is_allowed(sections, words):
 def test_contact_keys_that_would_do_nothing_are_refused(contact, words):
     with pytest.raises(lubfric.InputError, match=words):
         PAPER.with_(contact=contact)
-
-
-def test_form_and_decimal_mark_of_a_file(tmp_path):
-    """The barrel of a roller is taken off before the map is cut; one line in the scene."""
-    x, y = (np.arange(n) * 0.45e-6 for n in (160, 40))
-    rough = 1e-8 * np.cos(2 * np.pi * x / 9e-6)[:, None] * np.cos(2 * np.pi * y / 9e-6)
-    np.savetxt(tmp_path / "map.csv", rough - x[:, None] ** 2 / 2e-3, fmt="%.12e", delimiter=";")
-    (tmp_path / "map.csv").write_text((tmp_path / "map.csv").read_text().replace(".", ","))
-    given = {
-        "surface__sq": None,
-        "surface__correlation_length": None,
-        "contact__shape": None,
-        "contact__spacing": None,
-        "surface__file": "'map.csv'",
-        "surface__spacing": "0.45e-6",
-    }
-    plane = contact_map(lubfric.load_scene(write(tmp_path, toml(**given))))
-    given |= {"surface__form": "'quadratic'", "surface__decimal": "','"}
-    quadratic = contact_map(lubfric.load_scene(write(tmp_path, toml(**given))))
-    assert quadratic.sq == pytest.approx(rough.std(), rel=0.02) and plane.sq > 10 * quadratic.sq
-    assert any("curvatures -1.0" in note for note in quadratic.notes) and "decimal comma" in quadratic.notes
-    with pytest.raises(lubfric.InputError, match="surface.form"):
-        PAPER.with_(surface={"form": "quadratic"})
-    with pytest.raises(lubfric.InputError, match="surface.decimal"):
-        PAPER.with_(surface={"decimal": ";"})
-
-
-def test_the_resolved_scene_is_plain_data():
-    import json
-
-    record = json.loads(json.dumps(scene_as_dict(PAPER)))
-    assert record["bodies"]["load"] == 5.5 and record["surface"]["seed"] == PAPER.surface.seed
 
 
 @pytest.mark.parametrize(

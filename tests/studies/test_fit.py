@@ -279,13 +279,6 @@ def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):
         lubfric.fit(SCENE, measured, BOUNDS)
 
 
-def test_a_start_beyond_the_bounds_is_refused():
-    measured = lubfric.Measured(np.array([0.1, 0.2, 0.5]), np.array([0.1, 0.1, 0.1]))
-    for value in (0.01, 2.0, "0.1", np.nan):
-        with pytest.raises(lubfric.InputError, match="start.*lubricant.viscosity"):
-            lubfric.fit(SCENE, measured, BOUNDS, start={"lubricant.viscosity": value})
-
-
 def test_cautions_of_the_fitted_curve_are_told():
     """A fit to points that are no answers (accepted: f of 1000) came out without a mark."""
     scene = SCENE.with_(
@@ -298,24 +291,10 @@ def test_cautions_of_the_fitted_curve_are_told():
     assert any(entry.severe for entry in found.entries[2]) and "not valid" in found.explain()
 
 
-def test_a_measured_curve_keeps_no_hold_of_the_arrays_of_its_caller():
-    x, f = np.array([0.1, 0.2]), np.array([0.1, 0.1])
-    measured = lubfric.Measured(x, f, f)
-    x[0] = f[0] = 9.0
-    assert measured.x[0] == measured.coefficient[0] == measured.deviation[0] == 0.1
-
-
 def test_a_parameter_given_twice_is_refused(capsys):
     twice = ["--parameter", "lubricant.viscosity=0.1:1", "--parameter", "lubricant.viscosity=0.1:2"]
     assert main(["fit", "paper", "--measured", "m.csv", "--coefficient", "f", "--speed", "U [m/s]", *twice]) == 2
     assert "lubricant.viscosity is given twice" in capsys.readouterr().err
-
-
-def test_a_measured_ratio_is_not_fitted():
-    measured = lubfric.Measured(np.array([0.1, 0.2, 0.5]), np.array([0.1, 0.1, 0.1]), over="slide_roll_ratio")
-    for key in ("motion.slide_roll_ratio", "motion.slip_percent"):
-        with pytest.raises(lubfric.InputError, match="measured, not fitted"):
-            lubfric.fit(SCENE, measured, {key: (1.0, 2.0)})
 
 
 def test_a_short_form_is_fitted():

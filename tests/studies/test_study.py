@@ -311,19 +311,6 @@ def test_samples_fill_their_ranges():
     assert spread[:, 0].mean() == pytest.approx(5.5, abs=0.2)
 
 
-def test_several_maps(tmp_path):
-    maps = []
-    for seed in (1, 2):
-        surface = lubfric.generate_surface((64, 64), 1e-6, sq=1e-7, correlation_length=4e-6, seed=seed)
-        np.save(tmp_path / f"{seed}.npy", surface.heights)
-        maps.append({"file": str(tmp_path / f"{seed}.npy"), "spacing": 1e-6, "correlation_length": None, "sq": None})
-    scene = SCENE.with_(contact={"shape": None, "spacing": None})
-    found = lubfric.study(scene, {"surface": maps}, [0.01])
-    alone = [lubfric.friction(scene.with_(surface=part), 0.01).coefficient for part in maps]
-    np.testing.assert_array_equal(found["coefficient"][:, 0], alone)
-    assert found.coords["surface"][1][1].startswith('{"file"')
-
-
 @pytest.mark.parametrize(
     "vary, speeds, words",
     [

@@ -10,7 +10,6 @@ from instrument_files import write_sdf, write_sur, write_x3p
 import lubfric
 from lubfric import InputError, Surface, read_surface
 from lubfric.surface.read import INSTRUMENTS, SUFFIXES
-from lubfric.surface.statistics import correlation_length, rms_slope
 
 STEP, GROUND = (1e-6, 2.5e-6), (0.5e-6, 2e-6)
 RAW = {"level": False, "fill": False}
@@ -420,31 +419,7 @@ def test_npy_with_a_damaged_header_is_refused_or_read(tmp_path):
     assert refused > 200
 
 
-def test_npy_refuses_objects_vectors_and_complex_numbers(tmp_path):
-    for k, array in enumerate((np.array([[{}]], dtype=object), np.zeros(5), np.ones((2, 2), complex))):
-        np.save(tmp_path / f"{k}.npy", array, allow_pickle=True)
-        with pytest.raises(InputError):
-            read_surface(tmp_path / f"{k}.npy", spacing=1e-6)
-
-
 # --- files of instruments ---------------------------------------------------------------------
-
-
-def ground(path):
-    """A ground surface whose lay runs along y, the slow axis of the file."""
-    lay = {"correlation_length": (2.2e-6, 20e-6), "acf": "gaussian", "seed": 3}
-    return write_x3p(path, lubfric.generate_surface((166, 102), (0.5e-6, 2e-6), sq=77e-9, **lay).heights, steps=GROUND)
-
-
-def test_ground_surface(tmp_path):
-    """Sq and size as written; the correlation lengths tell the lay, and which axis of the file is which."""
-    surface = read_surface(ground(tmp_path / "ground.x3p"))
-    assert surface.shape == (166, 102) and surface.mask is None
-    assert surface.size == pytest.approx((83e-6, 204e-6)) and surface.sq == pytest.approx(77e-9, rel=0.02)
-    across, along = correlation_length(surface, 0), correlation_length(surface, 1)
-    assert along > 6 * across and across == pytest.approx(2.2e-6, rel=0.1)
-    assert rms_slope(surface)[0] > 1.8 * rms_slope(surface)[1]
-    assert correlation_length(surface.transposed(), 1) == pytest.approx(across, rel=1e-12)
 
 
 def tilted(path):
@@ -477,13 +452,6 @@ def test_instrument_files(tmp_path, instruments):
         for option in ({"spacing": 1e-6}, {"unit": "um"}, {"decimal": ","}, {"missing_value": 0.0}):
             with pytest.raises(InputError, match=next(iter(option))):
                 read_surface(tmp_path / name, **option)
-
-
-def test_outliers_of_a_measured_map(tmp_path, instruments):
-    surface = read_surface(with_holes(tmp_path / "holes.sur"), fill=False).without_outliers()
-    assert np.count_nonzero(~surface.mask) == 6 + 2 and "2 outliers" in surface.notes[-1]
-    assert surface.level().fill().largest_ratio < 6
-    assert "no outliers" in surface.without_outliers().notes[-1]
 
 
 def test_every_format_of_the_optional_package_is_known():

@@ -1,7 +1,5 @@
 """Tables of loggers: units in the heading, any encoding and decimal mark; what cannot be read is refused by line."""
 
-import pickle
-
 import numpy as np
 import pytest
 
@@ -125,13 +123,6 @@ def test_bad_tables_of_a_scene_are_refused(tmp_path, table, words):
     write(tmp_path, LINES)
     with pytest.raises(lubfric.InputError, match=words):
         history("speed", table, "m/s", tmp_path)
-
-
-def test_a_table_keeps_no_hold_of_the_callers_lists():
-    times, values = [0.0, 1.0], [1.0, 2.0]
-    table = Table(times=times, values=values)
-    times[1], values[1] = 5.0, 7.0
-    assert table.at(1.0) == 2.0 and pickle.loads(pickle.dumps(table)) == table
 
 
 def test_too_many_repetitions_are_refused():

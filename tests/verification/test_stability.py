@@ -100,15 +100,6 @@ def test_the_judge_of_load_sharing_sees_a_wrong_answer(speed):
     assert sharing_map.deviations(cell, (model, wrong))["friction"] > 1
 
 
-@pytest.mark.parametrize("boundary", [contact_map.MIXED, contact_map.FREE])
-@pytest.mark.parametrize("kind, hardness", [("noise", None), ("gaussian", 0.05 * 231e9)])
-def test_mean_gap_of_a_hundredth_without_periodicity(boundary, kind, hardness):
-    z = contact_map.surface(kind, 32, 32)
-    asked = 1e-2 * (z.max() - z.mean())
-    result = solve_contact(z.max() - z, 1e-6, 231e9, boundary=boundary, mean_gap=asked, hardness=hardness)
-    assert np.maximum(result.gap, 0).mean() == pytest.approx(asked, rel=1e-6)
-
-
 def test_a_load_below_rounding_rests_on_one_cell():
     z = contact_map.surface("exponential", 32, 32)
     result = solve_contact(z.max() - z, 1e-6, 231e9, mean_pressure=1e-20)
