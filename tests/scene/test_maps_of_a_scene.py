@@ -23,6 +23,11 @@ def scene_file(folder, text):
     return path
 
 
+def loaded(folder, text):
+    """The scene of a file, by load sharing: what is seen here of a map does not depend on the model."""
+    return lubfric.load_scene(scene_file(folder, text)).with_(numerics={"model": "load-sharing"})
+
+
 @pytest.fixture
 def maps(tmp_path):
     """Two measured maps; the first long enough, the second shorter than the Hertz strip (9 um)."""
@@ -35,7 +40,7 @@ def maps(tmp_path):
 
 def test_two_generated_bodies_are_independent_also_with_one_seed(tmp_path):
     both = GENERATED + "[counterface]\nsq = 1e-7\ncorrelation_length = 4e-6\nacf = 'gaussian'\n"
-    two, one = (lubfric.load_scene(scene_file(tmp_path, text)) for text in (both, GENERATED))
+    two, one = (loaded(tmp_path, text) for text in (both, GENERATED))
     found, alone = contact_map(two), contact_map(one)
     other = found.heights - (alone.heights - alone.heights.mean())
     assert abs(np.corrcoef(other.ravel(), alone.heights.ravel())[0, 1]) < 0.3
@@ -47,7 +52,7 @@ def test_the_order_of_two_measured_bodies_does_not_matter(maps):
     """The pair turned over is the pair mirrored in y."""
     one = f"file = 'long.npy'\nspacing = {GRID}\n"
     texts = [f"[surface]\n{a}[counterface]\n{b}" for a, b in ((one, one + "sq = 3e-8\n"), (one + "sq = 3e-8\n", one))]
-    found = [lubfric.friction(lubfric.load_scene(scene_file(maps, text))).coefficient for text in texts]
+    found = [lubfric.friction(loaded(maps, text)).coefficient for text in texts]
     assert found[0] == pytest.approx(found[1], rel=5e-3)
 
 
@@ -74,7 +79,7 @@ def pair_and_turned(folder, turned, holes=False):
         np.save(folder / f"{name}-turned.npy", np.array([[z[y, -1 - x] for y in range(128)] for x in range(128)]))
         texts[name] = f"[{name}]\nfile = '{name}.npy'\nspacing = 1e-6\n"
     other = {name: texts[name].replace(".npy'", "-turned.npy'\nmotion_axis = 'y'") for name in turned}
-    return [lubfric.load_scene(scene_file(folder, "".join(parts.values()))) for parts in (texts, texts | other)]
+    return [loaded(folder, "".join(parts.values())) for parts in (texts, texts | other)]
 
 
 @pytest.mark.parametrize("turned", [("counterface",), ("surface", "counterface")])
@@ -103,7 +108,7 @@ def test_a_generated_body_that_faces_a_measured_map_is_as_large_as_that(tmp_path
     np.save(tmp_path / "large.npy", large.heights)
     other = {"surface": "counterface", "counterface": "surface"}[generated]
     text = GENERATED.replace("[surface]", f"[{generated}]") + f"[{other}]\nfile = 'large.npy'\nspacing = {GRID}\n"
-    scene = lubfric.load_scene(scene_file(tmp_path, text))
+    scene = loaded(tmp_path, text)
     nx, ny = scene.contact.shape
     z = whole_map(scene).heights
     assert z.shape == large.shape and z.std() == pytest.approx(1e-7, rel=0.1)
@@ -115,7 +120,7 @@ def test_a_generated_body_that_faces_a_measured_map_is_as_large_as_that(tmp_path
 
 def test_a_map_shorter_than_the_strip_leads_to_what_can_be_done(maps):
     text = f"[surface]\nfile = 'short.npy'\nspacing = {GRID}\n"
-    scene = lubfric.load_scene(scene_file(maps, text))
+    scene = loaded(maps, text)
     with pytest.raises(lubfric.InputError, match=r"surface.extension = 'mirror'.*contact.geometry = 'flat'"):
         lubfric.prepare(scene)
     longer = scene.with_(surface={"extension": "mirror"})
@@ -129,7 +134,7 @@ def test_a_spike_is_pointed_at_and_can_be_masked_or_believed(maps):
     z = np.load(maps / "long.npy")
     z[41, 17] += 3e-6
     np.save(maps / "long.npy", z)
-    scene = lubfric.load_scene(scene_file(maps, f"[surface]\nfile = 'long.npy'\nspacing = {GRID}\n"))
+    scene = loaded(maps, f"[surface]\nfile = 'long.npy'\nspacing = {GRID}\n")
     with pytest.raises(lubfric.InputError, match=r"\(41, 17\).*outliers = 'mask'"):
         lubfric.prepare(scene)
     masked = lubfric.friction(scene.with_(surface={"outliers": "mask"}))
@@ -154,7 +159,7 @@ def test_a_spike_is_pointed_at_and_can_be_masked_or_believed(maps):
 )
 def test_keys_that_do_not_apply_are_refused(maps, text, words):
     with pytest.raises(lubfric.InputError) as caught:
-        lubfric.load_scene(scene_file(maps, text))
+        loaded(maps, text)
     for word in words:
         assert word in str(caught.value)
 
