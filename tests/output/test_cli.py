@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 import pytest
-from scene_text import BODIES_AND_OIL, paper_scene
+from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric._base import read_table
@@ -197,7 +197,7 @@ def test_a_curve_writes_the_table_of_the_command(tmp_path):
     assert (
         main(["run", "paper", "--speeds", "0.1,0.3", "--fields", "0.3", "--out", str(tmp_path), "--workers", "1"]) == 0
     )
-    lubfric.stribeck(paper_scene(), [0.1, 0.3]).to_csv(tmp_path / "own.csv")
+    lubfric.stribeck(lubfric.load_scene("paper"), [0.1, 0.3]).to_csv(tmp_path / "own.csv")
     own, command = (read_table(tmp_path / name) for name in ("own.csv", "stribeck.csv"))
     assert list(own) == list(command)
     for name in set(own) - {"seconds"}:

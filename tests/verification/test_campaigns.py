@@ -1,7 +1,6 @@
 """The campaigns: what is kept is not solved again, their judges fail what is wrong, and points come out sane."""
 
 import json
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -86,14 +85,24 @@ def test_a_map_that_says_that_it_is_too_small_does_not_fail_by_its_coverage():
     assert not found["coverage"].passed and not found["coverage"].failed
 
 
-@pytest.mark.parametrize(("f", "failing"), [(0.0505, set()), (0.056, {"default answer"})])
-def test_intervals_that_miss_their_reference_fail(f, failing):
-    """Halves of 3 % about f, against a truth that is known to .5 %."""
-    row = {"reference_f": 0.05, "reference_error": 0.005, "default_f": f, "default_half": 0.03}
-    row |= {"eq8_f": 0.051, "eq8_half": 0.05}
-    known = SimpleNamespace(solved=lambda cases, solve: ((case, row) for case in cases.values()))
-    checks = [item for item in answers.answers("quick", known) if isinstance(item, Check)]
-    assert {c.name.split(":")[0] for c in checks if c.failed} == failing
+@pytest.mark.parametrize(("off", "covered"), [(0.02, True), (0.2, False)])
+def test_answers_beside_finer_strips_fail_where_their_intervals_miss_f(monkeypatch, off, covered):
+    row = {"reference_f": 0.1, "reference_error": 0.01}
+    row |= {
+        f"{way}_{key}": value for way in ("default", "eq8") for key, value in (("f", 0.1 + 0.1 * off), ("half", 0.05))
+    }
+    monkeypatch.setattr(answers, "solve", lambda case: row)
+    checks = [item for item in answers.answers("quick") if isinstance(item, Check)]
+    assert [check.passed for check in checks if "intervals" in check.name] == [covered, covered]
+
+
+@pytest.mark.parametrize("kind", answers.MEASURED)
+def test_a_drawn_map_has_the_skewness_of_its_kind(kind):
+    z = answers.heights(kind, 3)
+    skewness = float(np.mean(z**3))
+    assert z.std() == pytest.approx(1.0) and abs(z.mean()) < 1e-9
+    expected = {"plateau": (-2.0, -0.7), "peaks": (0.7, 2.0)}.get(kind, (-0.4, 0.4))
+    assert expected[0] < skewness < expected[1]
 
 
 def test_methods_agree_and_errors_fall_with_the_tolerance():
