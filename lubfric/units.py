@@ -89,7 +89,7 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         if len(several) != len(value) or any(isinstance(part, (list, tuple)) for part in value):
             several = [unit] * len(value)
         return type(value)(without_unit(name, part, one, named, depth - 1) for part, one in zip(value, several))
-    if not isinstance(value, str) or value in named:
+    if not isinstance(value, str) or value in named or ", " in unit:  # one word for a list: not for this to refuse
         return value
     found = NUMBER.fullmatch(value.replace("\N{MINUS SIGN}", "-"))
     row = UNITS[kind_of(unit)]

@@ -113,6 +113,7 @@ def test_a_table_of_viscosities_takes_the_units_of_its_columns():
         ("bodies.load", "9e999999999999999999999 N", "bodies.load.*out of range"),
         ("bodies.load", "1e400 N", "bodies.load.*out of range"),
         ("bodies.radii", ["6 mm", "2 N"], "bodies.radii = '2 N'"),
+        ("motion.speed_range", "1 m/s", "motion.speed_range = .1 m/s. must be"),
         ("bodies.hardness", "100Cr7", "or a name: 100Cr6, 16MnCr5"),
         ("counterface.ra", "0.1 s", "counterface.ra = '0.1 s'"),
         ("motion.speeds", ["1 mm/s", "1 mm"], "motion.speeds = '1 mm'"),
