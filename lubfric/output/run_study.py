@@ -26,12 +26,8 @@ from ..studies import (
     read_measured,
     study,
 )
-<<<<<<< HEAD
 from ..units import number_of
-from .commands import Pace, check_outputs, keeping, made, put, run_folder, say
-=======
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
->>>>>>> main
 
 PLAN = "study.json"  # of the store, which replaces it
 

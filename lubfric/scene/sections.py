@@ -72,7 +72,7 @@ def in_key_unit(section: str, key: str, value: Any) -> Any:
         return value
     known = typical(name)
     number = without_unit(name, validate.python_value(value), KEYS[name].unit, known)
-    return known[number][0] if isinstance(number, str) else number
+    return known[number][0] if isinstance(number, str) and number in known else number
 
 
 def changed_section(section: str, old: Any, values: Any) -> Any:

@@ -90,12 +90,6 @@ def test_a_file_equals_its_short_forms(tmp_path):
         ({"contact__shape": "200"}, ["contact.shape", "pair"]),
         ({"contact__shape": "[200000, 200000]"}, ["contact.shape", "4e+10 cells"]),
         ({"numerics__tolerance": "1e-6"}, ["numerics.tolerance", "0.0001"]),
-<<<<<<< HEAD
-        ({"bodies__e_prime": "231.0"}, ["bodies.e_prime", "231", "Pa"]),
-        ({"lubricant__pressure_viscosity_coefficient": "25.0"}, ["pressure_viscosity_coefficient", "25", "1/Pa"]),
-        ({"motion__speeds": "'0.1'"}, ["motion.speeds", "has no unit"]),
-=======
->>>>>>> main
         ({"motion__speed_range": "[1.0, 1e-3, 4]"}, ["speed_range highest"]),
         ({"motion__surface_speeds": "[0.0, 0.6]"}, ["surface_speeds", "entrainment_speed", "give one of"]),
         (
