@@ -102,6 +102,11 @@ class Check:
         return math.isfinite(self.measured) and self.deviation <= self.tolerance
 
     @property
+    def units(self) -> float:
+        """The deviation in units of the tolerance; of a check beside a publication, in those of both errors."""
+        return self.deviation / self.tolerance if self.tolerance else (math.inf if self.deviation else 0.0)
+
+    @property
     def failed(self) -> bool:
         """Whether the run fails by this check."""
         return self.decisive and not self.passed

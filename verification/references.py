@@ -96,6 +96,7 @@ SOURCES: dict[str, Source] = {
     "roelands": Source("C. J. A. Roelands, thesis, Delft 1966", "viscosity under pressure", LAW, 1e-3),
     "density": Source("D. Dowson, G. R. Higginson 1966", "density under pressure", LAW, 1e-3),
     "so-klaus": Source("B. Y. C. So, E. E. Klaus, ASLE Trans. 23 (1980) 409", "mineral VG 100, VI 95", QUOTED, 0.02),
+    "gold": Source("P. W. Gold et al., J. Synthetic Lubrication 18 (2001) 51", "alpha = s ν^t", TRANSCRIBED, 1e-3),
     "arana": Source(
         "A. Arana et al., Proc. IMechE J (2019)", "three oils of a twin-disc rig", TRANSCRIBED, 0.04, "their fits, 4 %"
     ),
@@ -205,6 +206,12 @@ def olver_spikes(number: float, slide_roll: float) -> float:
 
 # ---- oils; kinematic viscosities in mm²/s, alpha in 1/GPa, temperatures in °C
 
+GOLD = {  # s, t of alpha = s nu^t
+    "mineral": (9.904, 0.1390),
+    "pao": (7.382, 0.1335),
+    "ester": (6.605, 0.1360),
+    "polyglycol": (5.489, 0.1485),
+}
 VISCOSITY_INDEX = {(73.3, 8.86): 92.4, (22.83, 5.05): 156.4, (30, 4.24): -25.6, (70, 11.1): 150.2, (68, 8.6): 96.8}
 D341 = {  # m, n: at 40, 70 and 100 °C
     (9.5259, 3.7449): (31.81, 11.14, 5.385),

@@ -22,7 +22,8 @@ def dry(level: str) -> Iterator[Item]:
     """`solve_contact` on a cylinder, two kinds of waves and rough surfaces; the summits of generated surfaces.
 
     Our error is the change when the cells are halved; of the wave a cell at either edge of the contact, and of rough
-    surfaces twice the standard error over four of them. The area over load of a rough surface is held against the band between two theories.
+    surfaces twice the standard error over four of them. The area over load of a rough surface is held against the band
+    between two theories.
     """
     yield from cylinder()
     areas = [line_wave(share, WAVE) for share in SHARES]

@@ -7,10 +7,12 @@ import numpy as np
 
 import lubfric
 from lubfric.deterministic import lay_out, reach, solve_point
+from lubfric.film import moes_film
 from lubfric.surface import Surface
 
 from .. import plotting, references
 from ..check import Check, Figure, Item
+from ..exact import Parabola
 from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of
 from . import against
 
@@ -88,6 +90,14 @@ def rigid() -> Iterator[Check]:
     yield against("martin", "rigid cylinder, flow film", found.flow_film * scale, r["flow"], own(found))
     where = found.rupture / math.sqrt(2 * RADIUS * h0)
     yield against("swift", "rigid cylinder, rupture of the film", where, r["rupture"], own(found))
+
+    closed = Parabola(VISCOSITY, found.entrainment_speed, RADIUS, h0)
+    yield against("swift", "rupture, closed form of the verification", closed.exit, r["rupture"], 1e-9)
+    rolled = closed.rolling / (2 * VISCOSITY * found.entrainment_speed * math.sqrt(RADIUS / h0))
+    yield against("martin", "rolling force, closed form of the verification", rolled, r["rolling"], 1e-9)
+    yield against(
+        "moes", "the fit as lubfric has it, M = 20, L = 5", moes_film(20, 5), references.moes(20, 5), 0, error=1e-6
+    )
 
 
 def limits() -> Iterator[Check]:

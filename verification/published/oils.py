@@ -9,6 +9,7 @@ from lubfric.oil import CELSIUS, Estimate, Lubricant, density_ratio, viscosity
 
 from .. import plotting, references
 from ..check import Check, Figure, Item
+from ..fem.fluid import Fluid
 from . import against
 
 MM2 = 1e-6
@@ -38,6 +39,13 @@ def oils(level: str) -> Iterator[Item]:
             "roelands", f"viscosity {at}", viscosity(oily, p)[0], references.roelands(0.1, 2e-8, pressure), 0, "Pa s"
         )
         yield against("density", f"density {at}", density_ratio(oily, p)[0][0], references.density(pressure), 0)
+    finite = Fluid(0.1, "roelands", 2e-8, density_law="dowson_higginson")
+    theirs = references.roelands(0.1, 2e-8, 1e9)
+    yield against("roelands", "viscosity at 1 GPa, finite elements", finite.eta(1e9), theirs, 0, "Pa s")
+    yield against("density", "density at 1 GPa, finite elements", finite.rho(1e9), references.density(1e9), 0)
+    for base, (s, t) in references.GOLD.items():
+        ours = oil.gold(100 * MM2, base).value * 1e9
+        yield against("gold", f"alpha of {base} by Gold at 100 mm²/s", ours, s * 100**t, 0, "1/GPa")
     hundred = oil.from_viscosities(*(v * MM2 for v in GRADE_100), base="mineral", estimate="so-klaus")
     for celsius, theirs in references.SO_KLAUS.items():
         ours = hundred.pressure_viscosity_coefficient(celsius + CELSIUS).value * 1e9
