@@ -50,6 +50,11 @@ def wiring(part: str, title: str) -> Study:
     return Study(f"wiring_{part}", target, f"Every option reaches the number: {title}")
 
 
+def published(name: str, title: str) -> Study:
+    """A part of ``python -m verification published`` in which nothing is known to differ."""
+    return Study(name, f"verification.published.{name}:{name}", f"{title}, beside publications", grade="A")
+
+
 STUDIES: tuple[Study, ...] = (
     study("reynolds", "Reynolds equation on a line", grade="B"),
     study("reynolds_surface", "Reynolds equation on a surface", grade="B"),
@@ -58,11 +63,15 @@ STUDIES: tuple[Study, ...] = (
     study("contact_rough", "Dry contact on the layer: rough patch"),
     study("ehl", "Smooth EHL line contact, full-system finite elements"),
     study("contact_grid", "Dry contact of lubfric on ever finer grids", grade="B"),
-    study("ehl_grid", "Smooth film of lubfric on ever finer grids"),
+    study("ehl_grid", "Smooth film of lubfric on ever finer grids", grade="B"),
     study("friction", "The whole job of lubfric: grid, patch, area, tolerance"),
     study("load_sharing", "Load sharing, both halves by finite elements"),
     study("deterministic", "One gap, one pressure: limits, and the film in the same gap by finite elements"),
     study("sharing_cases", "Load sharing by finite elements: other oils, sliding, yielding, flat, a measured map"),
+    published("dry", "Dry contact: Hertz, waves, rough surfaces"),
+    published("oils", "Oils"),
+    published("heat", "Heat of a film"),
+    study("sampling", "Surfaces as a sample: their statistics, and the scatter of f"),
     study("formulations", "Contact formulations of the paper against the default"),
     wiring("film", "film and shear"),
     wiring("contact", "contact"),

@@ -26,6 +26,7 @@ TIGHT = {  # the model of the finite elements: no more and no less
     "balance_tolerance": 1e-6,
     "film_deflection": "hydrodynamic",
     "heat": "off",
+    "model": "load-sharing",
     "sampling": "patch",
     "grid": "given",
     "accept": True,
@@ -148,7 +149,7 @@ def cell_mean(operator: HalfSpace) -> HalfSpace:
 
 
 def twice_integrated(z: np.ndarray) -> np.ndarray:
-    """The function that has K0(z) for its second derivative and vanishes far away: ∫ exp(-z cosh t)/cosh² t dt, t > 0."""
+    """The function whose second derivative is K0(z), zero far away: ∫ exp(-z cosh t)/cosh² t dt, t > 0."""
     found = 0.5 * np.exp(-z)
     for growth in np.cosh(STEP * np.arange(1, POINTS)):
         found += np.exp(-z * growth) / growth**2
