@@ -36,6 +36,7 @@ shape = [64, 64]
 spacing = 0.9e-6
 [numerics]
 sampling = "patch"
+model = "load-sharing"
 """
 
 
@@ -263,9 +264,7 @@ def test_a_curve_writes_the_table_of_the_command(tmp_path):
     assert (
         main(["run", "paper", "--speeds", "0.1,0.3", "--fields", "0.3", "--out", str(tmp_path), "--workers", "1"]) == 0
     )
-    lubfric.stribeck(lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}), [0.1, 0.3]).to_csv(
-        tmp_path / "own.csv"
-    )
+    lubfric.stribeck(lubfric.load_scene("paper"), [0.1, 0.3]).to_csv(tmp_path / "own.csv")
     own, command = (read_table(tmp_path / name) for name in ("own.csv", "stribeck.csv"))
     assert list(own) == list(command)
     for name in set(own) - {"seconds"}:

@@ -30,6 +30,7 @@ shape = [48, 40]
 spacing = [1.1e-6, 0.9e-6]
 [numerics]
 sampling = "patch"
+model = "load-sharing"
 """
 )
 

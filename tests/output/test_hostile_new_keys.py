@@ -95,4 +95,4 @@ def test_heat_that_a_model_leaves_out_is_told_where_it_matters():
     assert any("isothermal" in entry.consequence for entry in fast.validity)
     off = lubfric.friction(scene.with_(numerics={"heat": "off"}), 3.0)
     assert not any("isothermal" in entry.consequence for entry in off.validity)
-    assert off.coefficient == fast.coefficient
+    assert off.coefficient == pytest.approx(fast.coefficient, rel=1e-6)

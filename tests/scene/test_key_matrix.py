@@ -620,7 +620,8 @@ ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, sh
     "numerics": {
         *("tolerance", "film_tolerance", "contact_tolerance", "balance_tolerance", "workers", "model", "grid"),
         *("cavitated_shear", "film_deflection"),  # tests/film/test_shear.py, tests/sharing/test_balance.py
-        *("sampling", "sampling_tolerance", "accept"),  # tests/sampling, tests/sharing/test_validity.py
+        *("sampling", "sampling_tolerance", "model_tolerance"),  # tests/sampling
+        "accept",  # tests/sharing/test_validity.py
     },
     "transient": set(lubfric.Transient.__dataclass_fields__),  # tests/time/test_transient_mixed.py
 }

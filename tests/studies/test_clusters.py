@@ -81,9 +81,9 @@ import lubfric
 from mpi4py.futures import MPIPoolExecutor
 
 if __name__ == "__main__":
-    scene = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(
+    scene = lubfric.load_scene("paper").with_(
         contact={{"shape": (48, 48), "spacing": 1.1e-6}}, surface={{"correlation_length": 4e-6}},
-        numerics={{"sampling": "patch"}})
+        numerics={{"model": "load-sharing", "sampling": "patch"}})
     vary = {{"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}}
     with MPIPoolExecutor() as executor:
         lubfric.study(scene, vary, tuple(np.geomspace(0.003, 0.3, 8)), executor=executor, store=sys.argv[1])

@@ -2,19 +2,17 @@
 
 import json
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
-import lubfric
 from verification import kept
 from verification.__main__ import main
 from verification.charts import contact, draw
 from verification.charts.measure import point
 from verification.check import Check
 from verification.kept import Run
-from verification.model import error, points
+from verification.model import answers
 from verification.sampling import coverage, others
 
 NAN = float("nan")
@@ -120,58 +118,24 @@ def test_a_number_beyond_its_stated_error_fails(monkeypatch):
     assert [row[0] for row in table.rows] == ["`f`", "`gap`"]
 
 
-SETTING = points.Setting(1, 5.5, 32)
+@pytest.mark.parametrize(("off", "covered"), [(0.02, True), (0.2, False)])
+def test_answers_beside_finer_strips_fail_where_their_intervals_miss_f(monkeypatch, off, covered):
+    row = {"reference_f": 0.1, "reference_error": 0.01}
+    row |= {
+        f"{way}_{key}": value for way in ("default", "eq8") for key, value in (("f", 0.1 + 0.1 * off), ("half", 0.05))
+    }
+    monkeypatch.setattr(answers, "solve", lambda case: row)
+    checks = [item for item in answers.answers("quick") if isinstance(item, Check)]
+    assert [check.passed for check in checks if "intervals" in check.name] == [covered, covered]
 
 
-def made(speed, method, f, seed=1):
-    return points.Point(replace(SETTING, seed=seed), speed, method, f, 0.5, 0.1, 0.02, "" if f == f else "no")
-
-
-def test_mean_rms_and_failures_are_against_the_reference():
-    found = [made(0.01, points.REFERENCE, 0.1), made(0.01, points.HERTZ, 0.11)]
-    found += [made(0.003, points.REFERENCE, 0.1), made(0.003, points.HERTZ, NAN)]
-    good, failed = (d for d in points.deviations(found) if d.method == points.HERTZ)
-    assert np.isclose(good.mean, 0.1) and np.isclose(good.rms, 0.1) and good.share == 0.5
-    assert failed.failures == 1 and np.isnan(failed.mean)
-    assert points.over_stated(found) == pytest.approx([5.0])
-
-
-@pytest.mark.parametrize(("f", "failing"), [(0.1, 0), (0.103, 1), (0.11, 2)])
-def test_a_model_that_errs_more_than_its_results_state_fails(monkeypatch, f, failing):
-    of = {points.REFERENCE: 0.1, points.HERTZ: f}
-    found = [made(0.01, method, of[method], seed) for seed in range(4) for method in of]
-    monkeypatch.setattr(error, "all_points", lambda *asked: found)
-    assert sum(c.failed for c in error.held_out("default") if isinstance(c, Check)) == failing
-
-
-def test_every_model_answers_the_same_scene_and_a_lost_reference_fails():
-    found = points.all_points([(SETTING, (0.01, 0.003))], Run())
-    assert not any(p.failure for p in found) and len(found) == 8
-    f = {p.method: p.coefficient for p in found if p.speed == 0.003}
-    assert max(f.values()) < 1.2 * min(f.values()) and len(set(f.values())) >= 3
-    lost = [replace(p, failure="no") for p in found]
-    assert [c.failed for c in error.failures(lost)] == [True, False, False, False]
-
-
-def test_a_measured_map_is_slid_along_both_axes_of_its_file(tmp_path):
-    """The map turned by a quarter is the same map slid along the other axis."""
-    map_ = lubfric.generate_surface((64, 64), 90e-6 / 64, sq=100e-9, correlation_length=(5e-6, 12e-6), seed=4)
-    found = {}
-    for name, heights in (("straight", map_.heights), ("turned", map_.heights.T)):
-        np.save(tmp_path / f"{name}.npy", heights)
-        keys = {"file": str(tmp_path / f"{name}.npy"), "spacing": map_.spacing, "sq": None, "correlation_length": None}
-        scene = (
-            lubfric.load_scene("paper")
-            .with_(numerics={"model": "load-sharing"})
-            .with_(surface=keys, contact={"shape": None, "spacing": None})
-        )
-        (tmp_path / f"{name}.toml").write_text(scene.to_toml())
-        for axis in "xy":
-            setting = points.Setting(0, 5.5, 24, scene=str(tmp_path / f"{name}.toml"), axis=axis)
-            found[name, axis] = points.all_points([(setting, (0.003,))], Run(), (points.HERTZ,))[0].coefficient
-    assert found["straight", "x"] != pytest.approx(found["straight", "y"], rel=2e-3)
-    for axis, other in ("xy", "yx"):
-        assert found["straight", axis] == pytest.approx(found["turned", other], rel=2e-3)
+@pytest.mark.parametrize("kind", answers.MEASURED)
+def test_a_drawn_map_has_the_skewness_of_its_kind(kind):
+    z = answers.heights(kind, 3)
+    skewness = float(np.mean(z**3))
+    assert z.std() == pytest.approx(1.0) and abs(z.mean()) < 1e-9
+    expected = {"plateau": (-2.0, -0.7), "peaks": (0.7, 2.0)}.get(kind, (-0.4, 0.4))
+    assert expected[0] < skewness < expected[1]
 
 
 def test_methods_agree_and_errors_fall_with_the_tolerance():
