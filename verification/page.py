@@ -120,9 +120,9 @@ def checks_table(checks) -> str:
     """The checks of a study, or the failed ones of all. Of very many only the failed ones are shown."""
     chosen = listed(tuple(checks))
     note = "" if len(chosen) == len(checks) else f"<p>{len(checks)} checks, all of them in report.json.</p>"
-    published, chosen = [c for c in chosen if c.errors], [c for c in chosen if not c.errors]
+    published, others = [c for c in chosen if c.errors], [c for c in chosen if not c.errors]
     note += beside_table(published) if published else ""
-    if published and not chosen:
+    if published and not others:
         return note
     rows = [
         (
@@ -134,7 +134,7 @@ def checks_table(checks) -> str:
             escape(c.source + (f"; {c.note}" if c.note else "")),
             seconds(c.seconds),
         )
-        for c in chosen
+        for c in others
     ]
     return note + html_table(("Verdict", "Grade", "Check", "Measured", "Allowed", "Source", "Time"), rows)
 

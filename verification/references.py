@@ -5,7 +5,7 @@
 
 ``error`` of a source is a relative 95 % bound of its numbers. A closed form has that of its printed digits. Of a fit,
 or of an asymptote that is used at finite numbers, it is the accuracy that its authors state. Where they state none, or
-their text could not be had, 5 % is taken for all alike (`UNSTATED`), before anything was compared.
+their text could not be had, 5 % is taken for all alike (`UNSTATED`).
 """
 
 from __future__ import annotations
@@ -221,7 +221,9 @@ D341 = {  # m, n: at 40, 70 and 100 °C
     (6.5834, 2.4898): (218.78, 72.49, 31.906),
 }
 SO_KLAUS = {40: 28.0, 70: 21.0}  # mineral, VG 100, VI 95
-TWIN_DISC = {  # at 40 and 100 °C, base, density at 15.6 °C, limiting stress over pressure; alpha by temperature
+TWIN_DISC: dict[
+    str, tuple[float, float, str, float, float, dict[int, float]]
+] = {  # at 40 and 100 °C, base, density at 15.6 °C, limiting stress over pressure; alpha by temperature
     "naphthenic": (97.9, 8.61, "mineral", 900, 0.053, {40: 27.3, 60: 22.9, 80: 19.8, 100: 17.4}),
     "paraffinic (FVA 3)": (96.0, 10.6, "mineral", 882, 0.047, {40: 20.9, 60: 19.1, 80: 17.5, 100: 16.3}),
     "PAO": (94.1, 14.0, "pao", 840, 0.035, {40: 15.4, 60: 13.8, 80: 12.4, 100: 11.3}),

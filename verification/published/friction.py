@@ -36,8 +36,7 @@ def friction(level: str) -> Iterator[Item]:
 
 def force(found: lubfric.EHLResult, oil: Lubricant, ratio: float) -> ShearForce:
     """Forces per width without contact spots."""
-    options = {"slide_roll_ratio": ratio, "width": 1.0, "contact_fraction": lambda x: np.zeros(x.size - 1)}
-    return shear_force(found, oil, **options)
+    return shear_force(found, oil, slide_roll_ratio=ratio, width=1.0, contact_fraction=lambda x: np.zeros(x.size - 1))
 
 
 def rolling(m: float, l: float) -> tuple[float, float, float]:

@@ -116,7 +116,7 @@ def publications() -> Cells:
     rows = []
     for source in SOURCES.values():
         mine = [c for c in checks if c.source == source.text]
-        off = [100 * (c.measured / c.expected - 1) for c in mine]
+        off = [round(100 * (c.measured / c.expected - 1), 4) + 0.0 for c in mine]
         far = f"{min(off):+.2g} to {max(off):+.2g} %" if len(mine) > 1 else f"{off[0]:+.2g} %"
         worst = max(c.units for c in mine)
         passed = f"{sum(c.passed for c in mine)} of {len(mine)}"
