@@ -228,7 +228,7 @@ TWIN_DISC: dict[
     "paraffinic (FVA 3)": (96.0, 10.6, "mineral", 882, 0.047, {40: 20.9, 60: 19.1, 80: 17.5, 100: 16.3}),
     "PAO": (94.1, 14.0, "pao", 840, 0.035, {40: 15.4, 60: 13.8, 80: 12.4, 100: 11.3}),
 }
-MACHINE_OILS = {  # dynamic viscosity [mPa s], alpha at each temperature
+MACHINE_OILS: dict[str, dict[int, tuple[float, float]]] = {  # dynamic viscosity [mPa s], alpha at each temperature
     "heavy machine oil": {30: (153, 23.7), 60: (34, 20.5), 100: (9.1, 15.8)},
     "spindle oil": {30: (18.6, 20), 60: (6.3, 16), 100: (2.4, 13)},
     "cylinder oil": {30: (810, 34), 60: (135, 28), 100: (26.8, 22)},
