@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 
@@ -13,14 +14,10 @@ FLAT = lubfric.load_scene("flat").with_(
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 343.0}
 OILED = FLAT.with_(lubricant=OIL | {"eyring_stress": 5e6})
 HOT = OILED.with_(numerics={"heat": "on"})
-ROLLER = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        lubricant=OIL | {"eyring_stress": 5e6},
-        surface={"correlation_length": 8e-6, "acf": "gaussian"},
-        contact={"shape": (32, 16), "spacing": 90e-6 / 32},
-    )
+ROLLER = paper_scene(
+    lubricant=OIL | {"eyring_stress": 5e6},
+    surface={"correlation_length": 8e-6, "acf": "gaussian"},
+    contact={"shape": (32, 16), "spacing": 90e-6 / 32},
 )
 MANY = np.linspace(1, 2, 100_000)
 

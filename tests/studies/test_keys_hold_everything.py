@@ -5,6 +5,7 @@ from dataclasses import fields, is_dataclass
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.scene import Constant, Harmonic, Ramp
@@ -12,10 +13,8 @@ from lubfric.studies import store
 from lubfric.studies.store import Store, fingerprint, point_key
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(lubricant=OIL, transient=lubfric.Transient(duration=1.0, speed=Harmonic(amplitude=0.1, frequency=1.0)))
+SCENE = paper_scene(
+    lubricant=OIL, transient=lubfric.Transient(duration=1.0, speed=Harmonic(amplitude=0.1, frequency=1.0))
 )
 LABELS = {"name", "motion.speeds"}  # of a scene: no number depends on them
 

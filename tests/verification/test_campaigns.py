@@ -1,26 +1,19 @@
 """The campaigns: what is kept is not solved again, their judges fail what is wrong, and points come out sane."""
 
 import json
-import math
 
 import numpy as np
 import pytest
 
 from verification import kept
 from verification.__main__ import main
-from verification.charts import contact, draw
-from verification.charts.measure import point
+from verification.charts import contact
 from verification.check import Check
 from verification.kept import Run
 from verification.model import answers
-from verification.sampling import coverage, others
+from verification.sampling import coverage
 
 NAN = float("nan")
-
-
-def test_rows_come_in_order_from_several_processes_and_are_kept(tmp_path):
-    run, cases = Run(tmp_path, 2), {str(k): k for k in range(4)}
-    assert list(run.solved(cases, math.factorial)) == list(run.solved(cases, None)) == [(0, 1), (1, 1), (2, 2), (3, 6)]
 
 
 def test_a_line_that_was_not_written_to_its_end_is_written_again(tmp_path):
@@ -35,13 +28,6 @@ def test_a_line_that_was_not_written_to_its_end_is_written_again(tmp_path):
     file.write_text(file.read_text()[:-3])
     assert [row for _, row in Run(tmp_path).solved({"a": 1, "b": 2, "c": 3}, solve)][-1] == [3, None]
     assert solved == [1, 2, 2, 3] and len(kept.rows_of(file)) == 3
-
-
-def test_rows_of_other_code_are_not_used(tmp_path, monkeypatch):
-    run = Run(tmp_path)
-    assert [row for _, row in run.solved({"a": "a"}, str.upper)] == ["A"]
-    monkeypatch.setattr(kept, "code", lambda: "of tomorrow")
-    assert [row for _, row in run.solved({"a": "b"}, str.upper)] == ["B"]
 
 
 def test_a_campaign_judges_what_lies_in_the_folder_and_puts_its_table(tmp_path):
@@ -99,25 +85,6 @@ def test_a_map_that_says_that_it_is_too_small_does_not_fail_by_its_coverage():
     assert not found["coverage"].passed and not found["coverage"].failed
 
 
-@pytest.mark.parametrize(("missed", "passed"), [(0, True), (2, False)])
-def test_pieces_that_miss_their_map_fail(monkeypatch, missed, passed):
-    monkeypatch.setattr(others, "piece", lambda case: {"f": 2.0 if case[-1] is None else 1.0})
-    found = {"f": 1.0, "low": 0.9, "high": 1.1}
-    off = iter([found] + [found] * (4 - missed) + [found | {"low": 1.05}] * missed)
-    monkeypatch.setattr(others, "piece", lambda case: next(off))
-    (check,) = others.pieces("quick")
-    assert check.passed == passed
-
-
-def test_a_number_beyond_its_stated_error_fails(monkeypatch):
-    rows = {"f": (0.01, 0.02), "gap": (0.05, 0.02), "area": None}
-    monkeypatch.setattr(others, "ESTIMATED", tuple(rows))
-    monkeypatch.setattr(others, "beside", lambda number: rows)
-    *checks, table = others.quantities("quick")
-    assert {c.name.split(":")[0]: c.passed for c in checks} == {"f": True, "gap": False}
-    assert [row[0] for row in table.rows] == ["`f`", "`gap`"]
-
-
 @pytest.mark.parametrize(("off", "covered"), [(0.02, True), (0.2, False)])
 def test_answers_beside_finer_strips_fail_where_their_intervals_miss_f(monkeypatch, off, covered):
     row = {"reference_f": 0.1, "reference_error": 0.01}
@@ -148,18 +115,6 @@ def test_methods_agree_and_errors_fall_with_the_tolerance():
     assert max(tight.values()) < 1e-3
     assert [p.at["setting"] for p in found if p.at["default"]] == ["tolerance 1e-06"]
     assert np.array_equal(contact.heights(128, "gaussian")[::2, ::2], contact.heights(64, "gaussian"))
-
-
-def test_methods_are_compared_at_one_error():
-    """A fast solve that is not good enough counts for no method."""
-    seconds = {"lubfric": ((1e-3, 0.01), (1e-6, 0.02)), "other": ((1e-4, 0.03), (9e-6, 0.08), (1e-9, 0.4))}
-    rows = [
-        Check.from_dict(point("case", method, str(k), error, (s, s, s)))
-        for method, found in seconds.items()
-        for k, (error, s) in enumerate(found)
-    ]
-    assert draw.methods_table(rows).rows == (("case", "20 ms", "4.0"),)
-    assert draw.work_precision("contact", rows, "an abacus").data[:4] == b"\x89PNG"
 
 
 @pytest.mark.slow
