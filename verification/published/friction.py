@@ -85,5 +85,5 @@ def drawn(rolled: dict[tuple[int, int], tuple[float, float, float]]) -> Figure:
     ax.axhspan(1 - error, 1 + error, color="0.88", label="Biboulet and Houpert ± 5 %")
     ax.axhline(1.0, color="k", lw=0.8)
     ax.set(xscale="log", xlabel="M", ylabel="rolling force over theirs")
-    ax.legend(ncols=2)
+    canvas.legend(loc="outside lower center", ncols=3, frameon=False)
     return plotting.finish("rolling", canvas, "Rolling friction over F/(E' R) = 1.47 (η u_s/(E' R))^.75")

@@ -98,5 +98,5 @@ def drawn(pairs: list[Pair]) -> Figure:
         ax.errorbar(theirs, ours, [ours - low, high - ours], fmt=mark, lw=0.7, label=method)
     ax.plot([9, 36], [9, 36], "k-", lw=0.8)
     ax.set(xlabel="measured alpha (1/GPa)", ylabel="estimate and its range (1/GPa)")
-    ax.legend()
+    ax.legend(loc="upper left")
     return plotting.finish("alpha", canvas, "Estimates of the pressure-viscosity coefficient beside measured oils")
