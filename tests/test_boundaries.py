@@ -59,6 +59,27 @@ def test_closed_forms_and_the_framework_never_import_lubfric(name):
     assert not any(n.split(".")[0] == "lubfric" for n in imported(ROOT / "verification" / f"{name}.py"))
 
 
+def test_published_numbers_are_a_leaf_that_no_solver_knows():
+    """Whoever is held against them has numbers of its own."""
+    leaf, folder = "verification.references", ROOT / "verification"
+    users = {f.relative_to(folder).as_posix() for f in folder.rglob("*.py") if leaf in imported(f)}
+    assert {u for u in users if not u.startswith("published/")} == {"model/boundary_film.py", "tables/studies.py"}
+    own = imported(folder / "references.py")
+    assert not [name for name in own if name.startswith(("lubfric", "verification", "."))]
+
+
+@pytest.mark.parametrize("path", ["lubfric", "verification/fem", "verification/exact.py"])
+def test_the_text_of_no_solver_names_the_leaf(path):
+    files = [ROOT / path] if path.endswith(".py") else (ROOT / path).rglob("*.py")
+    assert [f.name for f in files if "references import" in f.read_text("utf-8")] == []
+
+
+def test_load_sharing_is_compared_with_a_kernel_of_its_own():
+    names = imported(ROOT / "verification" / "studies" / "load_sharing.py")
+    assert not {n for n in names if n.endswith(("semiperiodic_coefficients", "even_transform"))}
+    assert not {n for n in names if n.startswith("lubfric.contact.")} - {"lubfric.contact.HalfSpace"}
+
+
 def test_only_one_file_knows_meshio():
     files = sorted((ROOT / "verification").rglob("*.py"))
     users = [str(f.relative_to(ROOT)) for f in files if any(n.split(".")[0] == "meshio" for n in imported(f))]

@@ -16,6 +16,7 @@ from .studies import STUDIES
 
 # subcommand -> module with main(argv) -> exit code; imported only when asked for
 SUBCOMMANDS: dict[str, str] = {
+    "published": "verification.published",
     "figures": "verification.figures",
     "model": "verification.model",
     "sampling": "verification.sampling",

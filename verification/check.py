@@ -17,6 +17,11 @@ AT_MOST = "at_most"
 AT_LEAST = "at_least"
 TOLD = "told"
 KINDS = (RELATIVE, ABSOLUTE, AT_MOST, AT_LEAST, TOLD)
+GRADES = {
+    "A": "a number or law from outside",
+    "B": "structure: conservation, symmetry, limits, order of convergence",
+    "C": "code of the same hands",
+}
 
 
 @dataclass(frozen=True)
@@ -38,10 +43,12 @@ class Check:
     decisive : False for what is only shown beside the others; it may fail without the run failing
     refused : what the method said in place of a number, which then is NaN
     at : where it was measured (axes of a map, setting and cost of a method, seed of a scene), by name
+    grade : what the expected value is worth, one of `GRADES`; "": that of its study
+    errors : beside a publication, what is left open of the measured and of the published value, in ``unit``
 
     Raises
     ------
-    ValueError : unknown kind, missing name or source, expected or tolerance not finite, negative tolerance,
+    ValueError : unknown kind or grade, missing name or source, expected or tolerance not finite, negative tolerance,
         a relative tolerance about zero
     """
 
@@ -57,6 +64,8 @@ class Check:
     decisive: bool = True
     refused: str = ""
     at: Mapping[str, Any] = field(default_factory=dict)
+    grade: str = ""
+    errors: Sequence[float] = ()
 
     def __post_init__(self):
         for key in ("measured", "expected", "tolerance"):
@@ -64,6 +73,8 @@ class Check:
         wrong = ""
         if self.kind not in KINDS:
             wrong = f"kind = {self.kind!r}; allowed: {', '.join(KINDS)}"
+        elif self.grade and self.grade not in GRADES:
+            wrong = f"grade = {self.grade!r}; allowed: {', '.join(GRADES)}"
         elif not self.name.strip() or not self.source.strip():
             wrong = "a name and a source are needed"
         elif not (math.isfinite(self.expected) and math.isfinite(self.tolerance) and self.tolerance >= 0):
@@ -89,6 +100,11 @@ class Check:
     def passed(self) -> bool:
         """Whether the measured value is finite and within the tolerance."""
         return math.isfinite(self.measured) and self.deviation <= self.tolerance
+
+    @property
+    def units(self) -> float:
+        """The deviation in units of the tolerance; of a check beside a publication, in those of both errors."""
+        return self.deviation / self.tolerance if self.tolerance else (math.inf if self.deviation else 0.0)
 
     @property
     def failed(self) -> bool:
@@ -175,6 +191,15 @@ def compared(label: str, rows: Iterable[tuple], source: str, note: str = "") -> 
     """A relative check of each row: (quantity, unit, measured, expected, tolerance)."""
     for quantity, unit, measured, expected, tolerance in rows:
         yield Check(f"{label}: {quantity}", measured, expected, tolerance, source, unit=unit, note=note)
+
+
+def beside(
+    name: str, ours: float, theirs: float, errors: tuple[float, float], source: str, unit: str = "1", note: str = ""
+) -> Check:
+    """Our value beside a published one. It passes when they differ by no more than both ``errors`` (ours, theirs; 95 %
+    bounds in ``unit``), summed by squares. Its grade is A."""
+    allowed = math.hypot(*errors)
+    return Check(name, ours, theirs, allowed, source, ABSOLUTE, unit, note, grade="A", errors=errors)
 
 
 def file_name(name: str) -> str:

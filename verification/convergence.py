@@ -49,7 +49,7 @@ class Series:
         if self.order is None:
             raise ValueError(f"series {self.label!r} has no expected order to be checked")
         found = fitted_order(self.sizes[-self.finest :], self.errors[-self.finest :])
-        return Check(self.check, found, self.order, self.tolerance, self.source, self.kind, note=self.note)
+        return Check(self.check, found, self.order, self.tolerance, self.source, self.kind, note=self.note, grade="B")
 
 
 def convergence(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Iterator[Item]:

@@ -3,7 +3,7 @@
 import base64
 from html import escape
 
-from .wording import allowed, listed, number, seconds
+from .wording import allowed, by_grade, listed, number, seconds
 
 CSS = """
 :root { color-scheme: light dark; --ink: #1b1f24; --dim: #57606a; --line: #d0d7de; --paper: #fff;
@@ -77,7 +77,7 @@ def overview(report) -> str:
     rows = []
     for name in report.selected:
         if name not in done:
-            rows.append((escape(name), "not run", "", ""))
+            rows.append((escape(name), "not run", "", "", ""))
             continue
         o = done[name]
         judged = [c for c in o.checks if c.decisive]
@@ -87,10 +87,11 @@ def overview(report) -> str:
                 f'<a href="#{escape(name)}">{escape(o.study.title)}</a>',
                 mark(o.passed),
                 f"{ok} of {len(judged)}",
+                by_grade(o.checks),
                 seconds(o.seconds),
             )
         )
-    return html_table(("Study", "Verdict", "Checks", "Time"), rows)
+    return html_table(("Study", "Verdict", "Checks", "By grade", "Time"), rows)
 
 
 def section(outcome) -> str:
@@ -119,18 +120,37 @@ def checks_table(checks) -> str:
     """The checks of a study, or the failed ones of all. Of very many only the failed ones are shown."""
     chosen = listed(tuple(checks))
     note = "" if len(chosen) == len(checks) else f"<p>{len(checks)} checks, all of them in report.json.</p>"
+    published, others = [c for c in chosen if c.errors], [c for c in chosen if not c.errors]
+    note += beside_table(published) if published else ""
+    if published and not others:
+        return note
     rows = [
         (
             mark(c.passed) if c.decisive else "shown",
+            escape(c.grade),
             escape(c.name),
             escape(number(c.measured) + ("" if c.unit == "1" else f" {c.unit}")),
             escape(allowed(c)),
             escape(c.source + (f"; {c.note}" if c.note else "")),
             seconds(c.seconds),
         )
-        for c in chosen
+        for c in others
     ]
-    return note + html_table(("Verdict", "Check", "Measured", "Allowed", "Source", "Time"), rows)
+    return note + html_table(("Verdict", "Grade", "Check", "Measured", "Allowed", "Source", "Time"), rows)
+
+
+def beside_table(checks) -> str:
+    """Ours beside published values, each with its error; the deviation in per cent, and in units of both errors."""
+    rows = []
+    for c in checks:
+        unit = "" if c.unit == "1" else f" {c.unit}"
+        ours, theirs = (f"{number(v)} ± {e:.2g}{unit}" for v, e in zip((c.measured, c.expected), c.errors))
+        percent = f"{100 * (c.measured / c.expected - 1):+.2g} %"
+        source = c.source + (f". {c.note}" if c.note else "")
+        rows.append(
+            (mark(c.passed), escape(c.name), escape(theirs), escape(ours), percent, f"{c.units:.2f}", escape(source))
+        )
+    return html_table(("Verdict", "Quantity", "Theirs", "Ours", "Deviation", "In errors", "Source"), rows)
 
 
 def data_table(table) -> str:

@@ -13,7 +13,7 @@ from . import page
 from .check import Check, Table
 from .meshes import write_vtu
 from .run import Outcome, explain, raised
-from .wording import allowed, listed, mark, number, seconds
+from .wording import allowed, by_grade, listed, mark, number, seconds
 
 FORMAT = "lubfric-verification-1"
 PACKAGES = ("lubfric", "numpy", "scipy", "scikit-fem", "meshio", "pyamg", "matplotlib")
@@ -58,7 +58,7 @@ class Report:
         text = f"{word}: {len(judged) - failed} of {len(judged)} checks passed"
         if not self.complete:
             text += f"; only {len(self.outcomes)} of {len(self.selected)} studies finished"
-        return text
+        return f"{text}; by grade: {by_grade(self.checks)}" if judged else text
 
     def as_dict(self) -> dict:
         """Plain types for report.json; a number that is not finite becomes null."""

@@ -108,6 +108,7 @@ def run_one(study: Study, level: str, progress: Progress) -> Outcome:
         description = inspect.getdoc(function) or ""
         produced = function(level, **study.options)
         collected(produced, inspect.isgenerator(produced), found, progress)
+        found[Check] = [c if c.grade else replace(c, grade=study.grade) for c in found[Check]]
         if not found[Check]:
             raise RuntimeError("the study ended without a single check")
     except (Exception, SystemExit) as exc:  # noqa: BLE001  a study may fail in any way; all are reported
@@ -136,7 +137,9 @@ def explain(exc: BaseException) -> str:
 
 def raised(study: Study, error: str) -> Check:
     """The failed check that stands for a study that did not reach its end."""
-    return Check(f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error)
+    return Check(
+        f"{study.name} runs to its end", float("nan"), 0.0, 0.0, "the study itself", AT_MOST, note=error, grade="B"
+    )
 
 
 def end_with_parent() -> None:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from .check import ABSOLUTE, AT_LEAST, AT_MOST, RELATIVE, TOLD, Check
+from .check import ABSOLUTE, AT_LEAST, AT_MOST, GRADES, RELATIVE, TOLD, Check
 
 MANY = 100
 
@@ -39,6 +39,13 @@ def allowed(check: Check) -> str:
     return ALLOWED[check.kind].format(
         expected=number(check.expected), tolerance=tolerance, relative=fraction(check.tolerance)
     )
+
+
+def by_grade(checks: Iterable[Check]) -> str:
+    """Of each grade, how many of the checks that decide passed: "A 3 of 4, C 2 of 2"."""
+    judged = [c for c in checks if c.decisive]
+    counts = {g: [c.passed for c in judged if c.grade == g] for g in GRADES}
+    return ", ".join(f"{grade} {sum(passed)} of {len(passed)}" for grade, passed in counts.items() if passed)
 
 
 def fraction(value: float) -> str:

@@ -113,18 +113,24 @@ def test_shear_laws_of_the_finite_elements():
     assert limited.stress(1e8, -1e12) == pytest.approx(-6e6)
 
 
-def test_cell_means_of_lubfric_are_those_of_a_finer_grid():
-    """A pressure that is uniform on cells: the mean of the deflection over them, by the same kernel on parts of the
-    cells."""
-    from lubfric.contact import half_space
-    from verification.studies.load_sharing import PARTS, cell_mean
+@pytest.mark.parametrize("away", [0, 1, 5])
+def test_cell_means_are_double_integrals_of_the_kernel(away):
+    """The mean deflection of one cell under a pressure on another, by quadrature, in units of the cell."""
+    from scipy.integrate import quad
+    from scipy.special import k0
 
-    p = np.random.default_rng(0).random((6, 4))
-    coarse = half_space((6, 4), (2e-6, 1e-6), E_PRIME, ("free", "periodic"))
-    fine = half_space((6 * PARTS, 4), (2e-6 / PARTS, 1e-6), E_PRIME, ("free", "periodic"))
-    exact = fine.apply(np.repeat(p, PARTS, axis=0)).reshape(6, PARTS, 4).mean(axis=1)
-    assert np.ptp(cell_mean(coarse).apply(p) - exact) < 1e-9 * np.ptp(exact)
-    assert np.ptp(coarse.apply(p) - exact) > 1e-3 * np.ptp(exact)
+    from lubfric.contact import half_space
+    from verification.studies.load_sharing import cell_mean
+
+    dx, n, wave = 2e-6, 12, 2
+    made = cell_mean(half_space((n, 8), (dx, 1e-6), E_PRIME, ("free", "periodic")))
+    kernel = np.fft.irfft(made.symbol, n=made.padded[0], axis=0)[away] * np.pi * E_PRIME / (4 * dx)
+    k = 2 * np.pi * wave / 8e-6 * dx
+    for column, law in ((0, lambda s: -np.log(s / n)), (wave, lambda s: k0(k * s))):
+        # pairs of points of two cells lie s apart as often as a tent of width 2 about ``away`` says
+        tent = [quad(lambda s: law(s) * (1 - abs(s - away)), a, a + 1, epsrel=1e-11)[0] for a in (away, abs(away - 1))]
+        exact = 2 * tent[0] if away == 0 else sum(tent)
+        assert kernel[column] == pytest.approx(exact, rel=1e-8)
 
 
 def test_flat_balance_of_the_finite_elements():

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from scipy.special import erf
 
 import lubfric
 from lubfric.deterministic import BOUNDARY_FILM, solve_strip
@@ -13,18 +12,13 @@ from lubfric.deterministic import BOUNDARY_FILM, solve_strip
 from .. import plotting
 from ..check import TOLD, Check, Figure, Item, Table
 from ..kept import Run
+from ..references import load_share_band
 
 RATIOS = (2.0, 1.4, 1.0, 0.7, 0.4, 0.2)  # smooth central film over Sq
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 PRESSURES = (0.5e9, 0.75e9, 1e9)  # Pa, of Hertz
 SURFACES = {"Gaussian": 150e-9, "exponential": 100e-9, "plateau": 200e-9}  # Sq [m]
 LENGTH, CELL, PATCH = 10e-6, 2e-6, (128, 64)  # correlation length, cells [m] and their number
-LAWS = {
-    "1 - erf(Λ), twin disc": lambda ratio: 1 - erf(ratio),
-    "exp(-2.32 Λ^.97), raceways (Zhou & Hoeprich)": lambda ratio: np.exp(-2.32 * ratio**0.97),
-    "exp(-1.8 Λ^1.2) (Aihara)": lambda ratio: np.exp(-1.8 * ratio**1.2),
-    "(1 - Λ/2)² (Doleschel)": lambda ratio: np.maximum(1 - ratio / 2, 0) ** 2,
-}
 
 
 def boundary_film(level: str, run: Run = Run()) -> Iterator[Item]:
@@ -36,7 +30,7 @@ def boundary_film(level: str, run: Run = Run()) -> Iterator[Item]:
     cases = {f"{kind}; {pressure:g} Pa": (kind, pressure) for kind in kinds for pressure in pressures}
     solved = list(run.solved(cases, shares))
     found = np.array([row for _, row in solved], float)  # cases, ratios, films
-    low, high = band(np.array(RATIOS))
+    low, high = load_share_band(RATIOS)
     off = np.maximum(np.maximum(found - high[:, None], low[:, None] - found), 0.0)
     worst = np.nanmax(off, axis=(0, 1))
     for film, distance in zip(FILMS, worst):
@@ -61,7 +55,7 @@ def drawn(names: list[str], found: np.ndarray) -> Figure:
     canvas, grid = plotting.axes(1, len(chosen), 9.5, 3.6, sharey=True)
     dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
     for ax, film in zip(grid, chosen):
-        ax.fill_between(dense, *band(dense), color="0.8", label="four published laws")
+        ax.fill_between(dense, *load_share_band(dense), color="0.8", label="four published laws")
         for k, (name, one) in enumerate(zip(names, found[:, :, FILMS.index(film)])):
             ax.plot(RATIOS, one, "osD"[k // len(PRESSURES)] + ("-", "--", ":")[k % len(PRESSURES)], label=name)
         ax.set(xscale="log", xlabel="film/Sq", title=f"h < {film * 1e9:g} nm")
@@ -69,12 +63,6 @@ def drawn(names: list[str], found: np.ndarray) -> Figure:
     canvas.legend(*grid[-1].get_legend_handles_labels(), loc="outside right upper", fontsize=8, frameon=False)
     caption = "Load on gaps thinner than three candidates of the boundary film, roughness at rest"
     return plotting.finish("boundary-film", canvas, caption)
-
-
-def band(ratios) -> tuple[np.ndarray, np.ndarray]:
-    """The lowest and the highest of the `LAWS` at each of the ``ratios``."""
-    laws = np.array([law(ratios) for law in LAWS.values()])
-    return laws.min(axis=0), laws.max(axis=0)
 
 
 def shares(case: tuple[str, float]) -> list[list[float]]:

@@ -17,6 +17,7 @@ class Study:
 
     target : "package.module:function"
     levels : those that it runs at
+    grade : of its checks that have none of their own (`verification.check.GRADES`)
     options : keywords of the function beside the level
     """
 
@@ -25,6 +26,7 @@ class Study:
     title: str
     levels: tuple[str, ...] = LEVELS
     options: dict = field(default_factory=dict)
+    grade: str = "C"
 
     def __post_init__(self):
         file_name(self.name)
@@ -37,9 +39,9 @@ class Study:
             )
 
 
-def study(name: str, title: str, levels: tuple[str, ...] = LEVELS) -> Study:
+def study(name: str, title: str, levels: tuple[str, ...] = LEVELS, grade: str = "C") -> Study:
     """The study of this name, in the module of its name."""
-    return Study(name, f"verification.studies.{name}:{name}", title, levels)
+    return Study(name, f"verification.studies.{name}:{name}", title, levels, grade=grade)
 
 
 def wiring(part: str, title: str) -> Study:
@@ -48,19 +50,28 @@ def wiring(part: str, title: str) -> Study:
     return Study(f"wiring_{part}", target, f"Every option reaches the number: {title}")
 
 
+def published(name: str, title: str) -> Study:
+    """A part of ``python -m verification published`` in which nothing is known to differ."""
+    return Study(name, f"verification.published.{name}:{name}", f"{title}, beside publications", grade="A")
+
+
 STUDIES: tuple[Study, ...] = (
-    study("reynolds", "Reynolds equation on a line"),
-    study("reynolds_surface", "Reynolds equation on a surface"),
-    study("layer", "Elastic layer by finite elements, and the half-space"),
+    study("reynolds", "Reynolds equation on a line", grade="B"),
+    study("reynolds_surface", "Reynolds equation on a surface", grade="B"),
+    study("layer", "Elastic layer by finite elements, and the half-space", grade="B"),
     study("contact", "Dry contact on the layer: Hertz line"),
     study("contact_rough", "Dry contact on the layer: rough patch"),
     study("ehl", "Smooth EHL line contact, full-system finite elements"),
-    study("contact_grid", "Dry contact of lubfric on ever finer grids"),
-    study("ehl_grid", "Smooth film of lubfric on ever finer grids"),
+    study("contact_grid", "Dry contact of lubfric on ever finer grids", grade="B"),
+    study("ehl_grid", "Smooth film of lubfric on ever finer grids", grade="B"),
     study("friction", "The whole job of lubfric: grid, patch, area, tolerance"),
     study("load_sharing", "Load sharing, both halves by finite elements"),
     study("deterministic", "One gap, one pressure: limits, and the film in the same gap by finite elements"),
     study("sharing_cases", "Load sharing by finite elements: other oils, sliding, yielding, flat, a measured map"),
+    published("dry", "Dry contact: Hertz, waves, rough surfaces"),
+    published("oils", "Oils"),
+    published("heat", "Heat of a film"),
+    study("sampling", "Surfaces as a sample: their statistics, and the scatter of f"),
     study("formulations", "Contact formulations of the paper against the default"),
     wiring("film", "film and shear"),
     wiring("contact", "contact"),

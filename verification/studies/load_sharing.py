@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.contact import HalfSpace, even_transform, semiperiodic_coefficients
+from lubfric.contact import HalfSpace
 from lubfric.sharing import Prepared, prepare
 
 from .. import parts, plotting
@@ -22,16 +22,16 @@ LENGTH = 44.8e-6  # of the patch, both ways
 CORRELATION = 4e-6  # m, where the autocorrelation of the heights falls to 1/e
 SPEEDS = (0.001, 0.01, 0.03)  # m/s
 TIGHT = {  # the model of the finite elements: no more and no less
-    "model": "load-sharing",
     "film_tolerance": 1e-4,
     "balance_tolerance": 1e-6,
     "film_deflection": "hydrodynamic",
     "heat": "off",
+    "model": "load-sharing",
     "sampling": "patch",
     "grid": "given",
     "accept": True,
 }
-PARTS = 9  # of a cell, to take the mean displacement on
+STEP, POINTS = 0.1, 200  # of the trapezoidal rule in `twice_integrated`: its error is below 1e-15
 SOURCE = "film and contact by finite elements, own root finder"
 
 
@@ -54,8 +54,8 @@ def load_sharing(level: str):
     its surface) against lubfric's half-space and Newton's method. *Contact*: P2 elements in the section with waves
     along the line and an active set, against lubfric's Bessel kernel and conjugate gradient. *Balance and
     friction*: another root finder and other integrals. Both sides get the same heights on the same cells and the same
-    meaning of a displacement, its mean over a cell. lubfric's own is at cell centres, and is averaged over parts of the
-    cells by its own kernel (`cell_mean`). What is left is the error of the finite elements.
+    meaning of a displacement, its mean over a cell. lubfric's own is at cell centres. Here it is given a kernel of
+    means, which is written for this comparison (`cell_mean`). What is left is the error of the finite elements.
     """
     (grids, refinements, fineness, speeds), points = LEVELS[level], []
     for cells in grids:
@@ -127,19 +127,33 @@ def averaged(model: Prepared) -> Prepared:
 
 
 def cell_mean(operator: HalfSpace) -> HalfSpace:
-    """The operator with displacements averaged over ``PARTS`` parts of each cell along x.
+    """The operator with displacements that are means over each cell along x, under pressures uniform in each cell.
 
-    The pressure is uniform in each cell as before. lubfric's own coefficients on a grid of parts are summed over the
-    parts of the source and averaged over those of the target.
+    A line load that varies as exp(i k y) deflects a half-space by (4/(pi E')) K0(k |x|), and by -(4/(pi E')) ln|x|
+    where k = 0. Integrated over one cell and averaged over another, that is a second difference of its second
+    antiderivative. u of a line load along y is 0 at the length of the patch, which is the level that lubfric takes.
     """
     (nx, ny), (dx, dy) = operator.shape, operator.spacing
-    parts = semiperiodic_coefficients((nx * PARTS, ny), (dx / PARTS, dy), operator.e_prime)
-    away = np.arange(nx)[:, None] * PARTS + np.arange(1 - PARTS, PARTS)
-    often = PARTS - np.abs(np.arange(1 - PARTS, PARTS))  # pairs of parts at that distance
-    known = np.abs(away) < nx * PARTS
-    kernel = np.where(known[..., None], parts[np.minimum(np.abs(away), nx * PARTS - 1)], 0.0)
-    symbol = even_transform(np.einsum("d,ndk->nk", often / PARTS, kernel), operator.padded[0], axis=0)
-    return replace(operator, symbol=symbol)
+    k = 2 * np.pi * np.arange(1, ny // 2 + 1) / (ny * dy)
+    away = np.arange(nx + 1) * dx
+    waves = twice_integrated(away[:, None] * k) / k**2
+    size = np.maximum(away, np.finfo(float).tiny)
+    line = -(size**2) * (np.log(size / (nx * dx)) / 2 - 0.75)
+    folded = np.column_stack([line, waves])  # about the cell itself: even
+    below = np.vstack([folded[1], folded[:-2]])
+    kernel = 4 / (np.pi * operator.e_prime) * (folded[1:] - 2 * folded[:-1] + below) / dx
+    kernel[0, 1:] += 4 / (np.pi * operator.e_prime) * np.pi / k  # the kink at 0 of the part that decays
+    mirrored = np.zeros((operator.padded[0], kernel.shape[1]))
+    mirrored[:nx], mirrored[-nx + 1 :] = kernel, kernel[:0:-1]
+    return replace(operator, symbol=np.ascontiguousarray(np.fft.rfft(mirrored, axis=0).real))
+
+
+def twice_integrated(z: np.ndarray) -> np.ndarray:
+    """The function whose second derivative is K0(z), zero far away: ∫ exp(-z cosh t)/cosh² t dt, t > 0."""
+    found = 0.5 * np.exp(-z)
+    for growth in np.cosh(STEP * np.arange(1, POINTS)):
+        found += np.exp(-z * growth) / growth**2
+    return STEP * found
 
 
 def rows_of(main: lubfric.FrictionResult, fem: Shared, allowed: tuple[float, float, float]) -> list[tuple]:

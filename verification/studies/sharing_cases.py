@@ -73,7 +73,7 @@ def sharing_cases(level: str):
     """
     asked, refinements = TOLERANCE[level], REFINEMENTS[level]
     body, heights = strip(LENGTH / CELLS), rough(CELLS, CELLS)
-    for case in CASES:
+    for case in CASES[::4] if level == "quick" else CASES:
         s = scene().with_(bodies={"hardness": None}).with_(**case.sections)
         model = averaged(prepare(s, lubfric.Surface(heights, (LENGTH / CELLS,) * 2)))
         found = share_load(cylinder(model, body, heights, case), refinements=refinements)
@@ -81,7 +81,8 @@ def sharing_cases(level: str):
         yield from compared(case.name, rows_of(main, found, asked), SOURCE)
         if case.hardness < math.inf:
             yield from yielded(found, main, body, model)
-    yield from measured_map(asked, refinements)
+    if level != "quick":
+        yield from measured_map(asked, refinements)
     yield from flat(asked, refinements)
 
 

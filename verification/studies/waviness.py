@@ -14,7 +14,7 @@ import numpy as np
 
 from lubfric.deterministic import lay_out, solve_point
 from lubfric.film import LineContact
-from lubfric.oil import Lubricant, viscosity
+from lubfric.oil import Lubricant
 from lubfric.surface.height_map import Surface
 
 from ..check import ABSOLUTE, Check, Item, Table
@@ -114,6 +114,6 @@ def response(smooth, base, k: float) -> np.ndarray:
 
 
 def _even(case: Case, length: float, film: float, pressure: float) -> float:
-    eta = float(viscosity(case.line.lubricant, pressure))
+    eta = float(case.elements.fluid.eta(pressure))
     q = 48 * eta * case.speed / (case.e_prime * (2 * np.pi / length) ** 2 * film**3)
     return float(1 / np.hypot(1, q))

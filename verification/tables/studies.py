@@ -107,9 +107,27 @@ def formulations() -> Cells:
     return ["contact", *columns], list(rows.values())
 
 
+def publications() -> Cells:
+    """Every source of `python -m verification published`: how many of its checks passed, and how far ours is off."""
+    from ..published import STUDIES as parts
+    from ..references import SOURCES
+
+    checks = [c for part in parts.values() for c in run_one(part, LEVEL, quiet).checks]
+    rows = []
+    for source in SOURCES.values():
+        mine = [c for c in checks if c.source == source.text]
+        off = [round(100 * (c.measured / c.expected - 1), 4) + 0.0 for c in mine]
+        far = f"{min(off):+.2g} to {max(off):+.2g} %" if len(mine) > 1 else f"{off[0]:+.2g} %"
+        worst = max(c.units for c in mine)
+        passed = f"{sum(c.passed for c in mine)} of {len(mine)}"
+        rows.append([f"{source.words}, {source.place}", passed, far, f"{worst:.2f}"])
+    return ["source", "passed", "ours off by", "most, in both errors"], rows
+
+
 TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
     "orders": orders,
+    "publications": publications,
     "film-against-table": film_against_table,
     "contact-cells": copied("friction", "contact_cells", "d", ".1f", ".1e"),
     "tolerance-asked": tolerance_asked,

@@ -1,0 +1,65 @@
+"""Publications: where their numbers stand, the grades of checks, and that the command tells who differs."""
+
+import json
+
+import pytest
+
+from verification import references
+from verification.__main__ import main
+from verification.check import Check, beside
+from verification.published import PARTS, against
+from verification.run import quiet, run_one
+from verification.studies import STUDIES, Study
+
+
+def test_both_errors_are_summed_by_squares_and_the_deviation_is_told_in_them():
+    one = beside("f", 1.10, 1.00, (0.06, 0.08), "somebody")
+    assert one.grade == "A" and one.units == pytest.approx(1.0) and one.tolerance == pytest.approx(0.1)
+    assert not beside("f", 1.11, 1.00, (0.06, 0.08), "somebody").passed
+    named = against("grubin", "film", 2.0, 2.5, 0.01)
+    assert named.errors == pytest.approx((0.02, 0.125)) and "A. N. Grubin" in named.source
+
+
+def test_a_check_has_the_grade_of_its_study_unless_it_has_its_own(monkeypatch):
+    import verification.studies.sampling as module
+
+    def made(level):
+        yield Check("mine", 1.0, 1.0, 0.1, "x", grade="A")
+        yield Check("of the study", 1.0, 1.0, 0.1, "x")
+
+    monkeypatch.setattr(module, "sampling", made)
+    outcome = run_one(Study("s", "verification.studies.sampling:sampling", "s", grade="B"), "quick", quiet)
+    assert [c.grade for c in outcome.checks] == ["A", "B"]
+    with pytest.raises(ValueError, match="grade = 'D'"):
+        Check("x", 1.0, 1.0, 0.1, "x", grade="D")
+
+
+def test_oils_and_heat_agree_and_their_page_shows_both_values(tmp_path):
+    assert main(["published", "--only", "oils", "heat", "--out", str(tmp_path)]) == 0
+    data = json.loads((tmp_path / "report.json").read_text())
+    checks = [c for study in data["studies"] for c in study["checks"]]
+    assert len(checks) > 50 and {c["grade"] for c in checks} == {"A"}
+    page = (tmp_path / "report.html").read_text()
+    for word in ("Theirs", "Ours", "Deviation", "In errors", "R. Nahme", "naphthenic"):
+        assert word in page
+
+
+def test_one_that_differs_ends_with_1_and_is_listed(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(references, "FLASH_HERTZ", 1.2)
+    assert main(["published", "--only", "heat", "--out", str(tmp_path)]) == 1
+    out = capsys.readouterr().out
+    assert (
+        "1 of 12 differ by more than both errors:" in out
+        and "flash temperature, Hertz band: ours 1.111, theirs 1.2" in out
+    )
+
+
+def test_what_the_plain_command_has_of_the_publications_is_a_part_of_them():
+    plain = {s.target for s in STUDIES if "published" in s.target}
+    assert plain and plain < {f"verification.published.{name}:{name}" for name, _ in PARTS}
+
+
+def test_every_source_says_how_it_was_got_and_how_good_it_is():
+    for source in references.SOURCES.values():
+        assert source.words and source.place and source.got and 0 <= source.error <= 0.1
+    assert len(references.SOURCES) >= 12

@@ -1,0 +1,52 @@
+"""``python -m verification published``: `lubfric` beside numbers and laws of other people, and nothing else.
+
+These are the checks of grade A. The numbers are those of `verification.references`, each with its source. A check
+passes when both differ by no more than what both leave open, as 95 % bounds summed by squares. Nothing is tuned: what
+differs by more is shown as failing, with the reason where it is known, and the command ends with 1.
+"""
+
+from __future__ import annotations
+
+from .. import check, frame
+from ..check import Check
+from ..references import SOURCES
+from ..studies import Study
+
+PARTS: tuple[tuple[str, str], ...] = (
+    ("dry", "Dry contact: Hertz, waves, rough surfaces"),
+    ("films", "Smooth films"),
+    ("friction", "Rolling and sliding friction of smooth films"),
+    ("heat", "Heat of a film"),
+    ("oils", "Oils: viscosity, density, pressure-viscosity coefficient"),
+    ("mixed", "Mixed lubrication"),
+)
+STUDIES = {name: Study(name, f"verification.published.{name}:{name}", title, grade="A") for name, title in PARTS}
+
+
+def main(argv: list[str]) -> int:
+    """The command."""
+    command = frame.Command(
+        "published", __doc__, tuple(STUDIES.values()), "out/published", ("default",), finished=lambda r, o: failed(r)
+    )
+    return frame.main(command, argv)
+
+
+def failed(report) -> str:
+    """The checks that failed, by name, with their deviation in units of both errors."""
+    names = [c for c in report.checks if c.failed]
+    lines = [
+        f"  {c.name}: ours {c.measured:.4g}, theirs {c.expected:.4g}; {c.note or 'no reason known'}" for c in names
+    ]
+    return (
+        "\n".join([f"{len(names)} of {len(report.checks)} differ by more than both errors:", *lines]) if names else ""
+    )
+
+
+def against(
+    key: str, name: str, ours: float, theirs: float, own_error: float, unit: str = "1", note: str = "", error=None
+) -> Check:
+    """Our value beside a number of the source ``key``. ``own_error`` and ``error`` (None: that of the source) are
+    relative, in 95 % bounds."""
+    source = SOURCES[key]
+    errors = abs(own_error * ours), abs((source.error if error is None else error) * theirs)
+    return check.beside(name, ours, theirs, errors, source.text, unit, note)

@@ -1,0 +1,89 @@
+"""Rolling and sliding friction of smooth films beside Biboulet and Houpert, Martin, Johnson and Tevaarwerk."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+import lubfric
+from lubfric.film import ShearForce, shear_force
+from lubfric.oil import Lubricant
+
+from .. import plotting, references
+from ..check import Check, Figure, Item
+from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY
+from . import against
+from .films import film, own
+
+LOADS, OILS = (2, 5, 10, 30, 100, 200), (4, 8, 12, 16)  # M, L
+EYRING = ((100, 10, 5e6, 0.01), (200, 10, 5e6, 0.2), (50, 15, 2e6, 0.05))  # M, L, stress [Pa], slide-roll ratio
+WIDE = "theirs depends neither on M nor on L; ours does, by up to a quarter"
+
+
+def friction(level: str) -> Iterator[Item]:
+    """Forces on a smooth film: rolling without sliding in 24 contacts, the rigid cylinder, and Eyring's traction.
+
+    Our error is what the solver states for the film, and for the rolling force also that of its sum.
+    """
+    rolled = {(m, l): rolling(m, l) for l in OILS for m in LOADS}
+    for (m, l), (ours, theirs, error) in rolled.items():
+        yield against("biboulet", f"rolling friction, M = {m}, L = {l}", ours, theirs, error, "N/m", WIDE)
+    yield from rigid()
+    for m, l, stress, ratio in EYRING:
+        yield eyring(m, l, stress, ratio)
+    yield drawn(rolled)
+
+
+def force(found: lubfric.EHLResult, oil: Lubricant, ratio: float) -> ShearForce:
+    """Forces per width without contact spots."""
+    return shear_force(found, oil, slide_roll_ratio=ratio, width=1.0, contact_fraction=lambda x: np.zeros(x.size - 1))
+
+
+def rolling(m: float, l: float) -> tuple[float, float, float]:
+    """Rolling force [N/m] by lubfric and by the law, and the relative error of ours."""
+    found = film(m, l, "dowson-higginson")
+    size, error = found.rolling or (math.nan, math.nan)
+    speeds = 2 * VISCOSITY * found.entrainment_speed / (E_PRIME * RADIUS)
+    theirs = references.ROLLING * speeds**references.ROLLING_POWER * E_PRIME * RADIUS
+    return force(found, found.contact.lubricant, 1e-9).rolling, theirs, own(found) + error / size
+
+
+def rigid() -> Iterator[Check]:
+    """Forces on the rigid cylinder."""
+    found = film(1e-3, 5.0, law="constant", tolerance=1e-4)
+    forces, h0 = force(found, found.contact.lubricant, 1.0), found.min_film
+    scale = VISCOSITY * found.entrainment_speed * math.sqrt(RADIUS / h0)
+    for name, ours in (("couette", forces.couette / scale), ("rolling", forces.rolling / (2 * scale))):
+        error = own(found) + forces.quadrature / forces.couette
+        yield against("martin", f"rigid cylinder, {name} force", ours, references.RIGID[name], error)
+    m, l = 0.05, 5.0
+    found = film(m, l, law="constant", tolerance=1e-4)
+    torque = force(found, found.contact.lubricant, 1e-9).rolling * RADIUS
+    ours = torque * m / (found.hertz_pressure * found.half_width**2)
+    yield against("biboulet-rigid", f"torque on a roller, M = {m}", ours, references.RIGID_TORQUE, own(found))
+
+
+def eyring(m: float, l: float, stress: float, ratio: float) -> Check:
+    """Traction of a heavy contact, Barus and Eyring; theirs with our central film."""
+    found = film(m, l, law="barus")
+    ours = force(found, Lubricant(VISCOSITY, ALPHA, "barus", eyring_stress=stress), ratio).couette
+    rate = ratio * found.entrainment_speed / found.central_film
+    half_width, peak = references.hertz_line(found.contact.load_per_width, RADIUS, E_PRIME)
+    theirs = references.eyring_force(stress, VISCOSITY, ALPHA, rate, half_width, peak)
+    name = f"Eyring traction, M = {m}, L = {l}, {stress / 1e6:g} MPa, slide-roll {ratio:g}"
+    return against("johnson", name, ours, theirs, own(found), "N/m")
+
+
+def drawn(rolled: dict[tuple[int, int], tuple[float, float, float]]) -> Figure:
+    """Rolling force over theirs."""
+    canvas, ax = plotting.axes(width=6.0, height=3.8)
+    for k, l in enumerate(OILS):
+        ratios = [rolled[m, l][0] / rolled[m, l][1] for m in LOADS]
+        errors = [rolled[m, l][2] * r for m, r in zip(LOADS, ratios)]
+        ax.errorbar(LOADS, ratios, errors, fmt="osD^"[k] + "-", lw=0.8, label=f"lubfric, L = {l}")
+    error = references.SOURCES["biboulet"].error
+    ax.axhspan(1 - error, 1 + error, color="0.88", label="Biboulet and Houpert ± 5 %")
+    ax.axhline(1.0, color="k", lw=0.8)
+    ax.set(xscale="log", xlabel="M", ylabel="rolling force over theirs")
+    canvas.legend(loc="outside lower center", ncols=3, frameon=False)
+    return plotting.finish("rolling", canvas, "Rolling friction over F/(E' R) = 1.47 (η u_s/(E' R))^.75")

@@ -1,0 +1,52 @@
+"""Mixed lubrication beside four laws of the load share, and the paper's own numbers."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+import lubfric
+from lubfric.deterministic import BOUNDARY_FILM
+
+from .. import plotting, references
+from ..check import Figure, Item
+from ..model.boundary_film import FILMS, RATIOS, SURFACES, shares
+from . import against
+
+PRESSURE = 0.5e9  # Pa, of Hertz
+SURFACE_UNKNOWN = "the measured surface of the paper is not published; ours is generated"
+
+
+def mixed(level: str) -> Iterator[Item]:
+    """The share of the load on gaps below the boundary film, and the paper's cylinder.
+
+    Theirs is the band that four published laws span. Ours is the mean of three kinds of roughness on a roller, each a
+    patch; the error is twice its standard error.
+    """
+    found = np.array([shares((kind, PRESSURE)) for kind in SURFACES])[:, :, FILMS.index(BOUNDARY_FILM)]
+    ours, own = found.mean(axis=0), 2 * found.std(axis=0, ddof=1) / np.sqrt(len(found))
+    low, high = references.load_share_band(RATIOS)
+    for ratio, one, error, a, b in zip(RATIOS, ours, own, low, high):
+        name, half = f"load share of the asperities, film/Sq = {ratio:g}", (b - a) / (a + b)
+        note = "not independent: the boundary film of 20 nm is the candidate that lies nearest to these laws"
+        yield against("shares", name, one, (a + b) / 2, error / one, note=note, error=half)
+    scene = lubfric.load_scene("paper")
+    line = scene.line_contact(0.001)
+    mean = scene.bodies.load / scene.bodies.width / (2 * line.half_width)
+    yield against("paper", "mean Hertz pressure", mean, references.PAPER["mean Hertz pressure"], 0.0, "Pa", error=5e-3)
+    yield against("paper", "half-width", line.half_width, references.PAPER["half-width"], 0.0, "m", error=0.012)
+    point = lubfric.friction(scene.with_(numerics={"model": "load-sharing"}), 0.001)
+    error, theirs = 2 * point.errors.film_load, references.PAPER["film load at 0.001 m/s"]
+    yield against("paper", "F_H at 0.001 m/s", point.film_load, theirs, error, "N", SURFACE_UNKNOWN, 0.0023)
+    yield drawn(ours, own)
+
+
+def drawn(ours: np.ndarray, own: np.ndarray) -> Figure:
+    """Shares over the ratio, in the band of the laws."""
+    canvas, ax = plotting.axes(width=6.0, height=4.0)
+    dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
+    for name, law in references.LOAD_SHARES.items():
+        ax.plot(dense, law(dense), "-", lw=1.0, label=name)
+    ax.errorbar(RATIOS, ours, own, fmt="ko", label="lubfric, three kinds of roughness")
+    ax.set(xscale="log", xlabel="film/Sq", ylabel="share of the load")
+    ax.legend(fontsize=8)
+    return plotting.finish("shares", canvas, "Load share of the asperities beside four published laws")
