@@ -21,6 +21,8 @@ from .problem import Problem, make_problem
 from .reynolds import Solution
 from .start import State, solution_state
 
+HALF, LESS = 0.5, 0.6  # of the flooded flow, from where the flow falls by steps; and these steps
+ROUGH = Effort(5e-3)  # on the way
 FURTHEST = 300.0  # of the length on which a flooded film builds up: an inlet beyond it is a flooded one
 
 
@@ -121,27 +123,31 @@ def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Sol
     b = full.flat_half_width
     furthest = full.inlet or 3.0 * b + FURTHEST * full.rise
 
-    def fed_from(near: State, known: float = 1.0) -> tuple[Problem, list[Solution]]:
+    def fed_from(near: State, aim: float, known: float = 1.0) -> tuple[Problem, list[Solution]]:
         there = near.problem
-        law = full.inlet_of(flow / known) - b, there.inlet_of(near.flux / known) - there.flat_half_width
+        law = full.inlet_of(aim / known) - b, there.inlet_of(near.flux / known) - there.flat_half_width
         closer = (near.inlet - there.flat_half_width) * law[0] / law[1]
-        problem = replace(full, fed=flow, inlet=min(b + closer, furthest))
-        return problem, warm(problem, effort, near)
+        problem = replace(full, fed=aim, inlet=min(b + closer, furthest))
+        return problem, warm(problem, effort if aim == flow else ROUGH, near)
 
     if state is not None and state.problem.fed is not None:
-        problem, levels = fed_from(state)
+        problem, levels = fed_from(state, flow)
         if sound(levels) and -levels[-1].terms.X[0] <= furthest:
             return problem, levels, [], ()
     problem, levels, first, notes = solved(full, effort, state)
     flooded = levels[-1].terms.q
     if not sound(levels) or flooded <= flow:
         return problem, levels, first, notes
-    known = flooded / full.film_guess
-    there = replace(full, inlet=min(full.inlet_of(flow / known), furthest))
+    known, aim = flooded / full.film_guess, max(flow, HALF * flooded)
+    there = replace(full, inlet=min(full.inlet_of(aim / known), furthest))
     near, closer = first_state(there, coarsest(full), effort.max_iterations)
-    problem, fed = fed_from(near, known)
     spent = first + levels + closer
-    if sound(fed):
+    while True:
+        problem, fed = fed_from(near, aim, known)
+        if aim == flow or not sound(fed):
+            break
+        near, aim, spent = solution_state(problem, fed[-1], 0.0), max(flow, LESS * aim), spent + fed
+    if sound(fed) or flow < HALF * flooded:
         return problem, fed, spent, notes
     return _found_inlet(problem, effort, solution_state(full, levels[-1], 0.0), furthest, spent + fed, notes)
 
