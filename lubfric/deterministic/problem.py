@@ -134,13 +134,11 @@ def lay_out(
         raise InputError(f"factors = {factors} do not divide the {ny} cells of the map along y; allowed: its divisors")
     upstream, downstream = reach(contact, surface.sq) if ends is None else ends
     begins = contact.lubricant.inlet_length
-    short = (
-        begins is not None and begins < upstream + dx
-    )  # the grid begins there, in the first cell that is all behind it
-    upstream = begins - dx / 2 if short else upstream
+    if begins is not None and begins < upstream + dx:  # the first cell is the first that is all behind it
+        upstream = begins - 1.5 * dx + 1e-9 * dx
     # the centres of the cells of the map are (i - (nx - 1)/2) dx/fx; those taken are fx//2, fx//2 + fx, ...
     middle, taken = (nx - 1) / 2, fx // 2
-    first = (math.ceil if short else math.floor)((middle - taken) / fx - upstream / dx)
+    first = math.floor((middle - taken) / fx - upstream / dx)
     last = math.ceil((middle - taken) / fx + downstream / dx)
     index = taken + fx * np.arange(first, last + 1)
     if index.size * (ny // fy) > LARGEST:

@@ -61,10 +61,7 @@ def solve_ehl(
     viscosity, pressure_viscosity_coefficient : eta0 at ambient pressure [Pa s]; alpha [1/Pa]
     viscosity_law, density_law : see `lubfric.Lubricant`, also for the ranges of the laws
     tolerance : relative error of min_film and flow_film from grid and domain, 1e-5 to 0.1
-    inlet_length : None: fully flooded, the pressure decays to -infinity; or the distance [m] upstream of the line of
-        centres at which the lubricant begins (starved)
-    inlet_film : None, or the film [m] that arrives: the lubricant begins where the flow is as much
-        (`lubfric.film.starved`)
+    inlet_length, inlet_film : None: fully flooded; or where it begins, the film that arrives [m] (`Lubricant`)
     imposed_pressure : None, or (x [m], pressure [Pa]), (m,) each, x ascending, pressure >= 0: a line pressure, linear
         between the x and zero outside, that deflects the film in addition to p, and carries no load (kinks cost cells)
     start : the result of a neighbouring load or speed; if it leads nowhere, a cold start is made, and noted
@@ -125,6 +122,7 @@ def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Sol
 
     def fed_from(near: State, aim: float, known: float = 1.0) -> tuple[Problem, list[Solution]]:
         there = near.problem
+        assert near.inlet is not None
         law = full.inlet_of(aim / known) - b, there.inlet_of(near.flux / known) - there.flat_half_width
         closer = (near.inlet - there.flat_half_width) * law[0] / law[1]
         problem = replace(full, fed=aim, inlet=min(b + closer, furthest))
@@ -155,7 +153,8 @@ def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Sol
 def _found_inlet(problem: Problem, effort: Effort, state: State, furthest: float, spent, notes) -> Solved:
     """The same by a search for the inlet. Where nearly as much arrives as the full inlet takes, the flow hardly depends
     on where the lubricant begins, and Newton's method for that place fails."""
-    flow, b = problem.fed, problem.flat_half_width
+    flow, guess, b = problem.fed, problem.inlet, problem.flat_half_width
+    assert flow is not None and guess is not None
 
     def surplus(log_distance: float, last) -> tuple[float, Solved]:
         closer = replace(effort, least_cells=max(effort.least_cells, last[1][-1].grid.n)) if last else effort
@@ -164,10 +163,8 @@ def _found_inlet(problem: Problem, effort: Effort, state: State, furthest: float
         found = solved(there, closer, near)
         return math.log(found[1][-1].terms.q / flow), found
 
-    bounds = math.log(1e-3 * (problem.inlet - b)), math.log(furthest - b)
-    root = increasing_root(
-        surplus, math.log(problem.inlet - b), step=0.5, bounds=bounds, tolerance=1e-3 * effort.tolerance
-    )
+    bounds = math.log(1e-3 * (guess - b)), math.log(furthest - b)
+    root = increasing_root(surplus, math.log(guess - b), step=0.5, bounds=bounds, tolerance=1e-3 * effort.tolerance)
     there, levels, first, _ = root.payload
     whole = root.value < 0 and root.x == bounds[1]  # on these cells the full inlet takes no more
     return replace(there, fed=None if whole else flow), levels, spent + first, notes

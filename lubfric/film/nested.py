@@ -43,7 +43,8 @@ class Effort:
 
 
 def solved(problem: Problem, effort: Effort, state: State | None) -> Solved:
-    seated, notes = on_seats(problem), ()
+    seated = on_seats(problem)
+    notes: tuple[str, ...] = ()
     if state is not None:
         alike = [p for p in seated if (p.seat_modulus < 1.0) == (state.problem.seat_modulus < 1.0)]
         problem = (alike or seated)[0]

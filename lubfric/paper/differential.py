@@ -77,15 +77,13 @@ def solve_differential_deflection(
     InputError : a value out of range, before any work
     ConvergenceError : residuals above tolerance; carries report and result
     """
-    lubricant = Lubricant(
-        viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, inlet_length=inlet_length
-    )
+    oil = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, inlet_length=inlet_length)
     Effort(tolerance, 0, max_iterations)  # checks both
     if nodes is not None:
         integer("nodes", nodes, minimum=COARSEST + 1)
     integer("most_nodes", most_nodes, minimum=COARSEST + 1)
     integer("bandwidth", bandwidth, minimum=0)
-    problem = make_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant))
+    problem = make_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, oil))
     ends = domain_ends(problem, domain)
     cells = _cells(problem, ends, nodes, most_nodes)
     levels = _ascend(problem, ends, cells, bandwidth, tolerance, max_iterations, doubled=nodes is None)
