@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from .contact import AsperityResult as AsperityResult
     from .contact import ContactResult as ContactResult
     from .contact import asperity_contact as asperity_contact
+    from .contact import run_in as run_in
     from .contact import separation_for_load as separation_for_load
     from .contact import solve_contact as solve_contact
     from .errors import ConvergenceError as ConvergenceError
@@ -65,7 +66,10 @@ _NAMES = {  # by the room that they come from
     "scene": ("load_scene", "Scene", "Bodies", "ContactDomain", "Roughness", "Motion", "Numerics", "Transient"),
     "oil": ("Lubricant",),
     "surface": ("Surface", "generate_surface", "read_surface"),
-    "contact": ("solve_contact", "ContactResult", "asperity_contact", "separation_for_load", "AsperityResult"),
+    "contact": (
+        *("solve_contact", "ContactResult", "run_in"),
+        *("asperity_contact", "separation_for_load", "AsperityResult"),
+    ),
     "film": ("solve_ehl", "EHLResult"),
     "sharing": ("prepare", "Prepared", "Validity"),
     "sampling": ("friction", "FrictionResult"),
@@ -79,7 +83,7 @@ _NAMES = {  # by the room that they come from
 }
 _HOME = {name: home for home, names in _NAMES.items() for name in names}
 _PACKAGES = ("oil",)
-__all__ = sorted([*(name for name in _HOME if name != "__version__"), *_PACKAGES])
+__all__ = sorted(name for name in _HOME if name != "__version__")
 
 
 def __getattr__(name: str) -> object:
@@ -93,4 +97,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return sorted(set(globals()) | set(__all__))
+    return sorted({*globals(), *__all__, *_PACKAGES})

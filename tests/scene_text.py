@@ -1,4 +1,7 @@
-"""Parts of the small scene files that several tests write: the bodies and the oil, and a small rough patch."""
+"""Scenes that many tests begin with: parts of small scene files (the bodies and the oil, a small rough patch), and the
+paper's by load sharing."""
+
+import lubfric
 
 BODIES_AND_OIL = """
 [bodies]
@@ -18,3 +21,8 @@ correlation_length = 4e-6
 shape = [48, 48]
 spacing = 1.1e-6
 """
+
+
+def paper_scene(**sections) -> lubfric.Scene:
+    """The scene "paper" by load sharing alone, which takes a fraction of a default answer, with other ``sections``."""
+    return lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(**sections)

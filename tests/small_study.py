@@ -1,17 +1,10 @@
 """A scene whose points take a moment, and what two studies have to have in common."""
 
 import numpy as np
+from scene_text import paper_scene
 
-import lubfric
-
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        contact={"shape": (48, 48), "spacing": 1.1e-6},
-        surface={"correlation_length": 4e-6},
-        numerics={"sampling": "patch"},
-    )
+SCENE = paper_scene(
+    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
 
 

@@ -5,8 +5,6 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[1]
 FILES = sorted((ROOT / "lubfric").rglob("*.py"))
 PROSE = ("text", "notes", "words", "film_words", "deflection", "heat", "consequence", "remedy", "source", "validity")
@@ -46,22 +44,3 @@ def readings(tree: ast.AST) -> Iterator[int]:
 
 def test_nothing_is_decided_by_reading_prose():
     assert [(path, line) for path, tree in trees().items() for line in readings(tree)] == []
-
-
-@pytest.mark.parametrize(
-    "line",
-    [
-        "'whole load' in decision.deflection",
-        "found.text.startswith('caution')",
-        "entry.text.split('; ')[0]",
-        "alpha.source == 'the scene'",
-        "'x' not in report.notes",
-    ],
-)
-def test_a_reading_is_seen(line):
-    assert list(readings(ast.parse(line))) == [1]
-
-
-@pytest.mark.parametrize("line", ["heat == 'on'", "scene.numerics.heat == 'on'"])
-def test_an_option_is_no_prose(line):
-    assert list(readings(ast.parse(line))) == []

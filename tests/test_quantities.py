@@ -1,9 +1,6 @@
 """The one table of numbers agrees with what results and scenes have."""
 
-from dataclasses import dataclass, fields
-
-import numpy as np
-import pytest
+from dataclasses import fields
 
 import lubfric
 from lubfric import quantities as q
@@ -39,26 +36,3 @@ def test_words_for_columns_axes_tables_and_lines():
     assert q.described("bodies.load") == {"units": "N", "long_name": "total load"}
     assert q.described("surface.seed") == {"long_name": "seed"}
     assert q.depending_on("heat") == ("inlet_film_factor", "flash_temperature_rise", "film_temperature_rise")
-
-
-def test_a_result_made_from_the_table():
-    """Fields, docstring and words of a class over the table: numbers for a point, arrays for a curve."""
-
-    @q.described_in_doc
-    @dataclass(frozen=True)
-    class Result(q.PointQuantities[float]):
-        """A result.
-
-        Attributes
-        ----------
-        report : of the solve
-        """
-
-        report: str
-
-    found = Result(**{name: 0.5 for name in q.NUMBERS}, report="fine")
-    assert q.in_words(found, ("speed", "coefficient")) == {"U": "0.5 m/s", "f": "0.5"}
-    assert "film_load : load carried by the film [N]\n" in Result.__doc__ and "report : of the solve" in Result.__doc__
-    with pytest.raises(TypeError):
-        Result(report="no numbers")
-    assert np.isnan(q.UncertaintyQuantities().sampling)

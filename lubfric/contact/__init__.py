@@ -11,6 +11,7 @@ from .operator import HalfSpace, even_transform, half_space
 from .problem import Problem, make_problem
 from .rough_contract import ContactState, RoughContact, weighted_mean
 from .rounds import ContactResult, Found, State, concluded, contact_residuals, length_scale, look, refine, state_of
+from .run_in import RunIn, run_in
 from .solve import solve_contact
 from .strip_cells import correlation_lengths, length_or_half
 from .strips import Strips, one_patch, strips_of

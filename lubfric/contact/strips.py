@@ -36,6 +36,7 @@ from .strip_cells import (
 )
 
 STRIP, PIECE = 90.0, 42.0  # correlation lengths: of a strip, of a piece on the scene's own cells
+WIDE = 5.0  # correlation lengths along x in b: from there a strip half as long has spots enough
 FIRST = 180.0  # correlation lengths that are solved first
 MOST = 46080.0  # correlation lengths, at most
 MOST_CELLS = 3_000_000  # of a stack: memory
@@ -228,9 +229,10 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     else:
         sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))
         cells = choose_cells(spacing, shortest, half_width, max(patch.shape[0] * spacing[0], reach_of(scene, sq)))
-    length = min(STRIP * lengths[1], MOST_CELLS / 2 / cells.count * cells.coarse[1])
-    available = int(min(MOST / STRIP, MOST_CELLS / (cells.count * cells.rows(length))))
-    first = min(round(FIRST / STRIP), available)
+    long = STRIP if half_width < WIDE * lengths[0] else STRIP / 2
+    length = min(long * lengths[1], MOST_CELLS / 2 / cells.count * cells.coarse[1])
+    available = int(min(MOST / long, MOST_CELLS / (cells.count * cells.rows(length))))
+    first = min(round(FIRST / long), available)
     return GeneratedStrips(scene, cells, lengths, length, first, available, available, exact_sq=len(bodies) == 1)
 
 

@@ -45,18 +45,18 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     fluidity = np.exp(log_fluidity)
     limit = None if fluid.limit is None else mean(fluid.limit)
     newtonian = problem.lubricant.viscosity * problem.sliding / (film * fluidity)
-    thin = thinning(problem.lubricant, newtonian, limit, along=axis == 0)
+    thinner, exponent, limit_exponent = thinning(problem.lubricant, newtonian, limit, along=axis == 0)
     cubed = (before(h) * behind(h)) ** 2 / film
-    mobility = density * cubed * fluidity / (12 * problem.lubricant.viscosity * problem.spacing[axis]) * thin.factor
+    mobility = density * cubed * fluidity / (12 * problem.lubricant.viscosity * problem.spacing[axis]) * thinner
     flow = mobility * (before(p) - behind(p))
 
     def by_p(side, by_log, sign):
-        laws = (1 - thin.exponent) * by_log * side(fluid.log_slope) + 0.5 * side(fluid.density_slope) / density
+        laws = (1 - exponent) * by_log * side(fluid.log_slope) + 0.5 * side(fluid.density_slope) / density
         if limit is not None:
-            laws = laws - thin.limit_exponent * 0.5 * fluid.limit_slope / limit
+            laws = laws - limit_exponent * 0.5 * fluid.limit_slope / limit
         return sign * mobility + flow * laws
 
-    by_before, by_behind = (flow * (2 / side(h) - (1 + thin.exponent) / (2 * film)) for side in (before, behind))
+    by_before, by_behind = (flow * (2 / side(h) - (1 + exponent) / (2 * film)) for side in (before, behind))
     return PressureFlow(flow, (by_p(before, l_before, 1.0), by_p(behind, l_behind, -1.0)), (by_before, by_behind))
 
 

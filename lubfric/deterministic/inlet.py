@@ -107,7 +107,7 @@ def _ambient_thinning(problem: Problem, gap):
     lubricant = problem.lubricant
     limited = lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset > 0
     stress = lubricant.viscosity * problem.sliding / gap
-    return thinning(lubricant, stress, lubricant.limiting_stress_offset if limited else None, along=True).factor
+    return thinning(lubricant, stress, lubricant.limiting_stress_offset if limited else None, along=True)[0]
 
 
 def _reduced(lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:

@@ -77,7 +77,7 @@ class System:
         open_ = ~self.touching  # also where h is still the floor: it is about to rise
         rows = derivatives(at.problem, at.balance, open_)
         if at.past is not None:
-            film, step = at.balance.film, at.past.step
+            film, step = at.balance.film, at.past[1]
             stored = fluid.density_slope * film * fill, fluid.density * open_ * fill, fluid.density * film
             for data, mass in zip(rows, stored):
                 data[own] += mass / step

@@ -10,7 +10,7 @@ import numpy as np
 
 from .linear import Change, System
 from .problem import Problem
-from .state import TOUCHING, Iterate, Past, State, evaluated, residuals, settled
+from .state import TOUCHING, Iterate, State, evaluated, residuals, settled
 
 KEEP, BELOW = 0.2, 3.0  # of h that a step must leave, and floors it may go below that
 SHORTEST = 0.1  # step, whatever the gap says
@@ -54,7 +54,7 @@ class Found:
         return max(self.residuals.values())
 
 
-def newton(problem: Problem, state: State, work: Work, *, tolerance, most, past: Past | None = None) -> Found:
+def newton(problem: Problem, state: State, work: Work, *, tolerance, most, past=None) -> Found:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Before every step each cell gets the equation that its state asks for (`settled`). A step leaves every cell at least
@@ -136,7 +136,7 @@ def march(problem: Problem, state: State, work: Work, *, most: int) -> State:
         goal = max(SETTLED, min(LOOSE, PART * left))
         begun = work.factorisations
         most = min(INNER, last - begun)
-        found = newton(problem, at.state, work, tolerance=goal, most=most, past=Past(at.mass, step))
+        found = newton(problem, at.state, work, tolerance=goal, most=most, past=(at.mass, step))
         work.steps += 1
         if found.residual <= goal:
             at = evaluated(problem, found.at.state)

@@ -62,20 +62,12 @@ def mean_fluidity(left, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return log_mean, np.where(falling, higher, lower), np.where(falling, lower, higher)
 
 
-@dataclass(frozen=True)
-class Thinning:
-    """Φ [-], its derivative d ln Φ/d ln s, and the part of the derivative that belongs to the limiting stress."""
-
-    factor: float | np.ndarray = 1.0
-    exponent: float | np.ndarray = 0.0
-    limit_exponent: float | np.ndarray = 0.0
-
-
-def thinning(lubricant: Lubricant, newtonian_stress, limit, along: bool) -> Thinning:
-    """Φ at the Newtonian stress eta Δu/h [Pa] on faces, with ``limit`` [Pa] their tau_0 + Λ p, or None."""
+def thinning(lubricant: Lubricant, newtonian_stress, limit, along: bool):
+    """Φ [-] at the Newtonian stress eta Δu/h [Pa] on faces, with ``limit`` [Pa] their tau_0 + Λ p, or None; its
+    derivative d ln Φ/d ln s; and the part of the derivative that belongs to the limiting stress."""
     eyring = lubricant.eyring_stress
     if eyring is None and limit is None:
-        return Thinning()
+        return 1.0, 0.0, 0.0
     factor, slope = np.ones_like(newtonian_stress), np.zeros_like(newtonian_stress)
     if eyring is not None:
         s = newtonian_stress / eyring
@@ -91,4 +83,4 @@ def thinning(lubricant: Lubricant, newtonian_stress, limit, along: bool) -> Thin
     if limit is not None:
         limited = newtonian_stress / limit
         factor = factor + limited
-    return Thinning(factor, (slope + limited) / factor, limited / factor)
+    return factor, (slope + limited) / factor, limited / factor

@@ -29,23 +29,16 @@ class State:
 
 
 @dataclass(frozen=True)
-class Past:
-    """The mass rho h [m] of the cells, one time ``step`` [s] ago."""
-
-    mass: np.ndarray
-    step: float
-
-
-@dataclass(frozen=True)
 class Iterate:
-    """A state with its gap h [m] (nx, ny) and the mass balance of its cells. ``past``: of an implicit step in time.
-    residual [m/s]: outflow minus inflow plus, in time, what the cell stores."""
+    """A state with its gap h [m] (nx, ny) and the mass balance of its cells. ``past``, of an implicit step in time: the
+    mass rho h [m] of the cells before it, and its length [s]. residual [m/s]: outflow minus inflow plus, in time, what
+    the cell stores."""
 
     problem: Problem
     state: State
     gap: np.ndarray
     balance: Balance
-    past: Past | None
+    past: tuple[np.ndarray, float] | None
     residual: np.ndarray
 
     @property
@@ -65,12 +58,12 @@ class Iterate:
         return float(carried + self.balance.inlet.load.mean() - self.problem.load)
 
 
-def evaluated(problem: Problem, state: State, past: Past | None = None) -> Iterate:
+def evaluated(problem: Problem, state: State, past: tuple[np.ndarray, float] | None = None) -> Iterate:
     """Gap and mass balance of ``state``; with ``past``, of an implicit step in time."""
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
     found = balance(problem, state.pressure, gap, state.fill)
     at = Iterate(problem, state, gap, found, past, found.residual)
-    return at if past is None else replace(at, residual=found.residual + (at.mass - past.mass) / past.step)
+    return at if past is None else replace(at, residual=found.residual + (at.mass - past[0]) / past[1])
 
 
 def settled(at: Iterate) -> Iterate:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .._base import __version__
 from ..errors import ConvergenceError, InputError, LubfricError
-from .commands import INTERRUPTED, Interrupted, interruptible, put, say
+from .commands import INTERRUPTED, interruptible, put, say
 
 CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
 OPTIONS = {"ratios": RATIOS, "animation": IN_TIME}  # of ``lubfric run``, and what they are for
@@ -29,12 +29,9 @@ def main(argv=None) -> int:
     except (LubfricError, OSError) as error:  # OSError: a folder that cannot be written, a disk that is full
         say(f"lubfric: {error}")
         return 1 if isinstance(error, ConvergenceError) else 2
-    except Interrupted as error:
-        say(f"lubfric: {error}")
-        return error.code
-    except KeyboardInterrupt:
-        say("lubfric: interrupted")
-        return INTERRUPTED
+    except KeyboardInterrupt as error:
+        say(f"lubfric: {str(error) or 'interrupted'}")
+        return getattr(error, "code", INTERRUPTED)
 
 
 def parser() -> argparse.ArgumentParser:

@@ -31,15 +31,11 @@ SAY_EVERY = 1.0  # s between two lines of progress
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C or SIGTERM, with one line that says what is kept."""
+    """Ctrl-C or SIGTERM, with one line that says what is kept, and the exit ``code``."""
 
-    code = INTERRUPTED
-
-
-class Terminated(Interrupted):
-    """SIGTERM."""
-
-    code = TERMINATED
+    def __init__(self, text: str, code: int = INTERRUPTED):
+        super().__init__(text)
+        self.code = code
 
 
 def say(text: str) -> None:
@@ -65,19 +61,19 @@ def _silence(stream) -> None:
         pass
 
 
-class Pace:
-    """Says when progress is to be reported: a second after the last time, and at the end."""
+def paced() -> Callable[[bool], bool]:
+    """Says whether progress is to be reported now: a second after the last time, and at the end (``True``)."""
+    told = time.perf_counter()
 
-    def __init__(self) -> None:
-        self._told = time.perf_counter()
-
-    def due(self, end: bool) -> bool:
-        """Whether to report it now."""
+    def due(end: bool) -> bool:
+        nonlocal told
         now = time.perf_counter()
-        if not end and now - self._told < SAY_EVERY:
+        if not end and now - told < SAY_EVERY:
             return False
-        self._told = now
+        told = now
         return True
+
+    return due
 
 
 @contextmanager
@@ -88,7 +84,7 @@ def interruptible():
         return
 
     def terminate(*_):
-        raise Terminated("terminated")
+        raise Interrupted("terminated", TERMINATED)
 
     before = signal.signal(signal.SIGTERM, terminate)
     try:
@@ -102,10 +98,8 @@ def keeping(what):
     """On an interrupt, say what is kept: the words come from ``what()``."""
     try:
         yield
-    except Interrupted as error:
-        raise type(error)(what()) from None
-    except KeyboardInterrupt:
-        raise Interrupted(what()) from None
+    except KeyboardInterrupt as error:
+        raise Interrupted(what(), getattr(error, "code", INTERRUPTED)) from None
 
 
 RESULT, UNFINISHED, CHECKPOINT = "result.json", "unfinished", "checkpoint"

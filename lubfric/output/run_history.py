@@ -15,10 +15,10 @@ from .commands import (
     CHECKPOINT,
     OUTPUTS,
     RESULT,
-    Pace,
     RunFolder,
     check_outputs,
     keeping,
+    paced,
     read_record,
     ready,
     run_folder,
@@ -37,7 +37,7 @@ def run_history(scene: Scene, arguments) -> None:
     of this one are there. An interrupted run continues from its folder checkpoint. A failed run writes what it has, and
     then raises `ConvergenceError`.
     """
-    begun, reached, pace, out = time.perf_counter(), 0.0, Pace(), arguments.out
+    begun, reached, due, out = time.perf_counter(), 0.0, paced(), arguments.out
     failure: LubfricError | None = None
     names = ["history.csv", "history.png", "fields.npz", RESULT, *["animation.gif"] * arguments.animation]
     check_outputs(arguments, out, names, OUTPUTS)
@@ -46,7 +46,7 @@ def run_history(scene: Scene, arguments) -> None:
     def on_step(now, duration, row):
         nonlocal reached
         reached = now
-        if row is not None and pace.due(now >= duration):
+        if row is not None and due(now >= duration):
             say(
                 f"t = {now:<8.5g} of {duration:g} s: U = {row['entrainment_speed']:<9.4g} m/s, f = "
                 f"{row['coefficient']:<8.5f}, F_C = {row['contact_load']:<9.4g} N, F_H = {row['film_load']:<9.4g} N, "

@@ -25,7 +25,7 @@ from ..studies import (
     read_measured,
     study,
 )
-from .commands import Pace, check_outputs, keeping, made, put, run_folder, say
+from .commands import check_outputs, keeping, made, paced, put, run_folder, say
 
 PLAN = "study.json"  # of the store, which replaces it
 
@@ -79,12 +79,12 @@ def _kept(folder: Path) -> str:
 
 
 def _progress(begun: float):
-    pace, first = Pace(), -1
+    due, first = paced(), -1
 
     def on_progress(done: int, total: int) -> None:
         nonlocal first
         first = done if first < 0 else first  # what the store held already took no time
-        if pace.due(done == total):
+        if due(done == total):
             passed = time.perf_counter() - begun
             left = f", about {in_words(passed * (total - done) / (done - first))} left" if first < done < total else ""
             say(f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s{left}")
@@ -96,14 +96,14 @@ def run_fit(scene: Scene, arguments) -> None:
     """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json."""
     check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "fit.json"))
     scene.to_toml()  # raises InputError now, rather than after the fit
-    bounds, begun, pace = _bounds(arguments.parameter), time.perf_counter(), Pace()
+    bounds, begun, due = _bounds(arguments.parameter), time.perf_counter(), paced()
     columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
     rolling = not arguments.without_rolling
     measured = read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
     say(explain_fit(scene, measured, bounds))
 
     def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
-        if pace.due(done == 1):
+        if due(done == 1):
             off = f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} deviations"
             best = ", ".join(f"{key} = {value:.4g}" for key, value in values.items())
             passed = f"{time.perf_counter() - begun:.0f} s, about {in_words(left)} left"

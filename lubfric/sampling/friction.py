@@ -90,8 +90,9 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
     found = sampled(prepared, speed, own_cells=fields)
     if asked == "auto":
         why = _enough(prepared, found)
-        if why:
-            return load_sharing_answer(found, prepared, speed, begun, why)
+        shared = load_sharing_answer(found, prepared, speed, begun, why)
+        if why or any(entry.severe for entry in shared.validity):
+            return shared
     try:
         return strips_answer(prepared, speed, found, begun)
     except ConvergenceError as error:

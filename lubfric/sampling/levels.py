@@ -6,7 +6,7 @@
 
 The second level needs few strips where both models scatter alike, as they do about lift-off on most surfaces. Where
 they do not, the first level is left out, and the second is the deterministic f alone. Which of the two needs fewer
-strips is read off the first one (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
+strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
 """
 
 from __future__ import annotations
@@ -93,11 +93,11 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
         return max(enlarged(count, 1, most, error, limit, growth=GROWTH) for error, limit in errors)
 
     same = found.strips is not None and found.strips.cells == strips.cells and math.isfinite(found.sampling)
-    line = found.count if same and wanted(found.count) <= min(wanted(0), found.count) else 0
+    whole = found.count if same and not strips.whole else 0
     while True:
-        within = 0 <= _sum(prepared, pairs, found, line)["contact_load"] <= load
-        line = line if within else 0
-        count = min(wanted(line), line or most)
+        line = whole if wanted(whole) <= min(wanted(0), whole) else 0
+        line = line if 0 <= _sum(prepared, pairs, found, line)["contact_load"] <= load else 0
+        count = wanted(line)
         if count <= len(pairs):
             break
         pairs += [solve_pair(prepared, speed, i, pairs[0].resolved.slope) for i in range(len(pairs), count)]

@@ -58,7 +58,7 @@ class Uncertainty(UncertaintyQuantities[float]):
         if not math.isfinite(self.sampling):
             return f"f = {coefficient:.4g} ({parts})"
         half = 0.5 * (self.interval[1] - self.interval[0])
-        digits = max(0, 1 - math.floor(math.log10(half))) if half > 0 else 4
+        digits = max(0, 1 - math.floor(math.log10(half))) if 0 < half < math.inf else 4
         return f"f = {coefficient:.{min(digits, 7)}f} ± {half:.1g} at 95 % ({parts})"
 
 

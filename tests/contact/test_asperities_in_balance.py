@@ -2,20 +2,17 @@
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 from scipy.optimize import brentq
 
 import lubfric
 from lubfric.contact import asperity_contact, asperity_curve, find_asperities
 from lubfric.sharing import prepare
 
-CYLINDER = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        contact={"shape": (96, 96), "spacing": 0.6e-6},
-        surface={"correlation_length": 4e-6},
-        numerics={"sampling": "patch", "tolerance": 1e-3},
-    )
+CYLINDER = paper_scene(
+    contact={"shape": (96, 96), "spacing": 0.6e-6},
+    surface={"correlation_length": 4e-6},
+    numerics={"sampling": "patch", "tolerance": 1e-3},
 )
 FLAT = lubfric.load_scene("flat").with_(
     contact={"shape": (128, 128), "spacing": 8e-6},

@@ -5,7 +5,6 @@ import pytest
 
 import lubfric
 from lubfric.contact import contact_curve
-from lubfric.contact.flat import left_out
 
 E_PRIME, HEAVIEST = 231e9, 2e8
 
@@ -50,20 +49,6 @@ def test_it_is_part_of_the_numerical_error_of_f():
     assert without > right.errors.contact_load
 
 
-@pytest.mark.parametrize("nodes", [3, 4, 5, 12])
-def test_nodes_left_out_are_missed_as_by_scipys_cubic(nodes):
-    from scipy.interpolate import PchipInterpolator
-
-    rng = np.random.default_rng(nodes)
-    x, y = np.cumsum(rng.uniform(0.1, 2.0, nodes)), rng.standard_normal(nodes)
-    for values in (y, np.cumsum(np.abs(y)), np.zeros(nodes)):
-        for i, found in enumerate(left_out(x, values), 1):
-            others = np.delete(np.arange(nodes), i)
-            assert found == pytest.approx(
-                abs(PchipInterpolator(x[others], values[others])(x[i]) - values[i]), abs=1e-12
-            )
-
-
 def test_the_area_between_nodes_is_within_what_is_told_and_what_the_film_feels():
     """A small map, whose summits touch a few at a time: the area read against that of the contact solved there."""
     surface = lubfric.generate_surface((28, 28), 7.14e-6, sq=23e-9, correlation_length=16e-6, acf="gaussian", seed=1)
@@ -76,17 +61,3 @@ def test_the_area_between_nodes_is_within_what_is_told_and_what_the_film_feels()
     assert np.all(np.array(found) <= 1.3 * np.array(told))
     assert max(found) < 3 * 3e-3
     assert curve.area_error_at(curve.mean_pressure[-1] / 2) == curve.contact_area_fraction[-1]
-
-
-@pytest.mark.parametrize("seed", range(1, 5))
-def test_the_area_read_off_a_curve_is_as_sure_as_is_told(seed):
-    """Against a curve of a tolerance on f ten times as tight."""
-    scene = lubfric.load_scene("flat").with_(
-        bodies={"hardness": 3e9},
-        numerics={"sampling": "patch"},
-        surface={"sq": 2e-7, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed},
-        contact={"shape": (32, 32), "spacing": 2e-6},
-    )
-    told, near = (lubfric.friction(scene, 0.02, tolerance=tolerance) for tolerance in (0.01, 0.001))
-    for name in ("real_contact_area_fraction", "real_contact_area", "plastic_area_fraction"):
-        assert abs(getattr(near, name) / getattr(told, name) - 1) <= 1.5 * getattr(told.errors, name)

@@ -82,18 +82,6 @@ def test_what_it_does_not_take_is_refused_before_any_work(change):
         lubfric.stribeck(SCENE.with_(**change), [0.01])
 
 
-def test_a_transient_is_refused():
-    with pytest.raises(lubfric.InputError, match="deterministic"):
-        lubfric.transient(SCENE, [0.0, 1e-3])
-
-
-def test_heat_is_refused_and_not_left_out_in_silence():
-    with pytest.raises(lubfric.InputError, match="isothermal"):
-        lubfric.prepare(
-            SCENE.with_(numerics={"heat": "on"}, lubricant={"temperature": 313.0, "temperature_coefficient": 0.04})
-        )
-
-
 def test_a_newtonian_film_beyond_its_range_is_told():
     heavy = SCENE.with_(bodies={"load": 60.0}, contact={"shape": (32, 32), "spacing": 90e-6 / 32})
     told = {entry.what for entry in lubfric.friction(heavy, 0.1).validity}

@@ -30,9 +30,3 @@ def test_every_parameter_is_told(name):
     told = [line for line in lines[begin:] if line and not line.startswith((" ", "-"))]
     assert set(inspect.signature(function).parameters) - GONE <= set(told)
     assert "Returns" in "".join(lines) and "Raises" in "".join(lines)
-
-
-def test_an_entry_is_a_name_and_its_text():
-    made = numpydoc(["Parameters", "----------", "a, b : both [m]", "    more", "c : one; d : two", "", "Then."])
-    both = ["    both [m]", "    more"]
-    assert made == ["Parameters", "----------", "a", *both, "b", *both, "c", "    one", "d", "    two", "", "", "Then."]

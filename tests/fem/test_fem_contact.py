@@ -133,11 +133,6 @@ def bricks():
     return grid, fourier_compliance(grid)
 
 
-def test_lower_caps_widen_the_contact(coarse):
-    widths = [coarse.weights @ press(coarse, limit=limit).touching for limit in (0.6, 0.45, 0.38, 0.32)]
-    assert np.all(np.diff(widths) >= 0) and widths[-1] > widths[0]
-
-
 # ---- failures ----------------------------------------------------------------------------------------------------
 
 

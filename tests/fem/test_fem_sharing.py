@@ -11,7 +11,7 @@ from verification.fem import ehl
 from verification.fem.compliance import Elastic
 from verification.fem.fluid import Fluid
 from verification.fem.harmonic import Strip, compliance, press
-from verification.fem.sharing import Bodies, FlatBodies, root, rupture, share_load, shear
+from verification.fem.sharing import Bodies, FlatBodies, rupture, share_load, shear
 
 E_PRIME, CELL = 231e9, 1e-6
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
@@ -58,18 +58,6 @@ def test_hardness_caps_the_pressure_and_yielded_cells_overlap(strip):
         and np.abs(found.gap[(found.pressure > 0) & ~found.saturated]).max() < 1e-15
     )
     assert found.pressure.sum() * CELL / 12 == pytest.approx(exact.load, rel=1e-12)
-
-
-@pytest.mark.parametrize("guess", [-8.0, 0.0, 5.0])
-def test_root_of_an_increasing_function(guess):
-    values = []
-
-    def f(x):
-        values.append(math.tanh(x - 1.2345) + 1e-3 * (x - 1.2345))
-        return values[-1]
-
-    root(f, lambda: abs(values[-1]) < 1e-12 or len(values) > 60, guess)
-    assert abs(values[-1]) < 1e-12
 
 
 def test_shear_of_a_rigid_film():

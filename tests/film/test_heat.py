@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scene_text import paper_scene
 from scipy.integrate import solve_bvp
 
 import lubfric
@@ -16,12 +17,7 @@ from lubfric.oil import Lubricant, shear_stress, viscosity
 T0 = 343.15
 STEEL = math.sqrt(46 * 7850 * 460)
 OIL = Lubricant(
-    0.0166,
-    2e-8,
-    temperature=T0,
-    temperature_coefficient=0.034,
-    eyring_stress=5e6,
-    limiting_stress_coefficient=0.08,
+    0.0166, 2e-8, temperature=T0, temperature_coefficient=0.034, eyring_stress=5e6, limiting_stress_coefficient=0.08
 )
 MODULUS, RADIUS = 2.27e11, 0.01
 
@@ -171,23 +167,19 @@ def test_a_limit_far_below_the_newtonian_stress_is_found():
 
 def test_heat_of_the_inlet_is_modelled_where_parts_of_f_cancel():
     """Film -0.15 % moves an f that is a small difference of large parts by 3 %: beside a hundredth of the tolerance."""
-    scene = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(
-            bodies={"radius": 0.0236, "width": 1e-2, "load": 96.15, "boundary_friction_coefficient": 0.0557},
-            lubricant={
-                "viscosity": 0.0238,
-                "pressure_viscosity_coefficient": 7.1e-9,
-                "eyring_stress": 5e6,
-                "temperature": 350.0,
-                "temperature_coefficient": 0.035,
-            },
-            motion={"entrainment_speed": 0.0923, "slide_roll_ratio": -1.11},
-            surface={"sq": 2.6e-8, "correlation_length": 2.2e-5, "seed": 1122854145},
-            contact={"shape": (48, 48), "spacing": 6.25e-6},
-            numerics={"sampling": "patch", "grid": "given", "film_deflection": "hydrodynamic"},
-        )
+    scene = paper_scene(
+        bodies={"radius": 0.0236, "width": 1e-2, "load": 96.15, "boundary_friction_coefficient": 0.0557},
+        lubricant={
+            "viscosity": 0.0238,
+            "pressure_viscosity_coefficient": 7.1e-9,
+            "eyring_stress": 5e6,
+            "temperature": 350.0,
+            "temperature_coefficient": 0.035,
+        },
+        motion={"entrainment_speed": 0.0923, "slide_roll_ratio": -1.11},
+        surface={"sq": 2.6e-8, "correlation_length": 2.2e-5, "seed": 1122854145},
+        contact={"shape": (48, 48), "spacing": 6.25e-6},
+        numerics={"sampling": "patch", "grid": "given", "film_deflection": "hydrodynamic"},
     )
     found, right = (lubfric.friction(scene.with_(numerics={"tolerance": t})) for t in (1e-2, 1e-4))
     parts = abs(found.couette_force) + abs(found.rolling_force) + found.boundary_force

@@ -3,24 +3,20 @@ hotter."""
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.film import Surroundings, heated_film
-from lubfric.oil.make import from_grade
 from lubfric.sharing import film_lubricant
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
 SHEAR = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.08}
-BASE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
-        lubricant=OIL | SHEAR,
-        contact={"shape": (128, 64), "spacing": 4e-6},
-        surface={"sq": 5e-8, "correlation_length": 3e-5, "acf": "gaussian"},
-        numerics={"sampling": "patch"},
-    )
+BASE = paper_scene(
+    bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
+    lubricant=OIL | SHEAR,
+    contact={"shape": (128, 64), "spacing": 4e-6},
+    surface={"sq": 5e-8, "correlation_length": 3e-5, "acf": "gaussian"},
+    numerics={"sampling": "patch"},
 )
 
 
@@ -90,34 +86,6 @@ def test_what_is_left_out_is_part_of_the_numerical_error(model):
     for name in ("flash_temperature_rise", "film_temperature_rise"):  # none was computed: nothing is known of its error
         assert getattr(auto, name) == 0 and auto.errors.reasons[name] == "heat was left out"
         assert getattr(on, name) > 0 and 0 < getattr(on.errors, name) < 0.1
-
-
-def test_every_thermal_key_reaches_the_number(model):
-    found = at(model, 2.0)
-    f = found.coefficient
-    cooler = at(model, 2.0, bodies={"conductivity": (400.0, 400.0)})
-    assert cooler.coefficient > f and cooler.flash_temperature_rise < found.flash_temperature_rise
-    assert at(model, 2.0, bodies={"volumetric_heat": (1e7, 1e7)}).coefficient > f
-    oil = at(model, 2.0, lubricant={"conductivity": 0.3})
-    assert oil.film_temperature_rise < found.film_temperature_rise
-    assert oil.inlet_film_factor > found.inlet_film_factor
-    numbers = {"viscosity": BASE.lubricant.viscosity, "temperature_coefficient": 0.05}
-    assert at(model, 2.0, lubricant=numbers).coefficient < f  # thins faster than the oil's 0.034 /K
-    assert at(model, 2.0, lubricant={"temperature_celsius": 90}).coefficient != f
-
-
-def test_the_result_tells_oil_and_ranges(model):
-    found = at(model, 5.0)
-    assert any("So and Klaus" in n and "Gold" in n and "% of a full film" in n for n in found.report.notes)
-    assert any("inlet heating factors" in e.what for e in found.validity)
-    given = at(model, 5.0, lubricant={"pressure_viscosity_coefficient": 2e-8})
-    assert any("alpha 20 /GPa as given" in n for n in given.report.notes)
-    assert from_grade("ISO VG 68", 95, density=870).viscosity(343.15) == BASE.lubricant.viscosity
-
-
-def test_heat_needs_to_know_the_oil():
-    with pytest.raises(lubfric.InputError, match="temperature_coefficient"):
-        lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"heat": "on"})
 
 
 def test_hardly_any_heat_is_none_and_more_than_any_film_bears_is_refused_in_words():

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 from scipy.optimize import brentq
 
 import lubfric
@@ -14,16 +15,12 @@ from lubfric.oil import Lubricant
 T0, BETA, ETA, ALPHA, K = 350.0, 0.035, 0.05, 2.0e-8, 0.15
 LAWS = {"temperature": T0, "temperature_coefficient": BETA, "conductivity": K}
 OIL = Lubricant(ETA, ALPHA, eyring_stress=5e6, limiting_stress_coefficient=0.06, limiting_stress_offset=2e6, **LAWS)
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
-        lubricant={"viscosity": 0.03, "pressure_viscosity_coefficient": 2e-8, "eyring_stress": 5e6, **LAWS},
-        contact={"shape": (64, 16), "spacing": 8e-6},
-        surface={"sq": 0.0, "correlation_length": 3e-5, "acf": "gaussian"},
-        numerics={"sampling": "patch", "heat": "on", "accept": True},
-    )
+SCENE = paper_scene(
+    bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
+    lubricant={"viscosity": 0.03, "pressure_viscosity_coefficient": 2e-8, "eyring_stress": 5e6, **LAWS},
+    contact={"shape": (64, 16), "spacing": 8e-6},
+    surface={"sq": 0.0, "correlation_length": 3e-5, "acf": "gaussian"},
+    numerics={"sampling": "patch", "heat": "on", "accept": True},
 )
 
 

@@ -33,12 +33,7 @@ def evenly(share):
 
 def force(result, slide_roll_ratio=2.0, contact_fraction=evenly(0.0), lubricant=OIL, **kw):
     return shear_force(
-        result,
-        lubricant,
-        width=B,
-        slide_roll_ratio=slide_roll_ratio,
-        contact_fraction=contact_fraction,
-        **kw,
+        result, lubricant, width=B, slide_roll_ratio=slide_roll_ratio, contact_fraction=contact_fraction, **kw
     )
 
 

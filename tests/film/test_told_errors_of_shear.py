@@ -60,12 +60,7 @@ def test_the_sum_of_the_sliding_shear_is_as_sure_as_it_tells(film):
     """On every fourth node: against the closed form of the rigid cylinder."""
     exact = B * rigid_cylinder.couette_friction(film.min_film, radius=R, speed_difference=2 * U, viscosity=ETA)
     keep = np.unique(np.append(np.flatnonzero(film.x >= film.rupture)[0], np.arange(0, film.x.size, 4)))
-    coarse = replace(
-        film,
-        x=film.x[keep],
-        pressure=film.pressure[keep],
-        film_thickness=film.film_thickness[keep],
-    )
+    coarse = replace(film, x=film.x[keep], pressure=film.pressure[keep], film_thickness=film.film_thickness[keep])
     found = force(coarse)
     off = abs(found.couette - exact)
     assert off > 1e-4 * exact and off < found.quadrature < 20 * off

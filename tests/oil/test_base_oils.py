@@ -5,8 +5,8 @@ import math
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
-import lubfric
 from lubfric import oil
 from lubfric.oil import Lubricant, carried_stress, density_ratio
 
@@ -32,7 +32,7 @@ def test_what_is_typical_of_a_base_oil(base):
     assert found.value * 1e9 == pytest.approx(alpha, rel=1e-4)
     assert (found.low / found.value, found.high / found.value) == pytest.approx((0.85, most))
     keys = {"nu40": 4e-4, "nu100": 3e-5, "temperature_celsius": 70, "base": base}
-    scene = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(lubricant=keys)
+    scene = paper_scene(lubricant=keys)
     assert scene.lubricant.conductivity == conductivity
     rho = density - 55 * slope
     assert scene.lubricant.viscosity == pytest.approx(rho * scene.lubricant.oil.kinematic_viscosity(343.15), rel=1e-12)

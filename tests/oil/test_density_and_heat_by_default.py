@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from scene_text import BODIES_AND_OIL, SMALL_PATCH
+from scene_text import BODIES_AND_OIL, SMALL_PATCH, paper_scene
 
 import lubfric
 from lubfric.oil import named_oil
 from lubfric.scene import write_template
 
-PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+PAPER = paper_scene()
 AT_70 = {"temperature_celsius": 70}
 OILS = (
     {"grade": "ISO VG 68", "viscosity_index": 95},

@@ -5,13 +5,14 @@ from functools import cache
 
 import numpy
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.output import main
 
 
 def test_the_papers_are_those_of_what_was_used():
-    scene = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"sampling": "patch"})
+    scene = paper_scene(numerics={"sampling": "patch"})
     film, mixed = lubfric.friction(scene, 1.0).cite(), lubfric.friction(scene, 0.01, fields=True).cite()
     assert film.startswith("A. Akchurin") and "10.1007/s11249-015-0536-z" in film and "Polonsky" not in film
     assert "Polonsky" in mixed and "Gupta" not in mixed
@@ -28,11 +29,7 @@ def test_a_curve_cites_every_paper_once():
     assert "Bair" not in by_ratio.points[0].cite() and "Bair" in by_ratio.points[1].cite()
 
 
-PATCH = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(contact={"shape": (64, 48), "spacing": 1.4e-6}, numerics={"sampling": "patch", "tolerance": 0.05})
-)
+PATCH = paper_scene(contact={"shape": (64, 48), "spacing": 1.4e-6}, numerics={"sampling": "patch", "tolerance": 0.05})
 OIL = {"nu40": 68e-6, "nu100": 8.6e-6, "temperature": 333.15}
 LAWS = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.05}
 WARM = {"temperature": 313.15, "temperature_coefficient": 0.04}

@@ -8,35 +8,16 @@ import sys
 
 import numpy as np
 import pytest
+from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric._base import read_table
 from lubfric.output import main
 
-SCENE = """
-[bodies]
-radius = 2e-3
-width = 6e-3
-load = 5.5
-e_prime = 231e9
-hardness = 6e9
-boundary_friction_coefficient = 0.09
-[lubricant]
-viscosity = 0.36
-pressure_viscosity_coefficient = 25e-9
-[motion]
-entrainment_speed = 0.001
-speeds = [0.001, 0.01, 0.3]
-[surface]
-sq = 1e-7
-correlation_length = 4e-6
-seed = 7
-[contact]
-shape = [64, 64]
-spacing = 0.9e-6
-[numerics]
-sampling = "patch"
-"""
+SCENE = BODIES_AND_OIL.replace("[lubricant]", "hardness = 6e9\n[lubricant]")
+SCENE += "[motion]\nentrainment_speed = 0.001\nspeeds = [0.001, 0.01, 0.3]\n"
+SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\nseed = 7\n[contact]\nshape = [64, 64]\nspacing = 0.9e-6\n"
+SCENE += '[numerics]\nsampling = "patch"\nmodel = "load-sharing"\n'
 
 
 @pytest.fixture(scope="module")
@@ -92,31 +73,6 @@ def test_info_names_the_regime(capsys):
         assert word in text, text
 
 
-def test_info_says_how_the_grid_resolves_the_map(capsys, tmp_path):
-    scene = (
-        lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"sampling": "patch"})
-    )  # on a line it is the line's map
-    (tmp_path / "patch.toml").write_text(scene.to_toml())
-    assert main(["info", str(tmp_path / "patch.toml")]) == 0
-    text = capsys.readouterr().out
-    surface = lubfric.generate_surface((200, 200), 0.45e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=1)
-    lengths = [lubfric.surface.correlation_length(surface, axis) / 0.45e-6 for axis in (0, 1)]
-    for name, value in (
-        ("rms slope", f"{lubfric.surface.rms_slope(surface)[2]:.3g}"),
-        ("Sq", "100 nm"),
-        ("cells per b", f"{scene.bodies.half_width / 0.45e-6:.3g}"),
-        ("length / 2b", f"{45e-6 / scene.bodies.half_width:.3g}"),
-        ("cells", "40000, about 5.19 MiB"),
-    ):
-        assert any(f"{name} " in line and f" {value}" in line for line in text.splitlines()), (name, value, text)
-    assert f"= {lengths[0]:.3g} x {lengths[1]:.3g} cells" in text
-    np.save(tmp_path / "flat.npy", np.zeros((64, 1)))
-    flat = "[surface]\nfile = 'flat.npy'\nspacing = 0.9e-6\n[numerics]\nsampling = 'patch'\n"
-    (tmp_path / "s.toml").write_text(SCENE.split("[surface]")[0] + flat)
-    assert main(["info", str(tmp_path / "s.toml")]) == 0
-    assert "- x - cells" in capsys.readouterr().out
-
-
 def test_the_memory_said_covers_a_contact_solve():
     """Fields of 8 bytes a cell at the peak of a solve, as traced; neither too few nor twice as many."""
     import tracemalloc
@@ -162,28 +118,6 @@ def test_bad_input_ends_with_2_and_one_line(arguments, word, capsys):
 def test_python_dash_m_is_the_same_command():
     done = subprocess.run([sys.executable, "-m", "lubfric", "info", "flat"], capture_output=True, text=True)
     assert done.returncode == 0 and "816 x 816" in done.stdout
-
-
-def test_speeds_and_fields_can_be_chosen(tmp_path):
-    (tmp_path / "small.toml").write_text(SCENE)
-    assert (
-        main(
-            [
-                "run",
-                str(tmp_path / "small.toml"),
-                "--out",
-                str(tmp_path / "o"),
-                "--speeds",
-                "0.01:0.1:2",
-                "--fields",
-                "0.01,1.0",
-            ]
-        )
-        == 0
-    )
-    with np.load(tmp_path / "o" / "fields.npz") as fields:
-        np.testing.assert_allclose(fields["speed"], [0.01, 1.0])
-        assert "contact_pressure_0" in fields and "contact_pressure_1" not in fields
 
 
 def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys):
@@ -263,9 +197,7 @@ def test_a_curve_writes_the_table_of_the_command(tmp_path):
     assert (
         main(["run", "paper", "--speeds", "0.1,0.3", "--fields", "0.3", "--out", str(tmp_path), "--workers", "1"]) == 0
     )
-    lubfric.stribeck(lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}), [0.1, 0.3]).to_csv(
-        tmp_path / "own.csv"
-    )
+    lubfric.stribeck(lubfric.load_scene("paper"), [0.1, 0.3]).to_csv(tmp_path / "own.csv")
     own, command = (read_table(tmp_path / name) for name in ("own.csv", "stribeck.csv"))
     assert list(own) == list(command)
     for name in set(own) - {"seconds"}:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from scene_text import paper_scene
 
 import lubfric
 from lubfric._base import field_image, new_figure
@@ -24,14 +25,10 @@ UNITS = {  # of the columns of results, typed from docs/results.md
     **dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), "K"),
     **{"speed": "m/s", "real_contact_area": "m2", "seconds": "s", "line_length": "m"},
 }
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        contact={"shape": (48, 32), "spacing": (1.1e-6, 1.7e-6)},
-        surface={"correlation_length": (4e-6, 6e-6), "acf": "gaussian"},
-        numerics={"sampling": "patch"},
-    )
+SCENE = paper_scene(
+    contact={"shape": (48, 32), "spacing": (1.1e-6, 1.7e-6)},
+    surface={"correlation_length": (4e-6, 6e-6), "acf": "gaussian"},
+    numerics={"sampling": "patch"},
 )
 
 

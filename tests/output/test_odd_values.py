@@ -5,16 +5,13 @@ from functools import partial
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 
 RAGGED = [[1.0, 2.0], [3.0]]
 PATHS = (True, 3, b"x", "a\0b", 300 * "x", 3000 * "../x")
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(numerics={"sampling": "patch", "tolerance": 0.1}, contact={"shape": (24, 24), "spacing": 2e-6})
-)
+SCENE = paper_scene(numerics={"sampling": "patch", "tolerance": 0.1}, contact={"shape": (24, 24), "spacing": 2e-6})
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 40}
 HEIGHTS = lubfric.generate_surface((64, 64), 1e-6, sq=1e-7, correlation_length=3e-6, seed=1)
 

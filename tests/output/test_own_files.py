@@ -45,10 +45,7 @@ NAMES = {  # of files of the user in the folder of the results: (refused with th
         ("study.csv", "study.json", ".lubfric"),
         ("study.nc", "study.parquet", "result.json", ".part-x", "points/notes.txt", ".lock", "fitted.toml"),
     ),
-    "fit": (
-        ("fitted.toml", "fit.png", "fit.json"),
-        (),
-    ),
+    "fit": (("fitted.toml", "fit.png", "fit.json"), ()),
 }
 CASES = [
     (kind, name, refused)

@@ -83,25 +83,6 @@ def test_a_curve_is_drawn_on_given_axes(curve):
     assert ax.get_xscale() == "log" and "m/s" in ax.get_xlabel()
 
 
-def test_the_band_of_a_curve_is_that_of_its_intervals(curve):
-    wide = [replace(p.uncertainty, interval=(0.9 * p.coefficient, 1.2 * p.coefficient)) for p in curve.points]
-    points = tuple(replace(point, uncertainty=each) for point, each in zip(curve.points, wide))
-    curve, ax = replace(curve, points=points), axes()
-    curve.plot(ax)
-    corners = ax.collections[0].get_paths()[0].vertices
-    for speed, ends in zip(curve.speed, curve.uncertainty.interval):
-        drawn = corners[np.isclose(corners[:, 0], speed), 1]
-        np.testing.assert_allclose([drawn.min(), drawn.max()], ends, rtol=1e-12)
-    assert "95 %" in ax.get_legend().get_texts()[0].get_text()
-
-
-def test_an_axis_that_shows_the_magnitude_of_the_speed_says_so(curve):
-    mixed = replace(curve, speed=curve.speed * np.array([1, -1, 1]))
-    assert "U (m/s)" in curve.plot(axes()).get_xlabel() and "|U|" not in curve.plot(axes()).get_xlabel()
-    assert mixed.plot(axes()).get_xlabel() == "entrainment speed |U| (m/s), both directions"
-    assert replace(curve, speed=-curve.speed).plot(axes()).get_xlabel() == "entrainment speed |U| (m/s), backwards"
-
-
 def test_a_history_and_its_loop_are_drawn(history):
     found = lines(history.plot(axes()))
     np.testing.assert_allclose(found["friction coefficient"][:, 0], history.time * 1e3)
@@ -137,24 +118,6 @@ def test_the_parts_of_a_history_add_up_to_its_friction_either_way():
     friction_over_time(axes, columns)  # pure rolling, backwards
     whole, contact, film = (line.get_ydata() for line in axes.get_lines())
     np.testing.assert_allclose(contact + film, whole)
-
-
-def test_maps_are_drawn_the_right_way_round(point):
-    ax = point.plot_contact(axes())
-    image = ax.images[0]
-    np.testing.assert_array_equal(image.get_array(), point.pressure.T / 1e9)
-    left, right, bottom, top = image.get_extent()
-    assert right - left == pytest.approx(48 * 1.1) == top - bottom
-    heights = MODEL.surface.plot(axes()).images[0].get_array()
-    assert np.std(heights) == pytest.approx(MODEL.surface.sq * 1e9)
-
-
-def test_without_axes_new_ones_are_made(curve):
-    from matplotlib import pyplot
-
-    ax = curve.plot()
-    assert ax.figure.number in pyplot.get_fignums()
-    pyplot.close(ax.figure)
 
 
 def test_a_scene_prints_in_a_line_and_as_a_table_of_keys_values_and_units():
@@ -211,22 +174,3 @@ def test_an_oil_is_written_as_it_was_given(keys):
     assert warm == pytest.approx(same, rel=1e-12) and warm < 0.9 * scene.lubricant.viscosity
     thicker, same = (s.with_(lubricant={"viscosity_index": 120}).lubricant.viscosity for s in (scene, again))
     assert thicker == pytest.approx(same, rel=1e-12)
-
-
-def test_a_dict_is_a_scene():
-    table = {
-        "bodies": {"radius": 2e-3, "width": 6e-3, "load": 5.5, "e_prime": 231e9, "boundary_friction_coefficient": 0.09},
-        "lubricant": {"viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9},
-        "motion": {"entrainment_speed": 0.01},
-        "surface": {"sq": 1e-7, "correlation_length": 4e-6},
-        "contact": {"shape": [48, 48], "spacing": 1.1e-6},
-    }
-    before = repr(table)
-    assert lubfric.load_scene(table).bodies.load == 5.5 and repr(table) == before
-    with pytest.raises(lubfric.InputError, match="did you mean 'load'"):
-        lubfric.load_scene(table | {"bodies": table["bodies"] | {"laod": 1.0}})
-
-
-def test_the_text_of_an_error_is_its_message():
-    for error in (lubfric.ConvergenceError("text", "report", "result"), lubfric.ValidityError("text", (), "result")):
-        assert str(error) == "text" and f"{error}" == "text"

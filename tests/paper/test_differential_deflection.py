@@ -88,21 +88,6 @@ def test_agrees_with_the_default_solver_to_five_digits():
     np.testing.assert_allclose(numbers(ours), numbers(lubfric.solve_ehl(**kw, tolerance=2e-5)), rtol=4e-5)
 
 
-@pytest.mark.parametrize(
-    "M, L, smallest_film, flow", [(5, 5, 3.105, 4.082), (100, 5, 2.061, 2.758), (10, 10, 4.153, 5.491)]
-)
-def test_converged_table(M, L, smallest_film, flow):
-    """An independent solver with its inlet at -6 b, which at M = 5 lies within the inlet zone."""
-    h = numbers(solve_differential_deflection(**moes(M, L), tolerance=1e-3))
-    assert h[0] == pytest.approx(smallest_film, rel=5e-3) and h[2] == pytest.approx(flow, rel=5e-3)
-
-
-def test_rigid_isoviscous_cylinder():
-    M = 1e-3
-    h = numbers(solve_differential_deflection(**moes(M, 1, viscosity_law="constant"), tolerance=1e-4))
-    assert h[0] == pytest.approx(2.447484 / M, rel=2e-4) and h[2] == pytest.approx(3.0 / M, rel=2e-4)
-
-
 def test_starved_inlet():
     kw = moes(5, 5)
     half_width = math.sqrt(8 * kw["load_per_width"] * R / (math.pi * E))
@@ -173,13 +158,6 @@ def test_reversed_motion_mirrors(heavy):
     assert back.flux == -heavy.flux and back.rupture == -heavy.rupture
 
 
-def test_it_starts_the_default(heavy):
-    near = moes(60, 9)
-    default = lubfric.solve_ehl(**near, tolerance=1e-3, start=heavy)
-    assert not any("failed" in note for note in default.report.notes)
-    np.testing.assert_allclose(numbers(default), numbers(lubfric.solve_ehl(**near, tolerance=1e-3)), rtol=2e-3)
-
-
 @pytest.mark.parametrize(
     "name, spoil",
     [
@@ -220,12 +198,9 @@ def test_a_domain_that_ends_before_rupture_says_so():
         ({"nodes": 20}, "nodes"),
         ({"bandwidth": -1}, "bandwidth"),
         ({"domain": (0, 1e-3)}, "domain"),
-        ({"domain": (-1e-3,)}, "domain"),
         ({"inlet_length": 1e-9}, "inlet_length"),
         ({"domain": (-1e-3, 1e-3), "inlet_length": 1e-3}, "domain"),
         ({"tolerance": 0}, "tolerance"),
-        ({"load_per_width": math.nan}, "load_per_width"),
-        ({"entrainment_speed": 0}, "entrainment_speed"),
     ],
 )
 def test_bad_input(bad, name):

@@ -21,29 +21,15 @@ def case(shape, hardness, size=None):
     if shape == "flat":
         film, area, pressure = np.zeros((N, N)), np.ones((N, N)), size or 300e6
     elif shape == "cylinder":
-        film, area = (
-            np.repeat((x**2 / (2 * RADIUS))[:, None], N, 1),
-            np.repeat((abs(x) <= b)[:, None] * 1.0, N, 1),
-        )
+        film, area = (np.repeat((x**2 / (2 * RADIUS))[:, None], N, 1), np.repeat((abs(x) <= b)[:, None] * 1.0, N, 1))
         pressure = b**2 * np.pi * E / (8 * RADIUS) / (N * D)
     else:
         square = x[:, None] ** 2 + x**2
-        film, area, pressure = (
-            square / (2 * RADIUS),
-            (square <= b**2) * 1.0,
-            2 / 3 * b**3 * E / RADIUS / (N * D) ** 2,
-        )
+        film, area, pressure = (square / (2 * RADIUS), (square <= b**2) * 1.0, 2 / 3 * b**3 * E / RADIUS / (N * D) ** 2)
     boundary = BOUNDARIES[shape]
     operator = half_space((N, N), D, E, boundary)
     direct = solve_contact(
-        film - z,
-        D,
-        E,
-        mean_pressure=pressure,
-        hardness=hardness,
-        boundary=boundary,
-        operator=operator,
-        tolerance=1e-7,
+        film - z, D, E, mean_pressure=pressure, hardness=hardness, boundary=boundary, operator=operator, tolerance=1e-7
     )
     volume = np.sum(area * np.maximum(direct.gap, 0)) / area.sum()
     film = film + volume - np.sum(area * film) / area.sum()
@@ -70,14 +56,7 @@ def test_agrees_with_the_load_controlled_contact(method, shape, hardness):
 
 @pytest.mark.parametrize(
     "shape,size",
-    [
-        ("flat", 1e6),
-        ("flat", 1.5e9),
-        ("cylinder", 2e-6),
-        ("cylinder", 25e-6),
-        ("ball", 3e-6),
-        ("ball", 25e-6),
-    ],
+    [("flat", 1e6), ("flat", 1.5e9), ("cylinder", 2e-6), ("cylinder", 25e-6), ("ball", 3e-6), ("ball", 25e-6)],
 )
 def test_from_one_spot_to_most_of_the_area(shape, size):
     z, film, options, direct = case(shape, None, size)

@@ -1,17 +1,15 @@
 """Friction on coarse cells, corrected, against the map's own cells; what those hide; which cells are chosen."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
-from lubfric.sampling.cells import CellStep, half_again, mean_error, remaining
-from lubfric.sampling.missed import hidden_share
-from lubfric.sampling.scatter import BlockError
+from lubfric.output import main
 
-PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+PAPER = paper_scene()
 PATCH = PAPER.with_(numerics={"sampling": "patch"})
 
 
@@ -65,12 +63,12 @@ def test_windows_on_coarse_cells_have_the_friction_of_their_own(windows, speed):
     assert abs(coarse.coefficient / own.coefficient - 1) <= told
 
 
-def test_summits_that_long_cells_hide_are_found_on_shorter_ones(tmp_path):
-    """Sharp summits of a measured map just below lift-off. On the cells chosen first, 8 x 2 of the map's, few cells
-    touch, under pressures that no steel bears."""
+@pytest.fixture
+def sharp(tmp_path):
+    """Sharp summits of a measured map just below lift-off."""
     rough = {"sq": 77e-9, "correlation_length": (20e-6, 2.2e-6), "acf": "exponential", "seed": 4}
     np.save(tmp_path / "map.npy", lubfric.generate_surface((320, 240), (0.32e-6, 0.16e-6), **rough).heights)
-    scene = lubfric.load_scene(
+    return lubfric.load_scene(
         {
             "bodies": {"radius": 6e-3, "width": 8e-3, "load": 1500.0, "material": "steel"}
             | {"boundary_friction_coefficient": 0.12},
@@ -80,10 +78,29 @@ def test_summits_that_long_cells_hide_are_found_on_shorter_ones(tmp_path):
             "surface": {"file": str(tmp_path / "map.npy"), "spacing": [0.32e-6, 0.16e-6], "extension": "mirror"},
         }
     )
-    found, own = both(scene)
-    assert lubfric.prepare(scene).strips.cells.factors == (8, 2) and found.decision.coarsening == (4, 1)
+
+
+def test_summits_that_long_cells_hide_are_found_on_shorter_ones(sharp):
+    """On the cells chosen first, 8 x 2 of the map's, few cells touch, under pressures that no steel bears."""
+    found, own = both(sharp)
+    assert lubfric.prepare(sharp).strips.cells.factors == (8, 2) and found.decision.coarsening == (4, 1)
     assert found.coefficient == pytest.approx(own.coefficient, rel=1e-3)
     assert 0 < found.contact_load == pytest.approx(own.contact_load, rel=0.05)
+
+
+def test_the_fields_of_a_speed_are_those_of_its_own_cells(sharp, tmp_path):
+    """Kept on the cells that its contact was solved on, shorter than those of the line."""
+    (tmp_path / "sharp.toml").write_text(sharp.to_toml())
+    out = tmp_path / "out"
+    assert main(["run", str(tmp_path / "sharp.toml"), "--speeds", "3.5", "--out", str(out)]) == 0
+    assert (out / "contact.png").stat().st_size > 10_000
+    with np.load(out / "fields.npz") as fields:
+        pressure, gap, heights, x = (fields[n] for n in ("contact_pressure_0", "gap_0", "heights", "contact_x"))
+        assert pressure.shape == gap.shape == heights.shape > lubfric.prepare(sharp).surface.shape
+        assert np.allclose(np.diff(x), fields["spacing"][0]) and x.size == heights.shape[0]
+        touched = pressure > 0  # summits carry: the map is that of the contact
+        assert touched.any() and heights[touched].min() > np.median(heights)
+        assert np.abs(gap[touched]).max() < 1e-3 * heights.std()
 
 
 SMOOTH = {  # a film thinner than a tenth of the roughness, whose contact follows the gap by a third
@@ -114,18 +131,6 @@ def test_where_cells_change_more_than_to_first_order_shorter_ones_are_solved(sce
     assert coarse.contact_load == pytest.approx(own.contact_load, rel=1e-6)
 
 
-def test_a_piece_of_strips_lies_on_the_columns_of_the_stack():
-    strips = lubfric.prepare(PAPER).strips
-    cells, piece = strips.cells, strips.piece(0)
-    assert cells.factors == (4, 4) and cells.ladder() == [(4, 4), (2, 2), (1, 1)]
-    coarse, fine = cells.axis(), cells.axis((1, 1))
-    shared = np.isin(np.round(fine / 1e-9), np.round(coarse / 1e-9))
-    np.testing.assert_allclose(fine[shared], coarse, atol=1e-15)
-    thinned = cells.thinned(piece.heights, cells.factors)
-    np.testing.assert_array_equal(piece.heights[shared][:, 2::4], thinned)
-    assert piece.shape[1] * piece.spacing[1] == pytest.approx(42 * strips.lengths[1], rel=0.1)
-
-
 def test_no_piece_of_a_map_is_compared_twice(tmp_path):
     """A map of a single window, ground along x: the same piece again would say that its scatter is none."""
     rough = {"sq": 80e-9, "correlation_length": (2.2e-6, 40e-6), "seed": 2}
@@ -144,31 +149,3 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
     unsure = lubfric.friction(scene, 0.01).uncertainty
     assert np.isnan([unsure.sampling, unsure.area_needed, *unsure.interval]).all()  # not "no more is needed"
     assert "correlation lengths along y are too few" in unsure.text
-
-
-def test_few_short_pieces_scatter_by_as_much_as_they_change():
-    def piece(gap):
-        return CellStep(gap, BlockError(np.inf, 0), 0.0, np.nan, 0.0, 1.0, 0.0, 1.0, 0.0, 0.0)
-
-    assert mean_error([piece(-3e-9)]) == BlockError(pytest.approx(3e-9), 1)
-    assert mean_error([piece(3e-9), piece(4e-9)]) == BlockError(pytest.approx(12.5e-18**0.5 / 2**0.5), 2)
-    assert mean_error([piece(1e-9), piece(2e-9), piece(3e-9)]) == BlockError(pytest.approx(1e-9 / 3**0.5), 2)
-
-
-def test_what_is_still_to_come_follows_a_geometric_series():
-    assert remaining([8.0, 4.0]) == pytest.approx(4.0) and remaining([8.0]) == 8.0
-    assert remaining([1.0, 4.0]) == pytest.approx(12.0)  # no slower than 3/4
-    assert half_again([4.0, 8.0]) == 2.0 and half_again([1.0, 16.0]) == 0.5 and half_again([-3.0]) == 1.5
-
-
-def test_contact_that_cells_hide_matters_most_where_there_is_no_friction():
-    """Its share of f falls as 1/f; of no friction at all it is everything. In pure rolling it is felt by the load that
-    the film loses, and no more than that."""
-    contact = lubfric.prepare(PAPER).contact
-    rolling = PAPER.with_(motion={"slide_roll_ratio": 0.0})
-    by_scene = [
-        [hidden_share(scene, contact, SimpleNamespace(coefficient=f), 1e-9) for f in (0.018, 0.009, 0.0)]
-        for scene in (PAPER, rolling)
-    ]
-    assert by_scene[0][1] == pytest.approx(2 * by_scene[0][0], rel=1e-12) and by_scene[0][2] == math.inf
-    assert 0 < by_scene[1][0] == by_scene[1][1] == pytest.approx(by_scene[0][0] / 5, rel=1e-12)

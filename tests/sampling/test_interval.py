@@ -5,13 +5,14 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.output.describe import describe_scene
 from lubfric.sampling import forecast
 from verification.hostile.soak_force import friction_force
 
-PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+PAPER = paper_scene()
 PATCH = PAPER.with_(numerics={"sampling": "patch"})
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lubfric.sampling.scatter import BlockError, add_errors, block_error, gap_influence, participation, weighted_errors
+from lubfric.sampling.scatter import BlockError, add_errors, block_error, participation, weighted_errors
 from lubfric.sampling.uncertainty import student
 
 
@@ -60,13 +60,6 @@ def test_a_line_too_short_for_five_blocks_tells_nothing():
     assert block_error(np.arange(240.0), 1.0, 10.0) == BlockError(math.inf, 0)
     lengths = (250.0, 300.0, 400.0, 800.0, 900.0, 1e4)
     assert [block_error(np.arange(n), 1.0, 10.0).freedom for n in lengths] == [4, 5, 7, 7, 9, 31]
-
-
-def test_influence_does_not_change_the_mean_and_takes_out_what_follows_the_load():
-    load = np.random.default_rng(1).random(64)
-    gap = 3.0 - 2.0 * load
-    np.testing.assert_allclose(gap_influence(gap, load, -2.0), gap.mean(), rtol=1e-14)
-    assert gap_influence(gap, load, 5.0).mean() == pytest.approx(gap.mean(), rel=1e-14)
 
 
 @pytest.mark.parametrize("count", [1, 7, 50])

@@ -2,22 +2,20 @@
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.contact.strip_cells import cells_of_a_box, choose_cells
-from lubfric.contact.strips import measured_strips, spread, stacked
+from lubfric.contact.strips import measured_strips
 
-PAPER = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+PAPER = paper_scene()
 
 
 def test_cells_resolve_correlation_length_and_strip():
     cells = choose_cells((0.5e-6, 0.25e-6), (8e-6, 16e-6), 4.5e-6, 90e-6)
     assert cells.factors == (4, 16) and cells.coarse == (2e-6, 4e-6)
     assert 90e-6 <= cells.count * cells.coarse[0] < 90e-6 + 4 * cells.coarse[0]
-    assert choose_cells((0.5e-6, 0.5e-6), (8e-6, 8e-6), 1.0e-6, 90e-6).factors == (
-        1,
-        4,
-    )  # the contact asks
+    assert choose_cells((0.5e-6, 0.5e-6), (8e-6, 8e-6), 1.0e-6, 90e-6).factors == (1, 4)  # the contact asks
     assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (52, 64)).count * 2 == 52
     assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (48, 50), -24e-6).factors == (2, 1)
     assert cells.halved().factors == (2, 8) and cells.halved().count == 2 * cells.count
@@ -36,24 +34,6 @@ def test_a_strip_is_always_the_same_and_like_no_other():
     assert both.sq == pytest.approx(PAPER.surface.sq, rel=0.03)
     other = lubfric.prepare(PAPER.with_(surface={"seed": 2})).strips.stack(1)
     assert abs(np.corrcoef(one.heights.ravel(), other.heights.ravel())[0, 1]) < 0.1
-
-
-def test_stacked_windows_keep_their_variance_and_join_smoothly():
-    rng = np.random.default_rng(3)
-    line = stacked([rng.standard_normal((200, 120)) for _ in range(6)], 20)
-    assert line.shape == (200, 6 * 100)
-    assert line.std() == pytest.approx(1.0, abs=0.02)
-    joined = stacked([np.full((1, 40), k, float) for k in (0.0, 1.0)], 20)[0]
-    assert np.abs(np.diff(joined, append=joined[0])).max() < 0.1
-
-
-@pytest.mark.parametrize("count", [1, 2, 5, 12])
-def test_windows_are_taken_from_the_middle_outwards_and_spread(count):
-    order = spread(count)
-    assert sorted(order) == list(range(count))
-    assert abs(order[0] - (count - 1) / 2) <= 0.5
-    if count == 12:
-        assert np.ptp(order[:3]) >= 9
 
 
 def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():

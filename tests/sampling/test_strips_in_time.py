@@ -5,18 +5,15 @@ import math
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.scene import Transient
 from lubfric.time.begin import strip_for
 from lubfric.time.moment import film_thinning
 
-HELD = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        transient=Transient(2e-4, outputs=2), motion={"entrainment_speed": 0.03}, numerics={"sampling_tolerance": 0.035}
-    )
+HELD = paper_scene(
+    transient=Transient(2e-4, outputs=2), motion={"entrainment_speed": 0.03}, numerics={"sampling_tolerance": 0.035}
 )
 
 
@@ -63,17 +60,13 @@ def test_an_average_is_the_integral_over_time(held):
 
 def test_a_run_in_time_takes_cells_that_do_not_move_its_friction():
     """It is not corrected for its cells, as steady friction is: on cells four times the scene's f was 2.6 % low."""
-    scene = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(
-            bodies={"load": 20.0, "width": 5e-3, "hardness": None},
-            motion={"entrainment_speed": 0.1},
-            lubricant={"viscosity": 0.1, "pressure_viscosity_coefficient": 1e-8},
-            surface={"acf": "exponential", "correlation_length": 8e-6, "seed": 3},
-            contact={"shape": (192, 192), "spacing": 0.4e-6},
-            transient=Transient(1e-3, outputs=1),
-        )
+    scene = paper_scene(
+        bodies={"load": 20.0, "width": 5e-3, "hardness": None},
+        motion={"entrainment_speed": 0.1},
+        lubricant={"viscosity": 0.1, "pressure_viscosity_coefficient": 1e-8},
+        surface={"acf": "exponential", "correlation_length": 8e-6, "seed": 3},
+        contact={"shape": (192, 192), "spacing": 0.4e-6},
+        transient=Transient(1e-3, outputs=1),
     )
     coarse = lubfric.prepare(scene)
     fine = strip_for(coarse)[0]

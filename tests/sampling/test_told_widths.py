@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.sampling.missed import missed_load, summit_radius
@@ -82,11 +83,7 @@ def test_freedom_of_a_sum_is_no_more_than_that_of_its_largest_part():
 
 @pytest.fixture(scope="module")
 def point():
-    scene = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(numerics={"sampling_tolerance": 0.2})
-    )
+    scene = paper_scene(numerics={"sampling_tolerance": 0.2})
     return scene, lubfric.friction(scene, 0.01)
 
 

@@ -8,7 +8,7 @@ import pytest
 import lubfric
 from verification import hostile
 from verification.hostile import scenes, soak
-from verification.hostile.case import ACCEPTED, GOOD, RAW, REFUSED, SLOW, Case, judge
+from verification.hostile.case import ACCEPTED, GOOD, RAW, REFUSED, Case, judge
 from verification.hostile.soak_judge import verdict
 from verification.hostile.soak_scenes import random_scene
 
@@ -24,12 +24,6 @@ def test_a_sample_of_bad_inputs_is_refused(group):
     found = hostile.outcomes((group, 0.12))
     assert len(found) > 20
     assert [words for ended, words in found if ended not in GOOD] == []
-
-
-def test_there_are_enough_and_they_repeat():
-    assert sum(hostile.COUNTS.values()) >= 2500
-    names = [[case.name for group in hostile.COUNTS for case in hostile.cases(group, s, 0.2)] for s in (3, 3, 4)]
-    assert names[0] == names[1] and len(names[0]) > 500 and names[0] != names[2]
 
 
 def test_every_key_of_a_scene_is_attacked():
@@ -53,17 +47,6 @@ def test_the_judge_tells_them_apart(tmp_path, run, verdict):
     assert judge(Case("call", "a call", run), tmp_path)[0] == verdict
 
 
-def test_the_judge_sees_what_is_slow(tmp_path, monkeypatch):
-    monkeypatch.setattr("verification.hostile.case.MOST_SECONDS", -1.0)
-    assert judge(Case("call", "a call", lambda folder: validated("load")), tmp_path)[0] == SLOW
-
-
-def test_one_bad_input_that_is_answered_fails_the_run(monkeypatch):
-    monkeypatch.setattr(hostile, "outcomes", lambda group: [(REFUSED, "x"), (ACCEPTED, "f = 0.1")])
-    items = list(hostile.bad_inputs("quick"))
-    assert {c.name for c in items[:-1] if c.failed} == {f"{group}: {ACCEPTED}" for group in hostile.COUNTS}
-
-
 def validated(name):
     raise lubfric.InputError(f"{name} = -1 N is out of range")
 
@@ -74,13 +57,6 @@ def test_a_sample_of_the_soak_is_answered_right():
     assert all(c.passed for c in soak.judged([row]) if hasattr(c, "passed"))
     ended = [one["ended"] for one in row["scenes"]]
     assert ended.count(soak.ANSWERED) >= 6 and sum(one["ratio"] is not None for one in row["scenes"]) >= 5
-
-
-@pytest.mark.parametrize("change", [{"ended": soak.RAW}, {"ratio": 1.1}])
-def test_one_wrong_answer_fails_the_soak(change):
-    one = {"ended": soak.ANSWERED, "words": "seed 1", "ratio": 0.5, "features": []}
-    row = {"first": 0, "process": 1, "memory": 1.0, "scenes": [one, one | change]}
-    assert any(c.failed for c in soak.judged([row]) if hasattr(c, "failed"))
 
 
 def test_the_judge_of_the_soak_sees_a_wrong_answer():

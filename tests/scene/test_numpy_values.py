@@ -5,12 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
-import lubfric
 from lubfric.scene.file import scene_from_table
 from lubfric.studies import fingerprint
 
-SCENE = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"sampling": "patch"})
+SCENE = paper_scene(numerics={"sampling": "patch"})
 
 
 @pytest.mark.parametrize(
@@ -39,10 +39,3 @@ def test_a_scene_holds_the_numbers_of_python(section, given, plain):
         kind = type(getattr(SCENE, section))
         values = vars(getattr(SCENE, section))
         assert kind(**values | given) == kind(**values | plain)
-
-
-def test_a_pair_of_lengths_in_an_array_reaches_the_map():
-    lengths = np.array([8e-6, 20e-6])
-    wide = lubfric.prepare(SCENE.with_(surface={"correlation_length": lengths}, contact={"shape": (200, 500)})).surface
-    along_x, along_y = (lubfric.surface.correlation_length(wide, axis) for axis in (0, 1))
-    assert along_y > 1.7 * along_x

@@ -43,23 +43,3 @@ def test_an_error_carries_what_it_says():
     error.hint("um meant?")
     error.hint("um meant?")
     assert str(error) == f"{error.quantity}{error.said}; allowed: {error.allowed}; um meant?"
-
-
-@pytest.mark.parametrize("index", ["x", [1.0], (1e3, 1e3), None, 10**400])
-def test_a_viscosity_index_that_is_no_number_is_an_input_error(index):
-    with pytest.raises(lubfric.InputError, match="viscosity_index"):
-        lubfric.load_scene("paper").with_(lubricant=OIL | {"viscosity_index": index})
-
-
-def test_the_error_about_a_value_names_the_unit():
-    paper = lubfric.load_scene("paper")
-    for section, keys, words in (
-        ("bodies", {"e_prime": 226}, "226 GPa"),
-        ("bodies", {"hertz_pressure": 1.2}, "1.2 GPa"),
-        ("bodies", {"young_modulus": [210, 210], "poisson_ratio": [0.3, 0.3]}, "210 GPa"),
-        ("lubricant", {"pressure_viscosity_coefficient": 22}, "22 1/GPa"),
-        ("lubricant", OIL | {"temperature": 70}, "343.15 K"),
-        ("bodies", {"hardness": 700}, "hardness_hv"),
-    ):
-        with pytest.raises(lubfric.InputError, match=words):
-            paper.with_(**{section: keys})

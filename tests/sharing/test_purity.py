@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scene_text import paper_scene
 from small_study import same
 
 import lubfric
@@ -16,11 +17,7 @@ import lubfric
 SPEEDS = (0.002, 0.05, 0.01, 0.4)
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
 LAW = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.09}
-LINE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling_tolerance": 0.1})
-)
+LINE = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling_tolerance": 0.1})
 PATCH = LINE.with_(numerics={"sampling": "patch"})
 FLAT = lubfric.load_scene("flat").with_(
     contact={"shape": (64, 64), "spacing": 8e-6}, surface={"correlation_length": 24e-6, "acf": "gaussian"}
@@ -50,11 +47,7 @@ def scene_of(tmp_path_factory):
     """The scene of a name; the measured one reads a file."""
     path = tmp_path_factory.mktemp("map") / "map.npy"
     np.save(path, lubfric.generate_surface((400, 240), 0.45e-6, sq=1e-7, correlation_length=4e-6, seed=5).heights)
-    measured = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(surface={"file": str(path), "spacing": 0.45e-6}, contact={"shape": None, "spacing": None})
-    )
+    measured = paper_scene(surface={"file": str(path), "spacing": 0.45e-6}, contact={"shape": None, "spacing": None})
     return (SCENES | {"measured": measured}).get
 
 

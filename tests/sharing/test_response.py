@@ -4,18 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.sharing import solve_balance
 from lubfric.sharing.response import Response, Slopes
 
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        contact={"shape": (96, 96), "spacing": 0.9e-6},
-        numerics={"sampling": "patch", "grid": "given", "tolerance": 1e-3, "balance_tolerance": 1e-5},
-    )
+SCENE = paper_scene(
+    contact={"shape": (96, 96), "spacing": 0.9e-6},
+    numerics={"sampling": "patch", "grid": "given", "tolerance": 1e-3, "balance_tolerance": 1e-5},
 )
 
 

@@ -52,25 +52,3 @@ def test_a_function_of_one_sign_is_reported_not_hidden():
     g, calls = counted(lambda x: 1.0 + math.exp(x / 100))
     found = increasing_root(g, 0.0, step=1.0, bounds=BOUNDS, tolerance=1e-9)
     assert found.status == ITERATION_LIMIT and calls[-1] == BOUNDS[0]
-
-
-def test_the_evaluation_limit_is_reported():
-    g, calls = counted(lambda x: x**3 - 2)
-    found = increasing_root(g, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-15, max_evaluations=4)
-    assert found.status == ITERATION_LIMIT and len(calls) == 4
-    assert abs(found.value) == min(found.history)
-
-
-def test_a_known_point_is_not_evaluated_again():
-    g, calls = counted(lambda x: math.tanh(x - 1.3))
-    found = increasing_root(g, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-9, first=(math.tanh(-1.3), "known"))
-    assert found.x == pytest.approx(1.3, abs=1e-8) and 0.0 not in calls and len(found.history) == len(calls) + 1
-    found = increasing_root(g, 1.0, step=0.5, bounds=BOUNDS, tolerance=0.4, first=(math.tanh(-0.3), "known"))
-    assert found.payload == "known" and found.x == 1.0
-
-
-def test_a_first_step_that_nearly_hits_goes_on_by_the_secant():
-    """Doubled steps would leave the neighbourhood of the root that Newton's step has reached."""
-    g, calls = counted(lambda x: x + 0.01 * x**2 - 1)
-    found = increasing_root(g, 0.0, step=5.0, bounds=BOUNDS, tolerance=1e-6, slope=1.05)
-    assert found.status == CONVERGED and len(calls) <= 5 and max(calls) < 1.1

@@ -5,6 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.film import ShearForce
@@ -12,11 +13,7 @@ from lubfric.sharing import of_deflection, of_motion, of_pressure, of_thickness
 from lubfric.sharing.checks import of_shear
 from lubfric.sharing.checks_before import of_bodies, of_map
 
-PAPER = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})
-)
+PAPER = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})
 FRICTION = 0.09 * PAPER.bodies.load
 
 

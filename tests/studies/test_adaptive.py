@@ -4,20 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.film import LineContact, solve_line_contact
 from lubfric.studies.choose import first_speeds, next_speed, span
 from lubfric.studies.interpolate import Interpolant, Samples, knee_of
 
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        contact={"shape": (64, 64), "spacing": 0.9e-6},
-        surface={"correlation_length": 4e-6},
-        numerics={"sampling": "patch"},
-    )
+SCENE = paper_scene(
+    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
 
 FIRST = np.geomspace(1e-4, 1.0, 5)

@@ -75,18 +75,14 @@ def test_killed_dask_workers_lose_nothing(serial, tmp_path):
 
 SCRIPT = f"""
 import sys
-sys.path.insert(0, {str(ROOT)!r})
-import numpy as np
+sys.path[:0] = {[str(ROOT), str(ROOT / "tests")]!r}
 import lubfric
 from mpi4py.futures import MPIPoolExecutor
+from small_study import SCENE
 
 if __name__ == "__main__":
-    scene = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(
-        contact={{"shape": (48, 48), "spacing": 1.1e-6}}, surface={{"correlation_length": 4e-6}},
-        numerics={{"sampling": "patch"}})
-    vary = {{"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}}
     with MPIPoolExecutor() as executor:
-        lubfric.study(scene, vary, tuple(np.geomspace(0.003, 0.3, 8)), executor=executor, store=sys.argv[1])
+        lubfric.study(SCENE, {VARY!r}, {[float(u) for u in SPEEDS]!r}, executor=executor, store=sys.argv[1])
 """
 
 

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.errors import CONVERGED, Report
@@ -12,7 +13,7 @@ from lubfric.studies.fit_input import parameters_of
 from lubfric.studies.fit_result import FitResult
 
 KEY, OTHER = "bodies.boundary_friction_coefficient", "lubricant.viscosity"
-SCENE = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(surface={"sq": 0.0})
+SCENE = paper_scene(surface={"sq": 0.0})
 T_975 = {3: 3.1824, 5: 2.5706, 10: 2.2281}
 F_95 = {3: 9.5521, 5: 5.7861, 10: 4.1028}  # of 2 and that many
 

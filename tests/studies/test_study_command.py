@@ -15,13 +15,7 @@ import lubfric
 from lubfric.output import main
 
 ROOT = Path(__file__).parents[2]
-SCENE = (
-    BODIES_AND_OIL
-    + """[motion]
-entrainment_speed = 0.001
-"""
-    + SMALL_PATCH
-)
+SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n" + SMALL_PATCH
 STUDY = """
 scene = "small.toml"
 speed_range = [0.003, 0.3, 3]

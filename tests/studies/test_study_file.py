@@ -7,13 +7,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 import lubfric
 from lubfric.studies import load_study
 
-SCENE = (
-    BODIES_AND_OIL
-    + """[motion]
-entrainment_speed = 0.01
-"""
-    + SMALL_PATCH
-)
+SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\n" + SMALL_PATCH
 
 
 def read(folder, study, scene=SCENE):
@@ -68,22 +62,17 @@ def test_maps_of_the_other_body_are_found_beside_the_file(tmp_path):
         ("speeds = [0.1]\nspeed_range = [0.1, 1.0, 3]\n", "speeds or speed_range"),
         ("speed_rnage = [0.1, 1.0, 3]\n", "did you mean 'speed_range'"),
         ("speed_range = [0.1, 1.0]\n", "must be .lowest, highest, count"),
-        ("speed_range = [1.0, 0.1, 3]\n", "speed_range highest"),
         ("speed_range = [0.1, 1.0, 1000000000000]\n", "speed_range count"),
         ("[vary]\nbodies.laod = [3.0]\n", "did you mean 'load'"),
         ("[[together]]\nbodies.load = [1.0]\nbodies.width = [1e-3, 2e-3]\n", "lists of one length"),
         ("[sample]\ncount = 3\nbodies.load = { low = 1.0, high = 2.0 }\n", "powers of two"),
         ("[sample]\ncount = 4\nbodies.load = 1\n", "low = "),
-        ("vary = 3\n", "keys of a scene with lists"),
         ("[vary]\nbodies.load = 3\n", "a list of values"),
-        ("sample = 3\n", "must be a table"),
         ("[sample]\nbodies.load = { low = 1.0, high = 2.0 }\n", "needs count"),
-        ("[sample]\ncount = 2\nbodies.load = { low = 1.0 }\n", "low = , high ="),
         ('[vary]\nsurface.file = ["none.npy"]\n', "no such file"),
         ("speeds = [0.1\n", "not valid TOML"),
         ('[vary]\n"bodies.load" = [1.0]\nbodies.load = [2.0]\n', "bodies.load is given twice"),
         ("[vary]\nbodies.load = [1.0]\n[sample]\ncount = 2\nbodies.load = { low = 1.0, high = 2.0 }\n", "given twice"),
-        ("[[together]]\nbodies.load = [1.0]\n[[together]]\nbodies.load = [2.0]\n", "given twice"),
         ('speeds = "many"\n', "'auto'"),
     ],
 )

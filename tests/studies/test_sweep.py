@@ -8,20 +8,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.quantities import NUMBERS
 from lubfric.studies import points
 from lubfric.studies.store import digest
 
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        contact={"shape": (64, 64), "spacing": 0.9e-6},
-        surface={"correlation_length": 4e-6},
-        numerics={"sampling": "patch"},
-    )
+SCENE = paper_scene(
+    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
 SPEEDS = np.geomspace(1e-4, 1.0, 9)
 PARENT, FRICTION = os.getpid(), lubfric.friction
@@ -176,22 +171,9 @@ def test_a_cut_sweep_goes_on_to_the_same_bits(model, tmp_path, monkeypatch, cut,
         assert digest(replace(here, seconds=0.0)) == digest(replace(there, seconds=0.0))
 
 
-def test_a_surface_given_to_prepare_is_part_of_the_key(model, tmp_path):
-    other = replace(model.surface, heights=model.surface.heights[::-1].copy())
-    turned = lubfric.prepare(SCENE, other)
-    first, second = (lubfric.stribeck(m, SPEEDS[4:5], store=tmp_path) for m in (model, turned))
-    assert first.coefficient != second.coefficient == lubfric.friction(turned, SPEEDS[4]).coefficient
-
-
 def test_fields_of_a_speed_that_is_not_solved_are_refused():
     with pytest.raises(lubfric.InputError, match="not all among the speeds"):
         lubfric.stribeck(SCENE, SPEEDS, fields=[SPEEDS[1], 1.1 * SPEEDS[2]])
-
-
-def test_progress_counts_every_point(model):
-    seen = []
-    lubfric.stribeck(model, SPEEDS[:3], on_point=lambda done, total, speed, point: seen.append((done, total, speed)))
-    assert seen == [(1, 3, SPEEDS[0]), (2, 3, SPEEDS[1]), (3, 3, SPEEDS[2])]
 
 
 def test_zero_speed_belongs_to_a_sweep(model):

@@ -9,7 +9,6 @@ import pytest
 
 from lubfric import InputError, Surface, generate_surface
 from lubfric.contact import half_space
-from lubfric.surface.prepare import fitted_form
 
 
 def rough(seed, shape=(160, 120), spacing=1e-6, sq=1e-7):
@@ -113,21 +112,6 @@ def test_a_constant_map_cannot_be_scaled_and_levels_to_zero():
             level.scaled(sq=1e-7)
     with pytest.raises(InputError, match="flat"):
         Surface(np.full((64, 48), 0.1), 1e-6).scaled(sq=1e-7)
-
-
-@pytest.mark.parametrize("form", ["plane", "quadratic"])
-def test_the_form_is_that_of_least_squares(form):
-    """Against NumPy's solver, on a map of which a third is missing and that stands far from zero."""
-    rng = np.random.default_rng(2)
-    z = rng.standard_normal((31, 44)) * 1e-7 + 1e-4 * np.linspace(-1, 2, 31)[:, None] + 5e-3
-    mask = rng.random(z.shape) < 0.66
-    x, y = np.meshgrid(*(np.linspace(-0.5, 0.5, n) for n in z.shape), indexing="ij")
-    columns = [np.ones_like(x), x, y] + ([x * x, x * y, y * y] if form == "quadratic" else [])
-    matrix = np.stack([c[mask] for c in columns], axis=1)
-    best = np.linalg.lstsq(matrix, z[mask], rcond=None)[0]
-    expected = sum(b * c for b, c in zip(best, columns))
-    found = fitted_form(np.where(mask, z, np.nan), mask, (1e-6, 1e-6), form)[0]
-    np.testing.assert_allclose(found, expected, atol=1e-15)
 
 
 def test_nothing_is_writable_after_copies_and_pickles():

@@ -3,11 +3,9 @@ cannot be meant."""
 
 import numpy as np
 import pytest
-from scene_text import BODIES_AND_OIL
 
 import lubfric
 from lubfric import InputError, read_surface
-from lubfric.output.describe import describe_scene
 
 RAW = {"level": False, "fill": False}
 NAN = np.nan
@@ -97,14 +95,6 @@ def test_a_cylinder_lies_along_x_or_along_y():
     z, left = barrel()
     for heights in (z, z.T):
         assert lubfric.Surface(heights, 2e-6).level("cylinder").sq == pytest.approx(left["cylinder"], rel=1e-9)
-
-
-def test_info_tells_what_each_form_would_leave(tmp_path):
-    np.save(tmp_path / "a.npy", barrel()[0])
-    text = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.1\n[surface]\nfile = 'a.npy'\nspacing = 2e-6\n"
-    (tmp_path / "scene.toml").write_text(text + "[contact]\ngeometry = 'flat'\n")
-    said = describe_scene(lubfric.load_scene(tmp_path / "scene.toml"))
-    assert f"{barrel()[1]['cylinder'] * 1e9:.4g} nm without cylinder" in said and "give form = 'quadratic'" in said
 
 
 def test_heights_and_spacing_that_cannot_be_in_one_unit_are_refused(tmp_path):

@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 
 from lubfric import InputError
-from lubfric.film import step_length
-from lubfric.film.reynolds import FILM_STEP, VISCOSITY_STEP
 from lubfric.scene import Table
 from lubfric.time import Progress, Step, checked_times, plan_of, report_of, steps
 
@@ -97,17 +95,3 @@ def test_a_step_that_fails_is_tried_shorter_and_then_reported():
 def test_times_that_are_refused(times):
     with pytest.raises(InputError, match="times"):
         checked_times(times)
-
-
-@pytest.mark.parametrize(
-    "change, loss, length",
-    [
-        (1.0, 0.5, 1.0),
-        (4 * VISCOSITY_STEP, 2 * FILM_STEP, 0.25),
-        (-2 * VISCOSITY_STEP, 4 * FILM_STEP, 0.25),
-        (1.0, -3.0, 1.0),
-    ],
-)
-def test_newton_step_changes_neither_viscosity_nor_film_too_much(change, loss, length):
-    """The shorter of both limits; a film that grows sets none."""
-    assert step_length(np.array([0.1, change]), loss) == pytest.approx(length)

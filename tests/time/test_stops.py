@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.scene import Table
@@ -46,14 +47,10 @@ def test_an_output_and_a_jump_at_one_time_are_one_stop(jump):
 
 
 def test_a_run_sees_a_pulse_between_its_outputs_and_a_jump_at_one():
-    scene = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(
-            contact={"shape": (64, 64), "spacing": 0.8e-6},
-            surface={"correlation_length": 5e-6},
-            numerics={"sampling": "patch", "accept": True},
-        )
+    scene = paper_scene(
+        contact={"shape": (64, 64), "spacing": 0.8e-6},
+        surface={"correlation_length": 5e-6},
+        numerics={"sampling": "patch", "accept": True},
     )
 
     def run(speed, outputs):

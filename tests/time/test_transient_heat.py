@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric.output import command_line as cli
@@ -49,14 +50,10 @@ def test_steady_motion_is_as_hot_in_time_as_without(speed, ratio):
 @pytest.mark.parametrize("speed, ratio", [(5.0, 20.0), (-20.0, -2.0)])
 def test_the_film_far_before_a_hot_contact_is_as_thin_as_that_of_steady_motion(speed, ratio):
     """Cold, the film beyond the ends of the grid alone would raise f by 5 to 30 %."""
-    scene = (
-        lubfric.load_scene("paper")
-        .with_(numerics={"model": "load-sharing"})
-        .with_(
-            lubricant={"grade": "ISO VG 220", "viscosity_index": 95, "temperature_celsius": 40},
-            motion={"entrainment_speed": speed, "slide_roll_ratio": ratio},
-            numerics={"sampling": "patch", "film_deflection": "hydrodynamic", "accept": True},
-        )
+    scene = paper_scene(
+        lubricant={"grade": "ISO VG 220", "viscosity_index": 95, "temperature_celsius": 40},
+        motion={"entrainment_speed": speed, "slide_roll_ratio": ratio},
+        numerics={"sampling": "patch", "film_deflection": "hydrodynamic", "accept": True},
     )
     steady, found = lubfric.friction(scene), in_time(scene, duration=1e-3)
     assert steady.inlet_film_factor < 0.1
@@ -103,8 +100,7 @@ def test_no_heat_without_knowing_the_oil():
 
 
 NEWTONIAN = BASE.with_(
-    lubricant={"eyring_stress": None, "limiting_stress_coefficient": None},
-    numerics={"accept": False, "heat": "off"},
+    lubricant={"eyring_stress": None, "limiting_stress_coefficient": None}, numerics={"accept": False, "heat": "off"}
 )
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scene_text import paper_scene
 
 import lubfric
 from lubfric._base import write_checked
@@ -19,15 +20,11 @@ from lubfric.time import STATE
 from lubfric.time.run import Checkpoint
 from lubfric.time.sharing import Sharing
 
-SCENE = (
-    lubfric.load_scene("paper")
-    .with_(numerics={"model": "load-sharing"})
-    .with_(
-        numerics={"sampling": "patch"},
-        contact={"shape": (64, 64), "spacing": 0.8e-6},
-        surface={"correlation_length": 5e-6},
-        motion={"entrainment_speed": 0.02},
-    )
+SCENE = paper_scene(
+    numerics={"sampling": "patch"},
+    contact={"shape": (64, 64), "spacing": 0.8e-6},
+    surface={"correlation_length": 5e-6},
+    motion={"entrainment_speed": 0.02},
 )
 MODEL = prepare(SCENE)
 
@@ -307,7 +304,7 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
 @pytest.mark.slow
 def test_three_hundred_steps_of_the_paper_scene_take_less_than_thirty_seconds():
     wave = Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2)
-    scene = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(numerics={"sampling": "patch"})
+    scene = paper_scene(numerics={"sampling": "patch"})
     begun = time.perf_counter()
     found = lubfric.transient(scene.with_(transient=Transient(0.1, outputs=300, speed=wave)))
     assert found.report.iterations >= 300 and time.perf_counter() - begun < 30

@@ -1,28 +1,19 @@
 """The campaigns: what is kept is not solved again, their judges fail what is wrong, and points come out sane."""
 
 import json
-import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
-import lubfric
 from verification import kept
 from verification.__main__ import main
-from verification.charts import contact, draw
-from verification.charts.measure import point
+from verification.charts import contact
 from verification.check import Check
 from verification.kept import Run
-from verification.model import error, points
-from verification.sampling import coverage, others
+from verification.model import answers
+from verification.sampling import coverage
 
 NAN = float("nan")
-
-
-def test_rows_come_in_order_from_several_processes_and_are_kept(tmp_path):
-    run, cases = Run(tmp_path, 2), {str(k): k for k in range(4)}
-    assert list(run.solved(cases, math.factorial)) == list(run.solved(cases, None)) == [(0, 1), (1, 1), (2, 2), (3, 6)]
 
 
 def test_a_line_that_was_not_written_to_its_end_is_written_again(tmp_path):
@@ -37,13 +28,6 @@ def test_a_line_that_was_not_written_to_its_end_is_written_again(tmp_path):
     file.write_text(file.read_text()[:-3])
     assert [row for _, row in Run(tmp_path).solved({"a": 1, "b": 2, "c": 3}, solve)][-1] == [3, None]
     assert solved == [1, 2, 2, 3] and len(kept.rows_of(file)) == 3
-
-
-def test_rows_of_other_code_are_not_used(tmp_path, monkeypatch):
-    run = Run(tmp_path)
-    assert [row for _, row in run.solved({"a": "a"}, str.upper)] == ["A"]
-    monkeypatch.setattr(kept, "code", lambda: "of tomorrow")
-    assert [row for _, row in run.solved({"a": "b"}, str.upper)] == ["B"]
 
 
 def test_a_campaign_judges_what_lies_in_the_folder_and_puts_its_table(tmp_path):
@@ -101,77 +85,24 @@ def test_a_map_that_says_that_it_is_too_small_does_not_fail_by_its_coverage():
     assert not found["coverage"].passed and not found["coverage"].failed
 
 
-@pytest.mark.parametrize(("missed", "passed"), [(0, True), (2, False)])
-def test_pieces_that_miss_their_map_fail(monkeypatch, missed, passed):
-    monkeypatch.setattr(others, "piece", lambda case: {"f": 2.0 if case[-1] is None else 1.0})
-    found = {"f": 1.0, "low": 0.9, "high": 1.1}
-    off = iter([found] + [found] * (4 - missed) + [found | {"low": 1.05}] * missed)
-    monkeypatch.setattr(others, "piece", lambda case: next(off))
-    (check,) = others.pieces("quick")
-    assert check.passed == passed
+@pytest.mark.parametrize(("off", "covered"), [(0.02, True), (0.2, False)])
+def test_answers_beside_finer_strips_fail_where_their_intervals_miss_f(monkeypatch, off, covered):
+    row = {"reference_f": 0.1, "reference_error": 0.01}
+    row |= {
+        f"{way}_{key}": value for way in ("default", "eq8") for key, value in (("f", 0.1 + 0.1 * off), ("half", 0.05))
+    }
+    monkeypatch.setattr(answers, "solve", lambda case: row)
+    checks = [item for item in answers.answers("quick") if isinstance(item, Check)]
+    assert [check.passed for check in checks if "intervals" in check.name] == [covered, covered]
 
 
-def test_a_number_beyond_its_stated_error_fails(monkeypatch):
-    rows = {"f": (0.01, 0.02), "gap": (0.05, 0.02), "area": None}
-    monkeypatch.setattr(others, "ESTIMATED", tuple(rows))
-    monkeypatch.setattr(others, "beside", lambda number: rows)
-    *checks, table = others.quantities("quick")
-    assert {c.name.split(":")[0]: c.passed for c in checks} == {"f": True, "gap": False}
-    assert [row[0] for row in table.rows] == ["`f`", "`gap`"]
-
-
-SETTING = points.Setting(1, 5.5, 32)
-
-
-def made(speed, method, f, seed=1):
-    return points.Point(replace(SETTING, seed=seed), speed, method, f, 0.5, 0.1, 0.02, "" if f == f else "no")
-
-
-def test_mean_rms_and_failures_are_against_the_reference():
-    found = [made(0.01, points.REFERENCE, 0.1), made(0.01, points.HERTZ, 0.11)]
-    found += [made(0.003, points.REFERENCE, 0.1), made(0.003, points.HERTZ, NAN)]
-    good, failed = (d for d in points.deviations(found) if d.method == points.HERTZ)
-    assert np.isclose(good.mean, 0.1) and np.isclose(good.rms, 0.1) and good.share == 0.5
-    assert failed.failures == 1 and np.isnan(failed.mean)
-    assert points.over_stated(found) == pytest.approx([5.0])
-
-
-@pytest.mark.parametrize(("f", "failing"), [(0.1, 0), (0.103, 1), (0.11, 2)])
-def test_a_model_that_errs_more_than_its_results_state_fails(monkeypatch, f, failing):
-    of = {points.REFERENCE: 0.1, points.HERTZ: f}
-    found = [made(0.01, method, of[method], seed) for seed in range(4) for method in of]
-    monkeypatch.setattr(error, "all_points", lambda *asked: found)
-    assert sum(c.failed for c in error.held_out("default") if isinstance(c, Check)) == failing
-
-
-def test_every_model_answers_the_same_scene_and_a_lost_reference_fails():
-    found = points.all_points([(SETTING, (0.01, 0.003))], Run())
-    assert not any(p.failure for p in found) and len(found) == 8
-    f = {p.method: p.coefficient for p in found if p.speed == 0.003}
-    assert max(f.values()) < 1.2 * min(f.values()) and len(set(f.values())) >= 3
-    lost = [replace(p, failure="no") for p in found]
-    assert [c.failed for c in error.failures(lost)] == [True, False, False, False]
-
-
-def test_a_measured_map_is_slid_along_both_axes_of_its_file(tmp_path):
-    """The map turned by a quarter is the same map slid along the other axis."""
-    map_ = lubfric.generate_surface((64, 64), 90e-6 / 64, sq=100e-9, correlation_length=(5e-6, 12e-6), seed=4)
-    found = {}
-    for name, heights in (("straight", map_.heights), ("turned", map_.heights.T)):
-        np.save(tmp_path / f"{name}.npy", heights)
-        keys = {"file": str(tmp_path / f"{name}.npy"), "spacing": map_.spacing, "sq": None, "correlation_length": None}
-        scene = (
-            lubfric.load_scene("paper")
-            .with_(numerics={"model": "load-sharing"})
-            .with_(surface=keys, contact={"shape": None, "spacing": None})
-        )
-        (tmp_path / f"{name}.toml").write_text(scene.to_toml())
-        for axis in "xy":
-            setting = points.Setting(0, 5.5, 24, scene=str(tmp_path / f"{name}.toml"), axis=axis)
-            found[name, axis] = points.all_points([(setting, (0.003,))], Run(), (points.HERTZ,))[0].coefficient
-    assert found["straight", "x"] != pytest.approx(found["straight", "y"], rel=2e-3)
-    for axis, other in ("xy", "yx"):
-        assert found["straight", axis] == pytest.approx(found["turned", other], rel=2e-3)
+@pytest.mark.parametrize("kind", answers.MEASURED)
+def test_a_drawn_map_has_the_skewness_of_its_kind(kind):
+    z = answers.heights(kind, 3)
+    skewness = float(np.mean(z**3))
+    assert z.std() == pytest.approx(1.0) and abs(z.mean()) < 1e-9
+    expected = {"plateau": (-2.0, -0.7), "peaks": (0.7, 2.0)}.get(kind, (-0.4, 0.4))
+    assert expected[0] < skewness < expected[1]
 
 
 def test_methods_agree_and_errors_fall_with_the_tolerance():
@@ -184,18 +115,6 @@ def test_methods_agree_and_errors_fall_with_the_tolerance():
     assert max(tight.values()) < 1e-3
     assert [p.at["setting"] for p in found if p.at["default"]] == ["tolerance 1e-06"]
     assert np.array_equal(contact.heights(128, "gaussian")[::2, ::2], contact.heights(64, "gaussian"))
-
-
-def test_methods_are_compared_at_one_error():
-    """A fast solve that is not good enough counts for no method."""
-    seconds = {"lubfric": ((1e-3, 0.01), (1e-6, 0.02)), "other": ((1e-4, 0.03), (9e-6, 0.08), (1e-9, 0.4))}
-    rows = [
-        Check.from_dict(point("case", method, str(k), error, (s, s, s)))
-        for method, found in seconds.items()
-        for k, (error, s) in enumerate(found)
-    ]
-    assert draw.methods_table(rows).rows == (("case", "20 ms", "4.0"),)
-    assert draw.work_precision("contact", rows, "an abacus").data[:4] == b"\x89PNG"
 
 
 @pytest.mark.slow

@@ -91,12 +91,6 @@ def test_films_at_the_corners_of_the_promise():
         assert verdict(judged(cell, film_map.solve, film_map.deviations)) == RIGHT, cell
 
 
-@pytest.mark.parametrize("module", [contact_map, film_map, sharing_map, whole_map])
-def test_every_cell_has_its_own_name(module):
-    names = [cell.name for cell in module.cells(False)]
-    assert len(names) == len(set(names)) > 100
-
-
 @pytest.mark.parametrize("speed", [0.0, 1e-3])
 def test_the_judge_of_load_sharing_sees_a_wrong_answer(speed):
     cell = Cell("sharing: flat", "", 1.0, 1.0, sharing_map.Shared("flat", 100e-9, 32, speed))
@@ -104,15 +98,6 @@ def test_the_judge_of_load_sharing_sees_a_wrong_answer(speed):
     assert max(sharing_map.deviations(cell, (model, result)).values()) <= 1
     wrong = replace(result, coefficient=1.03 * result.coefficient, boundary_force=1.03 * result.boundary_force)
     assert sharing_map.deviations(cell, (model, wrong))["friction"] > 1
-
-
-@pytest.mark.parametrize("boundary", [contact_map.MIXED, contact_map.FREE])
-@pytest.mark.parametrize("kind, hardness", [("noise", None), ("gaussian", 0.05 * 231e9)])
-def test_mean_gap_of_a_hundredth_without_periodicity(boundary, kind, hardness):
-    z = contact_map.surface(kind, 32, 32)
-    asked = 1e-2 * (z.max() - z.mean())
-    result = solve_contact(z.max() - z, 1e-6, 231e9, boundary=boundary, mean_gap=asked, hardness=hardness)
-    assert np.maximum(result.gap, 0).mean() == pytest.approx(asked, rel=1e-6)
 
 
 def test_a_load_below_rounding_rests_on_one_cell():

@@ -5,7 +5,6 @@ import importlib
 import json
 import re
 import sys
-from argparse import ArgumentParser
 from pathlib import Path
 
 import pytest
@@ -25,11 +24,6 @@ def test_every_mark_in_a_page_names_a_table(root):
     assert marked <= set(known) and len(known) == len(set(known))
 
 
-def test_every_table_of_a_benchmark_is_written_by_its_script(root):
-    for name, script in BENCHMARKS.items():
-        assert f'page.write("{name}"' in (root / "benchmarks" / script).read_text(), name
-
-
 def test_a_page_has_no_table_of_results_outside_the_marks(root):
     """A table whose cells are mostly measured numbers stands between marks; `TYPED` are no results."""
     for page in (root / "docs").glob("*.md"):
@@ -44,21 +38,6 @@ def test_every_benchmark_finds_what_it_measures(monkeypatch, script):
     monkeypatch.syspath_prepend(str(Path(__file__).parents[2]))
     monkeypatch.setattr("sys.path", list(sys.path))  # scripts put the root there too
     assert importlib.import_module(f"benchmarks.{script}").__doc__
-
-
-def test_a_benchmark_puts_its_table_and_the_command_without_paths(tmp_path, root, monkeypatch):
-    monkeypatch.syspath_prepend(str(root))
-    page = importlib.import_module("benchmarks.page")
-    parser = ArgumentParser()
-    parser.add_argument("--cells", type=int, nargs="+", default=[816])
-    parser.add_argument("--target", type=float, default=1e-5)
-    parser.add_argument("--out", type=Path)
-    page.add_option(parser)
-    asked = ["--cells", "64", "128", "--out", str(tmp_path), "--docs", str(tmp_path)]
-    text = marked(tmp_path, "film-times")
-    page.write("film-times", *CELLS, (parser, parser.parse_args(asked)))
-    assert "| 0.1 | 0.05 |" in text.read_text()
-    assert "`python benchmarks/ehl_times.py --cells 64 128 --docs docs`" in text.read_text()
 
 
 def test_only_the_named_table_is_replaced_and_again_gives_the_same():

@@ -11,9 +11,9 @@ import pytest
 
 from verification import __main__ as command
 from verification import plotting
-from verification.check import ABSOLUTE, AT_LEAST, AT_MOST, KINDS, RELATIVE, Check, Field, Figure, Table
+from verification.check import ABSOLUTE, AT_LEAST, AT_MOST, KINDS, RELATIVE, Check, Field, Table
 from verification.convergence import fitted_order
-from verification.fem.report import SolveError, SolveReport
+from verification.fem.report import SolveError
 from verification.studies import STUDIES, Study
 
 
@@ -159,43 +159,11 @@ def test_a_study_that_breaks_costs_no_other_result(run, study, reason):
     assert other["passed"]
 
 
-def test_checks_before_a_failure_are_kept_with_the_traceback(run):
-    _, data, html, _, _ = run(raises)
-    assert [c["name"] for c in data["studies"][0]["checks"]] == ["before", "raises runs to its end"]
-    assert "raise SolveError" in data["studies"][0]["traceback"] and "raise SolveError" in html
-
-
 def test_interrupt_leaves_a_report_that_says_it_is_incomplete(run):
     code, data, html, out, _ = run(good, interrupted, wrong)
     assert code == 130 and not data["complete"] and not data["passed"]
     assert [s["name"] for s in data["studies"]] == ["good"]
     assert "UNFINISHED: 1 of 1 checks passed; only 1 of 3 studies finished" in out and "not run" in html
-
-
-def test_report_is_on_disk_before_the_next_study_starts(run, tmp_path):
-    seen = []
-
-    def looks(level):
-        data = json.loads((tmp_path / "report.json").read_text())
-        seen.append((data["complete"], data["passed"], [s["name"] for s in data["studies"]]))
-        yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
-
-    run(good, looks)
-    assert seen == [(False, False, ["good"])]
-
-
-def test_levels_reach_the_studies_and_choose_among_them(run):
-    levels = []
-
-    def listens(level):
-        levels.append(level)
-        yield Check("right", 1.0, 1.0, 1e-9, "arithmetic")
-
-    for options in ([], ["--quick"], ["--full"]):
-        run(listens, options=options)
-    assert levels == ["default", "quick", "full"]
-    code, data, _, _, err = run(listens, options=["--quick"], levels=("full",))
-    assert code == 1 and data["studies"] == [] and "not part of level 'quick': listens (full)" in err
 
 
 def test_list_and_only(run, capsys, tmp_path):
@@ -244,24 +212,9 @@ def test_a_check_that_could_not_fail_is_refused(bad):
         Check(**({"name": "c", "measured": 1.0, "expected": 1.0, "tolerance": 0.1, "source": "s"} | bad))
 
 
-def test_names_that_become_files_are_checked():
-    with pytest.raises(ValueError, match="becomes a file name"):
-        Figure("../x", "", b"")
-    with pytest.raises(ValueError, match="2 values for 1 columns"):
-        Table("t", "", ("a",), ((1, 2),))
-
-
 def test_a_fitted_order():
     h = np.array([1, 0.5, 0.25])
     assert math.isclose(fitted_order(h, 3 * h**2.5), 2.5)
     for errors in ([1, 0, 1], [1, math.nan, 1], [1.0]):
         with pytest.raises(ValueError, match="finite values > 0"):
             fitted_order(h[: len(errors)], errors)
-
-
-def test_a_solve_report_raises_with_what_it_has():
-    report = SolveReport("s", "stagnated", 3, 1e-6, {"load": 1.0})
-    with pytest.raises(SolveError, match="stagnated after 3 iterations") as stop:
-        report.raise_if_failed("result")
-    assert stop.value.report is report and stop.value.result == "result"
-    SolveReport("s", "converged", 3, 1e-6, {"load": 1e-7}).raise_if_failed()

@@ -42,7 +42,9 @@ def coefficients(n: int, tolerance: float, speeds) -> np.ndarray:
     full = lubfric.generate_surface((FINEST, FINEST), 90e-6 / FINEST, **rough).heights
     heights = np.ascontiguousarray(full[:: FINEST // n, :: FINEST // n][:n, :n])
     contact = {"shape": (n, n), "spacing": 90e-6 / n}
-    scene = lubfric.load_scene("paper").with_(numerics={"tolerance": tolerance}, contact=contact)
+    scene = lubfric.load_scene("paper").with_(
+        numerics={"tolerance": tolerance, "model": "load-sharing"}, contact=contact
+    )
     model = lubfric.prepare(scene, lubfric.Surface(heights, (90e-6 / n, 90e-6 / n)))
     return lubfric.stribeck(model, speeds, raise_on_failure=False).coefficient
 

@@ -16,7 +16,10 @@ from ..kept import Run
 from ..plotting import axes, image
 from .page import PaperFigure
 
-OWN = {"grid": "given", "sampling": "patch", "film_deflection": "hydrodynamic"}  # the grid and the film of the paper
+OWN = {  # the model, the grid and the film of the paper
+    **{"model": "load-sharing", "grid": "given"},
+    **{"sampling": "patch", "film_deflection": "hydrodynamic"},
+}
 PAPER = lubfric.load_scene("paper").with_(numerics=OWN)
 ELASTIC, SUMMITS = {"hardness": None}, {"model": "summits"}
 MODELS: dict[str, dict[str, Any]] = {

@@ -2,7 +2,7 @@
 and fluids of many kinds: how often f of the endless line lies within the interval.
 
 The reference is the deterministic model on strips of another seed (of a measured map: on all of it), on smaller cells,
-with a quarter of the standard error and less than half the error between the levels.
+with about half of the errors asked.
 """
 
 import itertools
@@ -26,8 +26,7 @@ SEED = 32
 DRAWN = {"quick": 2, "default": 8, "full": 32}  # combinations, drawn from all
 RATIOS = (3.0, 1.5, 0.8, 0.4, 0.2, 0.1)  # Moes' film of the whole load over Sq
 QUICK = (1.5,)
-BOUNDS = (0.90, 0.98)
-ASKED = {"tolerance": 0.005, "sampling_tolerance": 0.01, "model_tolerance": 0.02}  # of the reference
+ASKED = {"tolerance": 0.01, "sampling_tolerance": 0.012, "model_tolerance": 0.03}  # of the reference
 CELLS, CELL = (640, 448), 1.8e-6  # of a map from a file, and their length [m] over that of the Gaussian correlation
 LENGTH = 8e-6
 CONTACTS = {  # changes of the built-in scene, and the lengths of the surface over those of its own
@@ -89,7 +88,8 @@ class Case:
             rough = Roughness(file=str(path), spacing=CELL * times)
             patch = {"shape": None, "spacing": None}
         keys = {"accept": True, "film_deflection": "scaled"} | numerics
-        return scene.with_(lubricant=oil, surface=rough, contact=patch, numerics=keys)
+        film = {"boundary_film": 20e-9}  # given, so that both answers have it and the interval leaves it out
+        return scene.with_(bodies=film, lubricant=oil, surface=rough, contact=patch, numerics=keys)
 
     def speed(self, scene) -> float:
         """Speed [m/s] at which Moes' film of the whole load is so many Sq."""
@@ -103,22 +103,22 @@ class Case:
 
 def heights(kind: str, seed: int) -> np.ndarray:
     """A map of this ``kind``, with a standard deviation of 1, from its spectrum."""
-    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal(CELLS))
     qx, qy = np.meshgrid(*(2 * np.pi * np.fft.fftfreq(n, CELL) for n in CELLS), indexing="ij")
+    rng = np.random.default_rng(seed)
+
+    def drawn(root) -> np.ndarray:
+        z = np.fft.ifft2(np.fft.fft2(rng.standard_normal(CELLS)) * root).real
+        return (z - z.mean()) / z.std()
+
     if kind == "self-affine":
-        root = (1 + (np.hypot(qx, qy) * 20e-6) ** 2) ** -0.9  # Hurst exponent .8
-    elif kind == "ridges at 45 degrees":
+        return drawn((1 + (np.hypot(qx, qy) * 20e-6) ** 2) ** -0.9)  # Hurst exponent .8
+    if kind == "ridges at 45 degrees":
         along, across = (qx + qy) / math.sqrt(2), (qx - qy) / math.sqrt(2)
-        root = np.exp(-((along * 20e-6) ** 2 + (across * 4e-6) ** 2) / 8)
-    else:
-        root = np.exp(-(np.hypot(qx, qy) ** 2) * LENGTH**2 / 8)
-    z = np.fft.ifft2(noise * root).real
-    z /= z.std()
-    if kind in ("plateau", "peaks"):
-        z = np.minimum(z, 0.3) + 0.1 * np.random.default_rng(seed + 1).standard_normal(CELLS)
-        z = z if kind == "plateau" else -z
-    z -= z.mean()
-    return z / z.std()
+        return drawn(np.exp(-((along * 20e-6) ** 2 + (across * 4e-6) ** 2) / 8))
+    smooth = np.hypot(qx, qy) ** 2 * LENGTH**2 / 8
+    z = np.minimum(drawn(np.exp(-smooth)), 0.3) + 0.1 * drawn(np.exp(-smooth / 4))
+    z = (z - z.mean()) / z.std()
+    return z if kind == "plateau" else -z
 
 
 def cases(level: str) -> dict[str, Case]:

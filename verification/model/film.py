@@ -11,8 +11,8 @@ import lubfric
 from ..check import AT_MOST, Check, Item, Table
 from ..kept import Run
 from ..pace import paced
-from .points import REFERENCE, Setting, prepared
 
+WIDTH = 90e-6  # m, of the patch
 GRIDS = {"quick": (1, (32, 48, 64)), "default": (2, (64, 128, 256)), "full": (5, (128, 256, 512))}
 ALLOWED = {"quick": 0.05, "default": 0.01, "full": 0.005}  # change of f from the second grid to the third
 MEMORY, SECONDS = 6.0, 30.0  # GB; of a curve of 25 speeds on 128 cells
@@ -38,16 +38,25 @@ def grids(level: str, run: Run = Run()) -> Iterator[Item]:
     columns: tuple[str, ...] = ("U (m/s)", "surfaces", f"largest change of f, {cells[1]} to {cells[2]}", "order")
     columns += (f"processor time at {cells[2]}, median", "memory")
     yield Table("refinement", "The coefficient on three grids", columns, table)
-    model, speeds = prepared(Setting(1, 5.5, 32 if level == "quick" else 128), REFERENCE), np.geomspace(1.0, 1e-3, 25)
+    model, speeds = patch(1, 32 if level == "quick" else 128), np.geomspace(1.0, 1e-3, 25)
     _, taken = paced(lambda: lubfric.stribeck(model, speeds))
     yield Check("25 speeds: processor time on the stated core", taken, SECONDS, 0.0, "asked", AT_MOST, unit="s")
     yield Check("memory", memory, MEMORY, 0.0, "of the process", AT_MOST, unit="GB")
 
 
+def patch(seed: int, cells: int):
+    """One patch of the built-in surface made ready for the deterministic model, on so many cells each way."""
+    fine = lubfric.generate_surface(
+        (256, 256), WIDTH / 256, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=seed
+    )
+    numerics = {"model": "deterministic", "grid": "given", "sampling": "patch"}
+    return lubfric.prepare(lubfric.load_scene("paper").with_(numerics=numerics), fine.resampled(shape=(cells, cells)))
+
+
 def on_cells(case: tuple[float, int, int]) -> list[float]:
     """f, processor seconds and peak memory [GB] of a speed on so many cells of a surface."""
     speed, seed, cells = case
-    model = prepared(Setting(seed, 5.5, cells), REFERENCE)
+    model = patch(seed, cells)
     begun = time.process_time()
     f = lubfric.friction(model, speed).coefficient
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e9

@@ -28,6 +28,7 @@ LENGTHS, PIECES, PIECE = 1900, 8, 90  # of a patch, in correlation lengths; patc
 CHANCE = 2.0  # standard errors of a proportion or ratio of few trials, granted beyond the bounds
 RATIO, BIAS = 0.15, 0.3  # of the reported error over the scatter from 1; of the sampling tolerance
 ENDLESS = "plain balances of long patches"
+SHARED = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
 COLUMNS = ("case", "trials", "coverage", "reported / scatter", "bias", "mean length", "mean time", "says few spots")
 
 
@@ -44,7 +45,7 @@ class Case:
     def scene(self, seed: int):
         """The scene with a surface of its own ``seed``."""
         rough = self.changes.get("surface", {}) | {"seed": seed}
-        return lubfric.load_scene("paper").with_(**self.changes | {"surface": rough})
+        return SHARED.with_(**self.changes | {"surface": rough})
 
 
 def _other(name: str, **changes) -> Case:
@@ -128,12 +129,14 @@ def solve(scene, speed: float, asked: float) -> dict:
     """One point with its interval and its processor seconds."""
     begun = time.process_time()
     found = lubfric.friction(scene.with_(numerics={"sampling_tolerance": asked}), speed)
-    u = found.uncertainty
+    u, f = found.uncertainty, found.coefficient
+    of_model = ((u.interval[1] - f) ** 2 - (f * u.model) ** 2) if math.isfinite(u.model) else (u.interval[1] - f) ** 2
+    half = math.sqrt(max(of_model, 0.0))  # of the interval without the error of the model: the truth is Eq. (8) too
     return {
-        "f": found.coefficient,
+        "f": f,
         "sampling": u.sampling,
-        "low": u.interval[0],
-        "high": u.interval[1],
+        "low": f - half,
+        "high": f + half,
         "length": u.length,
         "few": bool(u.notes),
         "seconds": time.process_time() - begun,

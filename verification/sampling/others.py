@@ -13,7 +13,7 @@ from ..check import AT_LEAST, Check, Item, Table
 from ..hostile.soak_scenes import random_scene
 from ..kept import Run
 from . import SEED
-from .coverage import chance, solve, within
+from .coverage import SHARED, chance, solve, within
 
 MAP = (1600, 1600)  # cells
 MAPS = {"quick": 1, "default": 2, "full": 6}
@@ -46,11 +46,11 @@ def piece(case: tuple) -> dict:
     """A point on one piece of a map (None: all of it), which is written and read again as instrument files are."""
     name, seed, cuts, place = case
     if name:
-        scene, contact = lubfric.load_scene(name), {}
+        scene, contact = lubfric.load_scene(name).with_(numerics={"model": "load-sharing"}), {}
         rough, speed = scene.surface, scene.motion.entrainment_speed
         whole = lubfric.read_surface(rough.file, spacing=rough.spacing, unit=rough.unit, level=False)
     else:
-        scene, contact, speed = lubfric.load_scene("paper"), {"shape": None, "spacing": None}, 0.02
+        scene, contact, speed = SHARED, {"shape": None, "spacing": None}, 0.02
         keys = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
         whole = lubfric.generate_surface(MAP, 0.45e-6, **keys)
     heights = whole.heights
@@ -88,7 +88,9 @@ def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
 
 def beside(number: int) -> dict:
     """(relative deviation, stated error) by quantity of a random patch; None if none is stated, {} if refused."""
-    scene = random_scene(np.random.default_rng((11, number))).with_(numerics={"sampling": "patch", "tolerance": 0.01})
+    scene = random_scene(np.random.default_rng((11, number))).with_(
+        numerics={"model": "load-sharing", "sampling": "patch", "tolerance": 0.01}
+    )
     try:
         found = lubfric.friction(scene)
         tight = lubfric.friction(scene.with_(numerics={"tolerance": TIGHT}))

@@ -22,6 +22,7 @@ LENGTH = 44.8e-6  # of the patch, both ways
 CORRELATION = 4e-6  # m, where the autocorrelation of the heights falls to 1/e
 SPEEDS = (0.001, 0.01, 0.03)  # m/s
 TIGHT = {  # the model of the finite elements: no more and no less
+    "model": "load-sharing",
     "film_tolerance": 1e-4,
     "balance_tolerance": 1e-6,
     "film_deflection": "hydrodynamic",

@@ -87,8 +87,9 @@ def trial(mutant: Mutant | None, names: tuple[str, ...]) -> int:
             file.write_text(content, encoding="utf-8")
         command = [sys.executable, "-m", "verification", "--quick", "--out", str(out), "--only", *names]
         if is_test(names[0]):
-            options = ["-x", "-q", "-p", "no:cacheprovider", "--rootdir", str(ROOT), "-c", str(ROOT / "pyproject.toml")]
-            command = [sys.executable, "-m", "pytest", *options, *(str(ROOT / "tests" / name) for name in names)]
+            options = ["-x", "-q", "-p", "no:cacheprovider", f"--basetemp={out}", f"--rootdir={ROOT}"]
+            files = [str(ROOT / "tests" / name) for name in names]
+            command = [sys.executable, "-m", "pytest", *options, "-c", str(ROOT / "pyproject.toml"), *files]
         environment = os.environ | {"PYTHONPATH": os.pathsep.join((folder, str(ROOT)))}
         try:
             code = subprocess.run(command, cwd=folder, env=environment, capture_output=True, timeout=LONGEST).returncode

@@ -28,7 +28,9 @@ def transient_mixed(level: str):
     """
     n = CELLS[level]
     contact, motion = {"shape": (n, n), "spacing": 90e-6 / n}, {"entrainment_speed": LARGEST}
-    scene = lubfric.load_scene("paper").with_(contact=contact, motion=motion, numerics={"sampling": "patch"})
+    scene = lubfric.load_scene("paper").with_(
+        contact=contact, motion=motion, numerics={"sampling": "patch", "model": "load-sharing"}
+    )
     model = prepare(scene)
     yield from steady(model)
     yield from loops(model)

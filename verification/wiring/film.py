@@ -13,6 +13,7 @@ from ..check import Check, compared
 OTHER = "differential deflection, called by itself"
 OWN = "own integral over the film that was found"
 FIXED = {
+    "model": "load-sharing",
     "film_deflection": "hydrodynamic",
     "heat": "off",
     "accept": True,

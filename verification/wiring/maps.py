@@ -19,7 +19,7 @@ from ..parts import half_space
 DX, DY = 0.8e-6, 1.3e-6  # of the file, along its first and second axis
 OWN = "the file, read and changed by plain NumPy"
 SIZE = (56, 40)
-PATCH = lubfric.load_scene("paper").with_(numerics={"sampling": "patch", "grid": "given"})  # the map on its cells
+PATCH = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling": "patch", "grid": "given"})
 
 
 def wiring_maps(level: str) -> Iterator[Check]:

@@ -1,0 +1,218 @@
+"""The surface after the contact has passed over it: the dents that its summits keep, `run_in`.
+
+The dry contact limits the pressure at the hardness, and cells at that limit overlap the other body. Here the overlap
+becomes a dent: those cells are lowered by it. After that the same contact has the same pressure and no overlap, so that
+it is elastic. The cylinder moves along the map, step by step, and pass by pass, until no cell sinks any more.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .._base import BLUE, GREY, FrozenArrays, Shown, axes_or_new, instance, validate
+from ..errors import InputError
+from ..scene import Scene
+from ..surface import Surface
+from .half_space import BOUNDARY
+from .height_map import contact_map, measured, whole_map
+from .operator import HalfSpace, half_space
+from .solve import solve_contact
+
+STEPS = 2.0  # of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure
+SHARP = 1e-5  # tolerance of the dry contact, at most: its overlaps become heights
+NM = 1e9
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RunIn(FrozenArrays, Shown):
+    """A surface before and after it has run in, from `run_in`.
+
+    Attributes
+    ----------
+    before, surface : the map before and after, on the same grid; ``sq`` and ``ssk`` of each tell what has changed
+    deepest : deepest new dent of each pass [m], (passes,)
+    sinking : share of the cells that sank by more than the tolerance in each pass [-], (passes,)
+    shaken_down : True: nothing sank by more than the tolerance in the last pass. False: asperities still yield, and
+        would in further passes
+    """
+
+    before: Surface
+    surface: Surface
+    deepest: np.ndarray
+    sinking: np.ndarray
+    shaken_down: bool
+
+    def __post_init__(self):
+        self.freeze()
+
+    @property
+    def dents(self) -> np.ndarray:
+        """Depth of the dents [m], (nx, ny)."""
+        return self.before.heights - self.surface.heights
+
+    def bearing(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The bearing (Abbott-Firestone) curves: the share of the area that is higher [-], and the heights [m] before
+        and after, about the mean before."""
+        before, after = (np.sort(surface.heights, axis=None)[::-1] for surface in (self.before, self.surface))
+        level = before.mean()
+        return (np.arange(before.size) + 0.5) / before.size, before - level, after - level
+
+    def plot(self, ax=None):
+        """The bearing curves before and after, on ``ax`` or new axes, which are returned."""
+        axes, (share, *heights) = axes_or_new(ax), self.bearing()
+        for z, colour, label in zip(heights, (GREY, BLUE), ("before", "run in")):
+            axes.plot(100 * share, z * NM, color=colour, label=label)
+        axes.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
+        axes.legend()
+        return axes
+
+    def _facts(self) -> dict[str, str]:
+        old, new = self.before, self.surface
+        skewness = f"{old.ssk:.3g} to {new.ssk:.3g}" if old.sq > 0 and new.sq > 0 else "none"
+        end = "shaken down" if self.shaken_down else f"still yielding, by {self.deepest[-1] * NM:.3g} nm"
+        return {
+            "Sq": f"{old.sq * NM:.4g} to {new.sq * NM:.4g} nm",
+            "Ssk": skewness,
+            "dented": f"{100 * np.count_nonzero(self.dents) / self.dents.size:.3g} %",
+            "": f"{end} after {self.deepest.size} passes",
+        }
+
+
+def run_in(
+    scene: Scene,
+    surface: Surface | None = None,
+    *,
+    passes: int = 30,
+    tolerance: float = 1e-10,
+    step: float | None = None,
+) -> RunIn:
+    """Let the loaded cylinder of ``scene`` pass over its rough surface until that has run in.
+
+    The cylinder carries ``bodies.load`` without a film. The map passes under it step by step, its end at the largest x
+    first if the entrainment speed is positive. Cells at ``bodies.hardness`` are lowered by their overlap. The map
+    continues beyond its ends: onto itself if it is periodic along x, else by its mirror image. Neither wear nor films
+    from additives, residual stress or hardening are in it.
+
+    Parameters
+    ----------
+    scene : from `lubfric.load_scene`, with ``bodies.hardness`` and one rough body
+    surface : the map to run in, taken as periodic along y; None: that of the scene, on its own cells, whole
+    passes : number of passes after which it ends, if asperities still yield
+    tolerance : depth [m]. The first pass without a deeper new dent ends it, and is not kept. The default is a third of
+        an atom
+    step : of the contact [m], between one cell and the half-width of the Hertz strip (None: half of that)
+
+    Returns
+    -------
+    RunIn : the map before and after. `lubfric.prepare` takes ``surface`` of it as any other map
+
+    Raises
+    ------
+    InputError : a scene without hardness, or with two rough bodies and no ``surface``; a value out of range
+    ConvergenceError : a contact that could not be solved
+    """
+    instance("scene", scene, Scene, "what lubfric.load_scene returned")
+    passes = validate.integer("passes", passes, minimum=1, maximum=10_000)
+    tolerance = validate.positive("tolerance", tolerance, "m", minimum=1e-15, maximum=1e-3)
+    before = _whole(scene, surface)
+    half_width, dx = scene.bodies.half_width, before.spacing[0]
+    if step is None:
+        step = max(dx, half_width / STEPS)
+    columns = round(validate.number("step", step, "m", minimum=dx * (1 - 1e-9), maximum=half_width) / dx)
+    last = before.shape[0] - 1
+    centres = np.linspace(0, last, 1 + math.ceil(last / columns)).round().astype(int)
+    centres = centres[:: -1 if scene.motion.entrainment_speed > 0 else 1]
+    heights = before.heights
+    operator, shaken = _operator(scene, before), False
+    deepest: list[float] = []
+    sinking: list[float] = []
+    while len(deepest) < passes and not shaken:
+        lowered, depth = _passed(scene, before, heights, centres, operator)
+        deepest.append(depth)
+        sinking.append(np.count_nonzero(lowered < heights - tolerance) / heights.size)
+        shaken = depth <= tolerance
+        heights = heights if shaken else lowered
+    count = len(deepest)
+    note = f"run in: {count} passes under {scene.bodies.load:g} N, hardness {scene.bodies.hardness:g} Pa"
+    note += "" if shaken else f"; still yielding, by {deepest[-1]:.3g} m"
+    after = replace(before, heights=heights, notes=(*before.notes, note))
+    return RunIn(before, after, np.array(deepest), np.array(sinking), shaken)
+
+
+def _whole(scene: Scene, surface: Surface | None) -> Surface:
+    """The map to run in, checked."""
+    if scene.bodies.hardness is None:
+        raise InputError(
+            " is not given: nothing yields in an elastic contact, and no surface runs in",
+            "bodies.hardness",
+            "1 to 1e14 Pa (hardened steel: about 6e9 to 8e9 Pa)",
+        )
+    if surface is None:
+        if scene.counterface is not None:
+            raise InputError(
+                "counterface: dents of two rough bodies that pass each other are not those of their sum; run in one "
+                "body against a smooth one (a scene without counterface), or give a map as surface"
+            )
+        surface = whole_map(scene)
+        if measured(scene):
+            spacing = scene.contact.spacing
+            surface = surface if spacing is None else surface.resampled(spacing=spacing)
+            surface = surface.periodic(axes=(scene.contact.geometry == "flat", True))
+    surface, half_width = contact_map(scene, surface), scene.bodies.half_width
+    if surface.spacing[0] > half_width:
+        raise InputError(
+            f"spacing of the map = {surface.spacing[0]:.3g} m along x does not resolve the Hertz strip; allowed: at "
+            f"most its half-width {half_width:.3g} m"
+        )
+    return surface
+
+
+def _operator(scene: Scene, surface: Surface) -> HalfSpace:
+    """The half-space under the cylinder, long enough that it touches no summit at its ends."""
+    bodies, dx = scene.bodies, surface.spacing[0]
+    rise = float(surface.heights.max() - surface.heights.mean()) + surface.sq
+    reach = math.sqrt(bodies.half_width**2 + 2 * bodies.radius * rise)
+    shape = 2 * math.ceil(reach / dx) + 1, surface.shape[1]
+    return half_space(shape, surface.spacing, bodies.e_prime, BOUNDARY, workers=scene.numerics.workers)
+
+
+def _passed(scene: Scene, surface: Surface, heights, centres: Iterable[int], operator) -> tuple[np.ndarray, float]:
+    """What the cylinder leaves of ``heights`` [m] once it has been above every column of ``centres``, one after the
+    other, and the depth of the deepest new dent [m]."""
+    bodies, count, nx = scene.bodies, operator.shape[0], surface.shape[0]
+    around = np.arange(count) - count // 2
+    cylinder = (around * surface.spacing[0])[:, None] ** 2 / (2 * bodies.radius)
+    options: dict[str, Any] = {
+        "mean_pressure": bodies.load / (bodies.width * count * surface.spacing[0]),
+        "hardness": bodies.hardness,
+        "boundary": BOUNDARY,
+        "tolerance": min(SHARP, scene.numerics.tolerances.contact),
+        "operator": operator,
+    }
+    left, deepest, pressure, last = heights.copy(), 0.0, None, 0
+    for centre in centres:
+        columns = (centre + around) % (nx if surface.periodic_axes[0] else 2 * nx)
+        columns = np.where(columns < nx, columns, 2 * nx - 1 - columns)  # of the mirror image
+        here = left[columns]
+        problem = cylinder - here, surface.spacing, bodies.e_prime
+        start = None if pressure is None else _moved(pressure, centre - last)
+        found = solve_contact(*problem, **options, start=start, raise_on_failure=start is None)
+        if not found.report.converged:
+            found = solve_contact(*problem, **options)
+        pressure, last = found.pressure, centre
+        dent = np.where(pressure >= bodies.hardness, np.maximum(-found.gap, 0.0), 0.0)
+        np.minimum.at(left, columns, here - dent)  # a column may be under the cylinder twice
+        deepest = max(deepest, float(dent.max()))
+    return left, deepest
+
+
+def _moved(pressure: np.ndarray, columns: int) -> np.ndarray:
+    """``pressure`` [Pa] as it lies on the map, seen from a cylinder that has moved on by ``columns``."""
+    moved, count = np.zeros_like(pressure), len(pressure)
+    moved[max(0, -columns) : count - max(0, columns)] = pressure[max(0, columns) : count - max(0, -columns)]
+    return moved
