@@ -208,6 +208,8 @@ KEYS = {  # of a scene, as far as they are numbers
     "lubricant.eyring_stress": Quantity("Pa", "Eyring stress"),
     "lubricant.limiting_stress_coefficient": Quantity("-", "limiting shear stress per pressure"),
     "lubricant.limiting_stress_offset": Quantity("Pa", "limiting shear stress at ambient pressure"),
+    "lubricant.inlet_length": Quantity("m", "distance upstream of the contact where the lubricant begins"),
+    "lubricant.inlet_film": Quantity("m", "lubricant that arrives, its thickness on both surfaces together"),
     "lubricant.temperature_coefficient": Quantity("1/K", "fall of ln(viscosity) with the temperature"),
     "lubricant.conductivity": Quantity("W/(m K)", "thermal conductivity of the film"),
     "motion.entrainment_speed": Quantity("m/s", "entrainment speed"),

@@ -1,8 +1,11 @@
 """The film upstream of the grid, in closed form: there the gap is the parabola, and the viscosity hardly rises.
 
 With h(x) known, Reynolds' equation is one integral: Q(x) = 12 eta0 ∫ (U h - q)/(h³ Φ) dx', with Q the reduced pressure
-∫ eta0/eta dp, q the flow and Φ the thinning at ambient pressure, from -infinity on. The substitution x = -a/t maps it
-to 0 < t < 1, where everything is smooth.
+∫ eta0/eta dp, q the flow and Φ the thinning at ambient pressure, from -infinity on, or from where the lubricant begins.
+The substitution x = -a/t maps it to 0 < t < 1, or part of it, where everything is smooth.
+
+If a film of given thickness arrives (`Lubricant.inlet_film`), no more than U times it flows in. The mass balance of the
+cells then finds where the lubricant fills the gap; or, if that is upstream of them, Q falls to 0 there.
 """
 
 from __future__ import annotations
@@ -57,6 +60,8 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
     x, dx = problem.x[0], problem.spacing[0]
     film = film - x * dx / (2 * radius) + dx**2 / (8 * radius)
     start = -(x - dx / 2)
+    begins = 0.0 if lubricant.inlet_length is None else start / lubricant.inlet_length
+    t, weight, integral = begins + (1 - begins) * t, (1 - begins) * weight, (1 - begins) * integral
     stretch = start / t**2
     shape = (start / t) ** 2 / (2 * radius) - start**2 / (2 * radius) + problem.edge_log * np.log(t)
     gap = film[:, None] + shape
@@ -73,21 +78,28 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
     flow = top / below
     by_film = (speed + T_h * (A - reduced) + T * A_h - flow * (T_h * B + T * B_h)) / below
     by_pressure = -T / below * reduced_slope
+    most = np.inf if lubricant.inlet_film is None else speed * lubricant.inlet_film
+    fed = flow > most
+    flow, by_film, by_pressure = np.where(fed, [[most], [0.0], [0.0]], [flow, by_film, by_pressure])
     up_to = b @ integral.T
     Q = a @ integral.T - flow[:, None] * up_to
+    if fed.any():  # from the pressure at the face upstream
+        Q += np.where(fed, reduced - (speed * film - flow) / T - (A - flow * B), 0.0)[:, None]
+    wet = ~fed[:, None] | (Q > 0)
     p = true_pressure(lubricant)(np.clip(Q, 0.0, MOST / max(lubricant.pressure_viscosity_coefficient, 1e-30)))
     slope = np.exp(cell_fluid(lubricant, p).log_viscosity)
     by_flow = -(slope * up_to) @ (weight * stretch)
+    at_given_flow = np.where(fed, (slope * wet) @ (weight * stretch) * reduced_slope, by_flow * by_pressure)
     by_gap = (slope * (a_h @ integral.T - flow[:, None] * (b_h @ integral.T))) @ (weight * stretch)
     return Inlet(
         flow,
         by_pressure,
         by_film,
         load=p @ (weight * stretch),
-        load_by_pressure=by_flow * by_pressure / film.size,
-        load_by_film=(by_gap + by_flow * by_film) / film.size,
-        shearing=(slope * stretch / gap) @ weight,
-        rolling=0.5 * gap * slope * (a - flow[:, None] * b) @ weight,
+        load_by_pressure=at_given_flow / film.size,
+        load_by_film=np.where(fed, 0.0, by_gap + by_flow * by_film) / film.size,
+        shearing=(wet * slope * stretch / gap) @ weight,
+        rolling=0.5 * (wet * gap * slope * (a - flow[:, None] * b)) @ weight,
     )
 
 

@@ -133,6 +133,9 @@ def lay_out(
     if ny % fy:
         raise InputError(f"factors = {factors} do not divide the {ny} cells of the map along y; allowed: its divisors")
     upstream, downstream = reach(contact, surface.sq) if ends is None else ends
+    begins = contact.lubricant.inlet_length
+    if begins is not None and begins < upstream + dx:  # the first cell is the first that is all behind it
+        upstream = begins - 1.5 * dx + 1e-9 * dx
     # the centres of the cells of the map are (i - (nx - 1)/2) dx/fx; those taken are fx//2, fx//2 + fx, ...
     middle, taken = (nx - 1) / 2, fx // 2
     first = math.floor((middle - taken) / fx - upstream / dx)

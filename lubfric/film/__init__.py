@@ -6,7 +6,7 @@ heavy piezoviscous contacts. ``shear_force(film, lubricant, ...)`` is its force 
 force that the film knows. The closed forms (`rigid_cylinder`, `formulas`, `hertz`) are checks and starts.
 """
 
-from .ehl import Effort, make_problem, solve_ehl, solve_line_contact
+from .ehl import solve_ehl, solve_line_contact
 from .ehl_result import EHLResult, cubic, smallest
 from .formulas import moes_film
 from .grid import hat_kernel, node_positions, trapezoidal
@@ -23,7 +23,8 @@ from .heat import (
     isothermal_heat,
 )
 from .hertz import LineContact, OfLineContact, composite_modulus
-from .problem import Problem
+from .nested import Effort
+from .problem import Problem, make_problem
 from .reynolds import log_mean_fluidity, step_length
 from .rigid_cylinder import true_pressure
 from .shear import ShearForce, rolling_error, shear_force, spike_error

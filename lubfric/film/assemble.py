@@ -38,7 +38,7 @@ def _central_film(problem: Problem, X: np.ndarray, H: np.ndarray) -> float:
 def domain_error(problem: Problem, solution: Solution) -> float:
     """Effect of the next order of the inlet condition: the tail's share of the load times 4 (q + |H - X²/2|)/(X²/2). It
     was tested against longer domains."""
-    if problem.inlet_length is not None:
+    if problem.inlet is not None:
         return 0.0
     t = solution.terms
     a = -t.X[0]
@@ -112,7 +112,7 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
 
 
 def assemble(
-    problem: Problem, levels: list[Solution], first: list[Solution], tolerance: float, notes: tuple[str, ...]
+    problem: Problem, levels: list[Solution], first: list[Solution], notes: tuple[str, ...], tolerance: float
 ) -> EHLResult:
     """The result in SI units from solutions on nested grids, seen along +x."""
     last, contact = levels[-1], problem.contact
@@ -122,7 +122,7 @@ def assemble(
     X, H = np.concatenate([t.X, X_out]), np.concatenate([t.H, H_out])
     P = np.concatenate([t.P, np.zeros_like(X_out)])
     error = grid_error(levels)
-    tail = 0.5 * -t.X[0] * t.P[0] if problem.inlet_length is None else 0.0
+    tail = 0.5 * -t.X[0] * t.P[0] if problem.inlet is None else 0.0
     residuals = {
         "discretisation": error,
         "domain": domain_error(problem, last),
@@ -130,6 +130,8 @@ def assemble(
         "load": abs((last.grid.weights @ t.P + tail) / M - 1.0),
         "complementarity": complementarity(last, H_out),
     }
+    if problem.fed is not None:
+        residuals["supply"] = abs(t.q / problem.fed - 1.0)
     report = _report(problem, levels, first, tolerance, residuals, notes)
     b, length, film = problem.half_width, problem.length_unit, problem.film_unit
     deflecting = last.grid.weights @ t.P + problem.imposed_load

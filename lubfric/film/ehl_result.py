@@ -74,6 +74,12 @@ class EHLResult(Shown, OfLineContact):
     rolling: tuple[float, float] | None = None
 
     @property
+    def inlet(self) -> float | None:
+        """Distance [m] upstream of the line of centres at which the lubricant begins; None: fully flooded."""
+        inlet = self.state.inlet
+        return None if inlet is None else inlet * self.contact.length_unit
+
+    @property
     def cells(self) -> int:
         """Number of cells of the finest grid, before rupture."""
         return self.state.pressure.size

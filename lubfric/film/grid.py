@@ -39,6 +39,12 @@ class Grid:
         """Number of cells, and of unknown pressures."""
         return self.cells.size
 
+    def stretched(self, s: float) -> Grid:
+        """The same nodes ``s`` times as far from the rupture point: ln|s x| = ln s + ln|x|."""
+        shift = -4.0 / math.pi * math.log(s) * self.weights
+        kernels = s * (self.kernel + shift), s * (self.face_kernel + shift)
+        return Grid(s * self.xi, kernels[0], self.face_film, kernels[1], s * self.cells, s * self.weights)
+
 
 def node_positions(half_width: float, film: float, n: int, distance: float | None = None) -> np.ndarray:
     """n + 1 positions from the inlet (``distance`` upstream of the rupture point) to 0.

@@ -17,20 +17,37 @@ from operator import attrgetter
 
 import numpy as np
 
+from ..errors import InputError
 from ..oil import density_ratio, log_viscosity_ratio
-from .formulas import moes_film
+from .formulas import moes_film, starved_inlet, starved_share
 from .grid import LinePressure, line_deflection
 from .hertz import LineContact
 
-STARVED = 0.1  # film of a badly starved contact, relative to the square of the inlet length
+MOST_STARVED = 0.995  # of Moes' film, from where on a guess of the inlet makes no sense
+
+
+def make_problem(contact: LineContact, imposed: LinePressure | None = None) -> Problem:
+    """The contact in Moes' units, along its motion, with all the lubricant that its inlet takes. Raises `InputError` if
+    the lubricant begins inside the dry contact."""
+    if imposed is not None and contact.entrainment_speed < 0:
+        imposed = imposed.mirrored()
+    problem, length = Problem(contact, imposed), contact.lubricant.inlet_length
+    half_width = problem.flat_half_width * problem.length_unit
+    if length is None:
+        return problem
+    if length <= half_width:
+        said = f" = {length:g} m lies inside the dry contact, where no film begins"
+        raise InputError(said, "inlet_length", f"more than its half-width {half_width:.4g} m")
+    return replace(problem, inlet=length / problem.length_unit)
 
 
 @dataclass(frozen=True)
 class Problem:
     """A line contact in Moes' units, seen along its motion: X points downstream.
 
-    inlet_length: None or metres upstream of the centre; imposed: a pressure that deflects the film in addition to its
-    own, and carries none of the load.
+    The lubricant begins at ``inlet``, None: nowhere, it is fully flooded. fed: None, or the flow q that arrives, with
+    which the inlet is not known, and ``inlet`` is a guess of it; both in Moes' units. imposed: a pressure that deflects
+    the film in addition to its own, and carries none of the load.
 
     The seat is a cylinder that approximates the gap which an imposed pressure leaves, about seat_at [m], with
     seat_radius R and seat_modulus E' (ratios to the real ones). The film in that gap, and the dry contact of the film's
@@ -38,8 +55,9 @@ class Problem:
     """
 
     contact: LineContact
-    inlet_length: float | None = None
     imposed: LinePressure | None = None
+    inlet: float | None = None
+    fed: float | None = None
     seat_at: float = 0.0
     seat_radius: float = 1.0
     seat_modulus: float = 1.0
@@ -86,7 +104,8 @@ class Problem:
     def alone(self) -> Problem:
         """The problem of the seat's cylinder, without imposed pressure."""
         radius, e_prime = self.contact.radius * self.seat_radius, self.contact.e_prime * self.seat_modulus
-        return Problem(replace(self.contact, radius=radius, e_prime=e_prime), self.inlet_length)
+        alone = replace(self.contact, radius=radius, e_prime=e_prime)
+        return Problem(alone, inlet=self.inlet, fed=self.fed)
 
     @property
     def flooded_film(self) -> float:
@@ -97,9 +116,21 @@ class Problem:
     @property
     def film_guess(self) -> float:
         """Moes' film; less if the lubricant begins within the length on which a flooded film builds up."""
-        if self.inlet_length is None:
+        if self.inlet is None:
             return self.flooded_film
-        return min(self.flooded_film, STARVED * (self.inlet_length / self.length_unit) ** 2)
+        if self.fed is not None:
+            return min(self.fed, self.flooded_film)
+        return self.flooded_film * starved_share(self.inlet, self.rise, self.flat_half_width)
+
+    @property
+    def rise(self) -> float:
+        """√(2 R h) of `flooded_film`, the length on which it builds up before a narrow contact."""
+        return math.sqrt(2.0 * self.flooded_film)
+
+    def inlet_of(self, flow: float) -> float:
+        """Where about the lubricant begins, if ``flow`` arrives and the full inlet takes more."""
+        share = min(flow / self.flooded_film, MOST_STARVED)
+        return starved_inlet(share, self.rise, self.flat_half_width)
 
     def softened(self, share: float) -> Problem:
         """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""

@@ -13,6 +13,9 @@ better start than the film of an interpolated pressure. The equations, each divi
 - load, with the tail upstream of the inlet.
 - rupture (Swift-Stieber): P = 0 is built in; dP/dX = 0 means rho H = q at the last node.
 
+Where the lubricant begins at a given place, the grid is stretched as e moves, so that its first node stays there. Where
+a given film arrives, q is known, and that place a = -X[0] is the unknown instead; again the grid is stretched.
+
 An imposed pressure adds its deflection. It is a function of X alone, and the nodes move over it as e changes.
 """
 
@@ -39,6 +42,7 @@ class Terms:
     X: np.ndarray
     defect: np.ndarray  # H00 + X²/2 + K P + imposed deflection - H
     by_rupture: np.ndarray  # d(H00 + X²/2 + imposed deflection)/de
+    by_stretch: np.ndarray  # d(H00 + X²/2 + K P + imposed deflection)/ds of the grid stretched by s
     q: float
     slope: np.ndarray  # d ln(eta)/dP at the nodes
     density: tuple  # rho and d rho/dP at the nodes
@@ -61,11 +65,13 @@ def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.n
     return left * mean, -left * (mean + by_d), left * by_d
 
 
-def elastic_film(grid: Grid, problem: Problem, z: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """H00 + X²/2 + K P + imposed deflection at the nodes, and its derivative by e."""
+def elastic_film(grid: Grid, problem: Problem, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """H00 + X²/2 + K P + imposed deflection at the nodes, and its derivatives by e and by the stretch of the grid."""
     X = grid.xi + z[-1]
     deflection, slope = problem.imposed_deflection(X)
-    return grid.kernel[:, :-1] @ z[:-3] + (z[-3] + 0.5 * X * X) + deflection, X + slope
+    own = grid.kernel[:, :-1] @ z[:-3]
+    by_stretch = own - 4.0 / np.pi * (grid.weights[:-1] @ z[:-3]) + (X + slope) * grid.xi
+    return own + (z[-3] + 0.5 * X * X) + deflection, X + slope, by_stretch
 
 
 def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, Terms]:
@@ -84,17 +90,16 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
     R = np.empty(n + 3)
     R[:n] = 1.0 - flux / q
     a = -X[0]
-    if problem.inlet_length is None:
+    if problem.inlet is None:
         R[n] = (P[0] - 2.0 * a * (H[0] - q) / H[0] ** 3) * a / problem.M
         R[n + 1] = (grid.weights @ P + 0.5 * a * P[0]) / problem.M - 1.0
     else:
         R[n] = P[0] * a / problem.M
         R[n + 1] = grid.weights @ P / problem.M - 1.0
     R[n + 2] = rho[-1] * H[-1] / q - 1.0
-    film, by_rupture = elastic_film(grid, problem, z)
-    return R, Terms(
-        P, H, X, film - H, by_rupture, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, flux
-    )
+    film, by_rupture, by_stretch = elastic_film(grid, problem, z)
+    moved = film - H, by_rupture, by_stretch
+    return R, Terms(P, H, X, *moved, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, flux)
 
 
 def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, np.ndarray]:
@@ -108,7 +113,22 @@ def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, n
     at_inlet, at_rupture = _closing_rows(grid, problem, terms, J)
     shift[n] = at_inlet * terms.defect[0]
     shift[n + 2] = at_rupture * terms.defect[-1]
+    if problem.inlet is not None:
+        _stretch_columns(grid, problem, terms, J, by_H, at_rupture)
     return J, shift
+
+
+def _stretch_columns(grid: Grid, problem: Problem, t: Terms, J: np.ndarray, by_H: np.ndarray, at_rupture: float):
+    """Add what the stretch s of the grid changes, of which e + a is the length: to the column of e, and in place of
+    that of q if q is known."""
+    n, by_s = grid.n, np.zeros(grid.n + 3)
+    by_s[:n] = by_H * (grid.face_film @ t.by_stretch) - t.face_density * t.face_H**3 * t.fluidity[0] * t.gradient / t.q
+    by_s[n + 1] = grid.weights @ t.P / problem.M
+    by_s[n + 2] = at_rupture * t.by_stretch[-1]
+    by_s /= -grid.xi[0]
+    J[:, n + 2] += by_s
+    if problem.fed is not None:
+        J[:, n + 1] = by_s
 
 
 def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
@@ -140,7 +160,7 @@ def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> tupl
     by_h = 0.0
     J[n + 1, :n] = grid.weights[:n] / M
     J[n + 1, n:] = 0.0
-    if problem.inlet_length is None:
+    if problem.inlet is None:
         h = t.H[0]
         by_h = -2.0 * a * (3.0 * q - 2.0 * h) / h**4 * a / M
         J[n, :n] = by_h * grid.kernel[0, :n]
@@ -188,6 +208,11 @@ def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance
     from scipy.linalg.lapack import dgesv
 
     history = []
+    inlet, fed = problem.inlet, problem.fed
+    if inlet is not None:
+        grid = grid.stretched((inlet + z[-1]) / -grid.xi[0])
+    if fed is not None:
+        z = np.append(z[:-2], (fed, z[-1]))
     status = ITERATION_LIMIT
     for step in range(max_steps + 1):
         R, terms = residual(grid, problem, z, H)
@@ -202,8 +227,18 @@ def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance
         if info != 0:
             break
         dH = terms.defect + grid.kernel[:, :-1] @ delta[:-3] + (delta[-3] + terms.by_rupture * delta[-1])
-        loss = max(float(np.max(-dH / terms.H)), -delta[-2] / terms.q)
+        lost = -delta[-2] / (terms.q if fed is None else -terms.X[0] - problem.flat_half_width)
+        stretch = 0.0
+        if inlet is not None:
+            stretch = (delta[-1] + (0.0 if fed is None else delta[-2])) / -grid.xi[0]
+            dH += terms.by_stretch * stretch
+            lost = max(lost, abs(stretch))
+        loss = max(float(np.max(-dH / terms.H)), lost)
         length = step_length(delta[:-3] * terms.slope[:-1], loss)
+        if stretch:
+            grid = grid.stretched(1.0 + length * stretch)
+        if fed is not None:
+            delta[-2] = 0.0
         z = z + length * delta
         H = H + length * dH
     if status != CONVERGED and step < max_steps:

@@ -56,11 +56,12 @@ def shear_force(
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
     ``width`` B [m]; ``contact_fraction(x)``: for nodes x (n,) [m], the share of the width in contact, which carries no
-    fluid shear, averaged over each of the n - 1 cells between them. The Couette term reaches from far upstream (the
-    parabola is followed to -infinity in closed form, as much thinned by its own heat as the first node: at any h that
-    is the same factor) to the rupture. cavitated="striated" adds the streamers behind it, which fill the fraction
-    h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the Couette term. ``warm``:
-    `lubfric.sharing.heat.WarmFilm`, the stress of the heated film and the viscosity that it was solved with; None:
+    fluid shear, averaged over each of the n - 1 cells between them. The Couette term reaches from where the lubricant
+    begins, or from far upstream (the parabola is followed to -infinity in closed form, as much thinned by its own heat
+    as the first node: at any h that is the same factor), to the rupture. cavitated="striated" adds the streamers behind
+    it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the
+    Couette term. ``warm``: `lubfric.sharing.heat.WarmFilm`, the stress of the heated film and the viscosity that it was
+    solved with; None:
     isothermal. ∫ (h/2) dp is ``film.rolling`` less what the spots take; it is summed over the nodes if the film does
     not know it (None).
     """
@@ -84,7 +85,7 @@ def shear_force(
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), spike_error(x[:-1][full], tau[:-1][full]))
     quadrature += off
     ratio, excess = _above_carried(p, tau, np.diff(x) * wet, full)
-    inlet, thin = _upstream(h[0], -x[0], radius)
+    inlet, thin = _upstream(h[0], -x[0], radius) if film.inlet is None else (0.0, 0.0)  # nothing is sheared there
     couette += (lubricant.viscosity * sliding if warm is None else tau[0] * h[0]) * inlet
     viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
     resistance += 6 * viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)

@@ -20,7 +20,8 @@ class State:
     """Solution in Moes' variables, kept with a result so that it can start another solve.
 
     problem: of which it is a solution; pressure: at the n nodes before rupture; film: at all n + 1 nodes; flux: q;
-    rupture: e, from the centre of the seat; grid_error: estimated relative discretisation error on these n cells.
+    rupture: e, from the centre of the seat; grid_error: estimated relative discretisation error on these n cells;
+    inlet: where the lubricant begins, if it does (of ``problem`` it may be a guess); nodes (n + 1,) from the rupture.
     """
 
     problem: Problem
@@ -29,6 +30,8 @@ class State:
     flux: float
     rupture: float
     grid_error: float
+    inlet: float | None = None
+    nodes: np.ndarray | None = None
 
 
 def _expected_rupture(problem: Problem) -> float:
@@ -40,7 +43,7 @@ def _expected_rupture(problem: Problem) -> float:
 def rupture_guess(problem: Problem) -> float:
     """Rupture point of the guess, in units of x: nearer to the centre if a starved film is thin."""
     expected = problem.seat_centre + _expected_rupture(problem)
-    if problem.inlet_length is None:
+    if problem.inlet is None:
         return expected
     return min(expected, problem.seat_centre + problem.seat_half_width + np.sqrt(2.0 * problem.film_guess))
 
@@ -54,7 +57,7 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     P[-1] = 0.0
     P *= problem.M / (grid.weights @ P)
     z = np.append(P[:-1], [0.0, film, e])
-    gap, _ = elastic_film(grid, problem, z)
+    gap, *_ = elastic_film(grid, problem, z)
     z[-3] = film - gap.min()
     return z, gap + z[-3]
 
@@ -62,7 +65,8 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
 def solution_state(problem: Problem, solution: Solution, error: float) -> State:
     """The `State` of a solution, ``error`` its estimated discretisation error."""
     t, rupture = solution.terms, float(solution.z[-1]) - problem.seat_centre
-    return State(problem, t.P[:-1], t.H, float(t.q), rupture, error)
+    inlet = None if problem.inlet is None else -float(t.X[0])
+    return State(problem, t.P[:-1], t.H, float(t.q), rupture, error, inlet, solution.grid.xi)
 
 
 def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
@@ -76,17 +80,21 @@ def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
 
 def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, np.ndarray]:
     """(z, H): pressure and film of ``state``, which may be of another problem, node by node, scaled to the load and by
-    Moes' formula."""
+    Moes' formula; where the lubricant begins somewhere, place by place."""
     P, H = np.append(state.pressure, 0.0), state.film
+    ratio = problem.film_guess / state.problem.film_guess if problem.fed is None else problem.fed / state.flux
+    if problem.inlet is not None and state.nodes is not None and not 0.8 < state.nodes[0] / grid.xi[0] < 1.25:
+        bend = np.interp(grid.xi, state.nodes, H - 0.5 * state.nodes**2)
+        P = np.append(0.0, np.interp(grid.xi[1:], state.nodes, P, left=0.0))
+        H = (bend + 0.5 * grid.xi**2 + (ratio - 1.0) * state.flux) / ratio
     while H.size > grid.n + 1:
         P, H = P[::2], H[::2]
     while H.size < grid.n + 1:
         P, H = refine(P), refine(H)
-    ratio = problem.flooded_film / state.problem.flooded_film
     e = problem.seat_centre + state.rupture * (_expected_rupture(problem) / _expected_rupture(state.problem))
     P = P * (problem.M / (grid.weights @ P))
     z = np.append(P[:-1], [0.0, state.flux * ratio, e])
-    gap, _ = elastic_film(grid, problem, z)
+    gap, *_ = elastic_film(grid, problem, z)
     z[-3] = state.film.min() * ratio - gap.min()
     return z, H * ratio
 

@@ -49,6 +49,10 @@ class Lubricant(Brief):
     temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at
         ambient pressure [1/K]; None: the heat of the film is not known
     conductivity : thermal, of the film [W/(m K)]
+    inlet_length : distance [m] upstream of the line of contact at which the lubricant begins, with p = 0 there; None:
+        fully flooded
+    inlet_film : thickness [m] of the lubricant that arrives on both surfaces together, at U and ambient density. It
+        fills the gap from where the flow through the contact is as much; None: as much as flows
     oil : the `Oil` of which viscosity, pressure-viscosity and temperature coefficient are (None: given as numbers)
 
     Raises
@@ -67,6 +71,8 @@ class Lubricant(Brief):
     temperature_coefficient: float | None = None
     conductivity: float = 0.13
     oil: Oil | None = None
+    inlet_length: float | None = None
+    inlet_film: float | None = None
 
     def __post_init__(self):
         python_fields(self)
@@ -80,6 +86,9 @@ class Lubricant(Brief):
             if getattr(self, name) is not None:
                 positive(name, getattr(self, name), unit)
         nonnegative("limiting_stress_offset", self.limiting_stress_offset, "Pa")
+        for name in ("inlet_length", "inlet_film"):
+            if getattr(self, name) is not None:
+                positive(name, getattr(self, name), "m")
         if self.temperature is not None:
             checked_temperature(self.temperature, "lubricant.temperature")
         if self.temperature_coefficient is not None:
@@ -98,6 +107,11 @@ class Lubricant(Brief):
     def heats(self) -> bool:
         """True where temperature and temperature coefficient are known, so that the heat of the film can be found."""
         return self.temperature is not None and bool(self.temperature_coefficient)
+
+    @property
+    def floods(self) -> bool:
+        """True where nothing limits the lubricant in the inlet."""
+        return self.inlet_length is None and self.inlet_film is None
 
     @property
     def newtonian(self) -> bool:

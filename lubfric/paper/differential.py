@@ -77,13 +77,13 @@ def solve_differential_deflection(
     InputError : a value out of range, before any work
     ConvergenceError : residuals above tolerance; carries report and result
     """
-    lubricant = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law)
+    oil = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, inlet_length=inlet_length)
     Effort(tolerance, 0, max_iterations)  # checks both
     if nodes is not None:
         integer("nodes", nodes, minimum=COARSEST + 1)
     integer("most_nodes", most_nodes, minimum=COARSEST + 1)
     integer("bandwidth", bandwidth, minimum=0)
-    problem = make_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant), inlet_length)
+    problem = make_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, oil))
     ends = domain_ends(problem, domain)
     cells = _cells(problem, ends, nodes, most_nodes)
     levels = _ascend(problem, ends, cells, bandwidth, tolerance, max_iterations, doubled=nodes is None)
@@ -98,13 +98,13 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
     b, unit = problem.half_width, problem.length_unit
     rise = math.sqrt(2.0 * problem.film_guess)
     if domain is not None:
-        if problem.inlet_length is not None:
+        if problem.inlet is not None:
             raise InputError("domain and inlet_length both say where the grid begins; give one of them")
         if np.shape(domain) != (2,):
             raise InputError(f"domain = {domain!r} is not a pair; give (first, last) in m")
         first = number("domain[0]", domain[0], "m", maximum=-b * unit) / unit
         return first, number("domain[1]", domain[1], "m", minimum=b * unit) / unit
-    first = -2.0 * b - 20.0 * rise if problem.inlet_length is None else -problem.inlet_length / unit
+    first = -2.0 * b - 20.0 * rise if problem.inlet is None else -problem.inlet
     return first, rupture_guess(problem) + 0.2 * b + rise
 
 
@@ -129,7 +129,7 @@ def _ascend(
     """Solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the tolerance."""
     levels: list[Solution] = []
     for n in cells:
-        mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet_length is None)
+        mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet is None)
         P, H = _transferred(mesh, levels[-1]) if levels else cold_start(mesh, problem)
         levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_iterations))
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
@@ -176,7 +176,7 @@ def _at_centre(solution: Solution) -> float:
 
 def _domain_error(problem: Problem, solution: Solution) -> float:
     """The estimated effect of the finite inlet: the tail's share of the load times its departure from the parabola."""
-    if problem.inlet_length is not None:
+    if problem.inlet is not None:
         return 0.0
     a = -solution.mesh.X[0]
     return float(0.5 * a * solution.P[0] / problem.M * abs(2.0 * solution.H[0] / a**2 - 1.0))

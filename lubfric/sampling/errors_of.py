@@ -29,6 +29,7 @@ TOO_SHORT = (
     "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling out, or give a "
     "map that is longer across the motion)"
 )
+EMPTY = "the error of Eq. (8) is not known where what arrives does not fill the gap"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
 MISSED = "not known: the patch is too short along y to tell what contact it misses"
@@ -183,7 +184,7 @@ def model_error(scene: Scene, found: Found) -> tuple[float, tuple[str, ...]]:
     """Relative error of f by load sharing itself, at 95 %; where it is not known NaN, and why."""
     balance = found.balance
     if balance.film is None:
-        return 0.0, ()
+        return (0.0, ()) if scene.lubricant.inlet_film is None else (math.nan, (EMPTY,))
     if found.strips is None:
         return math.nan, (NOT_STUDIED,)
     why = gap_not_resolved(scene)

@@ -66,6 +66,18 @@ class Scene(Shown):
             said = " = 'on' needs to know how the viscosity falls with the temperature"
             raise InputError(said, "numerics.heat", way_out=ways)
 
+        self._check_inlet()
+
+    def _check_inlet(self) -> None:
+        length, half_width = self.lubricant.inlet_length, self.bodies.half_width
+        if self.transient is not None and not self.lubricant.floods:
+            raise InputError(
+                " does not go with inlet_length or inlet_film", "transient", way_out="runs in time are flooded"
+            )
+        if length is not None and length <= half_width:
+            said = f" = {length:g} m lies inside the dry contact, where no film begins"
+            raise InputError(said, "lubricant.inlet_length", f"more than its half-width {half_width:.4g} m")
+
     def with_(self, **sections) -> Scene:
         """A copy with some fields of its sections replaced: ``scene.with_(bodies={"load": 10.0})``.
 

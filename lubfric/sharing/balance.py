@@ -17,6 +17,7 @@ from .response import Response, divided, respond
 
 SAFE_FILM = 2.0  # times Moes' film: more than any film has
 BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
+EMPTY = math.log(1e-4)  # of a film that arrives: it is none if it carries less than that and leaves the gap empty
 FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a balance at another speed
 STEPS, FARTHEST, NEAR = 30, 1.0, 1e-3  # of Newton's method, its longest one, and how far it goes in ln(F_H/F_C)
 ROUNDS = 6  # each with tighter tolerances
@@ -90,11 +91,11 @@ def solve_balance(
     return replace(_in_contact(Point(scene, speed, contact, settings), sq, start, alone), notes=notes)
 
 
-def _dry(scene: Scene, contact: RoughContact) -> Balance:
+def _dry(scene: Scene, contact: RoughContact, why: str = "no entrainment: all contact") -> Balance:
     load = scene.bodies.load
     shape = contact.x**2 / (2 * scene.bodies.radius)
     state = contact.close(shape, load)
-    report = _report(scene, CONVERGED, (0.0,), state, None, ("no entrainment: all contact",))
+    report = _report(scene, CONVERGED, (0.0,), state, None, (why,))
     found = forces(scene, None, state, load)
     return Balance(0.0, load, None, state, found, report, respond(scene, contact, state, load, shape))
 
@@ -137,6 +138,8 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
     for _ in range(ROUNDS):
         root = _root(point, split, slope, step, (value, last))
         trial = root.payload
+        if trial is None:
+            return _dry(point.scene, point.contact, "what arrives does not fill the gap: all contact")
         if response is None or abs(root.x - response[0]) > SETTLED:
             response = root.x, _response(point, trial)
         balance = _balance(point, root, response[1])
@@ -205,10 +208,12 @@ def _root(point: Point, split: float, slope: float | None, step: float, first) -
         found = point.trial(*divided(load, x), last)
         return found.contact.volume_residual, found
 
-    tolerance = point.settings.balance_tolerance
-    return increasing_root(
+    tolerance, fed = point.settings.balance_tolerance, point.scene.lubricant.inlet_film is not None
+    lowest = max(lowest, EMPTY) if fed else lowest
+    root = increasing_root(
         residual, split, step=step, bounds=(lowest, BOUNDS[1]), tolerance=tolerance, slope=slope, first=first
     )
+    return replace(root, payload=None) if fed and root.x == EMPTY and root.value > 0 else root
 
 
 def _balance(point: Point, root: Root, response: Response) -> Balance:

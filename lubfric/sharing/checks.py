@@ -104,6 +104,15 @@ def of_thickness(scene, film: float) -> Iterator[Validity]:
     )
 
 
+def of_inlet(scene, speed: float, flow: float) -> Iterator[Validity]:
+    """Entries for a film that little lubricant reaches: its ``flow`` film [m] over that of a full inlet, by Moes."""
+    flooded = scene.line_contact(speed).moes_film
+    if scene.lubricant.floods or flow > (1 - scene.numerics.tolerance) * flooded:
+        return
+    consequence = "the inlet is starved, as inlet_length or inlet_film asks; f rests on what they say"
+    yield Validity("film over that of a full inlet, by Moes,", flow / flooded, 1.0, "", consequence, "leave both out")
+
+
 def of_deflection(scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
     """Entries for a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
     error of its share of the load."""
@@ -254,6 +263,7 @@ def judged(prepared, speed: float, balance, ends: float) -> tuple[Validity, ...]
     entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
     entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
     if film is not None:
+        entries += of_inlet(scene, speed, film.flow_film)
         peak, found = float(film.pressure.max()), balance.forces
         force = abs(found.coefficient) * scene.bodies.load
         entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)

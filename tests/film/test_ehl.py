@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 from lubfric import ConvergenceError, InputError, solve_ehl
 from lubfric.film import LineContact, grid, hat_kernel, problem, reynolds, start
-from lubfric.film import ehl as solve
 from lubfric.film import formulas as film
+from lubfric.film import nested as solve
 from lubfric.film import rigid_cylinder as rigid
 from lubfric.film.grid import LinePressure
 from lubfric.oil import Lubricant
@@ -163,7 +164,12 @@ def test_kernel_flattens_a_hertz_pressure():
 
 @pytest.mark.parametrize(
     "density, options",
-    [("dowson-higginson", {}), ("constant", {"inlet_length": 1e-3}), ("constant", {"imposed": True})],
+    [
+        ("dowson-higginson", {}),
+        ("constant", {"inlet": 20.0}),
+        ("dowson-higginson", {"inlet": 20.0, "fed": 3.0}),
+        ("constant", {"imposed": True}),
+    ],
 )
 def test_jacobian_matches_differences(density, options):
     """Also where a starved inlet begins, and as the rupture moves through the deflection by an imposed pressure."""
@@ -177,14 +183,23 @@ def test_jacobian_matches_differences(density, options):
     p = start.on_seats(p)[0]
     g = grid.make_grid(solve.problem_nodes(p, 24, start.rupture_guess(p)))
     z, _ = start.cold_start(g, p)
+    if p.fed is not None:
+        z[-2] = p.fed
+
+    def residual(y):
+        """With the first node where the lubricant begins, which is the unknown beside e where the flow is known."""
+        inlet = None if p.inlet is None else p.inlet if p.fed is None else p.inlet + y[-2] - p.fed
+        stretched = g if inlet is None else g.stretched((inlet + y[-1]) / -g.xi[0])
+        y = y if p.fed is None else np.append(y[:-2], (p.fed, y[-1]))
+        return reynolds.residual(stretched, p, y, reynolds.elastic_film(stretched, p, y)[0])[0]
+
     _, terms = reynolds.residual(g, p, z, reynolds.elastic_film(g, p, z)[0])
     J, shift = reynolds.linearise(g, p, terms)
     assert np.max(np.abs(shift)) < 1e-9
     for k in range(z.size):
         step = np.zeros(z.size)
         step[k] = 1e-6 * max(abs(z[k]), 1e-3)
-        ahead, behind = (reynolds.residual(g, p, y, reynolds.elastic_film(g, p, y)[0])[0] for y in (z + step, z - step))
-        difference = (ahead - behind) / (2 * step[k])
+        difference = (residual(z + step) - residual(z - step)) / (2 * step[k])
         assert np.max(np.abs(difference - J[:, k])) < 1e-4 * max(1.0, np.max(np.abs(J[:, k])))
 
 
@@ -269,12 +284,88 @@ def test_density_must_not_change_a_light_contact():
     assert moes_film(1e-3, 2.0, density_law="dowson-higginson")[2] == pytest.approx(a, rel=1e-4)
 
 
-def test_starvation_thins_the_film():
-    arguments, _ = contact(20, 5, tolerance=1e-3)
-    flooded = solve_ehl(**arguments).flow_film
-    b = half_width(arguments)
-    films = [solve_ehl(**arguments, inlet_length=k * b).flow_film for k in (1.2, 1.5, 2, 4, 30)]
-    assert np.all(np.diff(films) > 0) and films[-1] == pytest.approx(flooded, rel=1e-3)
+def wedeven(contact, flooded, distance):
+    """h/h_flooded = sqrt(2X - X²), X = distance b^(1/3)/(3.52 (R h_flooded)^(2/3)) up to 1, with the distance of the
+    meniscus from the dry contact: Wedeven, Evans and Cameron, J. Lubr. Technol. 93 (1971) 349-363."""
+    x = min(distance * half_width(contact) ** (1 / 3) / (3.52 * (contact["radius"] * flooded) ** (2 / 3)), 1.0)
+    return math.sqrt(2 * x - x * x)
+
+
+def wolveridge(contact, flooded, distance):
+    """Grubin's inlet cut off at the meniscus, as Wolveridge, Baron and Archard did (Proc. IMechE 185 (1970-71)
+    1159-1169): near the dry contact its gap is g = (2 sqrt2/3) sqrt(b) s^(3/2)/R, so that h^(4/3) grows as the integral
+    of t^(3/2)/(1 + t^(3/2))³ up to the meniscus."""
+    b, radius = half_width(contact), contact["radius"]
+
+    def integral(film, end):
+        scale = (3 * radius * film / (2 * math.sqrt(2 * b))) ** (2 / 3)
+        t = np.geomspace(1e-7, end / scale, 4000)
+        return np.trapezoid(t**1.5 / (1 + t**1.5) ** 3, t)
+
+    whole = integral(flooded, 1e4 * distance)
+    return brentq(lambda r: r ** (4 / 3) - integral(r * flooded, distance) / whole, 1e-4, 1.0)
+
+
+@pytest.mark.parametrize("M, L", [(100, 10), (500, 10)])
+def test_starved_films_are_those_of_two_published_laws(M, L):
+    """Both laws leave the fluid's own pressure out of the shape of the gap: exact for heavy contacts only."""
+    arguments, _ = contact(M, L, tolerance=1e-3, viscosity_law="barus")
+    flooded, b = solve_ehl(**arguments).flow_film, half_width(arguments)
+    for k in (0.1, 0.3, 1.0, 3.0):
+        distance = k * 3.52 * (arguments["radius"] * flooded) ** (2 / 3) / b ** (1 / 3)
+        share = solve_ehl(**arguments, inlet_length=b + distance).flow_film / flooded
+        assert abs(share - wolveridge(arguments, flooded, distance)) < 0.05, (k, share)
+        assert abs(share - wedeven(arguments, flooded, distance)) < 0.11, (k, share)
+
+
+def test_a_starved_rigid_film_is_the_one_integrated_directly():
+    """Constant viscosity, no deflection: p = 12 eta U ∫ (h - q)/h³ dx from the meniscus to the rupture at h = q."""
+    arguments, _ = contact(1e-4, 0.0, tolerance=1e-4, viscosity_law="constant")
+    radius, load = arguments["radius"], arguments["load_per_width"]
+    scale = 12 * arguments["viscosity"] * arguments["entrainment_speed"]
+    length = math.sqrt(2 * radius * solve_ehl(**arguments).flow_film)
+    for k in (0.3, 1.0, 4.0):
+
+        def load_of(gap, k=k):
+            def of(e):
+                x = np.linspace(-k * length, e, 20001)
+                rise = (x * x - e * e) / (2 * radius) / (gap + x * x / (2 * radius)) ** 3
+                return scale * np.trapezoid(rise, x), -scale * np.trapezoid(x * rise, x)
+
+            e = brentq(lambda e: of(e)[0], 0.0, 3 * math.sqrt(gap * radius))
+            return of(e)[1], gap + e * e / (2 * radius)
+
+        gap = brentq(lambda h: math.log(load_of(h)[0] / load), 1e-5 * length**2 / radius, length**2 / radius)
+        found = solve_ehl(**arguments, inlet_length=k * length)
+        assert found.flow_film == pytest.approx(load_of(gap)[1], rel=3e-4)
+
+
+@pytest.mark.parametrize("M, L", [(0.05, 1), (5, 5), (100, 10)])
+def test_what_arrives_is_what_flows(M, L):
+    arguments, _ = contact(M, L, tolerance=1e-3, density_law="dowson-higginson")
+    full, b = solve_ehl(**arguments), half_width(arguments)
+    inlets = []
+    for r in (0.1, 0.5, 0.9, 0.99):
+        fed = solve_ehl(**arguments, inlet_film=r * full.flow_film)
+        assert fed.flow_film == pytest.approx(r * full.flow_film, rel=1e-4)
+        again = solve_ehl(**arguments, inlet_length=fed.inlet)  # the same film by the other key
+        assert again.flow_film == pytest.approx(fed.flow_film, rel=1e-2)
+        inlets.append(fed.inlet)
+    assert b < inlets[0] and np.all(np.diff(inlets) > 0)
+    more = solve_ehl(**arguments, inlet_film=1.1 * full.flow_film)
+    assert more.inlet is None and more.flow_film == pytest.approx(full.flow_film, rel=1e-12)
+    bath = solve_ehl(**arguments, inlet_film=0.9 * full.flow_film, inlet_length=inlets[1])  # the nearer of the two
+    assert bath.flow_film == pytest.approx(0.5 * full.flow_film, rel=3e-3)
+
+
+@pytest.mark.parametrize("M, L", [(0.05, 1), (20, 5)])
+def test_no_inlet_no_film_and_a_long_one_is_flooded(M, L):
+    arguments, _ = contact(M, L, tolerance=1e-4)
+    full, b = solve_ehl(**arguments), half_width(arguments)
+    rise = math.sqrt(2 * arguments["radius"] * full.flow_film)
+    films = [solve_ehl(**arguments, inlet_length=b + k * rise).flow_film for k in (0.01, 0.1, 0.5, 2, 10, 200)]
+    assert np.all(np.diff(films) > 0) and films[-1] == pytest.approx(full.flow_film, rel=1e-4)
+    assert films[0] < 0.2 * full.flow_film and films[0] < 0.3 * films[1]
 
 
 # ------------------------------------------------------------------ starts and failures

@@ -1,0 +1,174 @@
+"""Solutions on nested grids, from a warm or a cold start, each as accurate as asked."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from itertools import product
+
+import numpy as np
+
+from .._base import integer, number
+from ..errors import CONVERGED
+from .assemble import grid_error
+from .formulas import flooded_inlet
+from .grid import FAR_INLET, make_grid, node_positions
+from .problem import Problem
+from .reynolds import Solution, newton
+from .start import State, cold_start, on_seats, refined_start, rupture_guess, solution_state, warm_start
+
+COARSEST, STARTS, FINEST = 48, 5, 3072  # cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
+WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
+COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
+WIDE_INLET, CLOSER = 3.0, 0.5  # of what a flooded film needs: from where a meniscus starts inwards; and its steps
+DOUBLINGS = 8  # of the speed, to begin with a film too thick to feel an imposed pressure
+EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
+
+Solved = tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]  # problem, its grids, what led there, notes
+
+
+@dataclass(frozen=True)
+class Effort:
+    """The accuracy asked for and the effort allowed: relative ``tolerance`` of the films (1e-5 to 0.1), cells before
+    rupture that are used even if the films need fewer, and Newton steps per grid."""
+
+    tolerance: float = 3e-3
+    least_cells: int = 0
+    max_iterations: int = 60
+
+    def __post_init__(self):
+        number("tolerance", self.tolerance, "", minimum=1e-5, maximum=0.1)
+        integer("least_cells", self.least_cells, minimum=0)
+        integer("max_iterations", self.max_iterations, minimum=1)
+
+
+def solved(problem: Problem, effort: Effort, state: State | None) -> Solved:
+    seated = on_seats(problem)
+    notes: tuple[str, ...] = ()
+    if state is not None:
+        alike = [p for p in seated if (p.seat_modulus < 1.0) == (state.problem.seat_modulus < 1.0)]
+        problem = (alike or seated)[0]
+        levels = warm(problem, effort, state)
+        if sound(levels):
+            return problem, levels, [], notes
+        notes = ("the warm start failed; solved again from a cold start",)
+    problem, levels, first, retries = _cold(seated, effort)
+    return problem, levels, first, notes + retries
+
+
+def warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
+    """Two grids; the finer one is at least as fine as the error of ``state`` demands."""
+    n = coarsest(problem)
+    needed = max(effort.least_cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
+    while 2 * n < min(needed, FINEST):
+        n *= 2
+    return _ascend(problem, effort, state, n, 2)
+
+
+def _cold(seated: tuple[Problem, ...], effort: Effort) -> Solved:
+    """A solution from a cold start on grids from the coarsest up; if that fails, from another start or on a finer grid.
+
+    Returns the problem on its seat with its solutions, the solutions that led there, and notes.
+    """
+    spent: list[Solution] = []
+    notes: tuple[str, ...] = ()
+    usual = coarsest(seated[0])
+    grids = sorted((COARSEST * 2**k for k in range(STARTS)), key=lambda n: n != usual)
+    beginnings = [(problem, 0) for problem in seated] + [(seated[0], DOUBLINGS)] * (len(seated) > 1)
+    for n, (problem, doublings) in product(grids, beginnings):
+        if spent:
+            notes += (f"the cold start failed; tried again from {n} cells",)
+        state, first = first_state(problem, n, effort.max_iterations, doublings)
+        levels = _ascend(problem, effort, state, n, 2 if effort.tolerance >= COARSE_TOLERANCE else 3)
+        if sound(levels):
+            return problem, levels, spent + first, notes
+        spent += first + levels
+        if levels[0].status == CONVERGED and levels[-1].grid.n >= COARSEST * 2 ** (STARTS - 1):
+            break  # it is not the start that fails
+    return problem, levels, spent[: -len(levels)], notes
+
+
+def coarsest(problem: Problem) -> int:
+    """Cells of the coarsest grid: more if the inlet is far narrower than the contact."""
+    return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), STARTS - 1)
+
+
+def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int) -> list[Solution]:
+    """Solutions on grids of n, 2n, ... cells, at least ``fewest`` of them, until they are as accurate as asked."""
+    rupture = rupture_guess(problem)
+    levels: list[Solution] = []
+    while True:
+        if levels and problem.fed is not None:
+            problem = replace(problem, inlet=-levels[-1].terms.X[0])
+        grid = make_grid(problem_nodes(problem, n, rupture))
+        z, H = refined_start(levels[-1]) if levels else warm_start(grid, problem, state)
+        levels.append(newton(grid, problem, z, H, 1e-3 * effort.tolerance, effort.max_iterations))
+        if not sound(levels) or n >= FINEST:
+            return levels
+        if len(levels) >= fewest and n >= effort.least_cells and grid_error(levels) <= effort.tolerance:
+            return levels
+        rupture = levels[-1].z[-1]
+        n *= 2
+
+
+def first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -> tuple[State, list[Solution]]:
+    """The first state, and the chain of rough solutions on n cells that leads there, each started from the one before.
+
+    alpha rises from the value at which L = EASY. With an imposed pressure this is done for the cylinder of the seat
+    alone, at a speed that is doubled so many times, because a thick film bridges any gap that an imposed pressure
+    leaves. Then the speed is halved again and again.
+    """
+    slower = [_faster(problem, 2.0**k) for k in range(doublings, 0, -1)]
+    alone = (slower or [problem])[0].alone()
+    shares = [min(1.0, EASY / max(alone.L, EASY))]
+    while shares[-1] < 1.0:
+        shares.append(min(1.0, STAGE * shares[-1]))
+    inlets = _inwards(alone)
+    alone = replace(alone, inlet=inlets[0])
+    slower = [replace(alone, inlet=inlet) for inlet in inlets[1:]] + slower
+    states: list[State] = []
+    solutions: list[Solution] = []
+    for stage in [alone.softened(share) for share in shares] + slower:
+        grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
+        z, H = warm_start(grid, stage, states[-1]) if states else cold_start(grid, stage)
+        solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
+        states.append(solution_state(stage, solutions[-1], 0.0))
+        if not np.isfinite(solutions[-1].error):
+            break
+    return states[-1], solutions
+
+
+def _inwards(problem: Problem) -> list[float | None]:
+    """Where the lubricant of ``problem`` begins, and before that places further upstream from which to come nearer."""
+    if problem.inlet is None:
+        return [None]
+    b = problem.flat_half_width
+    found, widest = [problem.inlet - b], WIDE_INLET * flooded_inlet(problem.rise, b)
+    while found[0] < CLOSER * widest:
+        found.insert(0, found[0] / CLOSER)
+    return [b + distance for distance in found]
+
+
+def _faster(problem: Problem, factor: float) -> Problem:
+    """The same contact at ``factor`` times its speed, on the likelier seat there."""
+    contact = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * factor)
+    return on_seats(replace(problem, contact=contact))[0]
+
+
+def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
+    """Nodes (n + 1) relative to the rupture point, which is expected at ``rupture``."""
+    distance = None
+    if problem.inlet is not None:
+        distance = problem.inlet + rupture
+    elif problem.imposed is not None:
+        distance = 3.0 * problem.flat_half_width + FAR_INLET * math.sqrt(2.0 * problem.film_guess) + rupture
+    return node_positions(problem.seat_half_width, problem.film_guess * problem.seat_radius, n, distance)
+
+
+def sound(levels: list[Solution]) -> bool:
+    """Whether a solution has converged, and is not a root with tension in the film or with the inlet on the wrong
+    side."""
+    if not levels or levels[-1].status != CONVERGED:
+        return False
+    P, X = levels[-1].terms.P, levels[-1].terms.X
+    return bool(X[0] < 0.0 and X[-1] < -X[0] and P.min() >= -1e-3 * P.max())
