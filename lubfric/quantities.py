@@ -1,6 +1,4 @@
-"""Every number of a result and every number of a scene, once: unit, long name, symbol, and what its error depends on.
-Results, their errors, tables, pages and pictures take them from here. A new number of a result is a line of
-`PointQuantities` (of `Quantities` if its error is estimated), and the line that computes it (CONTRIBUTING.md)."""
+"""Every number of a result and of a scene, once: unit, name, symbol, what its error depends on (CONTRIBUTING.md)."""
 
 from __future__ import annotations
 

@@ -247,7 +247,7 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
         return []
     refusal = InputError(
         f"{option} {validate.shown(text)}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low < high, "
-        f"1 <= count <= {MOST_SPEEDS}, in {unit}, or each with its unit"
+        f"1 <= count <= {MOST_SPEEDS}, {'' if unit == '-' else f'in {unit}, '}or each with its unit"
     )
     ranged = ":" in text
     words = text.split(":" if ranged else ",")

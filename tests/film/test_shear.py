@@ -127,6 +127,7 @@ def test_couette_of_a_heated_film_does_not_depend_on_where_its_nodes_begin():
             rupture=0.0,
             flow_film=2e-6,
             rolling=None,
+            inlet=None,
         )
         sheared = shear_force(
             film, oil, slide_roll_ratio=0.5, width=0.01, contact_fraction=lambda at: np.zeros(at.size - 1), warm=warm

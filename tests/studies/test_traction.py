@@ -152,7 +152,7 @@ def test_a_curve_with_a_lost_point_is_raised_whole(model, monkeypatch):
     assert "2 ratios" in repr(curve) and "failed 1" in repr(curve) and np.isfinite(curve.coefficient[0])
 
 
-@pytest.mark.parametrize("option, unit", [("--ratios", "slide-roll ratio"), ("--speeds", "m/s")])
+@pytest.mark.parametrize("option, unit", [("--ratios", "allowed"), ("--speeds", "m/s")])
 @pytest.mark.parametrize("text", ["0.5:0.1:3", "1e9", "words"])
 def test_what_a_list_of_a_command_is_allowed_to_be_is_told_in_its_own_unit(tmp_path, capsys, option, unit, text):
     assert main(["run", "paper", option, text, "--out", str(tmp_path)]) == 2

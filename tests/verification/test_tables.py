@@ -15,7 +15,10 @@ from verification.tables.pages import BENCHMARKS, BLOCK, CAMPAIGNS, body, replac
 
 CELLS = (["speed", "f"], [["0.1", "0.05"]])
 TABLE = Table("one", "Friction", *CELLS)
-TYPED = {("theory.md", "| checked | caution | no answer |")}  # limits, not results
+TYPED = {  # limits and what drawings ask for, not results
+    ("theory.md", "| checked | caution | no answer |"),
+    ("scene.md", "| process | Ra, µm | Sq, µm |"),
+}
 
 
 def test_every_mark_in_a_page_names_a_table(root):
