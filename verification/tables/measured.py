@@ -26,6 +26,25 @@ def stribeck() -> Cells:
     return ["U (m/s)", "f", "F_C (N)", "F_H (N)", "mean gap (nm)"], rows
 
 
+def roughness() -> Cells:
+    """f of the built-in scene on other surfaces."""
+    surfaces: dict[str, dict] = {
+        "as it is": {},
+        "Sq 200 nm": {"sq": 200e-9},
+        "Sq 50 nm": {"sq": 50e-9},
+        "16 µm": {"correlation_length": 16e-6},
+        "4 µm": {"correlation_length": 4e-6},
+        "lay along the motion, 16 x 4 µm": {"correlation_length": (16e-6, 4e-6)},
+        "lay across the motion, 4 x 16 µm": {"correlation_length": (4e-6, 16e-6)},
+    }
+    scene, speeds = lubfric.load_scene("paper"), (0.003, 0.03, 0.1)
+    rows = [
+        [name, *(f"{f:.3f}" for f in lubfric.stribeck(scene.with_(surface=keys), speeds).coefficient)]
+        for name, keys in surfaces.items()
+    ]
+    return ["instead", *(f"f at {speed:g} m/s" for speed in speeds)], rows
+
+
 def times() -> Cells:
     """CPU seconds of usual jobs, the smallest of three."""
     paper = lubfric.load_scene("paper")
@@ -84,6 +103,7 @@ def waviness() -> Cells:
 TABLES: dict[str, Callable[[], Cells]] = {
     "waviness": waviness,
     "stribeck": stribeck,
+    "roughness": roughness,
     "times": times,
     "contact-transforms": contact_transforms,
 }
