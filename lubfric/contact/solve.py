@@ -14,7 +14,6 @@ from .rounds import ContactResult, Found, State, concluded, refine, state_of
 from .search import FIRST_PACE
 
 HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than what the old ones bear
-LOOSE, SURE = 1e-3, 10.0  # tolerance far from a mean gap: where it is missed by more than SURE times that
 FLATTENED = 10.0  # times E' height/spacing: 1.1 would do for a periodic ripple
 
 
@@ -152,23 +151,18 @@ def _gap_controlled(problem: Problem, mean_gap: float, start) -> Found:
 def _load_searched(problem: Problem, mean_gap: float, guess: float, start) -> Found:
     """Find the load with that mean gap, by one bracketed root in the logarithm of the pressure.
 
-    The mean gap falls with the load, so there is one root. Each solve starts from the last, and is a loose one while
-    the mean gap is far off. No load exceeds the one
+    The mean gap falls with the load, so there is one root. Each solve starts from the last. No load exceeds the one
     that flattens the whole height as if it were the shortest ripple that the grid resolves.
     """
-    exact = 0.2 * problem.tolerance
+    exact = replace(problem, tolerance=0.2 * problem.tolerance)
     spent, iterations = 0.0, 0
 
     def surplus(log_pressure, last: Found | None):
         nonlocal spent, iterations
-        mean, pressure = math.exp(log_pressure), last.state.pressure if last else start
-        for tolerance in (max(LOOSE, exact), exact):
-            found = _solved(replace(problem, tolerance=tolerance), pressure, mean, mean_pressure=mean)
-            spent, iterations = spent + found.convolutions, iterations + found.iterations
-            value, pressure = (mean_gap - found.state.mean_gap) / min(mean_gap, found.state.scale), found.state.pressure
-            if abs(value) > SURE * tolerance or tolerance == exact:
-                break
-        return value, found
+        mean = math.exp(log_pressure)
+        found = _solved(exact, last.state.pressure if last else start, mean, mean_pressure=mean)
+        spent, iterations = spent + found.convolutions, iterations + found.iterations
+        return (mean_gap - found.state.mean_gap) / min(mean_gap, found.state.scale), found
 
     if start is not None and start.any():
         guess = float(start.mean())

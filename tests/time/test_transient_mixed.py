@@ -169,7 +169,7 @@ def test_starts_that_contradict_or_are_missing_are_refused():
 
 SCRIPT = """
 import os, signal, sys
-sys.path.insert(0, sys.argv[1])
+sys.path[:0] = [sys.argv[1], os.path.dirname(sys.argv[1])]
 import test_transient_mixed as here
 count = [0]
 def on_step(now, duration, row):
