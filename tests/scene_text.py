@@ -1,5 +1,5 @@
-"""Scenes that many tests begin with: parts of small scene files (the bodies and the oil, a small rough patch), and the
-paper's by load sharing."""
+"""Scenes that many tests begin with: parts of small scene files (the bodies and the oil, a small rough patch by
+load sharing), and the paper's by load sharing."""
 
 import lubfric
 
@@ -20,6 +20,8 @@ correlation_length = 4e-6
 [contact]
 shape = [48, 48]
 spacing = 1.1e-6
+[numerics]
+model = "load-sharing"
 """
 
 
