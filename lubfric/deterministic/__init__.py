@@ -2,5 +2,5 @@
 
 from .point import Refined, Strip, change_of, deterministic_point, estimate, grids, solve_strip, work_of, work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach
-from .result import MEANS, DeterministicResult
+from .result import DeterministicResult
 from .solve import dry_contact, solve_point

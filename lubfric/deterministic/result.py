@@ -20,10 +20,6 @@ from ..oil import shear_stress
 from .state import FLUID, TOUCHING, Iterate, State
 
 PRESSED = 50e6  # Pa: below it no Newtonian film is taken to be at its cap
-MEANS = (
-    *("coefficient", "at_half_film", "at_twice_film", "boundary", "couette", "rolling", "flow_film", "mean_gap"),
-    *("central_gap", "spot_length", "spot_fraction", "plastic_fraction", "drawn", "inlet_load"),
-)  # fields of a `DeterministicResult` that are means over its length along y, as the loads of its ``split`` are
 
 
 @dataclass(frozen=True)
@@ -96,11 +92,6 @@ class DeterministicResult:
     inlet_load: float
     report: Report
     state: State = field(repr=False)
-
-    @property
-    def film_error(self) -> float:
-        """The larger relative change of f by half and by twice the boundary film."""
-        return max(abs(f - self.coefficient) for f in (self.at_half_film, self.at_twice_film)) / self.coefficient
 
 
 @dataclass(frozen=True)

@@ -43,6 +43,7 @@ class Effort:
 
 
 def solved(problem: Problem, effort: Effort, state: State | None) -> Solved:
+    """``problem`` from the warm start ``state``; where there is none, or it fails, from a cold start."""
     seated = on_seats(problem)
     notes: tuple[str, ...] = ()
     if state is not None:

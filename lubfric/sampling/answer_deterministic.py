@@ -47,7 +47,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found, begun: float) 
         length=levels.length,
         freedom=float(levels.sampling.freedom),
         tolerance=numerics.sampling_tolerance,
-        notes=_sample_notes(sampling, levels, numerics.sampling_tolerance),
+        notes=_sample_notes(prepared, sampling, levels.length),
     )
     first = levels.pairs[0]
     on_grids = tuple(strip.result for strip in (first.resolved, first.finer) if strip is not None)
@@ -119,9 +119,12 @@ def _of_model(model: float, tolerance: float) -> tuple[Validity, ...]:
     return (Validity(what, 100 * model, 100 * tolerance, "%", consequence, remedy),)
 
 
-def _sample_notes(sampling: float, levels: Levels, asked: float) -> tuple[str, ...]:
+def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:
+    """What a reader should know of the ``sampling`` error of strips of this ``length`` [m]."""
+    strips, asked = prepared.strips, prepared.scene.numerics.sampling_tolerance
+    assert strips is not None
     if math.isnan(sampling):
-        return TOO_SHORT.format(levels.length_in_correlations), BIASED
+        return TOO_SHORT.format(length / strips.lengths[1]), BIASED
     return (f"more than the {percent(asked)} asked",) if sampling > asked else ()
 
 

@@ -47,8 +47,7 @@ class Levels:
       ``by_film``: relative change of f by half and by twice the boundary film.
     - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second and third.
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
-      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips, and in correlation
-      lengths.
+      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips.
     """
 
     numbers: dict[str, float]
@@ -60,7 +59,6 @@ class Levels:
     difference: BlockError
     numerical: float
     length: float
-    length_in_correlations: float
 
     @property
     def finer(self) -> int:
@@ -112,9 +110,8 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
     both = math.hypot(sampling.error, difference.error, numerical)
     errors = _errors(prepared, pairs, numbers) | {"coefficient": both}
     length = strips.length * max(line, len(pairs))
-    lengths = length, length / strips.lengths[1]
     films = tuple((numbers.pop(name) - alone) / f for name in OTHER_FILMS)
-    return Levels(numbers, errors, films, line, tuple(pairs), sampling, difference, numerical, *lengths)
+    return Levels(numbers, errors, films, line, tuple(pairs), sampling, difference, numerical, length)
 
 
 def _of_line(found: Found, line: int, count: int) -> float:
