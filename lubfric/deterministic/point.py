@@ -100,14 +100,15 @@ def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
 def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int, int] = (1, 1)) -> Problem:
     """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
     times as long (`lay_out`). For a negative speed the map is turned."""
-    film = scene.bodies.boundary_film
+    film, ratio = scene.bodies.boundary_film, scene.motion.slide_roll_ratio
     return lay_out(
         replace(surface, heights=surface.heights[::-1], mask=None) if speed < 0 else surface,
         scene.line_contact(abs(speed)),
-        sliding=2 * abs(speed),
+        sliding=abs(ratio * speed),
         boundary_friction=scene.bodies.boundary_friction_coefficient,
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if film is None else film,
+        sense=math.copysign(1.0, ratio),
         factors=factors,
     )
 

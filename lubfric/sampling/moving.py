@@ -1,0 +1,59 @@
+"""Points whose roughness moves through the film: its maps, and what the deterministic model would cost there."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from ..contact import GeneratedStrips, Strips
+from ..deterministic import Strip, moving_work, solve_moving_strip, solve_strip, work_of_steps
+from ..scene import Scene, moves, moving_bodies
+from ..sharing import Prepared, on_strip
+from ..surface import Surface
+
+MOST_WORK = 120.0  # s, counted: beyond it "auto" leaves moving roughness to Eq. (8)
+
+
+def solved_strip(prepared: Prepared, index: int, speed: float, **how) -> Strip:
+    """Strip ``index`` by the deterministic model, its roughness at rest or moving; ``how``: as in `solve_strip`."""
+    if moves(prepared.scene):
+        return solve_moving_strip(prepared.scene, maps_of(prepared, index, speed), speed, **how)
+    return solve_strip(prepared.scene, strip_surface(prepared, index), speed, **how)
+
+
+def strip_surface(prepared: Prepared, index: int) -> Surface:
+    """The map of strip ``index``."""
+    assert prepared.strips is not None
+    contact = on_strip(prepared, prepared.strips, index)
+    return replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
+
+
+def maps_of(prepared: Prepared, index: int, speed: float) -> list[tuple[Surface, float]]:
+    """The maps of strip ``index`` that move at speeds of their own, and these [m/s]; bodies of one speed are one."""
+    bodies, strips = moving_bodies(prepared.scene), prepared.strips
+    if prepared.given:
+        bodies = bodies[:1]
+    if len({ratio for _, ratio in bodies}) == 1:
+        return [(strip_surface(prepared, index), abs(speed) * bodies[0][1])]
+    assert isinstance(strips, GeneratedStrips)
+    return [(_alone(strips, name).strip(index), abs(speed) * ratio) for name, ratio in bodies]
+
+
+def _alone(strips: GeneratedStrips, name: str) -> Strips:
+    """The ``strips`` of one of two rough bodies."""
+    other = "counterface" if name == "surface" else "surface"
+    smooth = replace(getattr(strips.scene, other), sq=0.0)
+    return replace(strips, scene=replace(strips.scene, **{other: smooth}))
+
+
+def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:
+    """Why moving roughness is left to Eq. (8) under "auto", in words; "" if it is not."""
+    if not moves(prepared.scene):
+        return ""
+    maps = maps_of(prepared, 0, speed)
+    work = moving_work(prepared.scene, maps, speed, factors)
+    if work <= MOST_WORK:
+        return ""
+    return (
+        f"Eq. (8) alone: the roughness moves, and one strip with one gap and one pressure would take about {work:.0f} s of "
+        f"processor time, more than {MOST_WORK:g} s; numerics.model = 'deterministic' asks for it"
+    )
