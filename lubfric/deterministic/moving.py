@@ -228,9 +228,15 @@ def solve_moving_strip(
     mean = {name: np.mean([row[name] for row in rows[discarded:]], axis=0) for name in rows[0]}
     split = LoadSplit(*(float(mean[f.name]) for f in fields(LoadSplit)))
     parts = {name: mean[name] if mean[name].ndim else float(mean[name]) for name in AVERAGED}
+    last, f1 = moment.result, parts["coefficient"] - 2 * parts["rolling"] / rest.problem.load
+    notes = (
+        f"the roughness moved at {' and '.join(f'{u:.4g}' for _, u in maps)} m/s, by {count} steps of {step:.3g} s after "
+        f"{discarded} that do not count; at rest f = {rest.result.coefficient:.4g}",
+        f"f is that of surface 2; on surface 1, whose rolling part has the other sign, f = {f1:.4g}",
+    )
     return MovingStrip(
         moment.at.problem,
-        replace(moment.result, **parts, split=split),
+        replace(last, **parts, split=split, report=replace(last.report, notes=notes)),
         rest.slope,
         rest.work + sum(row["work"] for row in rows),
         rest,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..contact import GeneratedStrips, Strips
-from ..deterministic import Strip, moving_work, solve_moving_strip, solve_strip, work_of_steps
-from ..scene import Scene, moves, moving_bodies
+from ..contact import Strips
+from ..deterministic import Strip, moving_work, solve_moving_strip, solve_strip
+from ..scene import moves, moving_bodies
 from ..sharing import Prepared, on_strip
 from ..surface import Surface
 
@@ -34,11 +34,11 @@ def maps_of(prepared: Prepared, index: int, speed: float) -> list[tuple[Surface,
         bodies = bodies[:1]
     if len({ratio for _, ratio in bodies}) == 1:
         return [(strip_surface(prepared, index), abs(speed) * bodies[0][1])]
-    assert isinstance(strips, GeneratedStrips)
+    assert strips is not None
     return [(_alone(strips, name).strip(index), abs(speed) * ratio) for name, ratio in bodies]
 
 
-def _alone(strips: GeneratedStrips, name: str) -> Strips:
+def _alone(strips: Strips, name: str) -> Strips:
     """The ``strips`` of one of two rough bodies."""
     other = "counterface" if name == "surface" else "surface"
     smooth = replace(getattr(strips.scene, other), sq=0.0)
@@ -54,6 +54,6 @@ def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> st
     if work <= MOST_WORK:
         return ""
     return (
-        f"Eq. (8) alone: the roughness moves, and one strip with one gap and one pressure would take about {work:.0f} s of "
-        f"processor time, more than {MOST_WORK:g} s; numerics.model = 'deterministic' asks for it"
+        "Eq. (8) alone: the roughness moves, and one strip with one gap and one pressure would take about "
+        f"{work:.0f} s of processor time, more than {MOST_WORK:g} s; numerics.model = 'deterministic' asks for it"
     )
