@@ -7,9 +7,7 @@ mass rho θ h of the last two moments. That is an Euler step of 2/3 dt from (4 m
 as it is. (By Euler's method alone short waves die away on their journey.) In a step the fastest rough body moves by one
 cell.
 
-f is that of surface 2, the upper one: its friction against the sliding u2 - u1, or against U in pure rolling. On
-surface 1 the rolling part has the other sign. It is the shear stress on a surface; pressure on the flanks of its
-roughness is not in it.
+f is that of surface 2, the upper one, against its sliding u2 - u1, or against U in pure rolling (`Problem.sense`).
 """
 
 from __future__ import annotations
@@ -19,7 +17,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from itertools import islice
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.ndimage import uniform_filter1d
@@ -146,14 +144,29 @@ def _carried(state: State, before: State, cells: int, smooth: int) -> State:
     )
 
 
-def travelling(problem: Problem, maps: Sequence[tuple[Surface, float]]) -> Callable[[float], Problem]:
-    """Of a time [s], ``problem`` with the heights of its ``maps`` then, each moved at its own speed [m/s].
+class RoughBody(NamedTuple):
+    """The map of a body that moves at a ``speed`` [m/s] along x, all on the same cells; ``upper``: it is surface 2, and
+    the map as seen from surface 1."""
+
+    surface: Surface
+    speed: float
+    upper: bool = False
+
+
+def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float], Problem]:
+    """Of a time [s], ``problem`` with the heights of ``bodies`` then.
 
     A map is laid out as by `lay_out`, on cells of ``problem`` that are its own or several times as long. It is shifted
     by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
     """
-    shifts = [_shifted(problem, surface) for surface, _ in maps]
-    return lambda time: replace(problem, heights=sum(at(u * time) for at, (_, u) in zip(shifts, maps)))
+    shifts = [_shifted(problem, body.surface) for body in bodies]
+
+    def at(time: float) -> Problem:
+        heights = [shift(body.speed * time) for shift, body in zip(shifts, bodies)]
+        upper = [z for z, body in zip(heights, bodies) if body.upper]
+        return replace(problem, heights=np.sum(heights, axis=0), upper=upper[0] if upper else None)
+
+    return at
 
 
 def _shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:
@@ -184,37 +197,31 @@ class MovingStrip(Strip):
     series: dict[str, np.ndarray] = field(repr=False)
 
 
-def surface_speeds(scene: Scene, speed: float) -> tuple[float, float]:
-    """u1 and u2 [m/s] along the motion at U = ``speed``."""
-    half = 0.5 * scene.motion.slide_roll_ratio
-    return abs(speed) * (1 - half), abs(speed) * (1 + half)
-
-
 def solve_moving_strip(
     scene: Scene,
-    maps: Sequence[tuple[Surface, float]],
+    bodies: Sequence[RoughBody],
     speed: float,
     *,
     factors: tuple[int, int] = (1, 1),
     start: Strip | None = None,
     slope: bool = False,
 ) -> MovingStrip:
-    """Move the ``maps`` of the rough bodies, each with its speed along the motion [m/s], through the film at U =
-    ``speed`` [m/s], by the length of the fastest.
+    """Move the rough ``bodies`` through the film at U = ``speed`` [m/s], by the length of the fastest map. Their speeds
+    are along the motion.
 
     ``factors``, ``start``, ``slope``: as in `solve_strip`, for the roughness at rest, from which the motion starts.
     What follows until the film has passed from 1.5 half-widths before to one behind the middle of the contact is
     discarded (of the Hertz strip, or of the smooth film where that is wider). Raises `InputError` and
     `ConvergenceError`.
     """
-    whole = maps[0][0].combined(*(surface for surface, _ in maps[1:]))
+    whole = replace(bodies[0].surface, heights=np.sum([body.surface.heights for body in bodies], axis=0), mask=None)
     near = start.rest if isinstance(start, MovingStrip) else start
     rest = solve_strip(scene, whole, speed, factors=factors, start=near, slope=slope)
     if speed < 0:
-        maps = [(replace(surface, heights=surface.heights[::-1], mask=None), u) for surface, u in maps]
-    step, discarded, count = _plan(rest.problem, maps)
+        bodies = [body._replace(surface=replace(body.surface, heights=body.surface.heights[::-1])) for body in bodies]
+    step, discarded, count = _plan(rest.problem, bodies)
     moving = moments(
-        travelling(rest.problem, maps),
+        travelling(rest.problem, bodies),
         step,
         start=rest.result.state,
         tolerance=LOOSE * rest.problem.x.size,
@@ -227,16 +234,16 @@ def solve_moving_strip(
         rows[-1] |= {"share": moment.result.split.spots / moment.result.load, "work": work}
     mean = {name: np.mean([row[name] for row in rows[discarded:]], axis=0) for name in rows[0]}
     split = LoadSplit(*(float(mean[f.name]) for f in fields(LoadSplit)))
-    parts = {name: mean[name] if mean[name].ndim else float(mean[name]) for name in AVERAGED}
-    last, f1 = moment.result, parts["coefficient"] - 2 * parts["rolling"] / rest.problem.load
-    notes = (
-        f"the roughness moved at {' and '.join(f'{u:.4g}' for _, u in maps)} m/s, by {count} steps of {step:.3g} s after "
-        f"{discarded} that do not count; at rest f = {rest.result.coefficient:.4g}",
-        f"f is that of surface 2; on surface 1, whose rolling part has the other sign, f = {f1:.4g}",
+    parts: dict[str, Any] = {name: mean[name] if mean[name].ndim else float(mean[name]) for name in AVERAGED}
+    last = moment.result
+    speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
+    note = (
+        f"the roughness moved at {speeds} m/s, by {count} steps of {step:.3g} s after {discarded} that do not count; "
+        f"at rest f = {rest.result.coefficient:.4g}"
     )
     return MovingStrip(
         moment.at.problem,
-        replace(last, **parts, split=split, report=replace(last.report, notes=notes)),
+        replace(last, **parts, split=split, report=replace(last.report, notes=(note,))),
         rest.slope,
         rest.work + sum(row["work"] for row in rows),
         rest,
@@ -246,14 +253,14 @@ def solve_moving_strip(
     )
 
 
-def _plan(problem: Problem, maps: Sequence[tuple[Surface, float]]) -> tuple[float, int, int]:
+def _plan(problem: Problem, bodies: Sequence[RoughBody]) -> tuple[float, int, int]:
     """Length [s] of a step, and the numbers of steps that are discarded and that count."""
-    surface, fastest = max(maps, key=lambda one: abs(one[1]))
-    step = problem.spacing[0] / abs(fastest)
+    fastest = max(bodies, key=lambda body: abs(body.speed))
+    step = problem.spacing[0] / abs(fastest.speed)
     return (
         step,
         math.ceil(SWEEP * _half_width(problem) / (problem.speed * step)),
-        max(1, round(surface.size[0] / problem.spacing[0])),
+        max(1, round(fastest.surface.size[0] / problem.spacing[0])),
     )
 
 
@@ -263,10 +270,8 @@ def _half_width(problem: Problem) -> float:
     return max(contact.half_width, math.sqrt(2 * contact.radius * contact.moes_film))
 
 
-def moving_work(
-    scene: Scene, maps: Sequence[tuple[Surface, float]], speed: float, factors: tuple[int, int] = (1, 1)
-) -> float:
+def moving_work(scene: Scene, bodies: Sequence[RoughBody], speed: float, factors: tuple[int, int] = (1, 1)) -> float:
     """Counted work [s of a usual core] of `solve_moving_strip`, about, before it is done."""
-    problem = problem_of(scene, maps[0][0], speed, factors)
-    _, discarded, count = _plan(problem, maps)
+    problem = problem_of(scene, bodies[0].surface, speed, factors)
+    _, discarded, count = _plan(problem, bodies)
     return (discarded + count) * work_of_steps(problem.heights.size, STEPS, KRYLOV)

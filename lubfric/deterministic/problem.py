@@ -43,8 +43,10 @@ class Problem(OfLineContact):
     them; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf: elastic);
     boundary_friction: f_b [-] where the gap is thinner than boundary_film [m]; floor [m].
 
-    sense: 1, or -1 where u2 < u1. Friction is that of surface 2, the upper one, against its sliding u2 - u1 (against U
-    where nothing slides): so the rolling part counts by the sense. On surface 1 it has the other sign.
+    sense: 1, or -1 where u2 < u1. Friction is the force on surface 2, the upper one, against its sliding u2 - u1 (or
+    against U, if nothing slides): its shear stress, and the pressure on the flanks of its own roughness. ``upper`` z2
+    [m] (nx, ny): that roughness, part of z (None: surface 2 is smooth). The force on surface 1 is the opposite, but for
+    the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
     """
 
     contact: LineContact
@@ -57,6 +59,7 @@ class Problem(OfLineContact):
     boundary_film: float = BOUNDARY_FILM
     floor: float = FLOOR
     sense: float = 1.0
+    upper: np.ndarray | None = None
 
     @property
     def spacing(self) -> tuple[float, float]:

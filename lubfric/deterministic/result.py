@@ -45,10 +45,10 @@ class DeterministicResult:
       the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. spots (bool):
       where the stress is f_b p. wet (bool): fluid under pressure outside the spots. shear [Pa]: on surface 2, by the
       sliding. dent [m]: plastic depth.
-    - boundary: f_b p over the spots. couette, rolling: shear of the film, with that upstream of the grid. coefficient:
-      (boundary + couette + rolling)/load, of surface 2 against its sliding (`Problem`; surface 1: rolling with the
-      other sign); at_half_film, at_twice_film: with half and twice the boundary film. split:
-      the load on spots, and its parts.
+    - boundary: f_b p over the spots. couette: shear of the film by the sliding. rolling: by the gradient of pressure,
+      and pressure on the flanks of a rough surface 2. Both with what is upstream of the grid. coefficient: (boundary +
+      couette + rolling)/load, of surface 2 against its sliding (`Problem`); at_half_film, at_twice_film: with half and
+      twice the boundary film. split: the load on spots, and its parts.
     - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
       b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
     - load_at, friction_at [N/m] (ny,): load and friction of every column of cells along x, with those upstream. Their
@@ -128,6 +128,8 @@ def rubbing(at: Iterate, law, film: float) -> Rubbing:
     stress = np.where(spots, limit, np.where(wet, law, 0.0))
     couette = (stress * wet).sum(axis=0) * dx + problem.lubricant.viscosity * problem.sliding * inlet.shearing
     rolling = (0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]) * both).sum(axis=0) + inlet.rolling
+    if problem.upper is not None:  # the pressure on its flanks
+        rolling = rolling - (0.5 * (p[1:] + p[:-1]) * np.diff(problem.upper, axis=0)).sum(axis=0)
     return Rubbing(thin, spots, wet, stress, (limit * spots).sum(axis=0) * dx, couette, problem.sense * rolling)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..contact import Strips
-from ..deterministic import Strip, moving_work, solve_moving_strip, solve_strip
+from ..deterministic import RoughBody, Strip, moving_work, solve_moving_strip, solve_strip
 from ..scene import moves, moving_bodies
 from ..sharing import Prepared, on_strip
 from ..surface import Surface
@@ -16,7 +16,7 @@ MOST_WORK = 120.0  # s, counted: beyond it "auto" leaves moving roughness to Eq.
 def solved_strip(prepared: Prepared, index: int, speed: float, **how) -> Strip:
     """Strip ``index`` by the deterministic model, its roughness at rest or moving; ``how``: as in `solve_strip`."""
     if moves(prepared.scene):
-        return solve_moving_strip(prepared.scene, maps_of(prepared, index, speed), speed, **how)
+        return solve_moving_strip(prepared.scene, bodies_of(prepared, index, speed), speed, **how)
     return solve_strip(prepared.scene, strip_surface(prepared, index), speed, **how)
 
 
@@ -27,15 +27,16 @@ def strip_surface(prepared: Prepared, index: int) -> Surface:
     return replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
 
 
-def maps_of(prepared: Prepared, index: int, speed: float) -> list[tuple[Surface, float]]:
-    """The maps of strip ``index`` that move at speeds of their own, and these [m/s]; bodies of one speed are one."""
-    bodies, strips = moving_bodies(prepared.scene), prepared.strips
-    if prepared.given:
-        bodies = bodies[:1]
-    if len({ratio for _, ratio in bodies}) == 1:
-        return [(strip_surface(prepared, index), abs(speed) * bodies[0][1])]
+def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
+    """The rough bodies of strip ``index``. In pure rolling two are one, and a map that was given is all: surface 1."""
+    found, strips = moving_bodies(prepared.scene), prepared.strips
     assert strips is not None
-    return [(_alone(strips, name).strip(index), abs(speed) * ratio) for name, ratio in bodies]
+    if len(found) == 1 or prepared.given or found[0][1] == found[1][1]:
+        name, ratio = found[0]
+        return [RoughBody(strip_surface(prepared, index), abs(speed) * ratio, name == "counterface")]
+    return [
+        RoughBody(_alone(strips, name).strip(index), abs(speed) * ratio, name == "counterface") for name, ratio in found
+    ]
 
 
 def _alone(strips: Strips, name: str) -> Strips:
@@ -49,8 +50,7 @@ def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> st
     """Why moving roughness is left to Eq. (8) under "auto", in words; "" if it is not."""
     if not moves(prepared.scene):
         return ""
-    maps = maps_of(prepared, 0, speed)
-    work = moving_work(prepared.scene, maps, speed, factors)
+    work = moving_work(prepared.scene, bodies_of(prepared, 0, speed), speed, factors)
     if work <= MOST_WORK:
         return ""
     return (
