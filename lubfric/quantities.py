@@ -141,6 +141,7 @@ class UncertaintyQuantities(Generic[T]):
         note="in the interval; NaN where it is not known",
         default=math.nan,
     )
+    inputs: T = quantity("-", "relative change of f by the ranges of inputs", column="input_error", default=0.0)
 
 
 _OF_POINT = quantities(PointQuantities)

@@ -10,11 +10,12 @@ import numpy as np
 from .._base import validate
 from ..errors import ConvergenceError, InputError
 from ..scene import FASTEST, Scene, gap_not_resolved, told_doubts
-from ..sharing import Prepared, at_tolerance, refused
+from ..sharing import Prepared, at_speed, at_tolerance, refused
 from .answer import load_sharing_answer
 from .answer_deterministic import patch_answer, strips_answer
 from .errors_of import model_error
 from .methods import with_methods
+from .ranges import with_ranges
 from .result import FrictionResult
 from .sample import Found, sampled
 
@@ -59,6 +60,7 @@ def friction(
     prepared = at_tolerance(scene, tolerance, model)
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
+    prepared = at_speed(prepared, speed)
     if start is not None:
         raise InputError(
             "start is not taken any more: every point is solved from its scene and speed alone; leave it out"
@@ -66,7 +68,7 @@ def friction(
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):
-        result = with_methods(prepared, _answer(prepared, speed, fields, begun))
+        result = with_methods(prepared, with_ranges(prepared, _answer(prepared, speed, fields, begun)))
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "

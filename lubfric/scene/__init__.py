@@ -1,12 +1,12 @@
 """What is asked: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
-from .bodies import FASTEST, LARGEST_RATIO, Bodies, ContactDomain, Motion
+from .bodies import FASTEST, FRICTION, LARGEST_RATIO, Bodies, ContactDomain, FrictionTable, Motion
 from .file import builtin_scenes, load_scene, read_toml, write_template
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
 from .plausible import doubts, told_doubts, typical
 from .roughness import Roughness, named
-from .scene import Scene, check_resolved_gap, gap_not_resolved, resolves_gap, scene_as_dict
+from .scene import Scene, check_resolved_gap, gap_not_resolved, resolves_gap, scene_as_dict, value_of
 from .sections import SECTIONS
 from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
 from .transient import UNITS as CHANGING

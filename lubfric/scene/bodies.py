@@ -6,9 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from .._base import Brief, validate
 from ..errors import InputError
 from ..film import hertz
+from ..units import without_unit
 
 FASTEST = 1e6  # m/s
 LARGEST_RATIO = 1e6  # slide-roll ratio
@@ -16,6 +19,9 @@ GEOMETRIES = ("cylinder", "flat")
 REGIONS = ("hertz", "box")
 CONTACT_MODELS = ("half-space", "summits", "patches")
 ASPERITY_SEPARATIONS = ("volume", "mean-plane")
+FRICTION = "bodies.boundary_friction_coefficient"
+FRICTION_OVER = {"sliding_speed": "m/s", "temperature": "K"}  # what a table of it may be over
+LARGEST_FRICTION = 10.0
 LARGEST = 2**26  # cells of a contact grid
 
 
@@ -24,6 +30,51 @@ def pair(name: str, value, unit: str) -> tuple:
     if not isinstance(value, (list, tuple)) or len(value) != 2:
         raise InputError(f" = {validate.shown(value)} must be a pair, one value a body [{unit}]", name)
     return tuple(value)
+
+
+@dataclass(frozen=True)
+class FrictionTable:
+    """f_b [-] over the sliding speed [m/s] or over the temperature of the oil [K]; linear between rising points.
+
+    over : "sliding_speed" or "temperature"; at, values : of the points. There is no value outside them.
+    """
+
+    over: str
+    at: tuple[float, ...]
+    values: tuple[float, ...]
+
+    def __post_init__(self):
+        validate.choice(f"{FRICTION} over", self.over, FRICTION_OVER)
+        for name, limits in (("at", (0.0, FASTEST)), ("values", (0.0, LARGEST_FRICTION))):
+            given, unit = getattr(self, name), FRICTION_OVER[self.over] if name == "at" else "(-)"
+            if not isinstance(given, (list, tuple)) or len(given) < 2 or len(given) != len(self.at):
+                said = f" = {validate.shown(given)}, a table over {self.over}"
+                raise InputError(said, FRICTION, "two lists of numbers, as long as each other, of two numbers or more")
+            checked = (validate.number(FRICTION, v, unit, minimum=limits[0], maximum=limits[1]) for v in given)
+            object.__setattr__(self, name, tuple(checked))
+        if any(b <= a for a, b in zip(self.at, self.at[1:])):
+            raise InputError(f" = {self.at}, a table over {self.over}", FRICTION, "one that rises")
+
+    def __call__(self, at: float) -> float:
+        """f_b at a sliding speed [m/s] or a temperature [K]. Raises `InputError` outside the table."""
+        unit = FRICTION_OVER[self.over]
+        if not self.at[0] * (1 - 1e-9) <= at <= self.at[-1] * (1 + 1e-9):
+            said = f", a table over {self.over}, has no value at {at:g} {unit}"
+            raise InputError(said, FRICTION, f"{self.at[0]:g} to {self.at[-1]:g} {unit}", "make the table longer")
+        return float(np.interp(at, self.at, self.values))
+
+
+def friction_of(given: Any) -> dict[str, Any]:
+    """f_b, and its table if it is given as one: ``{ sliding_speed = [...], values = [...] }``, or over temperature."""
+    table = None
+    if isinstance(given, dict):
+        over = next((key for key in FRICTION_OVER if key in given), None)
+        if over is None or set(given) != {over, "values"}:
+            ways = " or ".join(f"{{ {key} = [...], values = [...] }}" for key in FRICTION_OVER)
+            raise InputError(f" = {validate.shown(given)}", FRICTION, ways)
+        table = FrictionTable(over, without_unit(FRICTION, given[over], FRICTION_OVER[over]), given["values"])
+        given = table.values[0]
+    return {"boundary_friction_coefficient": given, "boundary_friction_table": table}
 
 
 @dataclass(frozen=True, repr=False)
@@ -37,7 +88,8 @@ class Bodies(Brief):
     load : total load F_T [N]
     e_prime : E' [Pa], 2/E' = (1-nu1²)/E1 + (1-nu2²)/E2
     hardness : plastic limit P_u of the contact pressure [Pa]; None: elastic
-    boundary_friction_coefficient : f_b of the contact spots [-]
+    boundary_friction_coefficient : f_b of the contact spots [-]; with a table, that at the scene's own speed
+    boundary_friction_table : f_b over the sliding speed or the temperature, a `FrictionTable`, or None
     boundary_film : gap [m] below which the bodies rub with f_b, of the deterministic model; None: lubfric's own value,
         of which half and twice are part of the error
     conductivity : of both bodies [W/(m K)]; they carry the heat of the film away (default: steel)
@@ -53,6 +105,7 @@ class Bodies(Brief):
     boundary_film: float | None = None
     conductivity: tuple[float, float] = (46.0, 46.0)
     volumetric_heat: tuple[float, float] = (3.6e6, 3.6e6)
+    boundary_friction_table: FrictionTable | None = None
 
     def __post_init__(self):
         validate.python_fields(self)
@@ -63,8 +116,10 @@ class Bodies(Brief):
         ):
             validate.positive(f"bodies.{name}", getattr(self, name), unit, minimum=least, maximum=most)
         validate.number("bodies.e_prime", self.e_prime, "Pa", minimum=1e3, maximum=1e13)
-        name = "bodies.boundary_friction_coefficient"
-        validate.nonnegative(name, self.boundary_friction_coefficient, "(-)", maximum=10.0)
+        validate.nonnegative(FRICTION, self.boundary_friction_coefficient, "(-)", maximum=LARGEST_FRICTION)
+        if self.boundary_friction_table is not None:
+            table = "a FrictionTable, by boundary_friction_coefficient = { sliding_speed = [...], values = [...] }"
+            validate.instance("bodies.boundary_friction_table", self.boundary_friction_table, FrictionTable, table)
         if self.hardness is not None:
             validate.positive("bodies.hardness", self.hardness, "Pa", minimum=1.0, maximum=1e14)
             if self.mean_hertz_pressure >= self.hardness:
@@ -76,6 +131,16 @@ class Bodies(Brief):
         for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):
             both = pair(f"bodies.{name}", getattr(self, name), unit)
             object.__setattr__(self, name, tuple(validate.positive(f"bodies.{name}", v, unit) for v in both))
+
+    def boundary_friction(self, sliding: float, temperature: float | None) -> float:
+        """f_b [-] at a sliding speed [m/s] and a temperature of the oil [K]."""
+        table = self.boundary_friction_table
+        if table is None:
+            return self.boundary_friction_coefficient
+        at = abs(sliding) if table.over == "sliding_speed" else temperature
+        if at is None:
+            raise InputError(" is a table over the temperature", FRICTION, way_out="give lubricant.temperature")
+        return table(at)
 
     @property
     def effusivity(self) -> tuple[float, float]:

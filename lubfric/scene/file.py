@@ -12,8 +12,8 @@ from .._base import validate, write_whole
 from ..errors import InputError
 from ..surface import PER_SQ
 from .roughness import GENERATED, check_fields, named
-from .scene import Scene
-from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section, meant
+from .scene import Scene, as_ranges
+from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section, meant, ranges_of
 from .transient import UNITS, Transient, history
 
 SCENES = resources.files(__package__) / "scenes"
@@ -119,7 +119,8 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
                 check_fields(given)  # refuses keys that do not apply, whatever their value
         if section != "transient" and (section in table or section != "counterface"):
             parts[section] = made_section(section, given)
-    return Scene(**parts, name=table.get("name", name), transient=plan)
+    found = {k: ends for s in SECTIONS if s in table for k, ends in ranges_of(s, table[s]).items()}
+    return Scene(**parts, name=table.get("name", name), transient=plan, ranges=as_ranges(found))
 
 
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:

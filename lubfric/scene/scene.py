@@ -18,7 +18,7 @@ from .bodies import Bodies, ContactDomain, Motion
 from .history import History
 from .numerics import Numerics
 from .roughness import Roughness
-from .sections import ROUGH, SECTIONS, changed_section
+from .sections import ROUGH, SECTIONS, changed_section, ranges_of
 from .short_forms import fields_of
 from .transient import KINDS, Transient
 
@@ -45,6 +45,7 @@ class Scene(Shown):
         contact
     transient : what changes in time, a `lubfric.Transient`, or None
     name : for titles
+    ranges : (section.key, lowest, highest) of the values that are known to a range only; f is told for both ends
     """
 
     bodies: Bodies
@@ -56,6 +57,7 @@ class Scene(Shown):
     name: str = "unnamed"
     transient: Transient | None = None
     counterface: Roughness | None = None
+    ranges: tuple[tuple[str, float, float], ...] = ()
 
     def __post_init__(self):
         if not isinstance(self.name, str) or _halved(self.name):
@@ -65,8 +67,19 @@ class Scene(Shown):
             ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"
             said = " = 'on' needs to know how the viscosity falls with the temperature"
             raise InputError(said, "numerics.heat", way_out=ways)
-
+        sliding = self.motion.slide_roll_ratio * self.motion.entrainment_speed
+        friction = self.bodies.boundary_friction(sliding, self.lubricant.temperature)
+        if friction != self.bodies.boundary_friction_coefficient:
+            object.__setattr__(self, "bodies", replace(self.bodies, boundary_friction_coefficient=friction))
         self._check_inlet()
+        for name, low, high in self.ranges:
+            section, _, key = name.partition(".")
+            value = value_of(self, name)
+            if not low <= value <= high or low == high:
+                said, allowed = f" = {value:g} in {low:g} to {high:g}", "the lower number first, the value between them"
+                raise InputError(said, name, allowed)
+            for end in (low, high):
+                replace(getattr(self, section), **{key: end})  # refuses an end that is no value of it
 
     def _check_inlet(self) -> None:
         length, half_width = self.lubricant.inlet_length, self.bodies.half_width
@@ -83,14 +96,31 @@ class Scene(Shown):
 
         The short forms of scene files may be used as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
         """
-        new = {}
+        new: dict[str, Any] = {}
+        found: dict[str, tuple[float, float] | None] = {}
         for section, values in sections.items():
             if section not in self.__dataclass_fields__:
                 near, (first, _, key) = validate.nearest(section, self.__dataclass_fields__), section.partition(".")
                 way_out = f"; write with_({first}={{{key!r}: {validate.shown(values)}}})" if key else ""
                 raise InputError(f"scene has no section {section!r}{near}{way_out}")
             new[section] = changed_section(section, getattr(self, section), values)
-        return replace(self, **new)
+            if section in SECTIONS:
+                found |= ranges_of(section, values)
+        made = replace(self, **new, ranges=())
+        kept = {name: ends for name, *ends in self.ranges if value_of(made, name) == value_of(self, name)}
+        return replace(made, ranges=as_ranges(kept | found))
+
+    def at_ends(self) -> Iterator[tuple[str, Scene, Scene]]:
+        """Each key that is known to a range only, and the scene at both ends of it."""
+        for name, *ends in self.ranges:
+            low, high = (replace(self, ranges=()).with_keys({name: end}) for end in ends)
+            yield name, low, high
+
+    def at_speed(self, speed: float) -> Scene:
+        """The scene with the f_b that it has at ``speed`` [m/s]."""
+        table = self.bodies.boundary_friction_table
+        moves = table is not None and table.over == "sliding_speed"
+        return self.with_(motion={"entrainment_speed": speed}) if moves else self
 
     def with_keys(self, values: dict[str, Any]) -> Scene:
         """A copy with the ``values`` by "section.key", or by "section" for a whole one. All keys of a section act at
@@ -131,6 +161,12 @@ class Scene(Shown):
                     key: value for key, value in keys.items() if key == "temperature" or followed.get(key, ...) != value
                 }
                 keys = oil.said | own
+            table = keys.pop("boundary_friction_table", None)
+            if table is not None:
+                keys["boundary_friction_coefficient"] = {table.over: table.at, "values": table.values}
+            for name, low, high in self.ranges:
+                if name.partition(".")[0] == section:
+                    keys[name.partition(".")[2]] = (value_of(self, name), low, high)
             if "file" in keys:
                 keys["file"] = str(Path(keys["file"]).absolute())
             lines += [f"{key} = {_toml(value)}" for key, value in keys.items() if value is not None and value != ()]
@@ -184,8 +220,7 @@ def _toml(value: Any) -> str:
         if kind is None:
             said = f"a history of type {type(value).__name__} has no form in a scene file"
             raise InputError(said, allowed=", ".join(KINDS))
-        inner = ", ".join(f"{name} = {_toml(part)}" for name, part in vars(value).items())
-        return f'{{ kind = "{kind}", {inner} }}'
+        return _toml({"kind": kind} | vars(value))
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float)):
@@ -194,7 +229,20 @@ def _toml(value: Any) -> str:
         if _halved(value):  # a path
             raise InputError(f"{ascii(value)} is not Unicode, and a scene file cannot hold it; rename it")
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")  # the one control that JSON lets stand
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{name} = {_toml(part)}' for name, part in value.items())} }}"
     return f"[{', '.join(_toml(part) for part in value)}]"
+
+
+def value_of(scene: Scene, name: str) -> Any:
+    """The value of the key ``name`` (section.key)."""
+    section, _, key = name.partition(".")
+    return getattr(getattr(scene, section), key)
+
+
+def as_ranges(found: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
+    """`Scene.ranges` of the ends by name, None where a value has no range."""
+    return tuple((name, *found[name]) for name in sorted(found) if found[name] is not None)
 
 
 def scene_as_dict(scene: Scene) -> dict:

@@ -59,20 +59,39 @@ def made_section(section: str, given: dict, old: Any = None) -> Any:
     """The section that the keys ``given`` make, or ``old`` with them changed. An error has the likely slip."""
     check_keys(section, given)
     with naming_slips(section, dict(given)), named(section):
-        given = {key: in_key_unit(section, key, value) for key, value in given.items()}
+        given = {key: read_value(section, key, value)[0] for key, value in given.items()}
         plain = {key: tuple(v) if isinstance(v, list) else v for key, v in resolve(section, given, old).items()}
         return SECTIONS[section](**plain) if old is None else replace(old, **plain)
 
 
-def in_key_unit(section: str, key: str, value: Any) -> Any:
-    """``value`` as a number in the unit of the ``key``, if it is text with a unit, or a name that stands for a typical
-    value (typical.toml); of a key without a unit, as it is."""
+def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, float] | None]:
+    """``value`` as a number in the unit of the ``key``, and the range in which it is known to lie (None: it is given).
+
+    It may be text with a unit; a name that stands for a typical value and its range (typical.toml); and for such keys
+    [low, high], whose middle is the value, or [value, low, high]. A key without a unit is taken as it is.
+    """
     name = f"{section}.{key}"
     if name not in KEYS:
-        return value
+        return value, None
     known = typical(name)
-    number = without_unit(name, validate.python_value(value), KEYS[name].unit, known)
-    return known[number][0] if isinstance(number, str) and number in known else number
+    given = without_unit(name, validate.python_value(value), KEYS[name].unit, known)
+    if isinstance(given, str) and given in known:
+        given = known[given]
+    if not known or not isinstance(given, (list, tuple)):
+        return given, None
+    if len(given) not in (2, 3) or not all(isinstance(v, (int, float)) for v in given):
+        raise InputError(f" = {validate.shown(value)}", name, "a number, [low, high], or [value, low, high]")
+    low, high = given[-2:]
+    return (given[0] if len(given) == 3 else 0.5 * (low + high)), (float(low), float(high))
+
+
+def ranges_of(section: str, values: Any) -> dict[str, tuple[float, float] | None]:
+    """The ranges of ``values``, which are given for a ``section``, by "section.key" of each that may have one; of a
+    whole section, None for all."""
+    keys = SECTIONS[section].__dataclass_fields__ if not isinstance(values, dict) else values
+    ranged = [key for key in keys if typical(f"{section}.{key}")]
+    whole = not isinstance(values, dict)
+    return {f"{section}.{key}": None if whole else read_value(section, key, values[key])[1] for key in ranged}
 
 
 def changed_section(section: str, old: Any, values: Any) -> Any:

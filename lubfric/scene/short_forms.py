@@ -27,7 +27,7 @@ from ..oil import (
 )
 from ..surface import PER_SQ
 from ..units import HV
-from .bodies import pair
+from .bodies import friction_of, pair
 from .plausible import packaged
 
 MOST_SPEEDS = 1_000_000
@@ -57,6 +57,8 @@ def resolve(section: str, given: dict, old=None) -> dict:
         if together(section, given, *keys):
             values = [given.pop(key) for key in keys]
             given = plain(*values, given, old) | given
+    if "boundary_friction_coefficient" in given:
+        given = friction_of(given.pop("boundary_friction_coefficient")) | given
     return resolve_oil(given, old) if section == "lubricant" else given
 
 

@@ -31,7 +31,7 @@ from ..contact import (
 )
 from ..contact import check_grid as check_map
 from ..errors import InputError
-from ..scene import Scene, check_resolved_gap, resolves_gap, told_doubts
+from ..scene import Bodies, Scene, check_resolved_gap, resolves_gap, told_doubts
 from ..surface import Surface
 from .checks_before import beforehand
 from .validity import Validity
@@ -226,11 +226,21 @@ def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | 
     return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)
 
 
+def at_speed(prepared: Prepared, speed: float) -> Prepared:
+    """``prepared`` with the f_b that it has at ``speed`` [m/s]."""
+    scene = prepared.scene.at_speed(speed)
+    return prepared if scene == prepared.scene else prepare(scene, like=prepared)
+
+
 def _same_contact(scene: Scene, old: Scene) -> bool:
     """Whether contact and cells of both scenes are the same to the bit."""
     names = "tolerance", "contact_tolerance", "workers", "sampling", "grid", "model"
     same = all(getattr(scene.numerics, name) == getattr(old.numerics, name) for name in names)
-    return same and scene.bodies == old.bodies
+    return same and _without_friction(scene.bodies) == _without_friction(old.bodies)
+
+
+def _without_friction(bodies: Bodies) -> Bodies:
+    return replace(bodies, boundary_friction_coefficient=0.0, boundary_friction_table=None)
 
 
 def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:

@@ -17,7 +17,7 @@ from lubfric.output.fields import fields_bytes, grid_bytes
 from lubfric.output.pictures import plot_contact, plot_history, plot_stribeck, plot_traction
 from lubfric.studies import csv_bytes, plot_map
 
-UNITS = {  # of the columns of results, typed from docs/results.md
+UNITS = {  # of the columns of results, typed by hand
     **dict.fromkeys(
         ("contact_load", "film_load", "shear_force", "couette_force", "rolling_force", "boundary_force"), "N"
     ),
