@@ -55,10 +55,13 @@ class Point:
     def line(self, film_load: float) -> LineContact:
         """The smooth line contact of a film that carries ``film_load`` [N]. Unless the film is deflected by its own
         pressure alone, it has Johnson's modulus E' F_H/F_T, with which the Hertz strip is that of the whole load (K. L.
-        Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108, doi:10.1016/0043-1648(72)90445-0)."""
+        Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108, doi:10.1016/0043-1648(72)90445-0). Shear thins its
+        flow, by the law of the lubricant."""
         bodies = self.scene.bodies
         share = film_load / bodies.load if self.scene.numerics.film_deflection == "scaled" else 1.0
-        return LineContact(film_load / bodies.width, bodies.radius, bodies.e_prime * share, self.speed, self.oil)
+        sliding = self.scene.motion.slide_roll_ratio * abs(self.speed)
+        load, e_prime = film_load / bodies.width, bodies.e_prime * share
+        return LineContact(load, bodies.radius, e_prime, self.speed, self.oil, sliding)
 
     def film(self, film_load: float, start: EHLResult | None = None, cells: int = 0) -> EHLResult:
         """The film that carries ``film_load`` [N]."""
