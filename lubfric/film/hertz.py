@@ -180,6 +180,18 @@ class LineContact:
         return self.film_unit * formulas.moes_film(self.M, self.L)
 
     @cached_property
+    def expected_film(self) -> float:
+        """`moes_film` [m], as much thinner as a starved inlet and Carreau's law make it by closed forms; a rough
+        guess."""
+        film, oil = self.moes_film, self.lubricant
+        if oil.carreau is not None and self.sliding is not None:
+            number = oil.viscosity * abs(self.entrainment_speed) / (film * oil.carreau[0])
+            film *= formulas.thinned_share(number, oil.carreau[1], self.sliding / self.entrainment_speed)
+        if oil.inlet_length is not None:
+            film *= formulas.starved_share(oil.inlet_length, math.sqrt(2 * self.radius * film), self.half_width)
+        return film if oil.inlet_film is None else min(film, oil.inlet_film)
+
+    @cached_property
     def rigid_film(self) -> float:
         """Smallest film [m] of rigid bodies and constant viscosity, 4.895 eta0 |U| R/w."""
         return rigid_cylinder.isoviscous_min_film(
