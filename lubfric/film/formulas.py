@@ -89,8 +89,8 @@ def starved_inlet(share, length, half_width) -> float:
 
 def flooded_inlet(length, half_width) -> float:
     """How far upstream of the dry contact a flooded film builds up: ``3.52 (R h_flooded)^(2/3) b^(-1/3)`` (L. D.
-    Wedeven, D. Evans, A. Cameron, J. Lubr. Technol. 93 (1971) 349-363; the number is cited from memory) where the half-width b is
-    far above l = √(2 R h_flooded) (``length``); b + l takes the place of b."""
+    Wedeven, D. Evans, A. Cameron, J. Lubr. Technol. 93 (1971) 349-363; the number is cited from memory) where
+    the half-width b is far above l = √(2 R h_flooded) (``length``); b + l takes the place of b."""
     return 3.52 * 0.25 ** (1 / 3) * length * (length / (length + half_width)) ** (1 / 3)
 
 

@@ -156,8 +156,8 @@ def _validity(scene: Scene, surface: Surface, speeds: list[float]) -> list[str]:
 
 
 def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
-    """At some speeds of the scene: Moes numbers and the expected film under the whole load, whether the summits touch, and
-    what the sample costs."""
+    """At some speeds of the scene: Moes numbers and the expected film under the whole load, whether the summits touch,
+    and what the sample costs."""
     summit = float(surface.heights.max() - surface.heights.mean())
     head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (um)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
     rows = ["  film of the whole load by closed forms, and whether it clears the summits", head]

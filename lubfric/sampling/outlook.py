@@ -29,8 +29,8 @@ SURE = 2.0  # factor between the expected film and any film: outside of it conta
 @dataclass(frozen=True)
 class Forecast:
     """To an order of magnitude, at one ``speed`` [m/s]: in words, whether the summits touch; ``clearance`` [Sq] between
-    the expected film of the whole load and the highest summit; ``error``: relative standard error of f after the first strips;
-    ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the
+    the expected film of the whole load and the highest summit; ``error``: relative standard error of f after the first
+    strips; ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the
     deterministic model (0: Eq. (8) alone answers); and the processor time [s]."""
 
     speed: float
@@ -76,8 +76,8 @@ def forecast(scene: Scene, strips: Strips | None, sq: float, summit: float, spee
 
 
 def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float, scatter: float) -> tuple[int, float]:
-    """Number of strips of the deterministic model, and their work [s]. ``film`` [m]: expected; ``scatter``: of f between
-    strips, relative."""
+    """Number of strips of the deterministic model, and their work [s]. ``film`` [m]: expected; ``scatter``: of f
+    between strips, relative."""
     numerics = scene.numerics
     thick = film**2 * numerics.model_tolerance > OF_FILM * sq**2
     if (
