@@ -16,6 +16,7 @@ import lubfric
 from lubfric._base import read_table
 from lubfric.output import main
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.003, 0.01, 0.03, 0.1, 0.3]\n" + SMALL_PATCH
 HISTORY = (
@@ -24,6 +25,8 @@ HISTORY = (
 )
 COUNTED = """
 import sys
+from pictures import leave_out
+leave_out()
 from lubfric.studies import points
 real = points.friction
 def counted(*arguments, **options):
@@ -36,13 +39,15 @@ sys.exit(main(["run", *sys.argv[1:2], "--out", *sys.argv[2:]]))
 """
 SHARED = """
 import os, signal, sys, time
+from pictures import leave_out
+leave_out()
 from lubfric.studies import points
 real, command = points.friction, os.getpid()
 def dying(model, speed, **options):
     if os.getpid() != command and speed in (0.003, 0.3):
         if sys.argv[3] == "worker":
             os.kill(os.getpid(), signal.SIGKILL)
-        time.sleep(60)
+        time.sleep(900)
     return real(model, speed, **options)
 points.friction = dying
 from lubfric.output.command_line import main
@@ -56,7 +61,7 @@ def written(folder, text=SCENE):
 
 
 def start(scene, out, *more, code=COUNTED, **options):
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
+    environment = os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{ROOT / 'tests'}", "OMP_NUM_THREADS": "1"}
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
     return subprocess.Popen([sys.executable, "-c", code, scene, str(out), *more], env=environment, **options)
 
@@ -205,7 +210,7 @@ def test_processes_share_a_run_to_the_same_bits(tmp_path, whole):
 def test_a_killed_worker_loses_nothing(tmp_path, whole):
     out = tmp_path / "out"
     process = start(written(tmp_path), out, "worker", code=SHARED)
-    told = process.communicate(timeout=120)
+    told = process.communicate(timeout=600)
     assert process.returncode == 0, told
     complete(out)
     same(out, whole)
@@ -216,11 +221,11 @@ def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tm
     out = tmp_path / "out"
     process = start(written(tmp_path), out, "command", code=SHARED)
     said = []
-    while sum("U = " in line for line in said) < 3:  # the others wait for a minute
+    while sum("U = " in line for line in said) < 3:  # the others wait
         said.append(process.stderr.readline())
         assert said[-1], said
     process.send_signal(sent)
-    text = process.communicate(timeout=30)[1]  # the ends of its pipes that its processes hold are closed
+    text = process.communicate(timeout=600)[1]  # the ends of its pipes that its processes hold are closed
     assert process.returncode == code
     if sent == signal.SIGINT:
         assert text == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command goes on from there\n"
