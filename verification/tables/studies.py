@@ -6,9 +6,11 @@ A study runs once in a process, however many tables are made of it.
 import re
 from collections.abc import Callable
 from functools import cache
+from itertools import takewhile
 
 from .. import wording
 from ..check import Check
+from ..references import SOURCES, Source
 from ..run import Outcome, quiet, run_one
 from ..studies import STUDIES
 from .measured import Cells
@@ -110,7 +112,6 @@ def publications() -> Cells:
     """How many checks of `python -m verification published` passed, and how far ours is off: every source that differs
     somewhere, and all others together."""
     from ..published import STUDIES as parts
-    from ..references import SOURCES
 
     checks = [c for part in parts.values() for c in run_one(part, LEVEL, quiet).checks]
     groups: dict[str, list[Check]] = {}
@@ -118,14 +119,24 @@ def publications() -> Cells:
     for source in SOURCES.values():
         mine = [c for c in checks if c.source == source.text]
         alike = all(c.passed for c in mine)
-        agreed += [source.short] if alike else []
-        groups.setdefault("others" if alike else source.short, []).extend(mine)
+        agreed += [short(source)] if alike else []
+        groups.setdefault("others" if alike else short(source), []).extend(mine)
     groups["; ".join(agreed)] = groups.pop("others")
     rows = []
     for name, mine in groups.items():
         off = [round(100 * (c.measured / c.expected - 1), 4) + 0.0 for c in mine]
         rows.append([name, f"{sum(c.passed for c in mine)} of {len(mine)}", f"{min(off):+.2g} to {max(off):+.2g} %"])
     return ["source", "passed", "ours off by"], rows
+
+
+def short(source: Source) -> str:
+    """Surnames, year and place, as in "Dowson, Toyoda 1978, central film"."""
+    person = re.compile(r"([A-Z]\. )+[\w-]+( et al\.| \d+)?")
+    people = takewhile(person.fullmatch, source.words.split(", "))
+    names = [re.sub(r"^([A-Z]\. )+| \d+$", "", part) for part in people]
+    year = re.search(r"\b(18|19|20)\d\d\b", source.words)
+    who = ", ".join(names) if len(names) < 3 else f"{names[0]} et al."
+    return f"{who} {year[0]}, {source.place}" if names and year else f"{source.words}, {source.place}"
 
 
 TABLES: dict[str, Callable[[], Cells]] = {
