@@ -6,7 +6,17 @@ an error of the gap. `checks` are the assumptions of the model.
 """
 
 from .balance import Balance, solve_balance
-from .checks import judged, of_deflection, of_ends, of_error, of_film, of_motion, of_pressure, of_thickness, of_typical_heat
+from .checks import (
+    judged,
+    of_deflection,
+    of_ends,
+    of_error,
+    of_film,
+    of_motion,
+    of_pressure,
+    of_thickness,
+    of_typical_heat,
+)
 from .checks_before import expected
 from .forces import Forces, forces
 from .heat import Heat, film_lubricant, inlet_at, point_heat, typical_heat
