@@ -53,6 +53,15 @@ def timed(work):
     return work(), time.process_time() - begun
 
 
+def summary(rows: list[list[str]]) -> list[list[str]]:
+    """The least, the median and the largest of every column but the first, in the words of the rows."""
+    lines = []
+    for name, *texts in list(zip(COLUMNS, *rows))[1:]:
+        texts.sort(key=lambda text: float(text.rstrip("%")))
+        lines.append([name, texts[0], texts[len(texts) // 2], texts[-1]])
+    return lines
+
+
 def main() -> None:
     """Run and print."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -81,7 +90,7 @@ def main() -> None:
         errors = [f"{error:.2%}" for error in (auto.report.residual, *missed)]
         rows.append([str(number), str(auto.speed.size), *errors, f"{spent / usual:.2f}"])
         print(" | ".join(rows[-1]), flush=True)
-    page.write("chosen-speeds", COLUMNS, rows, (parser, arguments))
+    page.write("chosen-speeds", ("of all scenes", "least", "median", "most"), summary(rows), (parser, arguments))
 
 
 if __name__ == "__main__":

@@ -87,22 +87,18 @@ def stopped(heights, load, reference, seconds):
     return [("tamaas", np.nan, error, spent, spent, spent)]
 
 
-COLUMNS = ("surface, grid, mean pressure", "lubfric: CPU s, error", "aspher: CPU s, error", "ratio")
-
-
-def cells_of(rows) -> list[list[str]]:
-    """The table of the page, a row for each case."""
+def of_page(rows) -> tuple[list[str], list[list[str]]]:
+    """The table of the page: a row for each surface and grid, a column for each load."""
+    loads = sorted({r["load"] for r in rows})
     lines = []
-    for case in dict.fromkeys((r["surface"], r["cells"], r["load"]) for r in rows):
-        found = {r["name"]: r for r in rows if (r["surface"], r["cells"], r["load"]) == case}
-        ours, theirs = found["lubfric"], found.get("aspher")
-        words = [
-            f"{r['median']:.3g} [{r['low']:.3g}, {r['high']:.3g}], {r['error']:.0e}" if r else ""
-            for r in (ours, theirs)
-        ]
-        ratio = f"{theirs['median'] / ours['median']:.1f}" if theirs else ""
-        lines.append([f"{case[0]}, {case[1]}², {case[2]:g} MPa", *words, ratio])
-    return lines
+    for surface_and_cells in dict.fromkeys((r["surface"], r["cells"]) for r in rows):
+        lines.append(["{}, {}²".format(*surface_and_cells)])
+        for load in loads:
+            here = [r for r in rows if (r["surface"], r["cells"], r["load"]) == (*surface_and_cells, load)]
+            seconds = {r["name"]: r["median"] for r in here}
+            ratio = f", {seconds['aspher'] / seconds['lubfric']:.1f}" if "aspher" in seconds else ""
+            lines[-1].append(f"{seconds['lubfric']:.3g} s{ratio}" if seconds else "")
+    return ["surface, grid", *(f"{load:g} MPa" for load in loads)], lines
 
 
 def case_rows(kind, cells, load, solvers, heights, options, kept) -> list[dict]:
@@ -140,7 +136,7 @@ def main() -> None:
     options = parser.parse_args()
     if options.rows:
         rows = [row for path in options.rows for row in json.loads(path.read_text())]
-        page.write("contact-aspher", COLUMNS, cells_of(rows), (parser, options))
+        page.write("contact-aspher", *of_page(rows), (parser, options))
     else:
         run(parser, options)
 
@@ -160,7 +156,7 @@ def run(parser, options) -> None:
                 for path, text in ((options.kept, kept), (options.json, rows)):
                     if path:
                         path.write_text(json.dumps(text, indent=1))
-                page.write("contact-aspher", COLUMNS, cells_of(rows), (parser, options))
+                page.write("contact-aspher", *of_page(rows), (parser, options))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What only the comparison with the paper needs (docs/figures.md)."""
+"""What only the comparison with the paper needs (docs/paper.md)."""
 
 from .differential import solve_differential_deflection
 from .differential_transient import solve_differential_transient

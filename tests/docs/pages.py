@@ -28,6 +28,12 @@ def blocks(page: Path) -> list[Block]:
     return [Block(page, m["language"].strip(), m["body"], text[: m.start()].count("\n") + 1) for m in found]
 
 
+def files(page: Path) -> dict[str, str]:
+    """Files that the page asks the reader to save: a TOML block after a line that ends with the name."""
+    named = re.findall(r"`([\w.]+\.toml)`:\n\n```toml\n(.*?)^```$", page.read_text("utf-8"), re.DOTALL | re.MULTILINE)
+    return dict(named)
+
+
 def prose(page: Path) -> str:
     """The page without its fenced blocks and quoted code."""
     return re.sub(r"`[^`\n]*`", "", FENCE.sub("", page.read_text(encoding="utf-8")))

@@ -10,7 +10,7 @@ import tomllib
 
 import matplotlib.pyplot
 import pytest
-from pages import PAGES, ROOT, blocks
+from pages import PAGES, ROOT, blocks, files
 
 import lubfric
 from lubfric.output import main
@@ -19,10 +19,16 @@ from verification.__main__ import main as verification
 
 PYTHON = [page for page in PAGES if any(b.language == "python" for b in blocks(page))]
 SHELL = [page for page in PAGES if any(b.language == "sh" for b in blocks(page))]
-LONG = {"studies.md", "transient.md", "deterministic.md", "curves.md"}  # more than a second or two
+LONG = {"start.md", "studies.md", "transient.md", "deterministic.md"}  # more than a second or two
 RIG = "U [mm/s];mu\n1;0.118\n3;0.114\n10;0.094\n30;0.055\n100;0.032\n300;0.052\n"  # what a rig may have measured
 LANGUAGES = ("python", "sh", "toml", "text")
 LEFT_TO_THE_CI = ("python3 -m venv", "pip install", "git clone", "-m pytest", "bash .ci/run", "sphinx-build", "apt-get")
+
+
+def written(page, folder):
+    """The files that the page wants there, and what a rig may have measured."""
+    for name, text in {"rig.csv": RIG, **files(page)}.items():
+        (folder / name).write_text(text, encoding="utf-8")
 
 
 def cases(pages):
@@ -37,10 +43,10 @@ def test_every_block_says_what_it_is(page):
 
 
 @pytest.mark.parametrize("page", cases(PYTHON))
-def test_python_blocks_run(page, tmp_path, monkeypatch):
+def test_python_blocks_run(page, tmp_path, monkeypatch, load_sharing):
     monkeypatch.chdir(tmp_path)
     matplotlib.use("Agg")
-    (tmp_path / "rig.csv").write_text(RIG, encoding="utf-8")
+    written(page, tmp_path)
     namespace = {"__name__": "__main__"}
     for block in blocks(page):
         if block.language == "python":
@@ -79,7 +85,7 @@ def test_lubfric_command_lines_run(page, tmp_path, monkeypatch):
     """In one folder with the checkout's scenes and examples, one after the other, as the page tells them."""
     monkeypatch.chdir(tmp_path)
     shutil.copytree(ROOT / "docs" / "examples", tmp_path / "docs" / "examples")
-    (tmp_path / "rig.csv").write_text(RIG, encoding="utf-8")
+    written(page, tmp_path)
     for words in command_lines(page):
         if is_for(words, "lubfric"):
             assert main(words[1:]) == 0, words

@@ -97,14 +97,17 @@ def test_a_load_the_model_cannot_carry_is_not_a_number(small):
 
 @pytest.mark.parametrize("name", ["fig2", "fig4", "fig9", "fig10"])
 def test_the_command_writes_picture_data_and_page(name, tmp_path):
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs" / "paper.md").write_text("# A page\n<!-- figures -->\nold\n<!-- end of figures -->\nkept\n")
     assert main(["figures", "--only", name, "--quick", "--out", str(tmp_path), "--docs", str(tmp_path / "docs")]) == 0
     picture = (tmp_path / f"{name}.png").read_bytes()
     assert picture.startswith(b"\x89PNG") and 5_000 < len(picture) < 150_000
     with (tmp_path / f"{name}.csv").open() as file:
         heading, *rows = csv.reader(file)
     assert len(rows) >= 2 and all(len(row) == len(heading) for row in rows)
-    page = (tmp_path / "docs" / "figures.md").read_text()
+    page = (tmp_path / "docs" / "paper.md").read_text()
     assert "**Agrees.**" in page and "**Differs, and why.**" in page and "nan" not in page
+    assert page.startswith("# A page\n") and "old" not in page and page.endswith("<!-- end of figures -->\nkept\n")
     assert f"images/{name}.png" in page and (tmp_path / "docs" / "images" / f"{name}.png").read_bytes() == picture
     (study,) = json.loads((tmp_path / "report.json").read_text())["studies"]
     assert study["checks"] and study["passed"]

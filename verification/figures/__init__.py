@@ -52,4 +52,4 @@ def _document(report: Report, options: Namespace) -> str:
     if not options.docs:
         return ""
     page.write(options.docs, [f for outcome in report.outcomes for f in outcome.figures])
-    return f"written: {options.docs / 'figures.md'}"
+    return f"written: {options.docs / 'paper.md'}"

@@ -161,11 +161,9 @@ def _differs(curves) -> str:
         lines.append(f"{acf}: {a:+.0f} % (under the cylinder), {b:+.0f} % (flat strip)")
     return (
         "The paper's asperity curve lies clearly above the other two. On generated surfaces its largest deviation from "
-        f"the elastic half-space is {'; '.join(lines)}. Which way it goes depends on the roughness. On the flat strip, "
-        "fine ripples (exponential) put the asperity model above, broad summits below. Under the cylinder, independent "
-        "asperities also miss the flattening by the whole contact load: they carry it on a shorter strip. The paper's "
-        "surface, its definition of an asperity and the measured friction in numbers are not published. So none of "
-        "them is drawn."
+        f"the elastic half-space is {'; '.join(lines)}. On the flat strip, fine ripples (exponential) put the asperity "
+        "model above, broad summits below. Under the cylinder, independent asperities also miss the flattening by the "
+        "whole contact load. The paper's surface, asperities and measured friction in numbers are not published."
     )
 
 
@@ -200,10 +198,9 @@ def pressure_map(quick: bool, run: Run) -> PaperFigure:
         f"Almost all of the load is carried by few, small contact spots: F_C = {c1:.3f} and {c2:.3f} N, F_H = "
         f"{h1:.3f} and {h2:.3f} N (paper: 5.275 and 0.225 N), {spots1} and {spots2} spots. "
         f"{reached if top2 >= 6e9 else ''}",
-        "The paper's surface is not published. On the smooth (Gaussian) surrogate the highest pressure is "
-        f"{top1 / 1e9:.1f} GPa. Only the sharper summits of the exponential one yield. The dashed lines are the Hertz "
-        "strip, over which Eq. (8) is balanced. Contact reaches beyond it, because summits stand up to three Sq above "
-        "the mean plane.",
+        f"On the smooth (Gaussian) surface the highest pressure is {top1 / 1e9:.1f} GPa. Only the sharper summits of "
+        "the exponential one yield. Contact reaches beyond the Hertz strip (dashed), because summits stand up to three "
+        "Sq above the mean plane.",
         canvas,
         {"fig9": (headings, rows)},
         (
@@ -247,10 +244,9 @@ def sections(quick: bool, run: Run) -> PaperFigure:
         "In boundary lubrication the separation cuts through the summits. In full film it clears them.\n\n- "
         + "\n- ".join(words)
         + "\n",
-        "h_s has the form of h, as in the paper, and is offset by epsilon. Where the surface is drawn above h_s, the "
-        "contact deflects it: the gap h_s - z + u is zero there (last column of the table). In this line-contact "
-        "kernel u is known up to a constant. So the distance between h_s and z depends on that constant, and the gap "
-        "does not. The section is one of the generated surface of the built-in scene; the paper's is not published.",
+        "Where the surface is drawn above h_s, the contact deflects it: the gap h_s - z + u is zero there (last column "
+        "of the table). In this line-contact kernel u is known up to a constant, so the distance between h_s and z "
+        "depends on it, and the gap does not. The section is one of the generated surface.",
         canvas,
         {"fig10": (("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)},
         (Check("smallest gap over Sq", min(r[5] for r in rows) / 100e-9, 0.0, 0.01, "no penetration", AT_LEAST),),

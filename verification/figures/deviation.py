@@ -118,9 +118,7 @@ def friction_curves(quick: bool, run: Run) -> PaperFigure:
         "The curves meet in boundary and in full-film lubrication and differ between. The asperity model lies above. "
         f"The largest difference is at {at[0]:.2g} and {at[1]:.2g} m/s for L = 34 and 57 µm (paper: about 0.1 m/s).",
         f"The difference is larger for the longer length here ({100 * d[0]:.0f} and {100 * d[1]:.0f} % of the "
-        "half-space value). The paper has it the other way round: see Fig. 6. The load of Fig. 5 is not stated; 200 "
-        f"MPa is a choice. The tables of this figure against `lubfric.friction`: {table:.5f} and {check:.5f} at "
-        f"{at[0]:.2g} m/s (asked for: 1 %).",
+        "half-space value). The paper has it the other way round: see Fig. 6. The paper does not state the load.",
         canvas,
         {"fig5": (("L [m]", "speed [m/s]", "f, summits [-]", "f, half-space [-]"), rows)},
         (Check("f from the tables of this figure", table, check, 0.02, "lubfric.friction, asked for 1 %"),),
@@ -241,18 +239,14 @@ def _verdict(rows, loads, scatter) -> tuple[str, str]:
     )
     differs = (
         f"d does *not* shrink with L: at 57 µm it is {min(ratio):.1f} to {max(ratio):.1f} times that at 34 µm, and "
-        f"{smaller}. Our reading of why: less pressure flattens a longer wave of the same height (E' Sq/L). So the "
-        "summits on one hill share the load over a wider area, and independent asperities err more. Fig. 4 varies the "
-        "spacing of *equal* asperities, which L does not.\n\nOther readings of the paper:\n\n"
+        f"{smaller}. Our reading: less pressure flattens a longer wave of the same height (E' Sq/L), so the summits on "
+        "one hill share the load over a wider area, and independent asperities err more. Other readings:\n\n"
         "- On smooth (Gaussian) surfaces broad summits merge. The asperity model carries too *little* at a given gap, "
         "and d is negative.\n"
         "- Contact patches grow together, and cannot carry more than some 50 to 120 MPa.\n"
         "- L read at 0.1 of the autocorrelation roughens the surface and lowers d.\n"
-        "- Above some 300 MPa Newtonian shear at this sliding speed exceeds any measured friction by orders of "
-        "magnitude, and its d means nothing. The base therefore takes a Ree-Eyring film (5 MPa) limited at 0.05 p, "
-        "which is an assumption. It also takes Johnson's modulus, which keeps the film of a heavily loaded strip flat "
-        "(Sec. 3.1 has it constant).\n"
-        "- Mean or peak Hertz pressure only shifts the axis by 4/pi.\n\n"
+        "- Newtonian shear means nothing above some 300 MPa. The base takes a Ree-Eyring film (5 MPa) limited at 0.05 "
+        "p, and Johnson's modulus, which are assumptions.\n\n"
         "Values beyond 60 % are in the table, not in the picture."
     )
     return agrees, differs

@@ -1,5 +1,6 @@
-"""One figure as files, and the page that shows them all."""
+"""One figure as files, and the section of a page that shows them all."""
 
+import re
 import textwrap
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -10,14 +11,7 @@ from .. import plotting
 from ..check import Check, Figure
 from ..tables.pages import source
 
-DOCUMENT = """# The figures of the paper, computed here
-
-`python -m verification figures` computes Figs. 2 to 10 of Akchurin et al., Tribol. Lett. 59:19 (2015),
-[doi:10.1007/s11249-015-0536-z](https://doi.org/10.1007/s11249-015-0536-z), each as data (CSV), picture and
-verdict. `--only fig6` makes one of them, `--quick` takes small grids. The same command writes this page
-(`--docs docs`). Figs. 1 and 7 are left out: a sketch, and the measured surface, which is not published.
-
-"""
+SECTION = re.compile(r"(?<=<!-- figures -->\n).*(?=<!-- end of figures -->)", re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -42,24 +36,24 @@ class PaperFigure:
 
 def picture(figure: PaperFigure) -> Figure:
     """The picture, small enough for the documents, with its section of the page as caption."""
-    data = ", ".join(f"`{stem}.csv`" for stem in figure.tables)
     section = (
-        f"## {figure.title}\n\n![{figure.title}](images/{figure.name}.png)\n\n"
-        f"{wrapped(f'**Agrees.** {figure.agrees}')}\n\n"
-        f"{wrapped(f'**Differs, and why.** {figure.differs}')}\n\nData: {data}.\n"
+        f"### {figure.title}\n\n![{figure.name}](images/{figure.name}.png)\n\n"
+        f"{wrapped(f'**Agrees.** {figure.agrees}')}\n\n{wrapped(f'**Differs, and why.** {figure.differs}')}\n"
     )
     return plotting.compact(plotting.finish(figure.name, figure.canvas, section, "png", dpi=90), 144)
 
 
 def write(folder: Path, figures: Iterable[Figure]) -> None:
-    """Write figures.md, with the pictures in images/, into the documents of the project."""
+    """Write the section of figures in paper.md, and the pictures in images/, in the folder of the pages."""
     (folder / "images").mkdir(parents=True, exist_ok=True)
     sections = []
     for figure in figures:
         (folder / "images" / f"{figure.name}.png").write_bytes(figure.data)
         sections.append(figure.caption)
     last = source("python -m verification figures --docs docs")
-    (folder / "figures.md").write_text(DOCUMENT + "\n".join(sections) + f"\n{last}\n", encoding="utf-8")
+    page = folder / "paper.md"
+    text = SECTION.sub(lambda _: "\n" + "\n".join(sections) + f"\n{last}\n\n", page.read_text(encoding="utf-8"))
+    page.write_text(text, encoding="utf-8")
 
 
 def wrapped(text: str) -> str:

@@ -90,12 +90,11 @@ def sphere_array(quick: bool, run: Run) -> PaperFigure:
         "model, *when the mean deflection of the box is kept*, the load at a given separation falls as the spheres "
         "come closer, and tends to the asperity model as they move apart. Load over Hertz is "
         f"{', '.join(f'{r:.2f}' for r in falls)} at 14, 20, 30, 40 µm. That is the trend of Fig. 4.",
-        "The trend belongs to a convention. In a periodic cell the mean deflection can be chosen. When it is left "
-        f"out, the same solutions give {', '.join(f'{r:.2f}' for r in grows)}: closer spheres carry slightly *more*. "
-        "When it is kept, it grows with the box (here 2.24 p a/E', Love's kernel summed over 230 µm). So the spread "
-        "of the curves in Fig. 4 measures the size of the box as much as the interaction. In the friction model "
-        "Eq. (8) removes the mean, and the choice cancels.\n\nOne period is solved instead of 2000 x 2000 points. "
-        "None of the four spacings divides 230 µm, so the paper's array is not periodic.",
+        "In a periodic cell the mean deflection is a convention. When it is left out, the same solutions give "
+        f"{', '.join(f'{r:.2f}' for r in grows)}: closer spheres carry slightly *more*. When it is kept, it grows with "
+        "the box (here 2.24 p a/E', Love's kernel summed over 230 µm). So Fig. 4 measures the size of the box as much "
+        "as the interaction. In the friction model Eq. (8) removes the mean. One period is solved instead of 2000 x "
+        "2000 points; none of the four spacings divides 230 µm.",
         canvas,
         {"fig4": (headings, rows)},
         (

@@ -40,10 +40,10 @@ def generated_surfaces(quick: bool, run: Run) -> PaperFigure:
         "fig2",
         "Fig. 2: generated surfaces, L = 34 and 57 µm",
         f"Sq is 240 nm exactly and the measured lengths lie within {100 * off:.0f} % of those asked for (sampling "
-        "scatter of one map). The longer length gives broader hills and smaller slopes, as the paper shows.",
-        "The paper gives neither the shape of the autocorrelation function nor the level at which L is read. Both "
-        "common shapes are drawn, read at 1/e. The exponential one has fine ripples down to the grid (it has no "
-        "slope). The Gaussian one is smooth. The ripples decide what an asperity is in Figs. 5 and 6.",
+        "scatter of one map). The longer length gives broader hills and smaller slopes.",
+        "The paper gives neither the shape of the autocorrelation function nor the level at which L is read. The "
+        "exponential one has fine ripples down to the grid, the Gaussian one is smooth. The ripples decide what an "
+        "asperity is in Figs. 5 and 6.",
         canvas,
         {"fig2": (headings, rows)},
         (

@@ -29,7 +29,7 @@ CHANCE = 2.0  # standard errors of a proportion or ratio of few trials, granted 
 RATIO, BIAS = 0.15, 0.3  # of the reported error over the scatter from 1; of the sampling tolerance
 ENDLESS = "plain balances of long patches"
 SHARED = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
-COLUMNS = ("case", "trials", "coverage", "reported / scatter", "bias", "mean length", "mean time", "says few spots")
+COLUMNS = ("case", "trials", "coverage", "reported / scatter", "bias", "mean length", "mean time")
 
 
 @dataclass(frozen=True)
@@ -237,7 +237,6 @@ def row(result: Result) -> tuple[str, ...]:
         f"{100 * result.bias:+.2f} ± {100 * result.bias_error:.2f} %",
         f"{1e3 * result.column('length').mean():.3g} mm",
         f"{result.column('seconds').mean():.2g} s",
-        f"{100 * result.column('few').mean():.0f} %",
     )
 
 

@@ -17,6 +17,7 @@ from ..fem.thinned_film import Law, solve_thinned
 from ..fem.triangles import von_mises
 from ..meshes import mesh_field
 from ..parts import case_of
+from ..published.friction import force
 
 CONSTANT, COMPRESSIBLE = "constant", "dowson-higginson"
 POINTS = (
@@ -142,6 +143,7 @@ def point_checks(pair: Pair, level: str):
     rows = [
         ("flow film", "1", s.flow_film / k, pair.line.flow_film / k, allowed),
         ("smallest film", "1", s.min_film / k, pair.line.min_film / k, allowed),
+        ("rolling force", "N/m", s.rolling, force(pair.line, pair.line.contact.lubricant, 1e-9).rolling, allowed),
     ]
     yield from compared(pair.label, rows, SOLVER, note)
     if pair.point in TABLE:
