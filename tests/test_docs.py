@@ -34,7 +34,7 @@ def test_ci_runs_the_readme_test_command():
 
 
 @pytest.mark.parametrize("script", sorted((ROOT / "docs" / "examples").glob("*.py")), ids=lambda p: p.name)
-def test_examples_run(script, tmp_path, monkeypatch):
+def test_examples_run(script, tmp_path, monkeypatch, load_sharing):
     import runpy
 
     monkeypatch.chdir(tmp_path)
@@ -43,7 +43,7 @@ def test_examples_run(script, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("script", sorted((ROOT / "docs" / "gallery").glob("plot_*.py")), ids=lambda p: p.stem)
-def test_gallery_runs_and_draws(script, tmp_path, monkeypatch):
+def test_gallery_runs_and_draws(script, tmp_path, monkeypatch, load_sharing):
     """Every script of the gallery stands alone, and ends with a picture that has something in it."""
     import runpy
 

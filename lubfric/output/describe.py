@@ -155,10 +155,10 @@ def _validity(scene: Scene, surface: Surface, speeds: list[float]) -> list[str]:
 
 
 def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
-    """At some speeds of the scene: Moes numbers and Moes' film under the whole load, whether the summits touch, and
-    what the sample costs."""
+    """At some speeds of the scene: Moes numbers and the expected film under the whole load, whether the summits touch,
+    and what the sample costs."""
     head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (um)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
-    rows = ["  film of the whole load by Moes, and whether it clears the summits", head]
+    rows = ["  film of the whole load by closed forms, and whether it clears the summits", head]
     if strips is not None:
         dx, dy = strips.cells.coarse
         asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um"
@@ -170,8 +170,8 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
         one, film = forecast(scene, strips, surface, speed), f"{nothing:<38}"
         if speed != 0:
             line = scene.line_contact(abs(speed))
-            ratio = line.moes_film / surface.sq if surface.sq > 0 else math.inf
-            film = f"{line.M:9.3g} {line.L:8.3g} {line.moes_film * 1e6:10.4f} {ratio:8.3g}"
+            ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
+            film = f"{line.M:9.3g} {line.L:8.3g} {line.expected_film * 1e6:10.4f} {ratio:8.3g}"
         row = f"  {speed:<12.4g} {film}  {one.touching:<22} {one.clearance:>14.2g}"
         if strips is not None:
             row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"

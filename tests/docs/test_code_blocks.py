@@ -43,7 +43,7 @@ def test_every_block_says_what_it_is(page):
 
 
 @pytest.mark.parametrize("page", cases(PYTHON))
-def test_python_blocks_run(page, tmp_path, monkeypatch):
+def test_python_blocks_run(page, tmp_path, monkeypatch, load_sharing):
     monkeypatch.chdir(tmp_path)
     matplotlib.use("Agg")
     written(page, tmp_path)
