@@ -9,6 +9,7 @@ from .figures import (
     axes_or_new,
     field_image,
     friction_lines,
+    key_above,
     load_shares,
     log_if_wide,
     make_ready,

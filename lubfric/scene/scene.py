@@ -133,9 +133,10 @@ class Scene(Shown):
         return self.with_(**whole).with_(**parts)
 
     def line_contact(self, speed: float) -> LineContact:
-        """The smooth line contact of the whole load at ``speed`` [m/s], not 0."""
-        bodies = self.bodies
-        return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, self.lubricant)
+        """The smooth line contact of the whole load at ``speed`` [m/s], not 0. Shear thins its flow, by the law of the
+        lubricant."""
+        bodies, sliding = self.bodies, self.motion.slide_roll_ratio * abs(speed)
+        return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, self.lubricant, sliding)
 
     def to_toml(self) -> str:
         """The whole scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers.

@@ -18,6 +18,7 @@ from ..scene import Scene, load_scene, read_toml, scene_as_dict, speeds_of_range
 from .choose import AUTO, CHOSEN, MOST, asked_speeds
 from .codec import fits
 from .explain import explain
+from .law import conditions_of
 from .store import fingerprint
 from .vary import Axis, Between, axes_of, sample
 
@@ -100,6 +101,7 @@ def plan_as_dict(plan: StudyPlan) -> dict:
         "speeds": list(plan.speeds) or AUTO,
         "shape": list(plan.shape),
         "keys": list(plan.keys),
+        "conditions": plain([conditions_of(scene)._asdict() for scene in plan.scenes]),
     }
 
 

@@ -19,6 +19,7 @@ from ..scene import Scene
 from .choose import AUTO
 from .executor import checked_executor, spread
 from .interpolate import Interpolant, through
+from .law import law_of_study
 from .plan import StudyPlan, is_plan, plan_as_dict, plan_study
 from .points import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, row_of, solved, stored_rows
 from .store import Store, opened
@@ -53,7 +54,7 @@ class StudyResult(Shown):
     status: np.ndarray
     validity: np.ndarray
 
-    plot = plot
+    plot, law = plot, law_of_study
     to_csv, to_frame, to_parquet = to_csv, to_frame, to_parquet
     to_xarray, to_netcdf = to_xarray, to_netcdf
 
@@ -168,7 +169,7 @@ class StudyResult(Shown):
         try:
             found = through(numbers if self.chosen else numbers | {SPEED: self.coords[SPEED][1]})
             s = found.samples
-            return found if np.allclose(found.at(s.speed), s.boundary + s.film, rtol=1e-3) else None
+            return found if np.allclose(found.at(s.speed), s.boundary + s.film, rtol=1e-2) else None
         except ValueError:  # InputError, or that of an interpolation
             return None
 

@@ -17,6 +17,7 @@ from .choose import asked_speeds, next_speed, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
+from .law import Law, conditions_of, half_width, law_of
 from .points import Outcome, key_of, made_ready, outcome_of, solved
 from .store import opened
 from .tables import curve_axes
@@ -38,6 +39,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     uncertainty : arrays of the numbers of `Uncertainty`; ``interval`` is (n, 2)
     field_errors : {quantity: its relative errors, (n,)}
     report : whether all speeds were solved
+    scene : that was solved
     """
 
     SWEPT = "speed", "U", "m/s", "speeds"
@@ -45,6 +47,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     points: tuple[FrictionResult | None, ...]
     errors: dict[int, Exception]
     report: Report
+    scene: Scene
 
     @property
     def field_errors(self) -> dict[str, np.ndarray]:
@@ -75,6 +78,13 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     @cached_property
     def _curve(self) -> Interpolant:
         return through(columns_of(self.points))
+
+    def law(self) -> Law:
+        """The curve as a formula for system simulations, `lubfric.studies.law`: at one temperature and pressure;
+        ``lubfric.study(...).law()`` has more of them."""
+        low, high = self.uncertainty.interval.T
+        width = half_width(self.coefficient, low, high, self.uncertainty.model)
+        return law_of(self.scene.name, [(conditions_of(self.scene), self._curve)], width)
 
     def plot(self, ax=None, **style):
         """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
@@ -167,7 +177,8 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
     points, errors = parted([found.get(speed) for speed in asked or sorted(found)])
     speeds = np.array(asked or sorted(found))
     report = report_of("stribeck", [f"speed {u:g} m/s" for u in speeds], "speeds", points, errors)
-    curve = StribeckResult(**(columns_of(points) | {"speed": speeds}), points=points, errors=errors, report=report)
+    numbers = columns_of(points) | {"speed": speeds}
+    curve = StribeckResult(**numbers, points=points, errors=errors, report=report, scene=prepared.scene)
     if asked or len(points) - len(errors) < FEWEST:
         return curve
     return replace(curve, report=_with_interpolation(curve, tolerance_between(prepared)))

@@ -1,0 +1,292 @@
+"""A curve or a study as a formula f(U, T, p) for system simulations, fitted, with its error and range: as text, JSON
+and C."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+
+from .._base import Shown, plain
+from ..errors import InputError
+from ..scene import Scene
+from .codec import fits
+from .interpolate import Interpolant
+
+FINE = 50  # speeds of a curve to which a law is fitted, beside those that were solved
+CLOSE = 0.02  # relative error of a curve between its points, as it estimates it, up to which it is used
+FEWEST, MORE = 12, "solve more speeds, or speeds='auto'"
+ROUNDED = 1e-9  # by which a number may be outside a range
+AT_REST = 0.03  # of the slowest speed: below it f falls to nothing at rest
+WALTHER = "0.001*(pow(10.0, pow(10.0, A - B*log10(T))) - 0.7)"  # ASTM D341, of eta in mPa s
+FORMULA = {  # valid in Python and C, one name after the other
+    "V": "sqrt(U*U + u0*u0)",
+    "e": "eta/eta0",
+    "q": "p/p0",
+    "H": "V/U1*pow(e, a)*pow(q, c)",
+    "s": "pow(1.0 + pow(H, n)/m, -m)/(1.0 + r*H)",
+    "t1": "C1*pow(V/U0, k1)*pow(e, e1)*pow(q, d1)",
+    "t2": "C2*pow(V/U0, k2)*pow(e, e2)*pow(q, d2)",
+    "f": "U/V*(b*s + (1.0 - s)/(1.0/t1 + 1.0/t2))",
+}
+FUNCTIONS = {"sqrt": np.sqrt, "pow": np.power, "log10": np.log10, "__builtins__": {}}
+SHARE, FILM = ("b", "U1", "n", "m", "r"), ("C1", "k1", "C2", "k2")
+POSITIVE = {
+    "b": (1e-6, 10.0),
+    "U1": (1e-15, 1e15),
+    "n": (0.2, 10.0),
+    "m": (0.2, 50.0),
+    "r": (1e-6, 1e3),
+} | dict.fromkeys(("C1", "C2"), (1e-9, 1e9))  # searched in logarithms, between these bounds
+OTHERS = (-3.0, 3.0)  # bounds of the exponents
+SYMBOLS = {"speed": ("U", "m/s"), "temperature": ("T", "K"), "pressure": ("p", "Pa")}
+
+
+VARIED = ("lubricant.temperature", "lubricant.temperature_celsius", "bodies.load")
+
+
+class Conditions(NamedTuple):
+    """What a law knows of a scene: temperature of the oil [K], its viscosity there [Pa s], -d ln(viscosity)/dT [1/K]
+    (NaN where not known), mean Hertz pressure [Pa]."""
+
+    temperature: float
+    viscosity: float
+    coefficient: float
+    pressure: float
+
+
+@dataclass(frozen=True, repr=False)
+class Law(Shown):
+    """Friction coefficient over entrainment speed U [m/s], oil temperature T [K] and mean Hertz pressure p [Pa].
+
+    f = U/V (b s + (1 - s)/(1/t1 + 1/t2)), with s the share of the load on the contact spots, over U eta(T) as in a
+    Stribeck curve, and t1, t2 the traction of the film at low and at high stress. ``V = sqrt(U² + u0²)`` makes f zero
+    at rest, smooth, and odd: a force against the motion in both directions. ``text``, ``json`` and ``c`` say it for
+    people, programs and compilers.
+
+    Attributes
+    ----------
+    name : of the scene
+    numbers : of the formula, by name; SI
+    ranges : {"speed", "temperature", "pressure": (lowest, highest)} of the points; temperature NaN if not known
+    largest, rms : relative deviation from the solved points, and from the curve between them where it is sure
+    interval : largest half width of the 95 % intervals of the points, model included, relative; NaN if one is not known
+    """
+
+    name: str
+    numbers: dict[str, float]
+    ranges: dict[str, tuple[float, float]]
+    largest: float
+    rms: float
+    interval: float
+
+    def __call__(self, speed, temperature=None, pressure=None, *, extrapolate: bool = False):
+        """f at ``speed`` [m/s] (either sign), ``temperature`` [K] and ``pressure`` [Pa], numbers or arrays; None: in
+        the middle of the range. Raises `InputError` outside ``ranges``, unless ``extrapolate``. Slower than the slowest
+        point, f goes to 0 at rest."""
+        given = {"speed": speed, "temperature": temperature, "pressure": pressure}
+        for name, (low, high) in self.ranges.items():
+            if given[name] is None:
+                given[name] = 0.5 * (low + high)
+            values = given[name] = np.asarray(given[name], dtype=float)
+            if name == "speed":
+                low, values = 0.0, np.abs(values)
+            outside = values[(values < low * (1 - ROUNDED)) | (values > high * (1 + ROUNDED))]
+            if outside.size and not extrapolate:
+                unit = SYMBOLS[name][1]
+                way = "solve a wider range (lubfric.study(...).law()), or pass extrapolate=True"
+                raise InputError(f" = {outside[0]:.6g} {unit}", name, f"{low:.6g} to {high:.6g} {unit}", way)
+        return value(self.numbers, *given.values())
+
+    @property
+    def text(self) -> str:
+        """The formula, its numbers, range and error."""
+        (low, high), T, p = self.ranges.values()
+        known = f"the points within {100 * self.interval:.2g} % of the truth (95 %, model included)"
+        return "\n".join(
+            [
+                f"friction of {self.name} over U (m/s), T (K), mean Hertz pressure p (Pa)",
+                *(f"  {name} = {expression}" for name, expression in _expressions(self.numbers).items()),
+                "  with " + ", ".join(f"{name} = {number:.6g}" for name, number in self.numbers.items()),
+                f"  off by {100 * self.rms:.2g} % (rms), {100 * self.largest:.2g} % at most, from the solved curves; "
+                + (known if np.isfinite(self.interval) else "the error of the points is not known"),
+                f"  for |U| up to {high:.4g} m/s, slower than {low:.4g} m/s continued to 0 at rest; "
+                f"T {_range(T, 'K')}; p {_range(p, 'Pa')}",
+            ]
+        )
+
+    @property
+    def json(self) -> str:
+        """All of it as JSON, with units; ``formula`` is to be computed line by line."""
+        units = {name: unit for name, unit in SYMBOLS.values()}
+        return json.dumps(plain(asdict(self) | {"formula": _expressions(self.numbers), "units": units}), indent=1)
+
+    @property
+    def c(self) -> str:
+        """A C function ``double friction(double U, double T, double p, int *outside)``: ``outside`` (may be NULL)
+        becomes the sum of 1, 2, 4 where |U| is too large, T or p out of range, and f an extrapolation."""
+        comment = "\n".join(f" * {line}" for line in self.text.replace("*/", "* /").splitlines())
+        numbers = "".join(f"    const double {name} = {float(number)!r};\n" for name, number in self.numbers.items())
+        lines = "".join(f"    const double {name} = {code};\n" for name, code in _expressions(self.numbers).items())
+        (_, top), *others = self.ranges.values()
+        top *= 1 + ROUNDED
+        bits = [f"(U > {top!r} || U < {-top!r})"]
+        for bit, symbol, (low, high) in zip((2, 4), "Tp", others):
+            if low == low:  # known
+                bits.append(f"{bit}*({symbol} < {low * (1 - ROUNDED)!r} || {symbol} > {high * (1 + ROUNDED)!r})")
+        head = "double friction(double U, double T, double p, int *outside)"
+        told = f"    (void)T;\n    if (outside)\n        *outside = {' + '.join(bits)};\n"
+        return f"/*\n{comment}\n */\n#include <math.h>\n\n{head}\n{{\n{numbers}{told}{lines}    return f;\n}}\n"
+
+    def _facts(self) -> dict[str, str]:
+        return {"": self.name, "rms": f"{100 * self.rms:.2g} %", "largest": f"{100 * self.largest:.2g} %"}
+
+
+def _range(ends: tuple[float, float], unit: str) -> str:
+    low, high = ends
+    if low != low:
+        return "not known, and not used"
+    return f"{low:.5g} {unit} alone" if low == high else f"{low:.5g} to {high:.5g} {unit}"
+
+
+def conditions_of(scene: Scene) -> Conditions:
+    """The `Conditions` of a scene."""
+    oil = scene.lubricant
+    temperature, slope = (np.nan if v is None else v for v in (oil.temperature, oil.temperature_coefficient))
+    return Conditions(temperature, oil.viscosity, slope, scene.bodies.mean_hertz_pressure)
+
+
+def value(numbers: dict[str, float], U, T, p):
+    """f by the formula."""
+    names = numbers | {"U": U, "T": T, "p": p}
+    with np.errstate(over="ignore", under="ignore", divide="ignore"):
+        for name, expression in _expressions(numbers).items():
+            names[name] = eval(_code(expression), FUNCTIONS, names)
+    return names["f"]
+
+
+@cache
+def _code(expression: str):
+    return compile(expression, "law", "eval")
+
+
+def _expressions(numbers) -> dict[str, str]:
+    return {"eta": WALTHER if "A" in numbers else "eta0"} | FORMULA
+
+
+def law_of(name: str, curves: Iterable[tuple[Conditions, Interpolant]], interval: float) -> Law:
+    """The `Law` of solved curves with their conditions. ``interval``: relative half width of the points'. Raises
+    `InputError` where there is none, or f is not positive."""
+    rows = [np.zeros((7, 0))]
+    for known, curve in curves:
+        solved = curve.samples.speed
+        fine = np.geomspace(solved[0], solved[-1], FINE)
+        fine = np.append(solved, fine[curve.error(fine) < CLOSE])
+        rows.append(np.array(np.broadcast_arrays(fine, *known, curve.boundary(fine), curve.film(fine))))
+    U, T, eta, coefficient, p, boundary, film = np.concatenate(rows, axis=1)
+    f = boundary + film
+    if U.size < FEWEST:
+        raise InputError(f"a law needs {FEWEST} points that are known within {CLOSE:.0%}, and has {U.size}; {MORE}")
+    if not (f > 0).all():
+        raise InputError(
+            f"f = {f.min():.3g} at {U[f.argmin()]:.3g} m/s is not above 0: a law needs sliding in one sense"
+        )
+    numbers = {"u0": AT_REST * U.min(), "U0": _mean(U), "eta0": _mean(eta), "p0": _mean(p)}
+    numbers |= _viscosity(T, eta, coefficient)
+    numbers |= _fitted(numbers, (U, T, p), f, boundary, eta)
+    off = np.expm1(np.log(value(numbers, U, T, p) / f))
+    ranges = {n: (float(v.min()), float(v.max())) for n, v in (("speed", U), ("temperature", T), ("pressure", p))}
+    return Law(name, numbers, ranges, float(abs(off).max()), float(np.sqrt(np.mean(off**2))), interval)
+
+
+def law_of_study(result) -> Law:
+    """Friction of a study over speed and, as far as they were varied, temperature of the oil and load, as a formula for
+    system simulations (`lubfric.studies.law`). Raises `InputError` where anything else was varied."""
+    others = [key for axis in result.plan["axes"] for key in axis["keys"] if key not in VARIED]
+    if others:
+        raise InputError(
+            f"a law is over speed, temperature and load, and this study varies {', '.join(others)} as well"
+        )
+    known = result.plan.get("conditions")
+    if not fits(known, [dict.fromkeys(Conditions._fields, float | None)]):
+        raise InputError(
+            "study.json does not say temperatures and pressures; run the study again, which writes it anew"
+        )
+    curves = [
+        (Conditions(**{name: np.nan if v is None else v for name, v in one.items()}), result.curve(index))
+        for one, index in zip(known, np.ndindex(*result.status.shape[:-1]))
+    ]
+    ends = (result["uncertainty_low"], result["uncertainty_high"], result["uncertainty_model"])
+    width = half_width(result["coefficient"], *ends)
+    return law_of(result.plan["name"], [(one, curve) for one, curve in curves if curve is not None], width)
+
+
+def half_width(f, low, high, model) -> float:
+    """Largest relative half width of intervals of ``f`` from ``low`` to ``high``; NaN if the error ``model`` of one is
+    not known."""
+    widths = np.where(np.isfinite(model), 0.5 * (high - low) / np.abs(f), np.nan)[np.isfinite(f)]
+    return float(widths.max()) if widths.size else np.nan
+
+
+def _mean(values: np.ndarray) -> float:
+    return float(np.exp(np.log(values).mean()))
+
+
+def _viscosity(T, eta, coefficient) -> dict[str, float]:
+    """A and B of `WALTHER` through the viscosities, or through one with its slope; none without a temperature."""
+    if not np.isfinite(T).all():
+        return {}
+    x, y = np.log10(T), np.log10(np.log10(1e3 * eta + 0.7))
+    if np.ptp(T) > 0:
+        slope = np.polyfit(x, y, 1)[0]
+    else:
+        inner = 1e3 * eta[0] + 0.7
+        slope = -np.nan_to_num(coefficient[0]) * T[0] * 1e3 * eta[0] / inner / np.log(inner)
+    return {"A": float(np.mean(y - slope * x)), "B": float(-slope)}
+
+
+def _fitted(numbers, at, f, boundary, eta) -> dict[str, float]:
+    """The other numbers, by least squares of ln f from several starts."""
+    from scipy.optimize import least_squares
+
+    U, T, p = at
+    e, q = np.log(eta / numbers["eta0"]), np.log(p / numbers["p0"])
+    b = float(boundary.max())
+    share = boundary / b if b > 0 else boundary
+    start = dict.fromkeys(("a", "c", "e1", "e2", "d1", "d2", "k1", "k2"), 0.0)
+    start |= {
+        "b": b or 1.0,
+        "n": 1.0,
+        "m": 2.0,
+        "r": 0.5,
+        "a": 1.0,
+        "C1": float(np.median(f)),
+        "C2": float(np.median(f)),
+    }
+    start["U1"] = float((U * np.exp(e))[abs(share - 0.5).argmin()]) if b > 0 else 1e-12
+    moved = [name for name, moves in (("e", np.ptp(e) > 1e-9), ("d", np.ptp(q) > 1e-9)) if moves]
+    free = [*(SHARE if b > 0 else ()), *FILM, *(name + i for name in moved for i in "12")]
+    free += [{"e": "a", "d": "c"}[name] for name in moved if b > 0]
+    low, high = np.array([np.log(POSITIVE[name]) if name in POSITIVE else np.array(OTHERS) for name in free]).T
+
+    def read(z) -> dict[str, float]:
+        found = {name: float(np.exp(v)) if name in POSITIVE else float(v) for name, v in zip(free, z)}
+        return numbers | start | found
+
+    def left(z):
+        return np.log(np.maximum(value(read(z), U, T, p), 1e-9) / f)
+
+    found = []
+    for bend, steep in ((0.1, 1.0), (0.1, 2.0), (0.5, 1.0), (0.5, 2.0)):
+        tried = start | {"k1": bend, "k2": -bend, "C2": 3 * start["C2"], "n": steep}
+        z = [np.log(tried[name]) if name in POSITIVE else tried[name] for name in free]
+        found.append(
+            least_squares(
+                left, np.clip(z, low + 1e-6, high - 1e-6), bounds=(low, high), max_nfev=150, ftol=1e-6, xtol=1e-6
+            )
+        )
+    return read(min(found, key=lambda one: one.cost).x)

@@ -1,0 +1,123 @@
+"""A curve and a study as a formula: as close as it says, smooth and odd through rest, and the same in C."""
+
+import ctypes
+import json
+import math
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from small_study import SCENE
+
+import lubfric
+
+OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
+WARM, LOADS = [333.15, 353.15], [4.0, 8.0]  # K, N
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory):
+    vary = {"lubricant.temperature": WARM, "bodies.load": LOADS}
+    folder = tmp_path_factory.mktemp("law")
+    lubfric.study(SCENE.with_(lubricant=OIL), vary, np.geomspace(0.02, 3.0, 8), store=folder)
+    return lubfric.open_study(folder)
+
+
+@pytest.fixture(scope="module")
+def law(study):
+    return study.law()
+
+
+def by_hand(n, U, eta, p):
+    """The formula in words of one's own."""
+    V = math.hypot(U, n["u0"])
+    of_eta, of_p = math.log(eta / n["eta0"]), math.log(p / n["p0"])
+    H = V / n["U1"] * math.exp(n["a"] * of_eta + n["c"] * of_p)
+    share = (1 + H ** n["n"] / n["m"]) ** -n["m"] / (1 + n["r"] * H)
+    film = [
+        n[f"C{i}"] * (V / n["U0"]) ** n[f"k{i}"] * math.exp(n[f"e{i}"] * of_eta + n[f"d{i}"] * of_p) for i in (1, 2)
+    ]
+    return U / V * (n["b"] * share + (1 - share) * film[0] * film[1] / sum(film))
+
+
+def test_it_is_as_close_to_the_points_as_it_says(study, law):
+    f, speeds = study["coefficient"], study.coords["speed"][1]
+    off = []
+    for i, temperature in enumerate(WARM):
+        for j, load in enumerate(LOADS):
+            pressure = study.plan["conditions"][2 * i + j]["pressure"]
+            half_width = math.sqrt(8 * load / 6e-3 * 2e-3 / (math.pi * 231e9))
+            assert pressure == pytest.approx(load / 6e-3 / (2 * half_width), rel=1e-9)
+            off.append(law(speeds, temperature, pressure) / f[i, j] - 1)
+    assert np.abs(off).max() <= law.largest * (1 + 1e-9) and 0 < law.rms < law.largest < 0.06
+
+
+def test_between_the_points_a_solve_agrees(study, law):
+    scene = SCENE.with_(lubricant=OIL, bodies={"load": 6.0})
+    for speed in (0.03, 0.3, 2.0):
+        solved = lubfric.friction(scene, speed).coefficient
+        assert law(speed, 343.15, scene.bodies.mean_hertz_pressure) == pytest.approx(solved, rel=2 * law.largest + 0.01)
+
+
+def test_it_is_odd_and_smooth_through_rest(law):
+    U = np.linspace(-1.0, 1.0, 2001) * 3 * law.numbers["u0"]
+    f = law(U, 343.15)
+    np.testing.assert_allclose(f, -f[::-1], rtol=0, atol=1e-15)
+    assert f[1000] == 0.0 and np.isfinite(f).all() and (np.diff(f) > 0).all()
+    slopes = np.diff(f) / np.diff(U)
+    assert np.abs(np.diff(slopes)).max() < 0.01 * slopes.max()  # a kink would be a leap of the slope
+
+
+def test_text_json_and_formula_say_the_same(law):
+    told = json.loads(law.json)
+    assert told["units"] == {"U": "m/s", "T": "K", "p": "Pa"} and told["largest"] == law.largest
+    n, (low, high) = told["numbers"], told["ranges"]["temperature"]
+    assert (low, high) == tuple(WARM)
+    for U, T, p in ((0.03, 335.0, 9e7), (-0.5, 350.0, 1.2e8)):
+        nu = 10**10 ** (n["A"] - n["B"] * math.log10(T))
+        assert law(U, T, p) == pytest.approx(by_hand(n, U, 1e-3 * (nu - 0.7), p), rel=1e-9)
+    assert f"{100 * law.largest:.2g} % at most" in law.text and "333.15 to 353.15 K" in law.text
+
+
+def test_its_viscosity_is_that_of_the_oil(law):
+    oil = SCENE.with_(lubricant=OIL).lubricant.oil
+    for T in (333.15, 343.15, 353.15):
+        eta = 1e-3 * (10**10 ** (law.numbers["A"] - law.numbers["B"] * math.log10(T)) - 0.7)
+        assert eta == pytest.approx(oil.viscosity(T), rel=2e-3)
+
+
+def test_outside_it_refuses_or_extrapolates_where_asked(law):
+    for given in ((4.0,), (0.1, 300.0), (0.1, 343.0, 1e9)):
+        with pytest.raises(lubfric.InputError, match="allowed: .* to .*; .*extrapolate=True"):
+            law(*given)
+        assert np.isfinite(law(*given, extrapolate=True))
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no C compiler")
+def test_the_c_function_is_the_same_to_the_last_digits(law, tmp_path):
+    (tmp_path / "f.c").write_text(law.c)
+    flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-O2", "-shared", "-fPIC"]
+    subprocess.run(["gcc", *flags, "-o", tmp_path / "f.so", tmp_path / "f.c", "-lm"], check=True)
+    friction = ctypes.CDLL(str(tmp_path / "f.so")).friction
+    friction.restype, friction.argtypes = ctypes.c_double, [ctypes.c_double] * 3 + [ctypes.POINTER(ctypes.c_int)]
+    outside = ctypes.c_int(-1)
+    for at in ((0.0, 343.0, 1e8, 0), (0.03, 335.0, 1e8, 0), (-2.0, 350.0, 1e8, 0), (9.0, 300.0, 1e9, 7)):
+        found = friction(*at[:3], ctypes.byref(outside))
+        assert found == pytest.approx(law(*at[:3], extrapolate=True), rel=1e-12) and outside.value == at[3]
+    assert math.isfinite(friction(0.1, 343.0, 1e8, None))
+
+
+def test_a_curve_has_a_law_at_its_own_temperature_and_pressure():
+    curve = lubfric.stribeck(SCENE, np.geomspace(0.02, 3.0, 8))
+    law = curve.law()
+    assert np.abs(law(curve.speed) / curve.coefficient - 1).max() <= law.largest * (1 + 1e-9) < 0.06
+    assert "T not known, and not used" in law.text and law.ranges["pressure"][0] == law.ranges["pressure"][1]
+
+
+def test_what_it_cannot_hold_is_refused(study):
+    with pytest.raises(lubfric.InputError, match="solve more speeds, or speeds='auto'"):
+        lubfric.stribeck(SCENE, [0.02, 0.1, 3.0]).law()
+    varied = lubfric.study(SCENE, {"surface.sq": [1e-7, 2e-7]}, [1.0])
+    with pytest.raises(lubfric.InputError, match="varies surface.sq as well"):
+        varied.law()
