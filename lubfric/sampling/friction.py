@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import replace
 
 import numpy as np
 
 from .._base import validate
 from ..errors import ConvergenceError, InputError
 from ..scene import FASTEST, Scene, gap_not_resolved, moves, told_doubts
-from ..sharing import Prepared, at_speed, at_tolerance, refused
+from ..sharing import Prepared, at_speed, at_tolerance, lacking, refused
 from .answer import load_sharing_answer
 from .answer_deterministic import patch_answer, strips_answer
 from .errors_of import model_error
@@ -70,7 +71,10 @@ def friction(
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):
-        result = with_methods(prepared, with_ranges(prepared, _answer(prepared, speed, fields, begun)))
+        found = with_ranges(prepared, _answer(prepared, speed, fields, begun))
+    known = found.boundary_force / prepared.scene.bodies.load, found.coefficient
+    lacks = lacking(prepared.scene, prepared.surface.sq, speed, known) if math.isfinite(found.coefficient) else ()
+    result = replace(with_methods(prepared, found), lacks=lacks)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
