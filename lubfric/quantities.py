@@ -134,13 +134,7 @@ class UncertaintyQuantities(Generic[T]):
     area_needed: T = quantity(
         "-", "how many times more of a measured map would be needed", note="1: enough", default=1.0
     )
-    model: T = quantity(
-        "-",
-        "relative error of f by the model itself, at 95 %",
-        column="model_error",
-        note="in the interval; NaN where it is not known",
-        default=math.nan,
-    )
+    model: T = quantity("-", "relative error of f by the model, at 95 %", column="model_error", default=math.nan)
     inputs: T = quantity("-", "relative change of f by the ranges of inputs", column="input_error", default=0.0)
 
 
@@ -205,6 +199,7 @@ KEYS = {  # of a scene, as far as they are numbers
     "lubricant.viscosity": Quantity("Pa s", "viscosity at ambient pressure"),
     "lubricant.pressure_viscosity_coefficient": Quantity("1/Pa", "pressure-viscosity coefficient"),
     "lubricant.eyring_stress": Quantity("Pa", "Eyring stress"),
+    "lubricant.carreau": Quantity("Pa, -", "critical stress and exponent of Carreau's law"),
     "lubricant.limiting_stress_coefficient": Quantity("-", "limiting shear stress per pressure"),
     "lubricant.limiting_stress_offset": Quantity("Pa", "limiting shear stress at ambient pressure"),
     "lubricant.inlet_length": Quantity("m", "distance upstream of the contact where the lubricant begins"),

@@ -8,6 +8,7 @@ from types import ModuleType
 
 import pytest
 from hypothesis import settings
+from pictures import leave_out
 
 settings.register_profile("lubfric", deadline=None, derandomize=True)
 settings.load_profile("lubfric")
@@ -36,6 +37,27 @@ def pytest_collection_modifyitems(config, items) -> None:
 def root() -> Path:
     """The checkout: docs, examples and packages are found from here."""
     return Path(__file__).parents[1]
+
+
+@pytest.fixture
+def undrawn(monkeypatch) -> None:
+    """The pictures of `lubfric run` are not drawn, which takes most of its time."""
+    leave_out(monkeypatch.setattr)
+
+
+@pytest.fixture
+def load_sharing(monkeypatch) -> None:
+    """Scenes that leave the model open are solved by load sharing alone: pages and scripts run in a fraction of the
+    time, and what the default model answers is the matter of other tests."""
+    import lubfric
+
+    real = lubfric.load_scene
+
+    def load_scene(*arguments, **options):
+        scene = real(*arguments, **options)
+        return scene.with_(numerics={"model": "load-sharing"}) if scene.numerics.model == "auto" else scene
+
+    monkeypatch.setattr(lubfric, "load_scene", load_scene)
 
 
 @pytest.fixture

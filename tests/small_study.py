@@ -1,4 +1,6 @@
-"""A scene whose points take a moment, and what two studies have to have in common."""
+"""A scene whose points take a moment, what two studies have to have in common, and how slow this machine is now."""
+
+import time
 
 import numpy as np
 from scene_text import paper_scene
@@ -7,6 +9,8 @@ SCENE = paper_scene(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )
 
+REFERENCE = 0.06  # s
+
 
 def same(one, other):
     """Equal to the last bit but for the time taken."""
@@ -14,3 +18,13 @@ def same(one, other):
     np.testing.assert_array_equal(one.status, other.status)
     for name in one.columns.keys() - {"seconds"}:
         np.testing.assert_array_equal(one[name], other[name], err_msg=name)
+
+
+def slowness() -> float:
+    """Processor seconds that a fixed piece of work of the kind that points do takes at this moment over what it took
+    where forecasts were measured: in this unit, times of slow and of busy machines are those that are foretold."""
+    field, begun = np.linspace(0.0, 1.0, 52 * 800).reshape(52, 800), time.process_time()
+    for _ in range(100):
+        np.fft.irfft(np.fft.rfft(field))
+    sum(i % 7 for i in range(1_000_000))
+    return (time.process_time() - begun) / REFERENCE

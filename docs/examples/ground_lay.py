@@ -1,4 +1,4 @@
-"""The same measured ground surface, sliding along and across its lay, at several places of the map.
+"""The same measured ground surface, sliding along and across its lay, at several places of the map, by load sharing.
 
 python docs/examples/ground_lay.py path/to/ground-77nm.x3p [figure.png]
 """
@@ -19,7 +19,7 @@ def solve(surface_file, places=5):
     curves = {}
     for direction in ("along", "across"):
         scene = lubfric.load_scene(HERE / f"ground_{direction}.toml", surface_file=surface_file)
-        scene = scene.with_(numerics={"sampling": "patch"})
+        scene = scene.with_(numerics={"sampling": "patch", "model": "load-sharing"})
         full = lubfric.read_surface(surface_file)
         full = (full.transposed() if direction == "along" else full).resampled(spacing=scene.contact.spacing)
         nx, ny = lubfric.prepare(scene).surface.shape[0], full.shape[1]

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 from .._base import increasing_root, instance
 from ..errors import InputError
@@ -39,6 +40,9 @@ def solve_ehl(
     tolerance: float = 3e-3,
     inlet_length: float | None = None,
     inlet_film: float | None = None,
+    sliding: float | None = None,
+    eyring_stress: float | None = None,
+    carreau: tuple[float, float] | None = None,
     imposed_pressure=None,
     start: EHLResult | None = None,
     least_cells: int = 0,
@@ -62,6 +66,8 @@ def solve_ehl(
     viscosity_law, density_law : see `lubfric.Lubricant`, also for the ranges of the laws
     tolerance : relative error of min_film and flow_film from grid and domain, 1e-5 to 0.1
     inlet_length, inlet_film : None: fully flooded; or where it begins, the film that arrives [m] (`Lubricant`)
+    sliding, eyring_stress, carreau : u2 - u1 [m/s], with which shear makes the flow of the film thinner, by the law of
+        Ree and Eyring (tau_E [Pa]) or of Carreau ([G [Pa], n]); without all three the flow is Newtonian
     imposed_pressure : None, or (x [m], pressure [Pa]), (m,) each, x ascending, pressure >= 0: a line pressure, linear
         between the x and zero outside, that deflects the film in addition to p, and carries no load (kinks cost cells)
     start : the result of a neighbouring load or speed; if it leads nowhere, a cold start is made, and noted
@@ -78,9 +84,10 @@ def solve_ehl(
     ConvergenceError : residuals above tolerance; carries report and result
     """
     fluid = viscosity, pressure_viscosity_coefficient, viscosity_law, density_law
-    lubricant = Lubricant(*fluid, inlet_length=inlet_length, inlet_film=inlet_film)
+    inlet: dict[str, Any] = {"inlet_length": inlet_length, "inlet_film": inlet_film}
+    lubricant = Lubricant(*fluid, eyring_stress=eyring_stress, carreau=carreau, **inlet)
     return solve_line_contact(
-        LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant),
+        LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant, sliding),
         Effort(tolerance, least_cells, max_iterations),
         imposed=imposed_pressure,
         start=start,

@@ -77,8 +77,7 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
     asked, why = scene.numerics.model, gap_not_resolved(scene)
     moving = sorted({abs(u) for u in speeds if u != 0})
     some = moving[:: max(1, len(moving) // 25)]
-    summit = float(surface.heights.max() - surface.heights.mean())
-    found = [forecast(scene, strips, surface.sq, summit, speed) for speed in some]
+    found = [forecast(scene, strips, surface, speed) for speed in some]
     resolved = [one.speed for one in found if one.resolved]
     unknown = "its error is not known, and not in the interval"
     if scene.transient is not None:
@@ -136,7 +135,7 @@ def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float)
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
     swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
     steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
-    one = forecast(scene, strips, surface.sq, float(surface.heights.max() - surface.heights.mean()), fastest)
+    one = forecast(scene, strips, surface, fastest)
     cells = surface.heights.size
     if strips is not None and not strips.whole:
         cells = round(strips.cells.count * one.length / strips.cells.coarse[1])
@@ -157,11 +156,10 @@ def _validity(scene: Scene, surface: Surface, speeds: list[float]) -> list[str]:
 
 
 def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
-    """At some speeds of the scene: Moes numbers and Moes' film under the whole load, whether the summits touch, and
-    what the sample costs."""
-    summit = float(surface.heights.max() - surface.heights.mean())
+    """At some speeds of the scene: Moes numbers and the expected film under the whole load, whether the summits touch,
+    and what the sample costs."""
     head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (nm)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
-    rows = ["  film of the whole load by Moes, and whether it clears the summits", head]
+    rows = ["  film of the whole load by closed forms, and whether it clears the summits", head]
     if strips is not None:
         dx, dy = strips.cells.coarse
         asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} µm"
@@ -170,11 +168,11 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
     own = () if scene.transient is not None else (scene.motion.entrainment_speed,)
     nothing = "no entrainment" if scene.transient is not None else "no entrainment: all contact"
     for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], *own, speeds[-1]}):
-        one, film = forecast(scene, strips, surface.sq, summit, speed), f"{nothing:<38}"
+        one, film = forecast(scene, strips, surface, speed), f"{nothing:<38}"
         if speed != 0:
             line = scene.line_contact(abs(speed))
-            ratio = line.moes_film / surface.sq if surface.sq > 0 else math.inf
-            film = f"{line.M:9.3g} {line.L:8.3g} {line.moes_film * 1e9:10.4g} {ratio:8.3g}"
+            ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
+            film = f"{line.M:9.3g} {line.L:8.3g} {line.expected_film * 1e9:10.4g} {ratio:8.3g}"
         row = f"  {speed:<12.4g} {film}  {one.touching:<22} {one.clearance:>14.2g}"
         if strips is not None:
             row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"

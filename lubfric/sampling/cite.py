@@ -19,11 +19,13 @@ PAPERS = {  # in the order in which they are cited, by what was used
     "kept mass": "B. Jakobsson, L. Floberg, Transactions of Chalmers University of Technology 190 (1957), and "
     "K.-O. Olsson, the same 308 (1965): rupture of a film that keeps its mass",
     "sheared flow": "T. F. Conry, S. Wang, C. Cusano, Journal of Tribology 109 (1987) 648-654, "
-    "doi:10.1115/1.3261526: Reynolds' equation of an Eyring fluid",
+    "doi:10.1115/1.3261526: Reynolds' equation of a fluid that shear thins",
     "Roelands": "C. J. A. Roelands, thesis, Delft (1966): viscosity over pressure",
     "Barus": "C. Barus, American Journal of Science 45 (1893) 87-96: viscosity over pressure",
     "Dowson-Higginson": "D. Dowson, G. R. Higginson, Elasto-hydrodynamic Lubrication, Pergamon (1966): density over "
     "pressure",
+    "Carreau": "P. J. Carreau, Transactions of the Society of Rheology 16 (1972) 99-127, doi:10.1122/1.549276: "
+    "Carreau's law for the shear of a film",
     "Eyring stress": "K. L. Johnson, J. L. Tevaarwerk, Proceedings of the Royal Society A 356 (1977) 215-236, "
     "doi:10.1098/rspa.1977.0129: Eyring's law for the shear of a film",
     "limiting stress": "S. Bair, W. O. Winer, Journal of Lubrication Technology 101 (1979) 258-265, "

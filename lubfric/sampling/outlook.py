@@ -9,28 +9,30 @@ from dataclasses import dataclass
 from ..contact import Strips
 from ..deterministic import reach, work_of_steps
 from ..scene import Scene, gap_not_resolved
+from ..surface import Surface
 from .levels import DIFFERENCE
 from .pair import cells_of
 from .sample import SAFETY
 from .uncertainty import OF_FILM, ORDER, student
 
-CELL_SECONDS = 2.5e-6  # processor time of a cell of the strips in balance, about
-PIECE_SECONDS = 1.3e-6  # of a cell of a piece on finer and finer cells, of the finest
-FILM_SECONDS = 0.02  # of a point without contact
+CELL_SECONDS = 1.3e-6  # processor time of a cell of the strips in balance, about
+PIECE_SECONDS = 0.7e-6  # of a cell of a piece on finer and finer cells, of the finest
+PATCH_SECONDS, MAP_SECONDS = 0.03, 4e-8  # of a contact on a map that is solved whole; of each of its cells
+FILM_SECONDS, HOT = 0.015, 5.0  # of the films of a point; how many times as many with heat
 GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
 RISE = 0.4  # of the film of the whole load, by which it is wider, about
 FLOOR = 0.25  # of f_b: friction where the film carries most, about
 STEPS, FINER_STEPS = 9, 6  # of Newton's method on a strip of the deterministic model, and on smaller cells
 UNLIKE = 0.65  # scatter of the difference between the models over that of f
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
-SURE = 2.0  # factor between Moes' film and any film: outside of it contact or separation is certain
+SURE = 2.0  # factor between the expected film and any film: outside of it contact or separation is certain
 
 
 @dataclass(frozen=True)
 class Forecast:
     """To an order of magnitude, at one ``speed`` [m/s]: in words, whether the summits touch; ``clearance`` [Sq] between
-    Moes' film of the whole load and the highest summit; ``error``: relative standard error of f after the first strips;
-    ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the
+    the expected film of the whole load and the highest summit; ``error``: relative standard error of f after the first
+    strips; ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the
     deterministic model (0: Eq. (8) alone answers); and the processor time [s]."""
 
     speed: float
@@ -43,19 +45,23 @@ class Forecast:
     seconds: float
 
 
-def forecast(scene: Scene, strips: Strips | None, sq: float, summit: float, speed: float) -> Forecast:
-    """What a point at ``speed`` [m/s] will take. ``sq``, ``summit`` [m]: of the surface that is solved first, its
-    standard deviation and its highest height over the mean; ``strips``: None for a contact without cells.
+def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float) -> Forecast:
+    """What a point at ``speed`` [m/s] will take. ``surface``: that is solved first; ``strips``: None for a contact
+    without cells.
 
     The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
     independent heights. The effect on f follows from the share of the load that the rigid film of the whole load would
     carry if it were as thick as the gap.
     """
-    film = scene.line_contact(speed).moes_film if speed else 0.0
+    film, sq = scene.line_contact(speed).expected_film if speed else 0.0, surface.sq
+    summit = float(surface.heights.max() - surface.heights.mean())
+    seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
     touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
     clearance = (film - summit) / max(sq, 1e-12)
     if strips is None or strips.whole:
-        return Forecast(speed, touching, clearance, math.nan, 1, math.nan, 0, FILM_SECONDS)
+        if touching != "none":
+            seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
+        return Forecast(speed, touching, clearance, math.nan, 1, math.nan, 0, seconds)
     (lx, ly), first, asked = strips.lengths, strips.first * strips.length, scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR * sq:
@@ -68,7 +74,6 @@ def forecast(scene: Scene, strips: Strips | None, sq: float, summit: float, spee
     cells = strips.cells
     (fx, fy), (_, dy) = cells.factors, cells.coarse
     piece = 0.0 if cells.own else cells.count * fx * fy * strips.length / dy / 2
-    seconds = FILM_SECONDS
     if touching != "none":
         seconds += CELL_SECONDS * cells.count * count * strips.length / dy + PIECE_SECONDS * piece
     resolved, work = _resolved(scene, strips, sq, speed, film, error * math.sqrt(strips.first))
@@ -76,8 +81,8 @@ def forecast(scene: Scene, strips: Strips | None, sq: float, summit: float, spee
 
 
 def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float, scatter: float) -> tuple[int, float]:
-    """Number of strips of the deterministic model, and their work [s]. ``film`` [m]: Moes'; ``scatter``: of f between
-    strips, relative."""
+    """Number of strips of the deterministic model, and their work [s]. ``film`` [m]: expected; ``scatter``: of f
+    between strips, relative."""
     numerics = scene.numerics
     thick = film**2 * numerics.model_tolerance > OF_FILM * sq**2
     if (

@@ -8,39 +8,23 @@ from collections.abc import Sequence
 from numbers import Real
 from textwrap import shorten
 
-import numpy as np
-
 from ..errors import InputError
-from ..sharing import Prepared, prepare, takes_strips
-from .choose import CHOSEN, film_ratio, first_speeds
+from ..sampling import forecast
+from ..sharing import Prepared, prepare
+from .choose import CHOSEN, first_speeds
 from .points import stored_rows
 from .store import Store
 
-FILM, HOT = 0.012, 5.0  # processor seconds of the films of a point, about; how many times as many with heat
-CELL, FLAT = 8e-6, 1e-7  # processor seconds of a cell of a point in contact, about; of a flat one
-FINE = 6  # cells along a correlation length on which a contact is solved, about
-SCARCE, LIFTED = 2.0, 6.0  # Moes' film of the whole load over Sq between which few summits touch; beyond it hardly any
-MORE = 3.0  # times more work on strips where few summits touch: more of them are needed
 SAMPLED = 8  # scenes of a study that are made ready to count their cells
 LISTED = 4  # values of a key that are named one by one
 
 
 def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
     """Processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a factor
-    of about 4: by the films, and by the cells of the contacts where summits touch."""
-    scene, surface = prepared.scene, prepared.surface
-    at = speeds or first_speeds(scene, surface.sq)
-    cells, given = float(surface.heights.size), scene.surface.correlation_length
-    if given is not None:  # a contact is solved on fewer cells than the map has
-        for step, length in zip(surface.spacing, np.broadcast_to(given, 2)):
-            cells *= min(1.0, FINE * step / length)
-    seconds = FILM * len(at) * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
-    for speed in at if surface.sq > 0 else ():
-        ratio = film_ratio(scene, surface.sq, abs(speed)) if speed else 0.0
-        if ratio < LIFTED:
-            more = MORE if ratio > SCARCE and takes_strips(scene) else 1.0
-            seconds += (FLAT if scene.contact.geometry == "flat" else CELL) * cells * more
-    return seconds if speeds else seconds * CHOSEN / len(at)
+    of about 4."""
+    at = speeds or first_speeds(prepared.scene, prepared.surface.sq)
+    found = [forecast(prepared.scene, prepared.strips, prepared.surface, speed).seconds for speed in at]
+    return sum(found) * (1.0 if speeds else CHOSEN / len(at))
 
 
 def in_words(seconds: float) -> str:

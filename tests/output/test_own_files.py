@@ -14,6 +14,7 @@ from lubfric._base import FolderLock, write_checked
 from lubfric.output import main
 from lubfric.time import STATE
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\nspeeds = [0.3]\n" + SMALL_PATCH
 SCENE += "sampling = 'patch'\n"
 MAPPED = SCENE.split("[surface]")[0] + "[surface]\nfile = 'MAP'\nspacing = 0.9e-6\n[numerics]\nsampling = 'patch'\n"
@@ -87,13 +88,6 @@ def everything(folder):
         for path in sorted(folder.rglob("*"))
         if path.is_symlink() or path.is_file()
     }
-
-
-@pytest.fixture(autouse=True)
-def quick(monkeypatch):
-    """What the pictures show is not the matter here."""
-    for name in ("run_curve.plot_stribeck", "run_curve.plot_contact", "run_history.plot_history"):
-        monkeypatch.setattr(f"lubfric.output.{name}", lambda path, *_: Path(path).write_bytes(b"a picture"))
 
 
 @pytest.mark.parametrize("spelling", ["plain", "link"])

@@ -168,10 +168,10 @@ def test_contacts_without_places_along_y_say_so(scene):
 
 
 def test_a_forecast_is_right_to_a_factor_of_four():
-    strips, summit = lubfric.prepare(PAPER).strips, 4e-7
+    prepared = lubfric.prepare(PAPER)
     for speed in (0.003, 0.01, 0.03):
-        told = forecast(PAPER, strips, PAPER.surface.sq, summit, speed)
-        found = lubfric.friction(PAPER, speed).uncertainty
+        told = forecast(PAPER, prepared.strips, prepared.surface, speed)
+        found = lubfric.friction(prepared, speed).uncertainty
         assert 0.25 < told.length / found.length < 4
         assert speed > 0.02 or 0.3 < told.error / found.sampling < 3
     assert " 1.4 " in describe_scene(PAPER)  # mm

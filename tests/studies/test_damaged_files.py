@@ -179,7 +179,7 @@ def test_damaged_studies_are_told_of_and_stop_nothing(stores, tmp_path, imports)
     assert imports == [] and told["error"] > 60 and told["warning"] > 350, told
 
 
-def test_damaged_results_are_one_clear_error(tmp_path, imports, capsys):
+def test_damaged_results_are_one_clear_error(tmp_path, imports, capsys, undrawn):
     scene = SCENE.with_(lubricant={"density_law": "constant"})
     (tmp_path / "s.toml").write_text(scene.to_toml())
     run = tmp_path / "run"

@@ -16,14 +16,18 @@ import lubfric
 from lubfric._base import read_table
 from lubfric.output import main
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.003, 0.01, 0.03, 0.1, 0.3]\n" + SMALL_PATCH
 HISTORY = (
     "[transient]\nduration = 0.0005\noutputs = 3\n"
     'speed = { kind = "harmonic", amplitude = 0.05, frequency = 500.0, phase = 1.0 }\n'
 )
+MOVING = SCENE + "sampling = 'patch'\n" + HISTORY
 COUNTED = """
 import sys
+from pictures import leave_out
+leave_out()
 from lubfric.studies import points
 real = points.friction
 def counted(*arguments, **options):
@@ -31,18 +35,23 @@ def counted(*arguments, **options):
     print("solved", flush=True)
     return found
 points.friction = counted
+from lubfric.time.run import Checkpoint
+save = Checkpoint.save
+Checkpoint.save = lambda *arguments: (save(*arguments), print("saved", flush=True))
 from lubfric.output.command_line import main
 sys.exit(main(["run", *sys.argv[1:2], "--out", *sys.argv[2:]]))
 """
 SHARED = """
 import os, signal, sys, time
+from pictures import leave_out
+leave_out()
 from lubfric.studies import points
 real, command = points.friction, os.getpid()
 def dying(model, speed, **options):
     if os.getpid() != command and speed in (0.003, 0.3):
         if sys.argv[3] == "worker":
             os.kill(os.getpid(), signal.SIGKILL)
-        time.sleep(60)
+        time.sleep(900)
     return real(model, speed, **options)
 points.friction = dying
 from lubfric.output.command_line import main
@@ -56,7 +65,7 @@ def written(folder, text=SCENE):
 
 
 def start(scene, out, *more, code=COUNTED, **options):
-    environment = os.environ | {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
+    environment = os.environ | {"PYTHONPATH": f"{ROOT}{os.pathsep}{ROOT / 'tests'}", "OMP_NUM_THREADS": "1"}
     options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True} | options
     return subprocess.Popen([sys.executable, "-c", code, scene, str(out), *more], env=environment, **options)
 
@@ -90,7 +99,7 @@ def whole(tmp_path_factory):
 @pytest.fixture(scope="module")
 def whole_history(tmp_path_factory):
     folder = tmp_path_factory.mktemp("whole")
-    assert main(["run", written(folder, SCENE + HISTORY), "--out", str(folder / "out")]) == 0
+    assert main(["run", written(folder, MOVING), "--out", str(folder / "out")]) == 0
     return folder / "out"
 
 
@@ -109,18 +118,17 @@ def readable(out: Path):
 
 
 def killed_until_done(scene, out, rng, kills):
-    """(points solved in all runs together, kills): killed at random moments from the start to the last file."""
+    """(points solved in all runs together, kills): killed at random moments after a point or the state of a step."""
     solved = used = 0
     while True:
         process = start(scene, out)
+        text = ""
         if used < kills:
-            first = process.stdout.readline()  # beyond the imports
-            time.sleep(rng.exponential(0.05))
+            text = "".join(process.stdout.readline() for _ in range(rng.integers(1, 5)))  # beyond the imports
+            time.sleep(rng.exponential(0.02))
             process.kill()
-            used += process.poll() is None or process.wait() == -signal.SIGKILL
-        else:
-            first = ""
-        text = first + process.communicate()[0]
+            used += process.wait() == -signal.SIGKILL
+        text += process.communicate()[0]
         solved += text.count("solved")
         if out.is_dir():
             readable(out)
@@ -130,40 +138,15 @@ def killed_until_done(scene, out, rng, kills):
 
 
 @pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
-def test_killed_sweeps_lose_repeat_and_tear_nothing(whole, tmp_path, kills):
+@pytest.mark.parametrize("text, uninterrupted", [(SCENE, "whole"), (MOVING, "whole_history")], ids=["sweep", "in time"])
+def test_killed_runs_lose_repeat_and_tear_nothing(request, tmp_path, text, uninterrupted, kills):
     rng, left = np.random.default_rng(kills), kills
     for run in range(100):
         out = tmp_path / str(run)
-        solved, used = killed_until_done(written(tmp_path), out, rng, min(left, 4))
+        solved, used = killed_until_done(written(tmp_path, text), out, rng, min(left, 4))
         complete(out)
-        same(out, whole)
+        same(out, request.getfixturevalue(uninterrupted))
         assert solved <= 5 + used  # a kill costs at most the point that is being solved
-        left -= used
-        if left <= 0:
-            break
-
-
-@pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
-def test_killed_runs_in_time_lose_repeat_and_tear_nothing(whole_history, tmp_path, kills):
-    rng, left = np.random.default_rng(kills), kills
-    for run in range(100):
-        out, used = tmp_path / str(run), 0
-        while True:
-            process = start(written(tmp_path, SCENE + HISTORY), out)
-            if used < min(left, 4):
-                while (
-                    process.poll() is None and not (out / "checkpoint").is_dir() and not (out / "result.json").is_file()
-                ):
-                    time.sleep(0.01)
-                time.sleep(rng.exponential(0.3))
-                process.kill()
-                used += 1
-            process.communicate()
-            readable(out)
-            if process.returncode == 0:
-                break
-        complete(out)
-        same(out, whole_history)
         left -= used
         if left <= 0:
             break
@@ -205,7 +188,7 @@ def test_processes_share_a_run_to_the_same_bits(tmp_path, whole):
 def test_a_killed_worker_loses_nothing(tmp_path, whole):
     out = tmp_path / "out"
     process = start(written(tmp_path), out, "worker", code=SHARED)
-    told = process.communicate(timeout=120)
+    told = process.communicate(timeout=600)
     assert process.returncode == 0, told
     complete(out)
     same(out, whole)
@@ -216,11 +199,11 @@ def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tm
     out = tmp_path / "out"
     process = start(written(tmp_path), out, "command", code=SHARED)
     said = []
-    while sum("U = " in line for line in said) < 3:  # the others wait for a minute
+    while sum("U = " in line for line in said) < 3:  # the others wait
         said.append(process.stderr.readline())
         assert said[-1], said
     process.send_signal(sent)
-    text = process.communicate(timeout=30)[1]  # the ends of its pipes that its processes hold are closed
+    text = process.communicate(timeout=600)[1]  # the ends of its pipes that its processes hold are closed
     assert process.returncode == code
     if sent == signal.SIGINT:
         assert text == f"lubfric: interrupted; 3 of 5 points are kept in {out}: the same command goes on from there\n"
@@ -241,14 +224,14 @@ def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, cap
             os.kill(os.getpid(), signal.SIGTERM)
 
     monkeypatch.setattr(checkpoint.Checkpoint, "save", save)
-    assert main(["run", written(tmp_path, SCENE + HISTORY), "--out", str(tmp_path / "out")]) == 143
+    assert main(["run", written(tmp_path, MOVING), "--out", str(tmp_path / "out")]) == 143
     assert "is kept in" in capsys.readouterr().err.splitlines()[-1]
-    assert main(["run", written(tmp_path, SCENE + HISTORY), "--out", str(tmp_path / "out")]) == 0
+    assert main(["run", written(tmp_path, MOVING), "--out", str(tmp_path / "out")]) == 0
     complete(tmp_path / "out")
     same(tmp_path / "out", whole_history)
 
 
-@pytest.mark.parametrize("text", [SCENE, pytest.param(SCENE + HISTORY, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("text", [SCENE, pytest.param(MOVING, marks=pytest.mark.slow)])
 def test_broken_streams_never_stop_a_computation(tmp_path, text):
     process = start(
         written(tmp_path, text),
@@ -281,9 +264,7 @@ def test_the_results_of_an_earlier_run_stay_until_the_new_ones_are_there(tmp_pat
         assert {path.name: path.read_bytes() for path in out.iterdir()} == before
     assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "nan"]) == 2
     assert {path.name: path.read_bytes() for path in out.iterdir()} == before
-    assert (
-        main(["run", written(tmp_path, SCENE + HISTORY), "--out", str(out)]) == 0
-    )  # a sweep and a run in time do not mix
+    assert main(["run", written(tmp_path, MOVING), "--out", str(out)]) == 0  # a sweep and a run in time do not mix
     assert "history.csv" in complete(out)["files"] and not (out / "stribeck.csv").exists()
 
 

@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from skfem import Basis
 
 from .ehl_body import Body, Layout, graded_mesh, make_body, refined_displacement
 from .ehl_film import PENALTY, Film
@@ -30,7 +31,8 @@ class LineContact:
     radius : reduced radius R, m
     e_prime : E' in Pa, ``2/E' = sum (1 - nu^2)/E``
     entrainment_speed : U = (u1 + u2)/2 > 0, m/s
-    fluid : viscosity and density laws
+    fluid : viscosity and density laws; its Eyring stress thins the flow where there is sliding
+    sliding_speed : |u1 - u2|, m/s
     """
 
     load_per_width: float
@@ -38,6 +40,7 @@ class LineContact:
     e_prime: float
     entrainment_speed: float
     fluid: Fluid
+    sliding_speed: float = 0.0
 
     def __post_init__(self):
         for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa"), ("entrainment_speed", "m/s")):
@@ -64,6 +67,11 @@ class LineContact:
         """lambda = 12 eta0 U R^2/(b^3 p_h)."""
         drag = 12 * self.fluid.viscosity * self.entrainment_speed * self.radius**2
         return drag / (self.half_width**3 * self.hertz_pressure)
+
+    @property
+    def shear(self) -> float:
+        """The Newtonian stress eta0 |u1 - u2|/h at h = b^2/R, over the Eyring stress."""
+        return self.fluid.viscosity * self.sliding_speed / (self.film_unit * self.fluid.eyring_stress)
 
     @property
     def load_number(self) -> float:
@@ -121,6 +129,15 @@ class Solution:
         """Smallest cell of the line, m."""
         return float(np.diff(np.sort(self.body.line.mesh.p[0])).min()) * self.contact.half_width
 
+    @property
+    def rolling(self) -> float:
+        """1/2 ∫ h dp [N/m] of one surface. Upstream of the line p falls like |x|^-3 under a parabola."""
+        line, c = self.body.line, self.contact
+        first = int(np.argmin(self.body.x))
+        upstream = 1.5 * self.P[first] * self.body.x[first] ** 2
+        within = np.sum(np.asarray(line.interpolate(self.H)) * line.interpolate(self.P).grad[0] * line.dx)
+        return float(within + upstream) / 2 * c.hertz_pressure * c.film_unit
+
     def at(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Pressure (Pa) and film (m) at positions x (m) between inlet and outlet."""
         probe = self.body.line.probes(np.atleast_2d(np.asarray(x) / self.contact.half_width))
@@ -133,6 +150,7 @@ def solve_ehl(
     refinements: int = 2,
     fineness: float = 0.7,
     side: float = 240.0,
+    between: float = math.inf,
     penalty: float = PENALTY,
     tolerance: float = 1e-8,
     max_iterations: int = 40,
@@ -145,6 +163,7 @@ def solve_ehl(
     refinements : each halves the cells and costs about five times the one before
     fineness : of the coarsest mesh, see `make_layout`
     side : of the body in units of sqrt(b^2 + 2 R h), h the film expected; >= 50 holds the inlet
+    between : longest cell of the film under the contact, in half-widths, on the coarsest mesh
     penalty : of the stabilisation (`ehl_film`), 0: plain Galerkin
     tolerance : on the largest of the residuals that `ehl_newton.measure` defines
     max_iterations : Newton steps on a mesh
@@ -158,18 +177,19 @@ def solve_ehl(
         ("refinements", refinements, ">= 0", refinements < 0),
         ("fineness", fineness, "> 0", not fineness > 0),
         ("side", side, ">= 50", not 50 <= side < math.inf),
+        ("between", between, "> 0", not between > 0),
         ("penalty", penalty, ">= 0", not penalty >= 0),
         ("tolerance", tolerance, "> 0", not tolerance > 0),
         ("max_iterations", max_iterations, ">= 1", max_iterations < 1),
     ):
         if unmet:
             raise InputError(f"{name} = {value}; allowed: {allowed}")
-    mesh, layout = graded_mesh(make_layout(contact, fineness, side))
+    mesh, layout = graded_mesh(replace(make_layout(contact, fineness, side), between=between))
     solutions: list[Solution] = []
     for level in range(refinements + 1):
         mesh = mesh.refined() if level else mesh
         body = make_body(mesh, layout)
-        film = Film(body.line, contact.fluid, contact.hertz_pressure, contact.speed_parameter, penalty)
+        film = film_of(contact, body.line, penalty)
         start = refined(solutions[-1], body) if level else first_guess(contact, body, film, max_iterations)
         end, flow, report = newton(body, film, start, tolerance, max_iterations)
         if level and not report.converged:
@@ -183,6 +203,12 @@ def solve_ehl(
         if not report.converged:
             break
     return solutions
+
+
+def film_of(contact: LineContact, line: Basis, penalty: float = PENALTY) -> Film:
+    """The flow of a contact on a line."""
+    scales = contact.hertz_pressure, contact.speed_parameter
+    return Film(line, contact.fluid, *scales, penalty, shear=contact.shear)
 
 
 def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:

@@ -9,6 +9,7 @@ Morales-Espejel 2008, doi:10.1115/1.2842246). Against a half-space its surface i
 with its side D. It is also moved by a constant, which the approach takes up.
 """
 
+import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -36,6 +37,7 @@ class Layout:
     edges : where pressure rises and where the film ruptures
     fine : cell length there
     growth : cell length per distance from there
+    between : longest cell of the surface between the edges
     """
 
     side: float
@@ -44,10 +46,12 @@ class Layout:
     edges: tuple[float, float]
     fine: float
     growth: float
+    between: float = math.inf
 
 
 def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
-    """Triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth * distance)``.
+    """Triangles on ``[-D/2, D/2] x [-D, 0]``, split until none is longer than ``hypot(fine, growth * distance)``, nor
+    than ``hypot(between, growth * distance)`` from the surface between the edges.
 
     The layout that is returned has the ends of the film moved outwards to vertices.
     """
@@ -56,7 +60,9 @@ def graded_mesh(layout: Layout) -> tuple[MeshTri, Layout]:
 
     def allowed(corners):
         distance = np.min([np.hypot(corners[0] - e, corners[1]).min(axis=0) for e in layout.edges], axis=0)
-        return np.hypot(layout.fine, layout.growth * distance)
+        away = corners[0] - np.clip(corners[0], *layout.edges)
+        inside = np.hypot(layout.between, layout.growth * np.hypot(away, corners[1]).min(axis=0))
+        return np.minimum(np.hypot(layout.fine, layout.growth * distance), inside)
 
     mesh = graded(mesh, allowed)
     x = np.sort(mesh.p[0, np.abs(mesh.p[1]) < NEAR * layout.side])
@@ -97,6 +103,11 @@ class Body:
     def order(self) -> np.ndarray:
         """An order of elimination with little fill, found once for every matrix that holds this stiffness."""
         return np.argsort(self.factors.perm_c)
+
+    @cached_property
+    def compliance(self) -> np.ndarray:
+        """(line, line): how far the surface goes down, per pressure at the degrees of freedom of the line."""
+        return self.trace @ self.factors.solve(self.traction.toarray())
 
     def displacement(self, pressure: np.ndarray) -> np.ndarray:
         """Displacement at the free degrees of freedom of the body under a pressure on the line."""

@@ -37,6 +37,8 @@ class Film:
     penalty : gamma; 0: plain Galerkin. Above 0.1 it rings in its own way
     upwind : share of first-order upwinding
     piezo : share of ln(eta/eta0), 1 but in continuation
+    shear : eta0 |u1 - u2| R/(b^2 tau_E), which thins an Eyring fluid along the sliding: eta_eff is d tau/d rate of its
+        law (Hooke 2006, doi:10.1243/13506501JET146, eq. 35); 0: Newtonian
     """
 
     line: Basis
@@ -46,6 +48,7 @@ class Film:
     penalty: float = PENALTY
     upwind: float = 0.0
     piezo: float = 1.0
+    shear: float = 0.0
 
     def log_viscosity(self, P):
         """ln(eta/eta0). Below zero, where only iterates are, it goes on by its tangent at zero."""
@@ -57,7 +60,10 @@ class Film:
 
     def mobility(self, P, H):
         """The mobility m."""
-        return self.density(P) * H**3 * np.exp(-self.log_viscosity(P)) / self.speed_parameter
+        fluidity = np.exp(-self.log_viscosity(P))
+        if self.shear:
+            fluidity = np.sqrt(fluidity**2 + (self.shear / H) ** 2)
+        return self.density(P) * H**3 * fluidity / self.speed_parameter
 
     def wave(self, P, H):
         """d(rho H)/dP at constant H."""

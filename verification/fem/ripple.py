@@ -1,16 +1,21 @@
-"""Waves of infinitesimal height at rest under a moving smooth body: how far the film of `ehl` follows them.
+"""Waves of infinitesimal height through the film of `ehl`: how far it follows them, linearly and in steps of time.
 
-The film is H = H0 + X²/2 - u_z - z. To first order in z the changes of displacement, pressure and approach solve the
-tangent of the whole system (`ehl_newton`) at the smooth solution, with ``-by_H z`` for its right side. The rupture
-point stays, as pressure and its slope vanish there.
+The film is H = H0 + X²/2 - u_z - z with waves z = A cos(k (X - v T)), where T = U t/b and v is the speed of the rough
+surface over the entrainment speed U: 0 at rest, 1 in pure rolling, 2 where the smooth body rests. Reynolds' equation
+has the term d(rho H)/dT.
+
+To first order in A the changes of displacement, pressure and approach are complex amplitudes of exp(-i k v T). They
+solve the tangent of the whole system (`ehl_newton`) at the smooth solution, with the term above, and ``-by_H z`` for
+its right side. The rupture point stays, as pressure and its slope vanish there.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
+from skfem import BilinearForm
 
 from .ehl import Solution
-from .ehl_film import assemble
+from .ehl_film import Film, assemble
 from .ehl_newton import load_weights, solve, tangent
 
 
@@ -22,16 +27,34 @@ class Ripple:
     pressure: np.ndarray
 
 
-def ripple(at: Solution, wavelength: float) -> Ripple:
-    """The response of the smooth solution to a wave of ``wavelength`` [m] across the motion."""
+@BilinearForm
+def mass(u, v, w):
+    """``(c u, v)``."""
+    return w.c * u * v
+
+
+def stored(film: Film, P, H):
+    """Derivatives of ``(rho H, v)`` by P and by H."""
+    line = film.line
+    p, h = np.asarray(line.interpolate(P)), np.asarray(line.interpolate(H))
+    return mass.assemble(line, c=film.wave(p, h)), mass.assemble(line, c=film.density(p))
+
+
+def ripple(at: Solution, wavelength: float, speed: float = 0.0) -> Ripple:
+    """The response of the smooth solution to a wave of ``wavelength`` [m] across the motion, at one moment.
+
+    speed : of the waves, over the entrainment speed
+    """
     body, contact = at.body, at.contact
-    wave = np.exp(2j * np.pi * body.x * contact.half_width / wavelength)
+    k = 2 * np.pi * contact.half_width / wavelength
+    wave = np.exp(1j * k * body.x)
     flow, weights = assemble(at.film, at.P, at.H), load_weights(body)
+    stored_P, stored_H = stored(at.film, at.P, at.H)
     free = np.flatnonzero(at.P > 0)
-    by_H = flow.by_H[free]
-    matrix = tangent(body, flow.by_P[free][:, free], by_H, free, weights)
+    by_P, by_H = (flow.by_P - 1j * k * speed * stored_P)[free], (flow.by_H - 1j * k * speed * stored_H)[free]
+    matrix = tangent(body, by_P[:, free], by_H, free, weights)
     right = np.concatenate([np.zeros(at.displacement.size), by_H @ wave, [0.0]])
-    change = solve(matrix, np.stack([right.real, right.imag], axis=1), body.order) @ np.array([1.0, 1j])
+    change = solve(matrix, right, body.order)
     u, p, approach = change[: at.displacement.size], change[at.displacement.size : -1], change[-1]
     pressure = np.zeros(at.P.size, dtype=complex)
     pressure[free] = p

@@ -36,11 +36,9 @@ class PaperFigure:
 
 def picture(figure: PaperFigure) -> Figure:
     """The picture, small enough for the documents, with its section of the page as caption."""
-    data = ", ".join(f"`{stem}.csv`" for stem in figure.tables)
     section = (
-        f"### {figure.title}\n\n![{figure.title}](images/{figure.name}.png)\n\n"
-        f"{wrapped(f'**Agrees.** {figure.agrees}')}\n\n"
-        f"{wrapped(f'**Differs, and why.** {figure.differs}')}\n\nData: {data}.\n"
+        f"### {figure.title}\n\n![{figure.name}](images/{figure.name}.png)\n\n"
+        f"{wrapped(f'**Agrees.** {figure.agrees}')}\n\n{wrapped(f'**Differs, and why.** {figure.differs}')}\n"
     )
     return plotting.compact(plotting.finish(figure.name, figure.canvas, section, "png", dpi=90), 144)
 

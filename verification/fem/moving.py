@@ -1,0 +1,101 @@
+"""A wave of finite height moves through the full-system film of `ehl`: implicit steps in time, second order (BDF2).
+
+    d(rho H)/dT + d/dX( rho H - m dP/dX ) = 0,   H = H0(T) + X²/2 - u_z - z(X, T),   T = U t/b
+
+The body is linear, so its displacement is eliminated once and for all (`Body.compliance`, the Schur complement on the
+line). A step then solves for pressure and approach alone, by Newton's method with the active set of `ehl_newton`.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from skfem import LinearForm
+
+from .ehl import Solution
+from .ehl_film import assemble
+from .ehl_newton import HERTZ_LOAD, load_weights, step_length
+from .report import InputError, SolveError
+from .ripple import stored
+
+BDF2, EULER = (1.5, -2.0, 0.5), (1.0, -1.0, 0.0)
+
+
+@LinearForm
+def gained(v, w):
+    """``(c, v)``."""
+    return w.c * v
+
+
+@dataclass(frozen=True)
+class Moment:
+    """Time b/U, pressure p_h and film b²/R at the degrees of freedom of the line, and the Newton steps it took."""
+
+    time: float
+    P: np.ndarray
+    H: np.ndarray
+    iterations: int
+
+
+def march(
+    at: Solution, waves: Callable, step: float, *, tolerance: float = 1e-7, max_iterations: int = 30
+) -> Iterator[Moment]:
+    """Moments that are ``step`` [b/U] apart, without end, from the smooth solution on.
+
+    waves : z [b²/R] at positions X and a time T; 0 at T = 0. The first step is implicit Euler
+    tolerance : on lost flow over the inflow, and on the load
+
+    Raises `SolveError` where a step does not converge.
+    """
+    if not step > 0:
+        raise InputError(f"step = {step} b/U; allowed: > 0")
+    body, film = at.body, at.film
+    line, x, weights, compliance = body.line, body.x, load_weights(body), body.compliance
+    P, H0, last = at.P, at.approach, int(np.argmax(x))
+    held = at.P <= 0
+    now = content(at, at.P, at.H)
+    before, time = now, 0.0
+    while True:
+        a = BDF2 if time else EULER
+        time += step
+        shape = x**2 / 2 - waves(x, time)
+        for iteration in range(max_iterations + 1):
+            H = H0 + shape + compliance @ P
+            flow = assemble(film, P, H)
+            then = content(at, P, H)
+            lost = flow.residual + gained.assemble(line, c=(a[0] * then + a[1] * now + a[2] * before) / step)
+            load = float(weights @ P / HERTZ_LOAD - 1)
+            error = max(np.abs(lost[~held]).sum() / abs(flow.inflow), abs(load), -P.min())
+            new = np.where(held, lost > 0, P < 0)
+            new[last] = True
+            if error <= tolerance and not (new != held).any():
+                break
+            held = new
+            stored_P, stored_H = stored(film, P, H)
+            by_P, by_H = flow.by_P + a[0] / step * stored_P, flow.by_H + a[0] / step * stored_H
+            P, H0 = newton_step(film, P, H, H0, held, lost, load, by_P, by_H, compliance, weights)
+        else:
+            raise SolveError(f"wave in time: T = {time:g} b/U, error {error:.1e} after {max_iterations} steps")
+        before, now = now, then
+        yield Moment(time, P, H, iteration)
+
+
+def content(at: Solution, P, H):
+    """rho H at the points of quadrature."""
+    line = at.body.line
+    return at.film.density(np.asarray(line.interpolate(P))) * np.asarray(line.interpolate(H))
+
+
+def newton_step(film, P, H, H0, held, lost, load, by_P, by_H, compliance, weights):
+    """Pressure and approach after one step of Newton's method."""
+    free = np.flatnonzero(~held)
+    dP = np.where(held, -P, 0.0)
+    full = by_P[free].toarray() + by_H[free] @ compliance
+    matrix = np.zeros((free.size + 1, free.size + 1))
+    matrix[:-1, :-1], matrix[:-1, -1] = full[:, free], np.asarray(by_H[free].sum(axis=1)).ravel()
+    matrix[-1, :-1] = weights[free] / HERTZ_LOAD
+    right = -np.append(lost[free] + full @ dP, load + weights @ dP / HERTZ_LOAD)
+    change = np.linalg.solve(matrix, right)
+    dP[free] = change[:-1]
+    share = step_length(film, P, dP, H, change[-1] + compliance @ dP)
+    return P + share * dP, H0 + share * change[-1]
