@@ -92,8 +92,9 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
     elif not resolved:
         rows = ["load sharing, Eq. (8), alone: the film is thick, or there is no roughness, and the models agree"]
     else:
+        ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
         rows = [
-            f"load sharing, Eq. (8), on strips of the roughness; at {resolved[0]:.3g} to {resolved[-1]:.3g} m/s",
+            f"load sharing, Eq. (8), on strips of the roughness; at {' to '.join(ends)} m/s",
             f"  corrected by strips with one gap and one pressure to {100 * scene.numerics.model_tolerance:g} % of f",
             "  (not where heat turns out to matter: these are isothermal)",
         ]
