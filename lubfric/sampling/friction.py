@@ -71,15 +71,14 @@ def friction(
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):
-        found = with_ranges(prepared, _answer(prepared, speed, fields, begun))
-    known = found.boundary_force / prepared.scene.bodies.load, found.coefficient
-    lacks = lacking(prepared.scene, prepared.surface.sq, speed, known) if math.isfinite(found.coefficient) else ()
-    result = replace(with_methods(prepared, found), lacks=lacks)
+        result = with_methods(prepared, with_ranges(prepared, _answer(prepared, speed, fields, begun)))
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
             "stresses of a lubricated contact"
         )
+    known = result.boundary_force / prepared.scene.bodies.load, result.coefficient
+    result = replace(result, lacks=lacking(prepared.scene, prepared.surface.sq, speed, known))
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, numerics.accept, result)

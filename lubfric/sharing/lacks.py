@@ -15,7 +15,7 @@ import numpy as np
 
 from ..film import flooded_inlet, hertz, starved_inlet
 from ..oil import carried_stress, shear_stress
-from ..scene import Scene
+from ..scene import Scene, moves
 from .heat import TYPICAL
 
 STARVED, WORN, WARMER, RUBBED = 0.7, 0.6, 10.0, 0.75  # of the film; of Sq; K; of f_b
@@ -78,7 +78,8 @@ def _of_film(scene: Scene, sq: float, speed: float, known) -> list[Lack]:
     if sq > 0:
         told = f"a surface that has run in: Sq x {WORN:g}"
         found.append((told, change(scene, WORN * sq), "give a map after running in, or use lubfric.run_in"))
-        if scene.motion.slide_roll_ratio not in (0, 2) and line.expected_film < THICK * sq:
+        at_rest = scene.numerics.model == "load-sharing" and moves(scene)  # the other model moves it
+        if at_rest and line.expected_film < THICK * sq:
             found.append(("roughness that moves through the contact", math.nan, "it is taken as if it stood still"))
     if scene.bodies.e_prime < SOFT:
         told = f"a cover thinner than {1e3 * DEEP * line.half_width:.2g} mm, and its damping"
