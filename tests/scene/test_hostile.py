@@ -53,10 +53,10 @@ def validated(name):
 
 def test_a_sample_of_the_soak_is_answered_right():
     """Random scenes, each closed again by the independent judge."""
-    row = soak.chunk(7, range(8))
+    row = soak.chunk(7, range(5))
     assert all(c.passed for c in soak.judged([row]) if hasattr(c, "passed"))
     ended = [one["ended"] for one in row["scenes"]]
-    assert ended.count(soak.ANSWERED) >= 6 and sum(one["ratio"] is not None for one in row["scenes"]) >= 5
+    assert ended.count(soak.ANSWERED) >= 4 and sum(one["ratio"] is not None for one in row["scenes"]) >= 3
 
 
 def test_the_judge_of_the_soak_sees_a_wrong_answer():
