@@ -25,14 +25,12 @@ def test_every_input_stands_with_its_unit():
         bodies={"hardness_hv": 700},
     )
     text = describe_scene(scene)
-    told = (
-        "reduced radius: 0.01 m  (bodies.radius)|length of the line contact: 0.01 m|N/mm|peak 900.0 MPa|°C|mPa s|Gold"
-    )
-    told += "|plastic limit of the contact pressure: 7.|boundary friction coefficient: 0.09|46 and 46 W/(m K)|1/K|Sq"
+    told = "reduced radius: 10 mm  (bodies.radius)|length of the line contact: 10 mm|N/mm|peak 900 MPa|°C|mPa s|Gold"
     told += (
-        "|/GPa by So and Klaus|Eyring stress: 5e+06 Pa|limiting shear stress per pressure: 0.07|slide-roll ratio: 0.05"
+        "|plastic limit of the contact pressure: 7.404 GPa|boundary friction coefficient: 0.09|46 and 46 W/(m K)|1/K|Sq"
     )
-    told += "|limiting shear stress at ambient pressure: 2e+06 Pa|surface speeds 0.975 and 1.025 m/s"
+    told += "|/GPa by So and Klaus|Eyring stress: 5 MPa|limiting shear stress per pressure: 0.07|slide-roll ratio: 0.05"
+    told += "|limiting shear stress at ambient pressure: 2 MPa|surface speeds 0.975 and 1.025 m/s"
     for words in told.split("|"):
         assert words in text, words
 
@@ -107,7 +105,7 @@ TRANSIENT = lubfric.load_scene("paper").with_(transient=lubfric.Transient(durati
         (None, ["--ratios", "0.1", "--vtk"], "--vtk is for a Stribeck curve"),
         (None, ["--animation"], "--animation is for a scene with"),
         (TRANSIENT, ["--ratios", "0.1"], "--ratios is for a traction curve"),
-        (TRANSIENT, ["--report"], "--report is for a Stribeck curve, and this is a scene with [transient]"),
+        (TRANSIENT, ["--vtk"], "--vtk is for a Stribeck curve, and this is a scene with [transient]"),
     ],
 )
 def test_an_option_that_would_do_nothing_is_refused(tmp_path, capsys, scene, options, told):
