@@ -177,7 +177,8 @@ def refuse_outliers(surface: Surface, name: str) -> None:
         z, count = (surface.heights[worst] - surface.measured.mean()) / surface.sq, np.count_nonzero(off > 0)
         alone = "1 point stands alone above its" if count == 1 else f"{count} points stand alone above their"
         raise InputError(
-            f"surface {surface.source}: {alone} neighbours and would carry the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; give {name}.outliers = "
+            f"surface {surface.source}: {alone} neighbours and would carry the load, the worst at (ix, iy) = {worst}, "
+            f"{z:.3g} Sq high; give {name}.outliers = "
             "'mask' to take them for unmeasured, 'keep' if they are real (lubfric.surface.outliers has the rule)"
         )
 

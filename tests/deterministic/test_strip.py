@@ -82,19 +82,19 @@ def test_a_strip_repeated_is_the_same_strip_and_a_shift_moves_its_columns():
 
 
 def test_the_last_grid_is_the_maps_own_and_its_estimate_tells_what_half_of_its_cells_change():
-    """On five maps: no error is far above the estimate, whatever the mean change happens to be."""
+    """On three maps: no error is far above the estimate, whatever the mean change happens to be."""
     assert grids(SCENE, MAP) == ((2, 2), (1, 1))
     odd = replace(MAP, heights=MAP.heights[:, :63], mask=None)
     assert grids(SCENE.with_(numerics={"grid": "given"}), odd) == ((2, 3), (1, 1))
     ratios = []
-    for seed in range(5):
+    for seed in range(3):
         fine = lubfric.generate_surface(
             (192, 256), 0.45e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=seed
         )
         strips = [solved(0.02, (n, n), surface=fine) for n in (8, 4, 2)]
         told = estimate([strip.result for strip in strips[:2]])
         ratios.append(abs(strips[2].result.coefficient / strips[1].result.coefficient - 1) / told)
-    assert max(ratios) < 2 and sum(ratio < 1 for ratio in ratios) >= 3
+    assert max(ratios) < 2 and sum(ratio < 1 for ratio in ratios) >= 2
     assert estimate([strips[0].result]) is None
 
 
