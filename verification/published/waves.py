@@ -35,9 +35,9 @@ def waves(level: str) -> Iterator[Item]:
     """The film over waves that move with both bodies, rest, or move with one of them.
 
     In pure rolling the amplitude of the film at x = 0 is taken over one period. It is extrapolated to second order from
-    cells twice as long, which make the steps in time twice as long too; our error is that step. At rest the residual wave is fitted over five
-    wavelengths of a contact 20 wavelengths wide, for waves of a tenth of the height (the theory is linear); our error
-    is the change to half the width. With Eyring's law both parts are fitted, as Hooke did.
+    cells twice as long, which make the steps in time twice as long too; our error is that step. At rest the residual
+    wave is fitted over five wavelengths of a contact 20 wavelengths wide, for waves of a tenth of the height (the
+    theory is linear); our error is the change to half the width. With Eyring's law both parts are fitted, as Hooke did.
     """
     table = {}
     for length, (cells, which) in ROLLING[level].items():
