@@ -278,12 +278,6 @@ def axis_label(name: str) -> str:
     return " ".join((label, *filter(None, (symbol,)), *([f"({unit})"] if unit else [])))
 
 
-def short_label(name: str) -> str:
-    """The heading of a table for people: the symbol (where there is none, the long name) and the unit, if any."""
-    q = COLUMNS[name]
-    return (q.symbol or q.label) + (f" ({q.unit})" if q.unit != "-" else "")
-
-
 def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:
     """Attributes of ``values`` by symbol, to four digits and with their units: ``{"F_C": "3.2 N"}``."""
     rows = [(COLUMNS[name], getattr(values, name)) for name in names]

@@ -23,10 +23,11 @@ import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from ..errors import CONVERGED, ITERATION_LIMIT, Report
+from ..film import LineContact
 from ..scene import Scene
 from ..surface import Surface
 from .newton import Found, Work, newton
-from .point import Strip, problem_of, solve_strip, work_of_steps
+from .point import Strip, solve_strip, work_of_steps
 from .problem import Problem
 from .result import DeterministicResult, LoadSplit, assemble
 from .solve import solve_point
@@ -86,7 +87,7 @@ def moments(
     """
     problem, count = problem_at(0.0), 0
     at = before = evaluated(problem, solve_point(problem).state if start is None else start)
-    smooth = max(1, round(SMOOTH * _half_width(problem) / problem.spacing[0]))
+    smooth = max(1, round(SMOOTH * _half_width(problem.contact) / problem.spacing[0]))
     yield Moment(0.0, at, Work(0))
     while True:
         count += 1
@@ -219,7 +220,9 @@ def solve_moving_strip(
     rest = solve_strip(scene, whole, speed, factors=factors, start=near, slope=slope)
     if speed < 0:
         bodies = [body._replace(surface=replace(body.surface, heights=body.surface.heights[::-1])) for body in bodies]
-    step, discarded, count = _plan(rest.problem, bodies)
+    fastest = max(bodies, key=lambda body: abs(body.speed))
+    cell, length = rest.problem.spacing[0], fastest.surface.size[0]
+    step, discarded, count = _plan(rest.problem.contact, cell, fastest.speed, length)
     moving = moments(
         travelling(rest.problem, bodies),
         step,
@@ -253,25 +256,20 @@ def solve_moving_strip(
     )
 
 
-def _plan(problem: Problem, bodies: Sequence[RoughBody]) -> tuple[float, int, int]:
-    """Length [s] of a step, and the numbers of steps that are discarded and that count."""
-    fastest = max(bodies, key=lambda body: abs(body.speed))
-    step = problem.spacing[0] / abs(fastest.speed)
-    return (
-        step,
-        math.ceil(SWEEP * _half_width(problem) / (problem.speed * step)),
-        max(1, round(fastest.surface.size[0] / problem.spacing[0])),
-    )
+def _plan(contact: LineContact, cell: float, fastest: float, length: float) -> tuple[float, int, int]:
+    """Length [s] of a step, and the numbers of steps that are discarded and that count, for cells [m] along x and a
+    ``fastest`` body [m/s] whose map has this ``length`` [m]."""
+    step = cell / abs(fastest)
+    discarded = math.ceil(SWEEP * _half_width(contact) / (contact.entrainment_speed * step))
+    return step, discarded, max(1, round(length / cell))
 
 
-def _half_width(problem: Problem) -> float:
+def _half_width(contact: LineContact) -> float:
     """That of the Hertz strip [m], or of the smooth film where that is wider."""
-    contact = problem.contact
     return max(contact.half_width, math.sqrt(2 * contact.radius * contact.moes_film))
 
 
-def moving_work(scene: Scene, bodies: Sequence[RoughBody], speed: float, factors: tuple[int, int] = (1, 1)) -> float:
-    """Counted work [s of a usual core] of `solve_moving_strip`, about, before it is done."""
-    problem = problem_of(scene, bodies[0].surface, speed, factors)
-    _, discarded, count = _plan(problem, bodies)
-    return (discarded + count) * work_of_steps(problem.heights.size, STEPS, KRYLOV)
+def moving_work(contact: LineContact, cell: float, fastest: float, length: float, cells: float) -> float:
+    """Counted work [s of a usual core] of so many ``cells`` in all the steps of `solve_moving_strip`, about."""
+    _, discarded, count = _plan(contact, cell, fastest, length)
+    return (discarded + count) * work_of_steps(cells, STEPS, KRYLOV)

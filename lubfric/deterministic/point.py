@@ -108,7 +108,6 @@ def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int,
         boundary_friction=scene.bodies.boundary_friction_coefficient,
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if film is None else film,
-        sense=math.copysign(1.0, ratio),
         factors=factors,
     )
     return (

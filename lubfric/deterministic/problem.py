@@ -125,7 +125,6 @@ def lay_out(
     boundary_friction: float,
     hardness: float | None = None,
     boundary_film: float = BOUNDARY_FILM,
-    sense: float = 1.0,
     ends: tuple[float, float] | None = None,
     factors: tuple[int, int] = (1, 1),
 ) -> Problem:
@@ -161,4 +160,4 @@ def lay_out(
     operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
     x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
-    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film, sense=sense)
+    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film)

@@ -53,9 +53,8 @@ def solve_ehl(
 
     The equations are d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx, with p = dp/dx = 0 at the rupture point
     (Swift-Stieber), h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx', and ∫ p dx = load_per_width. They are solved by
-    Newton's method on nested grids (`lubfric.film.reynolds`), and checked for Moes' M = 1e-12 to 1000, L = 0 to 20, and
-    for nearly rigid bodies (L to 1e4 at M <= 0.01). The cells are doubled until the largest residual of the report
-    (`EHLResult`) is <= tolerance.
+    Newton's method on nested grids, and checked for Moes' M = 1e-12 to 1000, L = 0 to 20, and for nearly rigid bodies
+    (L to 1e4 at M <= 0.01). The cells are doubled until the largest residual of the report is <= tolerance.
 
     Parameters
     ----------
@@ -74,25 +73,18 @@ def solve_ehl(
     least_cells, max_iterations : least cells before rupture (0 to 3072); Newton steps per grid
     raise_on_failure : False returns an unconverged result with its report
 
-    Returns
-    -------
-    EHLResult
+    Returns an `EHLResult`.
 
     Raises
     ------
     InputError : a value out of range, before any work
     ConvergenceError : residuals above tolerance; carries report and result
     """
-    fluid = viscosity, pressure_viscosity_coefficient, viscosity_law, density_law
-    inlet: dict[str, Any] = {"inlet_length": inlet_length, "inlet_film": inlet_film}
-    lubricant = Lubricant(*fluid, eyring_stress=eyring_stress, carreau=carreau, **inlet)
-    return solve_line_contact(
-        LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant, sliding),
-        Effort(tolerance, least_cells, max_iterations),
-        imposed=imposed_pressure,
-        start=start,
-        raise_on_failure=raise_on_failure,
-    )
+    fluid = viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, eyring_stress
+    lubricant = Lubricant(*fluid, inlet_length=inlet_length, inlet_film=inlet_film, carreau=carreau)
+    contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant, sliding)
+    how: dict[str, Any] = {"imposed": imposed_pressure, "start": start, "raise_on_failure": raise_on_failure}
+    return solve_line_contact(contact, Effort(tolerance, least_cells, max_iterations), **how)
 
 
 def solve_line_contact(

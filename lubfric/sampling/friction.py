@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import replace
 
 import numpy as np
 
 from .._base import validate
 from ..errors import ConvergenceError, InputError
 from ..scene import FASTEST, Scene, gap_not_resolved, moves, told_doubts
-from ..sharing import Prepared, at_speed, at_tolerance, refused
+from ..sharing import Prepared, at_speed, at_tolerance, lacking, refused
 from .answer import load_sharing_answer
 from .answer_deterministic import patch_answer, strips_answer
 from .errors_of import model_error
@@ -76,6 +77,8 @@ def friction(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
             "stresses of a lubricated contact"
         )
+    known = result.boundary_force / prepared.scene.bodies.load, result.coefficient
+    result = replace(result, lacks=lacking(prepared.scene, prepared.surface.sq, speed, known))
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, numerics.accept, result)

@@ -5,11 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..contact import Strips
-from ..deterministic import RoughBody, Strip, moving_work, solve_moving_strip, solve_strip
-from ..scene import moves, moving_bodies
+from ..deterministic import RoughBody, Strip, moving_work, reach, solve_moving_strip, solve_strip
+from ..scene import Scene, moves, moving_bodies
 from ..sharing import Prepared, on_strip
 from ..surface import Surface
 
+BOTH = 1.13  # work on cells of one length and on cells twice as long, over that on the former
 MOST_WORK = 120.0  # s, counted: beyond it "auto" leaves moving roughness to Eq. (8)
 
 
@@ -46,14 +47,23 @@ def _alone(strips: Strips, name: str) -> Strips:
     return replace(strips, scene=replace(strips.scene, **{other: smooth}))
 
 
+def moving_strip_work(scene: Scene, strips: Strips, sq: float, speed: float, factors: tuple[int, int]) -> float:
+    """Counted work [s] of one strip of moving roughness on cells ``factors`` times as long as those of ``strips``, and
+    on cells twice as long, about; ``sq`` [m]: of the surface."""
+    (fx, fy), (dx, dy), line = factors, strips.cells.coarse, scene.line_contact(abs(speed))
+    cells = sum(reach(line, sq)) / (fx * dx) * strips.length / (fy * dy)
+    fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
+    return BOTH * moving_work(line, fx * dx, fastest, strips.cells.count * dx, cells)
+
+
 def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:
     """Why moving roughness is left to Eq. (8) under "auto", in words; "" if it is not."""
-    if not moves(prepared.scene):
-        return ""
-    work = moving_work(prepared.scene, bodies_of(prepared, 0, speed), speed, factors)
+    scene, strips = prepared.scene, prepared.strips
+    assert strips is not None
+    work = moving_strip_work(scene, strips, prepared.surface.sq, speed, factors) if moves(scene) else 0.0
     if work <= MOST_WORK:
         return ""
     return (
         "Eq. (8) alone: the roughness moves, and one strip with one gap and one pressure would take about "
-        f"{work:.0f} s of processor time, more than {MOST_WORK:g} s; numerics.model = 'deterministic' asks for it"
+        f"{work:.2g} s of processor time, more than {MOST_WORK:g} s; numerics.model = 'deterministic' asks for it"
     )

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 from ..contact import Strips
 from ..deterministic import reach, work_of_steps
-from ..scene import Scene, gap_not_resolved
+from ..scene import Scene, gap_not_resolved, moves
 from ..surface import Surface
 from .levels import DIFFERENCE
+from .moving import MOST_WORK, moving_strip_work
 from .pair import cells_of
 from .sample import SAFETY
 from .uncertainty import OF_FILM, ORDER, student
@@ -96,5 +97,8 @@ def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float
     allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
     count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)
     (fx, fy), (dx, dy) = cells_of(strips, scene.bodies.half_width), strips.cells.coarse
+    if moves(scene):
+        work = moving_strip_work(scene, strips, sq, speed, (fx, fy))
+        return (0, 0.0) if work > MOST_WORK and numerics.model == "auto" else (count, count * work)
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
     return count, count * work_of_steps(cells, STEPS) + work_of_steps(cells * fx * fy, FINER_STEPS)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..contact import HalfSpaceContact, RoughContact
+from ..contact import RoughContact
 from ..deterministic import Strip, grids, solve_strip
 from ..scene import FRICTION, Scene, moves, value_of
 from ..sharing import Prepared, on_stack, prepare, solve_balance
@@ -66,15 +66,15 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, float]])
 def _shared(prepared: Prepared, speed: float) -> Callable[[Scene], float]:
     """f of scenes alike but for inputs, by Eq. (8) on the first strips of ``prepared``, or on its only contact."""
     strips, surface = prepared.strips, prepared.surface
-    contact = prepared.contact if strips is None else on_stack(prepared, strips, strips.first)
+    stack = None if strips is None else on_stack(prepared, strips, strips.first)
+    contact = prepared.contact if stack is None else stack
     start = solve_balance(prepared.scene, speed, contact, surface.sq)
 
     def f(scene: Scene) -> float:
         there: RoughContact = contact
         if scene.bodies.hardness != prepared.scene.bodies.hardness:
-            there = prepare(scene, surface).contact
-            if isinstance(contact, HalfSpaceContact):
-                there = replace(contact, hardness=scene.bodies.hardness)
+            hardness = scene.bodies.hardness
+            there = prepare(scene, surface).contact if stack is None else replace(stack, hardness=hardness)
         return solve_balance(scene, speed, there, surface.sq, start).forces.coefficient
 
     return f

@@ -59,7 +59,7 @@ def test_turning_the_contact_upside_down_leaves_the_force_on_each_body():
     """Then the rough body is surface 2, and f the force on it: that on the other, but for the moment of the load."""
     surface = rough(3, sq=0.05e-6)
     lower = after(laid(surface), [RoughBody(surface, 0.15)], 12)
-    upper = after(laid(surface, sense=-1.0), [RoughBody(surface, 0.15, upper=True)], 12)
+    upper = after(replace(laid(surface), sense=-1.0), [RoughBody(surface, 0.15, upper=True)], 12)
     assert np.allclose(lower.at.gap, upper.at.gap, rtol=1e-9)
     p, x, upstream = lower.at.state.pressure, lower.at.problem.x, lower.at.balance.inlet
     moment = (p.mean(axis=1) @ x) * CELL / LINE.radius  # and upstream, by parts: ∫ p x/R dx = h p - ∫ h dp

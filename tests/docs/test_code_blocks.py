@@ -96,7 +96,7 @@ def test_the_first_page_leads_to_a_curve_of_ones_own(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     page = ROOT / "docs" / "start.md"
     oil, surface = (tomllib.loads(b.body) for b in blocks(page) if b.language == "text" and b.body.startswith("["))
-    exec(next(b.body for b in blocks(page) if "savetxt" in b.body), {})
+    exec(next(b.body for b in blocks(page) if "savetxt" in b.body), {"lubfric": lubfric})
     assert main(["init", "my_contact.toml"]) == 0
     written = tomllib.loads((tmp_path / "my_contact.toml").read_text(encoding="utf-8"))
     scene = lubfric.load_scene({**written, **oil, **surface, "contact": {}})

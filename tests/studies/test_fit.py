@@ -171,7 +171,9 @@ def test_covariance_is_that_of_the_slopes(fitted):
 def test_what_the_data_cannot_tell_is_said():
     """A film at some tens of MPa and thin rates hardly feels a far higher Eyring stress."""
     found = lubfric.fit(
-        SCENE, made_up(2, SPEEDS[::2]), {"bodies.boundary_friction_coefficient": (0.05, 0.2), "lubricant.eyring_stress": (4e7, 4e8)}
+        SCENE,
+        made_up(2, SPEEDS[::2]),
+        {"bodies.boundary_friction_coefficient": (0.05, 0.2), "lubricant.eyring_stress": (4e7, 4e8)},
     )
     assert "lubricant.eyring_stress" in found.undetermined and "the data do not determine it" in found.explain()
     assert "bodies.boundary_friction_coefficient" not in found.undetermined

@@ -264,9 +264,7 @@ def test_the_results_of_an_earlier_run_stay_until_the_new_ones_are_there(tmp_pat
         assert {path.name: path.read_bytes() for path in out.iterdir()} == before
     assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "nan"]) == 2
     assert {path.name: path.read_bytes() for path in out.iterdir()} == before
-    assert (
-        main(["run", written(tmp_path, MOVING), "--out", str(out)]) == 0
-    )  # a sweep and a run in time do not mix
+    assert main(["run", written(tmp_path, MOVING), "--out", str(out)]) == 0  # a sweep and a run in time do not mix
     assert "history.csv" in complete(out)["files"] and not (out / "stribeck.csv").exists()
 
 

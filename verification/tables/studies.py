@@ -119,9 +119,9 @@ def publications() -> Cells:
     for source in SOURCES.values():
         mine = [c for c in checks if c.source == source.text]
         alike = all(c.passed for c in mine)
-        agreed += [short(source)] if alike else []
-        groups.setdefault("others" if alike else short(source), []).extend(mine)
-    groups["; ".join(agreed)] = groups.pop("others")
+        agreed += [authors(source)] if alike else []
+        groups.setdefault("others" if alike else f"{authors(source)}, {source.place}", []).extend(mine)
+    groups["; ".join(dict.fromkeys(agreed))] = groups.pop("others")
     rows = []
     for name, mine in groups.items():
         off = [round(100 * (c.measured / c.expected - 1), 4) + 0.0 for c in mine]
@@ -129,14 +129,14 @@ def publications() -> Cells:
     return ["source", "passed", "ours off by"], rows
 
 
-def short(source: Source) -> str:
-    """Surnames, year and place, as in "Dowson, Toyoda 1978, central film"."""
+def authors(source: Source) -> str:
+    """Surnames and year, as in "Dowson, Toyoda 1978"."""
     person = re.compile(r"([A-Z]\. )+[\w-]+( et al\.| \d+)?")
     people = takewhile(person.fullmatch, source.words.split(", "))
     names = [re.sub(r"^([A-Z]\. )+| \d+$", "", part) for part in people]
     year = re.search(r"\b(18|19|20)\d\d\b", source.words)
     who = ", ".join(names) if len(names) < 3 else f"{names[0]} et al."
-    return f"{who} {year[0]}, {source.place}" if names and year else f"{source.words}, {source.place}"
+    return f"{who} {year[0]}" if names and year else source.words
 
 
 TABLES: dict[str, Callable[[], Cells]] = {
