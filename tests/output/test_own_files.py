@@ -268,6 +268,11 @@ def test_a_lock_is_never_opened_through_a_link(tmp_path):
             pass
         assert (tmp_path / "aim").read_text() == "precious" and (tmp_path / ".lubfric.lock").exists()
         (tmp_path / ".lubfric.lock").unlink()
+    (tmp_path / "aim").write_text("")  # nothing in it tells whose it is
+    os.symlink(tmp_path / "aim", tmp_path / ".lubfric.lock")
+    with pytest.raises(lubfric.InputError, match=r"\.lubfric\.lock is"), FolderLock(tmp_path):
+        pass
+    assert (tmp_path / "aim").read_text() == ""
 
 
 def test_a_folder_that_was_copied_whole_is_still_ours(tmp_path):
