@@ -134,13 +134,7 @@ class UncertaintyQuantities(Generic[T]):
     area_needed: T = quantity(
         "-", "how many times more of a measured map would be needed", note="1: enough", default=1.0
     )
-    model: T = quantity(
-        "-",
-        "relative error of f by the model itself, at 95 %",
-        column="model_error",
-        note="in the interval; NaN where it is not known",
-        default=math.nan,
-    )
+    model: T = quantity("-", "relative error of f by the model, at 95 %", column="model_error", default=math.nan)
     inputs: T = quantity("-", "relative change of f by the ranges of inputs", column="input_error", default=0.0)
 
 
@@ -205,6 +199,7 @@ KEYS = {  # of a scene, as far as they are numbers
     "lubricant.viscosity": Quantity("Pa s", "viscosity at ambient pressure"),
     "lubricant.pressure_viscosity_coefficient": Quantity("1/Pa", "pressure-viscosity coefficient"),
     "lubricant.eyring_stress": Quantity("Pa", "Eyring stress"),
+    "lubricant.carreau": Quantity("Pa, -", "critical stress and exponent of Carreau's law"),
     "lubricant.limiting_stress_coefficient": Quantity("-", "limiting shear stress per pressure"),
     "lubricant.limiting_stress_offset": Quantity("Pa", "limiting shear stress at ambient pressure"),
     "lubricant.inlet_length": Quantity("m", "distance upstream of the contact where the lubricant begins"),
@@ -281,12 +276,6 @@ def axis_label(name: str) -> str:
     """The label of an axis: long name, symbol and unit."""
     unit, label, symbol = COLUMNS.get(name, Quantity("", name))[:3]
     return " ".join((label, *filter(None, (symbol,)), *([f"({unit})"] if unit else [])))
-
-
-def short_label(name: str) -> str:
-    """The heading of a table for people: the symbol (where there is none, the long name) and the unit, if any."""
-    q = COLUMNS[name]
-    return (q.symbol or q.label) + (f" ({q.unit})" if q.unit != "-" else "")
 
 
 def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:

@@ -11,9 +11,7 @@ their text could not be had, 5 % is taken for all alike (`UNSTATED`).
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import dataclass
-from itertools import takewhile
 
 import numpy as np
 from scipy.special import erf
@@ -41,16 +39,6 @@ class Source:
     def text(self) -> str:
         """All in one line."""
         return "; ".join(filter(None, (f"{self.words}, {self.place}", self.got, self.note)))
-
-    @property
-    def short(self) -> str:
-        """Surnames, year and place, as in "Dowson, Toyoda 1978, central film"."""
-        person = re.compile(r"([A-Z]\. )+[\w-]+( et al\.| \d+)?")
-        people = takewhile(person.fullmatch, self.words.split(", "))
-        names = [re.sub(r"^([A-Z]\. )+| \d+$", "", part) for part in people]
-        year = re.search(r"\b(18|19|20)\d\d\b", self.words)
-        who = ", ".join(names) if len(names) < 3 else f"{names[0]} et al."
-        return f"{who} {year[0]}, {self.place}" if names and year else f"{self.words}, {self.place}"
 
 
 SOURCES: dict[str, Source] = {

@@ -19,6 +19,7 @@ import numpy as np
 
 from ..contact import Strips
 from ..deterministic import Strip, estimate
+from ..scene import moves
 from ..sharing import Prepared, quantities
 from .pair import Pair, cells_of, deviations, numbers_of, solve_finer, solve_pair
 from .sample import Found, enlarged
@@ -172,12 +173,12 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: int) -> BlockError:
 
 
 def _on_finer_cells(prepared: Prepared, speed: float, pairs: list[Pair]) -> tuple[BlockError, float]:
-    """Solve the third level, if it is needed: the standard error of its mean change of f, and the relative error that
-    its cells leave."""
+    """Solve the third level, if it is needed and the roughness rests: the standard error of its mean change of f, and
+    the relative error that its cells leave."""
     scene, strips, first = prepared.scene, prepared.strips, pairs[0]
     assert strips is not None
     left = max(estimate([first.longer.result, first.resolved.result]) or 0.0, SOLVED)
-    if left <= scene.numerics.tolerance or cells_of(strips, scene.bodies.half_width) == (1, 1):
+    if left <= scene.numerics.tolerance or cells_of(strips, scene.bodies.half_width) == (1, 1) or moves(scene):
         return BlockError(0.0, 1), left
     asked = CELLS * scene.numerics.sampling_tolerance * abs(first.resolved.result.coefficient)
     changes: list[np.ndarray] = []

@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..contact import Strips
-from ..deterministic import DeterministicResult, Strip, solve_strip
+from ..deterministic import DeterministicResult, Strip
 from ..quantities import NUMBERS
 from ..scene import Scene
 from ..sharing import Prepared, on_strip, quantities, solve_balance
-from ..surface import Surface
+from .moving import solved_strip
 from .scatter import friction_influence, mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
@@ -63,11 +63,10 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
     scene, strips = prepared.scene, prepared.strips
     assert strips is not None
     contact = on_strip(prepared, strips, index)
-    surface = surface_of(prepared, contact)
     fx, fy = cells_of(strips, scene.bodies.half_width)
-    longer = 2 * fx, fy if surface.shape[1] % (2 * fy) else 2 * fy
-    first = solve_strip(scene, surface, speed, factors=longer)
-    strip = solve_strip(scene, surface, speed, factors=(fx, fy), start=first, slope=slope is None)
+    longer = 2 * fx, fy if contact.heights.shape[1] % (2 * fy) else 2 * fy
+    first = solved_strip(prepared, index, speed, factors=longer)
+    strip = solved_strip(prepared, index, speed, factors=(fx, fy), start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
     balance = solve_balance(scene, speed, contact, prepared.surface.sq)
     loads = balance.film_load, balance.contact_load
@@ -80,16 +79,8 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
 
 def solve_finer(prepared: Prepared, speed: float, pair: Pair) -> Pair:
     """``pair``, on the cells of the strips too. Raises `ConvergenceError`."""
-    strips = prepared.strips
-    assert strips is not None
-    surface = surface_of(prepared, on_strip(prepared, strips, pair.index))
-    finer = solve_strip(prepared.scene, surface, speed, start=pair.resolved)
+    finer = solved_strip(prepared, pair.index, speed, start=pair.resolved)
     return replace(pair, finer=replace(finer, slope=pair.resolved.slope))
-
-
-def surface_of(prepared: Prepared, contact) -> Surface:
-    """The map of ``contact``, a strip."""
-    return replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
 
 
 def numbers_of(scene: Scene, sq: float, result: DeterministicResult) -> dict[str, float]:

@@ -7,10 +7,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ..contact import RoughContact
-from ..deterministic import grids, solve_strip
-from ..scene import FRICTION, Scene, value_of
-from ..sharing import Prepared, on_stack, on_strip, prepare, solve_balance
-from .pair import cells_of, surface_of
+from ..deterministic import Strip, grids, solve_strip
+from ..scene import FRICTION, Scene, moves, value_of
+from ..sharing import Prepared, on_stack, prepare, solve_balance
+from .moving import solved_strip, strip_surface
+from .pair import cells_of
 from .result import FrictionResult
 from .uncertainty import Uncertainty
 
@@ -83,15 +84,17 @@ def _resolved(prepared: Prepared, speed: float) -> Callable[[Scene], float]:
     """The same by the deterministic model, on one strip or on the patch."""
     strips = prepared.strips
     assert strips is not None
-    if strips.whole and prepared.scene.numerics.model == "deterministic":
+    if strips.whole and prepared.scene.numerics.model == "deterministic" and not moves(prepared.scene):
         surface, factors = prepared.surface, grids(prepared.scene, prepared.surface)[0]
     else:
-        surface = surface_of(prepared, on_strip(prepared, strips, 0))
+        surface = strip_surface(prepared, 0)
         fx, fy = cells_of(strips, prepared.scene.bodies.half_width)
         factors = 2 * fx, fy if surface.shape[1] % (2 * fy) else 2 * fy
-    start = solve_strip(prepared.scene, surface, speed, factors=factors)
 
-    def f(scene: Scene) -> float:
-        return solve_strip(scene, surface, speed, factors=factors, start=start).result.coefficient
+    def solved(scene: Scene, start: Strip | None = None) -> Strip:
+        if moves(scene):
+            return solved_strip(replace(prepared, scene=scene), 0, speed, factors=factors, start=start)
+        return solve_strip(scene, surface, speed, factors=factors, start=start)
 
-    return f
+    start = solved(prepared.scene)
+    return lambda scene: solved(scene, start).result.coefficient

@@ -187,8 +187,8 @@ def _nodes(scene, film, contact, contact_load: float, force: float):
 def typical_heat(scene, film, contact, contact_load: float, force: float, shear) -> float:
     """Share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the viscosity
     fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0 where the
-    lubricant says how it falls, where ``numerics.heat`` is off, and where nothing slides. Arguments as of `point_heat`.
-    """
+    lubricant says how it falls, where ``numerics.heat`` is off, and where nothing slides. Arguments as of
+    `point_heat`."""
     lubricant = scene.lubricant
     known = lubricant.heats or lubricant.temperature_coefficient == 0
     meaningless = float(film.pressure.max()) > NO_LIQUID or not shear.excess < math.inf

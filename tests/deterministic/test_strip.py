@@ -7,6 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.deterministic import deterministic_point, estimate, grids, solve_strip
+from lubfric.film import Effort, solve_line_contact
 from lubfric.surface import Surface
 
 SCENE = lubfric.load_scene("paper")
@@ -44,6 +45,22 @@ def test_columns_add_up_and_deviations_are_what_a_heavier_load_does_not_explain(
     assert FOUND.slope == pytest.approx(rise, rel=0.1)
     deviations = result.friction_at - FOUND.slope * result.load_at
     assert FOUND.deviations == pytest.approx(deviations - deviations.mean(), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "lubricant, closeness",
+    [({}, 2e-3), ({"inlet_length": 5e-5}, 4e-3), ({"inlet_film": 1.5e-7}, 5e-3), ({"eyring_stress": 2e7}, 5e-3)]
+    + [({"carreau": (2e7, 0.7)}, 5e-3)],
+)
+def test_a_smooth_strip_has_the_smooth_film(lubricant, closeness):
+    """Flooded, starved by either key, and thinned by shear (where the pressure flow is slow beside the sliding)."""
+    scene = SCENE.with_(bodies={"load": 200.0}, lubricant=lubricant, motion={"entrainment_speed": 0.3})
+    smooth = Surface(np.zeros((90, 4)), (1.2e-6, 1.2e-6))
+    strip = solved(0.3, (1, 1), scene, smooth, tolerance=1e-6).result
+    film = solve_line_contact(scene.line_contact(0.3), Effort(1e-3))
+    assert strip.flow_film == pytest.approx(film.flow_film, rel=closeness)
+    assert strip.min_gap == pytest.approx(film.min_film, rel=closeness)
+    assert strip.central_gap == pytest.approx(film.central_film, rel=closeness)
 
 
 def test_a_start_saves_work_and_changes_nothing_but_what_the_tolerance_allows():

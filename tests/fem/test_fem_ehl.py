@@ -10,12 +10,14 @@ from hypothesis import strategies as st
 
 pytest.importorskip("skfem")
 
+import lubfric
 from verification.convergence import fitted_order
 from verification.exact import antiderivative
 from verification.fem.ehl import LineContact, Solution, solve_ehl
 from verification.fem.ehl_body import Layout, graded_mesh, make_body
 from verification.fem.ehl_film import Film, assemble
 from verification.fem.fluid import Fluid
+from verification.fem.thinned_film import Law, solve_thinned
 from verification.parts import ALPHA, VISCOSITY, case_of
 
 
@@ -102,3 +104,16 @@ def test_scaling_only_the_two_numbers_matter():
     )
     a, b = (films(solve_ehl(c, refinements=0)[0]) for c in (one, other))
     assert a == pytest.approx(b, rel=1e-7)
+
+
+def test_a_film_that_shear_thins():
+    """The factor of the flow is the tangent of Eyring's law where the pressure drives little; the film is lubfric's."""
+    line = contact(20, 10)
+    sliding = 2 * line.entrainment_speed
+    newtonian, thinned = solve_thinned(line, Law(5e5), sliding, refinements=0)
+    zero, film = np.zeros(3), np.array([0.5, 1.0, 2.0])
+    s = thinned.film.stress_per_film / film / 5e5
+    assert thinned.film.factor(zero, zero, film) == pytest.approx(np.hypot(1, s), rel=1e-6)
+    own = lubfric.solve_ehl(**case_of(20, 10), sliding=sliding, eyring_stress=5e5)
+    assert thinned.flow_film == pytest.approx(own.flow_film, rel=5e-3)
+    assert thinned.flow_film < 0.55 * newtonian.flow_film
