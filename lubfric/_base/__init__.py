@@ -32,7 +32,7 @@ from .files import (
 )
 from .records import Brief, FieldsOnly, FrozenArrays, Shown, changed, table
 from .roots import Root, increasing_root
-from .tables import plain, read_columns, read_json, read_table, table_bytes
+from .tables import packaged, plain, read_columns, read_json, read_table, table_bytes
 from .validate import (
     array,
     choice,

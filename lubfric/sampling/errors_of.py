@@ -224,7 +224,7 @@ def _notes(found: Found, scene: Scene, sampling: float) -> tuple[str, ...]:
         notes.append(f"more than the {percent(asked)} asked")
     if too_few(found.scatter.spots, sampling, asked):
         notes.append(
-            f"few spots carry the load (as {found.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the interval "
-            "is too narrow more often than it says"
+            f"few spots carry the load (as {found.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
+            "interval is too narrow more often than it says"
         )
     return tuple(notes)

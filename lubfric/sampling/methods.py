@@ -1,4 +1,4 @@
-"""The methods behind a result that have a paper behind them (`lubfric.sampling.cite.PAPERS`)."""
+"""The methods behind a result that have a paper behind them (`lubfric.sampling.cite, papers.toml`)."""
 
 from __future__ import annotations
 

@@ -66,7 +66,8 @@ def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):
     scene = lubfric.load_scene(path)
     assert scene.lubricant.oil.index == pytest.approx(95, abs=1e-6)
     assert describe_scene(scene).count("caution") == 0
-    found = lubfric.friction(scene.with_(contact={"shape": (128, 64), "spacing": 3.2e-6}), 0.01)
+    small = scene.with_(contact={"shape": (128, 64), "spacing": 3.2e-6}, numerics={"model": "load-sharing"})
+    found = lubfric.friction(small, 0.01)
     assert 0.05 < found.coefficient <= 0.12
     assert main(["init", str(path)]) == 2
     assert "exists" in capsys.readouterr().err
@@ -79,7 +80,8 @@ def test_the_roller_of_the_examples_is_an_answer(root, tmp_path):
     assert len(scene.read_text(encoding="utf-8").splitlines()) <= 25
     ground = lubfric.generate_surface((166, 102), (0.5e-6, 2e-6), sq=77e-9, **lay, seed=3)
     path = write_x3p(tmp_path / "ground.x3p", ground.heights, steps=ground.spacing)
-    curve = lubfric.stribeck(lubfric.load_scene(scene, surface_file=path), [1.0, 1e-2, 1e-4])
+    shared = lubfric.load_scene(scene, surface_file=path).with_(numerics={"model": "load-sharing"})
+    curve = lubfric.stribeck(shared, [1.0, 1e-2, 1e-4])
     assert 0.02 < curve.coefficient[0] < 0.05 and not any("not valid" in text for text in curve.validity)
     assert curve.coefficient[2] == pytest.approx(0.12, rel=2e-3)  # f -> f_b
     assert curve.coefficient[0] < curve.coefficient[1] < curve.coefficient[2]
