@@ -284,6 +284,11 @@ def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:
     return {q.symbol or q.label: f"{value:.4g}" + (f" {q.unit}" if q.unit != "-" else "") for q, value in rows}
 
 
+def counted(count: int, plural: str) -> str:
+    """How many there are, in words: "1 speed", "2 speeds"."""
+    return f"{count} {plural if count != 1 else plural.removesuffix('s')}"
+
+
 def key_unit(section: str, key: str) -> str:
     """The unit of a key of a scene, for people; "" where it has none."""
     unit = KEYS[f"{section}.{key}"].unit if f"{section}.{key}" in KEYS else "-"

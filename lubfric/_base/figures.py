@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ FRICTION = axis_label("coefficient")
 SLENDER = 4.0  # ratio of the sides beyond which a map is not drawn to scale
 
 
-def new_figure(*args, layout: str = "constrained", **kwargs):
+def new_figure(*args, layout: Any = "constrained", **kwargs):
     """A figure without a window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure

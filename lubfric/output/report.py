@@ -8,7 +8,7 @@ from html import escape
 
 import numpy as np
 
-from ..quantities import COLUMNS
+from ..quantities import COLUMNS, counted
 from ..sampling import percent
 from ..scene import Scene
 from ..sharing import Prepared
@@ -92,7 +92,7 @@ def _of_curve(scene: Scene, curve: CurveResult) -> list[str]:
     swept, f = getattr(curve, name), curve["coefficient"]
     solved = np.flatnonzero(np.isfinite(f))
     if not solved.size:
-        return [f"None of the {f.size} {plural} has an answer."]
+        return [f"0 of {counted(f.size, plural)} have an answer."]
     own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
     nearest = solved[np.abs(swept[solved] - own).argmin()]
     place, known = (

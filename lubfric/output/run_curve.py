@@ -13,9 +13,9 @@ import numpy as np
 
 from .._base import FolderLock, OwnFiles, make_ready, plain_words, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
-from ..quantities import COLUMNS, NUMBERS, in_words
+from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
-from ..sharing import Prepared, Validity, takes_strips
+from ..sharing import Prepared, Validity, lack_in_words, takes_strips
 from ..studies import (
     AUTO,
     MOST_WORKERS,
@@ -146,6 +146,7 @@ def _point(curve: CurveResult, index: int) -> dict:
             "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
             "errors": asdict(point.errors),
             "report": point.report.as_dict(),
+            "lacks": [lack_in_words(lack) for lack in point.lacks],
         }
     )
 
@@ -201,12 +202,11 @@ def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
     noted, said = [point for point in points if point[1].notes], []
     few = [value for value, known in points if known.few_spots]
 
-    def counted(count: int, word: str = "") -> str:
-        return f"{count} {word}{plural if count > 1 else plural[:-1]}"
-
     if noted:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
-        others = f" (the largest; result.json has {counted(len(noted) - 1, 'more ')})" if len(noted) > 1 else ""
+        others = (
+            f" (the largest; result.json has {counted(len(noted) - 1, f'more {plural}')})" if len(noted) > 1 else ""
+        )
         said.append(f"error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{others}")
         if few and few != [at]:
             where = ", ".join(f"{value:.4g}" for value in few)
@@ -224,9 +224,9 @@ def _raise_if_failed(curve: CurveResult) -> None:
         return
     total, plural = len(curve.points), curve.SWEPT[3]
     failed = sum(not isinstance(error, ValidityError) for error in curve.errors.values())
-    counts = [f"{failed} of {total} {plural} failed"] if failed else []
+    counts = [f"{failed} of {counted(total, plural)} failed"] if failed else []
     if len(curve.errors) > failed:
-        counts.append(f"{len(curve.errors) - failed} of {total} {plural} refused (--accept keeps them, marked)")
+        counts.append(f"{len(curve.errors) - failed} of {counted(total, plural)} refused (--accept keeps them, marked)")
     raise ConvergenceError(f"{', '.join(counts)}; first: {curve.errors[min(curve.errors)]}", curve.report)
 
 
