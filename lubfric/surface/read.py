@@ -47,8 +47,7 @@ def read_surface(
                          values; needs ``spacing``, or a line ``# spacing = dx dy`` (m)
     .xyz                 lines "x y z" on a uniform grid, any order; points left out are unmeasured
     .x3p                 ISO 25178-72; x is the fast axis of the file and axis 0 here; metres
-    .sur .al3d .opd ...  every format that SurfaceTopography reads (the extra ``lubfric[formats]``),
-                         the first channel of a file that has several
+    .sur .al3d .opd ...  every format of SurfaceTopography (``lubfric[formats]``): its first channel
     ==================== ==================================================================
 
     In a text file, lines that start with # are skipped, and so are titles without numbers above the table (which are
@@ -69,9 +68,7 @@ def read_surface(
     missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN always
         does
 
-    Returns
-    -------
-    Surface
+    Returns a `Surface`.
 
     Raises
     ------
