@@ -115,7 +115,7 @@ def _consistent(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
     problem, hardness, apply = contact.problem, contact.problem.hardness, contact.problem.operator.apply
     displacement, convolutions = apply(p), 2
     offset, shared = contact.offset(displacement), bulk(contact, p)
-    d = residue = None
+    d, residue, kept = np.zeros_like(p), np.zeros_like(p), False  # the direction, from what, whether it goes on
     while True:
         yield p, displacement, offset, convolutions
         gap = problem.gap0 + displacement - offset
@@ -124,16 +124,15 @@ def _consistent(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
         if free.any():  # else all that touches has yielded, and epsilon alone is not that of Eq. (8) yet
             r, step = np.where(free, gap, 0.0), 0.0
             while not step > 0:
-                steepest = d is None or residue is None
-                keep = 0.0 if steepest else max(0.0, np.vdot(r, r - residue) / np.vdot(residue, residue))
-                d = -r if steepest else np.where(free, keep * d, 0.0) - r
+                keep = max(0.0, float(np.vdot(r, r - residue) / np.vdot(residue, residue))) if kept else 0.0
+                d = np.where(free, keep * d, 0.0) - r if kept else -r
                 curvature = np.vdot(d, apply(d)) - shared * d.sum() ** 2
                 if curvature <= 0 and shared > 0:  # contact has left the area the bulk was taken from
                     curvature, shared = curvature + shared * d.sum() ** 2, 0.0
-                step = -(np.vdot(r, d) / curvature)
-                if not step > 0 and steepest:
+                step = -float(np.vdot(r, d) / curvature)
+                if not step > 0 and not kept:
                     return
-                residue = r if step > 0 else None  # None: begin again from the steepest descent
+                residue, kept = r, step > 0  # else begin again from the steepest descent
             before, p = p.sum(), np.clip(p + step * d, 0.0, hardness)
             displacement, convolutions, more = apply(p), convolutions + 2, p.sum() - before
         above = problem.gap0 + displacement - (offset + shared * more)  # epsilon has taken over the bulk deflection
