@@ -1,6 +1,7 @@
 """One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .point import Refined, Strip, change_of, deterministic_point, estimate, grids, solve_strip, work_of, work_of_steps
+from .point import ENOUGH, Refined, Strip, change_of, changes_of, estimate, solve_strip, work_of, work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach
-from .result import DeterministicResult
+from .result import DeterministicResult, assemble
 from .solve import dry_contact, solve_point
+from .state import evaluated

@@ -97,4 +97,4 @@ def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float
     count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)
     (fx, fy), (dx, dy) = cells_of(strips, scene.bodies.half_width), strips.cells.coarse
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
-    return count, count * work_of_steps(cells, STEPS) + work_of_steps(cells * fx * fy, FINER_STEPS)
+    return count, count * work_of_steps(cells, STEPS) + work_of_steps(cells * fx * fy / 2, FINER_STEPS)

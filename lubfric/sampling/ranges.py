@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ..contact import HalfSpaceContact, RoughContact
-from ..deterministic import grids, solve_strip
+from ..deterministic import solve_strip
 from ..scene import FRICTION, Scene, value_of
-from ..sharing import Prepared, on_stack, on_strip, prepare, solve_balance
-from .pair import cells_of, surface_of
+from ..sharing import Prepared, on_stack, prepare, solve_balance
+from .pair import longer_than, strip_of
 from .result import FrictionResult
 from .uncertainty import Uncertainty
 
@@ -81,14 +81,8 @@ def _shared(prepared: Prepared, speed: float) -> Callable[[Scene], float]:
 
 def _resolved(prepared: Prepared, speed: float) -> Callable[[Scene], float]:
     """The same by the deterministic model, on one strip or on the patch."""
-    strips = prepared.strips
-    assert strips is not None
-    if strips.whole and prepared.scene.numerics.model == "deterministic":
-        surface, factors = prepared.surface, grids(prepared.scene, prepared.surface)[0]
-    else:
-        surface = surface_of(prepared, on_strip(prepared, strips, 0))
-        fx, fy = cells_of(strips, prepared.scene.bodies.half_width)
-        factors = 2 * fx, fy if surface.shape[1] % (2 * fy) else 2 * fy
+    surface, factors = strip_of(prepared, 0)
+    factors = longer_than(surface, factors)
     start = solve_strip(prepared.scene, surface, speed, factors=factors)
 
     def f(scene: Scene) -> float:
