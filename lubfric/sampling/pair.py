@@ -25,6 +25,7 @@ from ..surface import Surface
 from .scatter import friction_influence, mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
+SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 
 
 @dataclass(frozen=True)
@@ -92,22 +93,22 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
 
 
 def solve_finer(prepared: Prepared, speed: float, index: int, first: Pair) -> tuple[Strip, ...]:
-    """A piece of the surface on cells twice as long as those of ``first``, on the same, and on cells half as long. Of a
-    patch: all of it, on shorter and shorter cells until the estimated error is within ``numerics.tolerance``, at last
-    (with ``numerics.grid = "given"`` always) on the map's own. Raises `ConvergenceError`."""
+    """A piece of the surface (or a strip, if that is as `SHORT`) on cells twice as long as those of ``first``, on the
+    same, and on cells half as long. Of a patch: all of it, on shorter and shorter cells until the estimated error is
+    within ``numerics.tolerance``, at last (with ``numerics.grid = "given"`` always) on the map's own. Raises
+    `ConvergenceError`."""
     scene, strips = prepared.scene, prepared.strips
     assert strips is not None
     surface, factors = strip_of(prepared, index)
     enough = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
-    if strips.whole:
+    short = index == 0 and strips.length < SHORT * strips.lengths[1] and factors != (1, 1)
+    if strips.whole or short:
         ladder = [first.longer, first.resolved]
     else:
         cells = tuple(f * n for f, n in zip(factors, strips.cells.factors))
         last = max(1, cells[0] // 2), max(1, cells[1] // 2)
-        surface, factors = (
-            surface_of(prepared, on_piece(prepared, strips, index, last)),
-            (cells[0] // last[0], cells[1] // last[1]),
-        )
+        factors = cells[0] // last[0], cells[1] // last[1]
+        surface = surface_of(prepared, on_piece(prepared, strips, index, last))
         ladder = [solve_strip(scene, surface, speed, factors=longer_than(surface, factors))]
         ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[0]))
     while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
