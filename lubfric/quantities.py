@@ -134,13 +134,7 @@ class UncertaintyQuantities(Generic[T]):
     area_needed: T = quantity(
         "-", "how many times more of a measured map would be needed", note="1: enough", default=1.0
     )
-    model: T = quantity(
-        "-",
-        "relative error of f by the model itself, at 95 %",
-        column="model_error",
-        note="in the interval; NaN where it is not known",
-        default=math.nan,
-    )
+    model: T = quantity("-", "relative error of f by the model, at 95 %", column="model_error", default=math.nan)
     inputs: T = quantity("-", "relative change of f by the ranges of inputs", column="input_error", default=0.0)
 
 
@@ -205,6 +199,7 @@ KEYS = {  # of a scene, as far as they are numbers
     "lubricant.viscosity": Quantity("Pa s", "viscosity at ambient pressure"),
     "lubricant.pressure_viscosity_coefficient": Quantity("1/Pa", "pressure-viscosity coefficient"),
     "lubricant.eyring_stress": Quantity("Pa", "Eyring stress"),
+    "lubricant.carreau": Quantity("Pa, -", "critical stress and exponent of Carreau's law"),
     "lubricant.limiting_stress_coefficient": Quantity("-", "limiting shear stress per pressure"),
     "lubricant.limiting_stress_offset": Quantity("Pa", "limiting shear stress at ambient pressure"),
     "lubricant.inlet_length": Quantity("m", "distance upstream of the contact where the lubricant begins"),
@@ -283,16 +278,15 @@ def axis_label(name: str) -> str:
     return " ".join((label, *filter(None, (symbol,)), *([f"({unit})"] if unit else [])))
 
 
-def short_label(name: str) -> str:
-    """The heading of a table for people: the symbol (where there is none, the long name) and the unit, if any."""
-    q = COLUMNS[name]
-    return (q.symbol or q.label) + (f" ({q.unit})" if q.unit != "-" else "")
-
-
 def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:
     """Attributes of ``values`` by symbol, to four digits and with their units: ``{"F_C": "3.2 N"}``."""
     rows = [(COLUMNS[name], getattr(values, name)) for name in names]
     return {q.symbol or q.label: f"{value:.4g}" + (f" {q.unit}" if q.unit != "-" else "") for q, value in rows}
+
+
+def counted(count: int, plural: str) -> str:
+    """How many there are, in words: "1 speed", "2 speeds"."""
+    return f"{count} {plural if count != 1 else plural.removesuffix('s')}"
 
 
 def key_unit(section: str, key: str) -> str:

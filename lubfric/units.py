@@ -6,9 +6,11 @@ decimals, so that "68 mm2/s" is 6.8e-05 m2/s to the last bit.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable
 from decimal import Decimal
+from statistics import median
 from typing import Any
 
 from .errors import InputError
@@ -36,8 +38,20 @@ UNITS: dict[str, dict[str, float]] = {
     "Hz": {"Hz": 1.0, "kHz": 1e3, "1/s": 1.0, "1/min": 1 / 60},
     "rad": {"rad": 1.0, "°": 3.141592653589793 / 180},
 }
+PEOPLE = {  # the units, ascending, in which a number in SI is told
+    "m": ("nm", "um", "mm", "m"),
+    "N": ("N", "kN"),
+    "N/m": ("N/mm",),
+    "m2": ("um2", "mm2"),
+    "Pa": ("kPa", "MPa", "GPa"),
+    "Pa s": ("mPa s",),
+    "1/Pa": ("1/GPa",),
+    "m2/s": ("mm2/s",),
+    "J/(m3 K)": ("MJ/(m3 K)",),
+}
 NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\d.,])\s*(.*?)\s*")
 MICRO = "\N{MICRO SIGN}\N{GREEK SMALL LETTER MU}"
+RAISED = str.maketrans("23", "²³")
 SPELLINGS = str.maketrans(f"{MICRO}\N{MINUS SIGN}\N{SUPERSCRIPT MINUS}¹²³·⋅*", "uu--123   ", "^")
 OTHER_WORDS = {"degC": "°C", "C": "°C", "micron": "um", "W/mK": "W/(m K)", "deg": "°"}
 
@@ -75,6 +89,34 @@ def converted(value: Any, unit: str, to: str) -> Any:
     shift = CELSIUS if exact else float(CELSIUS)
     in_si = value * first + (shift if unit == "°C" else 0)
     return (in_si - (shift if to == "°C" else 0)) / second
+
+
+def unit_for(values: Any, unit: str) -> str:
+    """The unit of people for numbers in the SI ``unit``: the largest in which a number of middle size is 1 or more."""
+    units, sizes = PEOPLE.get(unit, (unit,)), [abs(v) for v in values if v and abs(v) < math.inf]  # not NaN
+    middle = median(sizes) if sizes else 0.0
+    return next((name for name in reversed(units) if middle >= UNITS[unit][name] * (1 - 1e-9)), units[0])
+
+
+def printed(unit: str) -> str:
+    """``unit`` as it is printed: "µm", "m²"; "" for "-"."""
+    raised = re.sub(r"(?<=[A-Za-z])[23]", lambda digit: digit[0].translate(RAISED), unit)
+    return "" if unit == "-" else re.sub(r"^u(?=m|s)", "µ", raised)
+
+
+def worded(value: Any, unit: str) -> str:
+    """A number, or several of one kind, in the SI ``unit``, to four digits in a unit of people: "12 mm". What
+    is no number is left as it is."""
+    values = value if isinstance(value, (tuple, list)) else (value,)
+    if not values or not all(isinstance(v, (int, float)) for v in values) or isinstance(values[0], bool):
+        return str(value)
+    name = unit_for(values, unit)
+    shown = [converted(v, unit, name) if name != unit else v for v in values]
+    few = len(shown) < 4
+    text = (
+        " and ".join(f"{v:.4g}" for v in shown) if few else f"{len(shown)} values, {min(shown):.4g} to {max(shown):.4g}"
+    )
+    return f"{text} {printed(name)}".rstrip()
 
 
 def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), depth: int = 3) -> Any:

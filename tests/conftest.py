@@ -46,6 +46,21 @@ def undrawn(monkeypatch) -> None:
 
 
 @pytest.fixture
+def load_sharing(monkeypatch) -> None:
+    """Scenes that leave the model open are solved by load sharing alone: pages and scripts run in a fraction of the
+    time, and what the default model answers is the matter of other tests."""
+    import lubfric
+
+    real = lubfric.load_scene
+
+    def load_scene(*arguments, **options):
+        scene = real(*arguments, **options)
+        return scene.with_(numerics={"model": "load-sharing"}) if scene.numerics.model == "auto" else scene
+
+    monkeypatch.setattr(lubfric, "load_scene", load_scene)
+
+
+@pytest.fixture
 def instruments(monkeypatch) -> None:
     """What reads files of instruments: the optional package, or where it is not installed a stand-in for it."""
     try:

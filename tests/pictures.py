@@ -1,5 +1,5 @@
-"""What stands in for the pictures of a command where they are not the matter: they take most of the time of a small run,
-also of one in a process of its own (``leave_out()``, with this folder on the path)."""
+"""What stands in for the pictures of a command where they are not the matter: they take most of the time of a small
+run, also of one in a process of its own (``leave_out()``, with this folder on the path)."""
 
 from pathlib import Path
 

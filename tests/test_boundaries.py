@@ -86,6 +86,23 @@ def test_only_one_file_knows_meshio():
     assert users == ["verification/meshes.py"]
 
 
+def test_no_solver_asks_a_contact_of_what_kind_it_is():
+    """A contact from outside is treated like those of this package; only where these are made are they told apart."""
+    kinds = {
+        node.name
+        for f in (ROOT / "lubfric" / "contact").rglob("*.py")
+        for node in ast.walk(ast.parse(f.read_text()))
+        if isinstance(node, ast.ClassDef) and any(getattr(base, "id", "") == "RoughContact" for base in node.bases)
+    }
+    asked = []
+    for file in sorted((ROOT / "lubfric").rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") in ("isinstance", "issubclass", "type"):
+                named = {getattr(part, "id", getattr(part, "attr", "")) for part in ast.walk(node)}
+                asked += [file.name] if named & (kinds | {"OWN"}) else []
+    assert len(kinds) >= 3 and asked == ["prepared.py"]
+
+
 def python(code: str) -> str:
     """Output of a fresh interpreter."""
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT).stdout

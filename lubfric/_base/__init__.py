@@ -9,6 +9,7 @@ from .figures import (
     axes_or_new,
     field_image,
     friction_lines,
+    key_above,
     load_shares,
     log_if_wide,
     make_ready,
@@ -31,7 +32,7 @@ from .files import (
 )
 from .records import Brief, FieldsOnly, FrozenArrays, Shown, changed, table
 from .roots import Root, increasing_root
-from .tables import plain, read_columns, read_json, read_table, table_bytes
+from .tables import packaged, plain, read_columns, read_json, read_table, table_bytes
 from .validate import (
     array,
     choice,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from typing import Any
 
 import numpy as np
 
@@ -10,14 +11,15 @@ from ..quantities import axis_label
 
 BLUE, RED, GREEN, GREY = "#1f5a94", "#b3392f", "#2f7d4f", "#6b6b6b"
 FRICTION = axis_label("coefficient")
+SLENDER = 4.0  # ratio of the sides beyond which a map is not drawn to scale
 
 
-def new_figure(*args, **kwargs):
+def new_figure(*args, layout: Any = "constrained", **kwargs):
     """A figure without a window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(*args, layout="constrained", **kwargs)
+    figure = Figure(*args, layout=layout, **kwargs)
     FigureCanvasAgg(figure)
     return figure
 
@@ -55,7 +57,7 @@ def friction_lines(axes, x, parts, **style) -> None:
 def load_shares(axes, x, share) -> None:
     """Share of the load on the contact, and the rest on the film, over ``x``."""
     axes.fill_between(x, 0, share, color=RED, alpha=0.5, lw=0, label="contact $F_C$")
-    axes.fill_between(x, share, 1, color=BLUE, alpha=0.3, lw=0, label="film $F_H$")
+    axes.fill_between(x, share, 1, color=GREEN, alpha=0.3, lw=0, label="film $F_H$")
     axes.set(ylim=(0, 1), ylabel="share of the load (-)")
 
 
@@ -84,11 +86,22 @@ def speed_label(speed: np.ndarray) -> str:
     return f"entrainment speed |U| (m/s), {'both directions' if (speed > 0).any() else 'backwards'}"
 
 
-def field_image(axes, x, y, values, colours: str, label: str, **options):
-    """``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours; returns the image."""
+def key_above(axes, columns: int = 3) -> None:
+    """The key of the lines above the axes, where it hides none."""
+    place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}
+    axes.legend(ncols=columns, frameon=False, fontsize=8, **place)
+
+
+def field_image(axes, x, y, values, colours: str, label: str, extend: str = "neither", **options):
+    """``values`` (nx, ny) over cells at ``x`` and ``y`` [m], from above, with a bar of colours; returns the image. To
+    scale, unless it would be too slender; then the axis says so."""
     half_x, half_y = (0.5 * (a[1] - a[0] if a.size > 1 else 1e-6) for a in (x, y))
     extent = [1e6 * end for end in (x[0] - half_x, x[-1] + half_x, y[0] - half_y, y[-1] + half_y)]
-    image = axes.imshow(values.T, origin="lower", aspect="auto", cmap=colours, extent=extent, **options)
-    axes.figure.colorbar(image, ax=axes, label=label)
-    axes.set(xlabel="x (µm), along the motion", ylabel="y (µm), along the line")
+    ratio = (extent[3] - extent[2]) / (extent[1] - extent[0])
+    slender = not 1 / SLENDER <= ratio <= SLENDER
+    aspect = "auto" if slender else "equal"
+    image = axes.imshow(values.T, origin="lower", aspect=aspect, cmap=colours, extent=extent, **options)
+    axes.figure.colorbar(image, ax=axes, label=label, extend=extend)
+    axes.set(xlabel="x (µm), along the motion")
+    axes.set(ylabel=f"y (µm), along the line{' (not to scale)' if slender else ''}")
     return image

@@ -8,7 +8,10 @@ import io
 import json
 import math
 import re
+import tomllib
 from collections.abc import Sequence
+from functools import cache
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +24,12 @@ from .validate import nearest, shown
 IN_WORDS = ("validity", "uncertainty")  # columns of a result
 MOST_BYTES = 2**27
 HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
+
+
+@cache
+def packaged(package: str, name: str) -> dict[str, Any]:
+    """The table in the TOML file ``name`` of a ``package`` of lubfric."""
+    return tomllib.loads((resources.files(package) / name).read_text(encoding="utf-8"))
 
 
 def plain(value):

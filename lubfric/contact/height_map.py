@@ -174,10 +174,11 @@ def refuse_outliers(surface: Surface, name: str) -> None:
     off = outliers(surface.fill().heights, surface.mask, surface.periodic_axes)
     worst = tuple(int(i) for i in np.unravel_index(off.argmax(), off.shape))
     if off[worst] > 0:
-        z = (surface.heights[worst] - surface.measured.mean()) / surface.sq
+        z, count = (surface.heights[worst] - surface.measured.mean()) / surface.sq, np.count_nonzero(off > 0)
+        alone = "1 point stands alone above its" if count == 1 else f"{count} points stand alone above their"
         raise InputError(
-            f"surface {surface.source}: {np.count_nonzero(off > 0)} points stand alone above their neighbours and "
-            f"would carry the load, the worst at (ix, iy) = {worst}, {z:.3g} Sq high; give {name}.outliers = "
+            f"surface {surface.source}: {alone} neighbours and would carry the load, the worst at (ix, iy) = {worst}, "
+            f"{z:.3g} Sq high; give {name}.outliers = "
             "'mask' to take them for unmeasured, 'keep' if they are real (lubfric.surface.outliers has the rule)"
         )
 

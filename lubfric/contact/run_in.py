@@ -39,6 +39,7 @@ class RunIn(FrozenArrays, Shown):
     sinking : share of the cells that sank by more than the tolerance in each pass [-], (passes,)
     shaken_down : True: nothing sank by more than the tolerance in the last pass. False: asperities still yield, and
         would in further passes
+    ends : the map after at the lowest and the highest hardness, where that is known to a range only; () else
     """
 
     before: Surface
@@ -46,6 +47,7 @@ class RunIn(FrozenArrays, Shown):
     deepest: np.ndarray
     sinking: np.ndarray
     shaken_down: bool
+    ends: tuple[Surface, ...] = ()
 
     def __post_init__(self):
         self.freeze()
@@ -74,9 +76,11 @@ class RunIn(FrozenArrays, Shown):
     def _facts(self) -> dict[str, str]:
         old, new = self.before, self.surface
         skewness = f"{old.ssk:.3g} to {new.ssk:.3g}" if old.sq > 0 and new.sq > 0 else "none"
+        low, high = (surface.sq * NM for surface in self.ends or (new, new))
+        span = f" ({low:.4g} to {high:.4g} nm by the range of the hardness)" if self.ends else ""
         end = "shaken down" if self.shaken_down else f"still yielding, by {self.deepest[-1] * NM:.3g} nm"
         return {
-            "Sq": f"{old.sq * NM:.4g} to {new.sq * NM:.4g} nm",
+            "Sq": f"{old.sq * NM:.4g} to {new.sq * NM:.4g} nm{span}",
             "Ssk": skewness,
             "dented": f"{100 * np.count_nonzero(self.dents) / self.dents.size:.3g} %",
             "": f"{end} after {self.deepest.size} passes",
@@ -109,7 +113,8 @@ def run_in(
 
     Returns
     -------
-    RunIn : the map before and after. `lubfric.prepare` takes ``surface`` of it as any other map
+    RunIn : the map before and after, and at both ends of a hardness that is given as a range. `lubfric.prepare` takes
+        ``surface`` of it as any other map
 
     Raises
     ------
@@ -141,7 +146,10 @@ def run_in(
     note = f"run in: {count} passes under {scene.bodies.load:g} N, hardness {scene.bodies.hardness:g} Pa"
     note += "" if shaken else f"; still yielding, by {deepest[-1]:.3g} m"
     after = replace(before, heights=heights, notes=(*before.notes, note))
-    return RunIn(before, after, np.array(deepest), np.array(sinking), shaken)
+    others = [pair for name, *pair in scene.at_ends() if name == "bodies.hardness"]
+    how: dict[str, Any] = {"passes": passes, "tolerance": tolerance, "step": step}
+    ends = tuple(run_in(other, before, **how).surface for pair in others for other in pair)
+    return RunIn(before, after, np.array(deepest), np.array(sinking), shaken, ends)
 
 
 def _whole(scene: Scene, surface: Surface | None) -> Surface:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import ConvergenceError
-from ..scene import Scene, check_resolved_gap
+from ..scene import Scene, check_resolved_gap, moving_bodies
 from ..surface import Surface
 from .problem import BOUNDARY_FILM, Problem, lay_out
 from .result import DeterministicResult
@@ -99,15 +99,18 @@ def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
 def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int, int] = (1, 1)) -> Problem:
     """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
     times as long (`lay_out`). For a negative speed the map is turned."""
-    film = scene.bodies.boundary_film
-    return lay_out(
+    film, ratio = scene.bodies.boundary_film, scene.motion.slide_roll_ratio
+    found = lay_out(
         replace(surface, heights=surface.heights[::-1], mask=None) if speed < 0 else surface,
         scene.line_contact(abs(speed)),
-        sliding=2 * abs(speed),
+        sliding=abs(ratio * speed),
         boundary_friction=scene.bodies.boundary_friction_coefficient,
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if film is None else film,
         factors=factors,
+    )
+    return (
+        replace(found, upper=found.heights) if [name for name, _ in moving_bodies(scene)] == ["counterface"] else found
     )
 
 

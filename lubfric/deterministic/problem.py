@@ -1,4 +1,4 @@
-"""What is solved: one rough body at rest under a smooth one that moves, with one gap and one pressure.
+"""What is solved: two bodies with one gap and one pressure between them, their roughness at rest (in time: `moving`).
 
 On a grid of cells (nx, ny), x along the motion, periodic along y:
 
@@ -39,9 +39,14 @@ class Problem(OfLineContact):
     """One operating point, plain values in SI units.
 
     contact: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface
-    speeds; x [m] (nx,) centres of the cells around the line of contact; heights z [m] (nx, ny), upwards out of the
-    resting body; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf: elastic);
+    speeds; x [m] (nx,) centres of the cells around the line of contact; heights z [m] (nx, ny) of both bodies, out of
+    them; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf: elastic);
     boundary_friction: f_b [-] where the gap is thinner than boundary_film [m]; floor [m].
+
+    sense: 1, or -1 where u2 < u1. Friction is the force on surface 2, the upper one, against its sliding u2 - u1 (or
+    against U, if nothing slides): its shear stress, and the pressure on the flanks of its own roughness. ``upper`` z2
+    [m] (nx, ny): that roughness, part of z (None: surface 2 is smooth). The force on surface 1 is the opposite, but for
+    the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
     """
 
     contact: LineContact
@@ -53,6 +58,8 @@ class Problem(OfLineContact):
     hardness: float = math.inf
     boundary_film: float = BOUNDARY_FILM
     floor: float = FLOOR
+    sense: float = 1.0
+    upper: np.ndarray | None = None
 
     @property
     def spacing(self) -> tuple[float, float]:

@@ -43,11 +43,12 @@ class DeterministicResult:
 
     - pressure [Pa]: of film and contact together. gap [m]: between the rough surfaces, at least the floor. fill [-]:
       the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. spots (bool):
-      where the stress is f_b p. wet (bool): fluid under pressure outside the spots. shear [Pa]: on the moving
-      surface. dent [m]: plastic depth.
-    - boundary: f_b p over the spots. couette, rolling: shear of the film, with that upstream of the grid. coefficient:
-      (boundary + couette + rolling)/load; at_half_film, at_twice_film: with half and twice the boundary film. split:
-      the load on spots, and its parts.
+      where the stress is f_b p. wet (bool): fluid under pressure outside the spots. shear [Pa]: on surface 2, by the
+      sliding. dent [m]: plastic depth.
+    - boundary: f_b p over the spots. couette: shear of the film by the sliding. rolling: by the gradient of pressure,
+      and pressure on the flanks of a rough surface 2. Both with what is upstream of the grid. coefficient: (boundary +
+      couette + rolling)/load, of surface 2 against its sliding (`Problem`); at_half_film, at_twice_film: with half and
+      twice the boundary film. split: the load on spots, and its parts.
     - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
       b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
     - load_at, friction_at [N/m] (ny,): load and friction of every column of cells along x, with those upstream. Their
@@ -96,7 +97,7 @@ class DeterministicResult:
 
 @dataclass(frozen=True)
 class Rubbing:
-    """How the fields shear the moving surface: bools (nx, ny) of the gaps that are ``thin``, of all ``spots`` where the
+    """How the fields shear surface 2: bools (nx, ny) of the gaps that are ``thin``, of all ``spots`` where the
     stress is f_b p, and of the ``wet`` rest, fluid under its own law; the ``stress`` [Pa] (nx, ny); and of every column
     along x the forces [N/m] (ny,) on spots (``boundary``) and in the film (``couette``, ``rolling``), with those
     upstream of the grid."""
@@ -118,7 +119,8 @@ class Rubbing:
 def rubbing(at: Iterate, law, film: float) -> Rubbing:
     """With a boundary ``film`` [m]. ``law``: the stress [Pa] that the lubricant has by itself (nx, ny)."""
     problem, p, h, inlet = at.problem, at.state.pressure, at.balance.film, at.balance.inlet
-    limit, dx, fluid = problem.boundary_friction * p, problem.spacing[0], at.state.kind == FLUID
+    limit = problem.boundary_friction * p * (problem.sliding > 0)  # in pure rolling spots do not slide
+    dx, fluid = problem.spacing[0], at.state.kind == FLUID
     thin = (at.state.kind == TOUCHING) | fluid & (h < film)
     spots = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.newtonian else thin
     wet = fluid & ~spots
@@ -126,7 +128,9 @@ def rubbing(at: Iterate, law, film: float) -> Rubbing:
     stress = np.where(spots, limit, np.where(wet, law, 0.0))
     couette = (stress * wet).sum(axis=0) * dx + problem.lubricant.viscosity * problem.sliding * inlet.shearing
     rolling = (0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]) * both).sum(axis=0) + inlet.rolling
-    return Rubbing(thin, spots, wet, stress, (limit * spots).sum(axis=0) * dx, couette, rolling)
+    if problem.upper is not None:  # the pressure on its flanks
+        rolling = rolling - (0.5 * (p[1:] + p[:-1]) * np.diff(problem.upper, axis=0)).sum(axis=0)
+    return Rubbing(thin, spots, wet, stress, (limit * spots).sum(axis=0) * dx, couette, problem.sense * rolling)
 
 
 def assemble(at: Iterate, report: Report) -> DeterministicResult:

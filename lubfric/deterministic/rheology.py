@@ -7,6 +7,7 @@ fluid. With s = eta Δu/(h tau), the Newtonian stress over a characteristic stre
 - Ree-Eyring, tau = tau_E: along the sliding the tangent of its law, sqrt(1 + s²); across it the secant, s/asinh(s)
   (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987) 648-654,
   doi:10.1115/1.3261526);
+- Carreau, tau = G: the tangent (1 + s²)^((3 - n)/2)/(1 + n s²), and the secant (1 + s²)^((1 - n)/2);
 - limiting stress, tau = tau_0 + Λ p: the secant of ``1/eta_eff = 1/eta + Δu/(h tau)``, 1 + s in both directions, which
   is added to that of Eyring. (The tangent of a fluid at its limit is infinite.)
 """
@@ -66,9 +67,17 @@ def thinning(lubricant: Lubricant, newtonian_stress, limit, along: bool):
     """Φ [-] at the Newtonian stress eta Δu/h [Pa] on faces, with ``limit`` [Pa] their tau_0 + Λ p, or None; its
     derivative d ln Φ/d ln s; and the part of the derivative that belongs to the limiting stress."""
     eyring = lubricant.eyring_stress
-    if eyring is None and limit is None:
+    if lubricant.newtonian:
         return 1.0, 0.0, 0.0
     factor, slope = np.ones_like(newtonian_stress), np.zeros_like(newtonian_stress)
+    if lubricant.carreau is not None:
+        G, n = lubricant.carreau
+        square = (newtonian_stress / G) ** 2
+        factor = (1 + square) ** ((3 - n) / 2) / (1 + n * square) if along else (1 + square) ** ((1 - n) / 2)
+        slope = (1 - n) * square / (1 + square)
+        if along:
+            slope = (3 - n) * square / (1 + square) - 2 * n * square / (1 + n * square)
+        slope = slope * factor
     if eyring is not None:
         s = newtonian_stress / eyring
         if along:

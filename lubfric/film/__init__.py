@@ -8,7 +8,7 @@ force that the film knows. The closed forms (`rigid_cylinder`, `formulas`, `hert
 
 from .ehl import solve_ehl, solve_line_contact
 from .ehl_result import EHLResult, cubic, smallest
-from .formulas import moes_film
+from .formulas import flooded_inlet, moes_film, starved_inlet
 from .grid import hat_kernel, node_positions, trapezoidal
 from .heat import (
     FAST,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 from .._base import increasing_root, instance
 from ..errors import InputError
@@ -39,6 +40,9 @@ def solve_ehl(
     tolerance: float = 3e-3,
     inlet_length: float | None = None,
     inlet_film: float | None = None,
+    sliding: float | None = None,
+    eyring_stress: float | None = None,
+    carreau: tuple[float, float] | None = None,
     imposed_pressure=None,
     start: EHLResult | None = None,
     least_cells: int = 0,
@@ -49,9 +53,8 @@ def solve_ehl(
 
     The equations are d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx, with p = dp/dx = 0 at the rupture point
     (Swift-Stieber), h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx', and ∫ p dx = load_per_width. They are solved by
-    Newton's method on nested grids (`lubfric.film.reynolds`), and checked for Moes' M = 1e-12 to 1000, L = 0 to 20, and
-    for nearly rigid bodies (L to 1e4 at M <= 0.01). The cells are doubled until the largest residual of the report
-    (`EHLResult`) is <= tolerance.
+    Newton's method on nested grids, and checked for Moes' M = 1e-12 to 1000, L = 0 to 20, and for nearly rigid bodies
+    (L to 1e4 at M <= 0.01). The cells are doubled until the largest residual of the report is <= tolerance.
 
     Parameters
     ----------
@@ -62,30 +65,26 @@ def solve_ehl(
     viscosity_law, density_law : see `lubfric.Lubricant`, also for the ranges of the laws
     tolerance : relative error of min_film and flow_film from grid and domain, 1e-5 to 0.1
     inlet_length, inlet_film : None: fully flooded; or where it begins, the film that arrives [m] (`Lubricant`)
+    sliding, eyring_stress, carreau : u2 - u1 [m/s], with which shear makes the flow of the film thinner, by the law of
+        Ree and Eyring (tau_E [Pa]) or of Carreau ([G [Pa], n]); without all three the flow is Newtonian
     imposed_pressure : None, or (x [m], pressure [Pa]), (m,) each, x ascending, pressure >= 0: a line pressure, linear
         between the x and zero outside, that deflects the film in addition to p, and carries no load (kinks cost cells)
     start : the result of a neighbouring load or speed; if it leads nowhere, a cold start is made, and noted
     least_cells, max_iterations : least cells before rupture (0 to 3072); Newton steps per grid
     raise_on_failure : False returns an unconverged result with its report
 
-    Returns
-    -------
-    EHLResult
+    Returns an `EHLResult`.
 
     Raises
     ------
     InputError : a value out of range, before any work
     ConvergenceError : residuals above tolerance; carries report and result
     """
-    fluid = viscosity, pressure_viscosity_coefficient, viscosity_law, density_law
-    lubricant = Lubricant(*fluid, inlet_length=inlet_length, inlet_film=inlet_film)
-    return solve_line_contact(
-        LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant),
-        Effort(tolerance, least_cells, max_iterations),
-        imposed=imposed_pressure,
-        start=start,
-        raise_on_failure=raise_on_failure,
-    )
+    fluid = viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, eyring_stress
+    lubricant = Lubricant(*fluid, inlet_length=inlet_length, inlet_film=inlet_film, carreau=carreau)
+    contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant, sliding)
+    how: dict[str, Any] = {"imposed": imposed_pressure, "start": start, "raise_on_failure": raise_on_failure}
+    return solve_line_contact(contact, Effort(tolerance, least_cells, max_iterations), **how)
 
 
 def solve_line_contact(

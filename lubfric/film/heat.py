@@ -20,15 +20,16 @@ L = 1; 0.21 by the note itself), and which is right is not known. Every factor c
 
 Across the film, between walls of a given temperature, the stress is constant. If the viscosity falls as
 exp(-beta (T - T_w)) from the walls, the heat equation k T'' = -tau gamma integrates in closed form for any law gamma =
-gamma_w(tau) exp(beta (T - T_w)), Newtonian and Ree-Eyring: with a = exp(beta (T_middle - T_w)) and G = beta tau gamma_w
-h²/k, ``a - 1 = beta tau dU²/(8 k gamma_w)`` and ``asinh²√(a - 1) = a G/8``, one root for tau (for a Newtonian fluid
-`lubfric.film.formulas.nahme_stress`).
+gamma_w(tau) exp(beta (T - T_w)), Newtonian, Ree-Eyring, Carreau: with a = exp(beta (T_middle - T_w)) and G = beta tau
+gamma_w h²/k, ``a - 1 = beta tau dU²/(8 k gamma_w)`` and ``asinh²√(a - 1) = a G/8``, one root for tau (for a Newtonian
+fluid `lubfric.film.formulas.nahme_stress`).
 
 With the temperature change:
 
 - the viscosity, by Roelands, ``(ln eta + 9.67) ~ (T - 138 K)^-S0``, with S0 from the temperature coefficient (C. J. A.
   Roelands, thesis, Delft 1966); by exp(-beta (T - T0)) for the other laws;
-- the Eyring stress ~ T (H. Eyring, J. Chem. Phys. 4 (1936) 283, doi:10.1063/1.1749836: tau_E = k T/v);
+- the Eyring stress ~ T (H. Eyring, J. Chem. Phys. 4 (1936) 283, doi:10.1063/1.1749836: tau_E = k T/v), and Carreau's
+  critical stress alike;
 - the limiting stress ~ exp(585 K (1/T - 1/T0)) (L. Houpert, L. Flamand, D. Berthe, J. Lubr. Technol. 103 (1981)
   526-532, doi:10.1115/1.3251731).
 
@@ -45,7 +46,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
-from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio, shear_stress
+from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, carreau_rate, log_viscosity_ratio, shear_stress
 
 FAST = 5.0  # Péclet number u b rho c/(2 k) from which a source moves fast
 NODES = 257  # at most, of the flash temperature
@@ -223,9 +224,9 @@ def viscosity_at(lubricant: Lubricant, pressure, temperature) -> tuple[np.ndarra
     return over_pole - ROELANDS_LOG_VISCOSITY, over_pole * power / above
 
 
-def eyring_stress_at(lubricant: Lubricant, temperature):
-    """tau_E [Pa] at ``temperature`` [K]."""
-    return lubricant.eyring_stress * np.asarray(temperature) / _thermal(lubricant)[0]
+def critical_stress_at(lubricant: Lubricant, temperature):
+    """tau_E, or Carreau's G [Pa], at ``temperature`` [K]."""
+    return (lubricant.critical_stress or 0.0) * np.asarray(temperature) / _thermal(lubricant)[0]
 
 
 def limiting_stress_at(lubricant: Lubricant, pressure, temperature):
@@ -263,8 +264,11 @@ def _too_high(lubricant, p, h, speed, tau, log_eta, beta, mean) -> np.ndarray:
     """Where ``tau`` is above the root: the film would be sheared faster than ``speed``, or carry more than its
     limit."""
     log_rate = np.log(tau) - log_eta  # of gamma_w
-    if lubricant.eyring_stress is not None:
-        log_rate = log_rate + _log_sinhc(tau / eyring_stress_at(lubricant, mean))
+    if lubricant.carreau is not None:
+        x = tau / critical_stress_at(lubricant, mean)
+        log_rate = log_rate + np.log(carreau_rate(x, lubricant.carreau[1])[0] / x)
+    elif lubricant.eyring_stress is not None:
+        log_rate = log_rate + _log_sinhc(tau / critical_stress_at(lubricant, mean))
     k = lubricant.conductivity
     with np.errstate(over="ignore"):
         excess = np.exp(np.log(beta * tau * speed**2 / (8 * k)) - log_rate)  # a - 1

@@ -22,6 +22,7 @@ WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
 COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
 WIDE_INLET, CLOSER = 3.0, 0.5  # of what a flooded film needs: from where a meniscus starts inwards; and its steps
 DOUBLINGS = 8  # of the speed, to begin with a film too thick to feel an imposed pressure
+STIFFER = (625.0, 125.0, 25.0, 5.0, 1.0)  # times the critical stress, from a Newtonian flow to the oil's own
 EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
 
 Solved = tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]  # problem, its grids, what led there, notes
@@ -115,9 +116,9 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
 def first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -> tuple[State, list[Solution]]:
     """The first state, and the chain of rough solutions on n cells that leads there, each started from the one before.
 
-    alpha rises from the value at which L = EASY. With an imposed pressure this is done for the cylinder of the seat
-    alone, at a speed that is doubled so many times, because a thick film bridges any gap that an imposed pressure
-    leaves. Then the speed is halved again and again.
+    alpha rises from the value at which L = EASY, then shear begins to thin the oil. With an imposed pressure this is
+    done for the cylinder of the seat alone, at a speed that is doubled so many times, because a thick film bridges any
+    gap that an imposed pressure leaves. Then the speed is halved again and again.
     """
     slower = [_faster(problem, 2.0**k) for k in range(doublings, 0, -1)]
     alone = (slower or [problem])[0].alone()
@@ -129,7 +130,11 @@ def first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) ->
     slower = [replace(alone, inlet=inlet) for inlet in inlets[1:]] + slower
     states: list[State] = []
     solutions: list[Solution] = []
-    for stage in [alone.softened(share) for share in shares] + slower:
+    softer = [alone.softened(share) for share in shares]
+    if problem.thins:
+        softer = [stage.stiffened(math.inf) for stage in softer]
+        slower = [alone.stiffened(times) for times in STIFFER] + slower
+    for stage in softer + slower:
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
         z, H = warm_start(grid, stage, states[-1]) if states else cold_start(grid, stage)
         solutions.append(newton(grid, stage, z, H, 0.03, max_steps))

@@ -22,6 +22,7 @@ from ..oil import density_ratio, log_viscosity_ratio
 from .formulas import moes_film, starved_inlet, starved_share
 from .grid import LinePressure, line_deflection
 from .hertz import LineContact
+from .thinning import thinned
 
 MOST_STARVED = 0.995  # of Moes' film, from where on a guess of the inlet makes no sense
 
@@ -132,6 +133,15 @@ class Problem:
         share = min(flow / self.flooded_film, MOST_STARVED)
         return starved_inlet(share, self.rise, self.flat_half_width)
 
+    def stiffened(self, times: float) -> Problem:
+        """The same contact of a lubricant with so many ``times`` the critical stress (inf: its flow is Newtonian)."""
+        if math.isinf(times):
+            return replace(self, contact=replace(self.contact, sliding=None))
+        oil = self.contact.lubricant
+        stress = times * (oil.critical_stress or 0.0)
+        law = {"eyring_stress": stress} if oil.carreau is None else {"carreau": (stress, oil.carreau[1])}
+        return replace(self, contact=replace(self.contact, lubricant=replace(oil, **law)))
+
     def softened(self, share: float) -> Problem:
         """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
         if share == 1.0:
@@ -139,6 +149,20 @@ class Problem:
         oil = self.contact.lubricant
         oil = replace(oil, pressure_viscosity_coefficient=share * oil.pressure_viscosity_coefficient)
         return replace(self, contact=replace(self.contact, lubricant=oil))
+
+    @property
+    def thins(self) -> bool:
+        """Whether shear makes the flow thinner than a Newtonian one."""
+        return self.contact.sliding is not None and self.contact.lubricant.critical_stress is not None
+
+    def thinned(self, fluidity, H, gradient) -> tuple:
+        """Factor Φ of the pressure flow where 1/eta, film and dP/dX are given (n,), s dΦ/ds and b dΦ/db (`thinned`)."""
+        contact, critical = self.contact, self.contact.lubricant.critical_stress
+        if contact.sliding is None or critical is None:
+            return 1.0, 0.0, 0.0
+        s = contact.lubricant.viscosity * abs(contact.sliding) / (self.film_unit * critical) / (fluidity * H)
+        b = 0.5 * self.pressure_unit * self.film_unit / (self.length_unit * critical) * np.abs(gradient) * H
+        return thinned(contact.lubricant, s, b)
 
     def log_viscosity(self, P) -> tuple[np.ndarray, np.ndarray]:
         """ln(eta/eta0) and its derivative with respect to P."""

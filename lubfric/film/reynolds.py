@@ -7,7 +7,8 @@ better start than the film of an interpolated pressure. The equations, each divi
 
 - n faces: mass flux through the face = q (for a transient, q plus what was stored upstream). Poiseuille flow has the
   logarithmic mean of the fluidity 1/eta (exact for Barus). Couette flow has film and density interpolated third-order
-  upwind. Such an interpolation sees a sawtooth in P, which a centred mean would not.
+  upwind. Such an interpolation sees a sawtooth in P, which a centred mean would not. A fluid that shear makes thinner
+  has Φ times that Poiseuille flow (`thinning`).
 - inlet: far upstream the film is Newtonian and parabolic, so P falls like |X|^-3 and P = |X|/3 dP/dX; or P = 0 where
   the lubricant begins (starved inlet).
 - load, with the tail upstream of the inlet.
@@ -50,6 +51,7 @@ class Terms:
     face_H: np.ndarray
     fluidity: tuple  # logarithmic mean and its derivatives by ln(eta) left, right
     gradient: np.ndarray  # (dP/dX)/6
+    thin: tuple  # Φ, s dΦ/ds, b dΦ/db
     flux: np.ndarray  # mass flux towards +X, Couette minus Poiseuille
 
 
@@ -86,7 +88,8 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
     face_H = grid.face_film @ H
     fluidity = log_mean_fluidity(log_eta)
     gradient = np.diff(P) / (6.0 * grid.cells)
-    flux = face_rho * face_H * (1.0 - face_H**2 * fluidity[0] * gradient)
+    thin = problem.thinned(fluidity[0], face_H, 6.0 * gradient)
+    flux = face_rho * face_H * (1.0 - face_H**2 * fluidity[0] * gradient * thin[0])
     R = np.empty(n + 3)
     R[:n] = 1.0 - flux / q
     a = -X[0]
@@ -99,7 +102,7 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
     R[n + 2] = rho[-1] * H[-1] / q - 1.0
     film, by_rupture, by_stretch = elastic_film(grid, problem, z)
     moved = film - H, by_rupture, by_stretch
-    return R, Terms(P, H, X, *moved, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, flux)
+    return R, Terms(P, H, X, *moved, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, thin, flux)
 
 
 def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, np.ndarray]:
@@ -122,7 +125,8 @@ def _stretch_columns(grid: Grid, problem: Problem, t: Terms, J: np.ndarray, by_H
     """Add what the stretch s of the grid changes, of which e + a is the length: to the column of e, and in place of
     that of q if q is known."""
     n, by_s = grid.n, np.zeros(grid.n + 3)
-    by_s[:n] = by_H * (grid.face_film @ t.by_stretch) - t.face_density * t.face_H**3 * t.fluidity[0] * t.gradient / t.q
+    flow = t.face_density * t.face_H**3 * t.fluidity[0] * t.gradient * (t.thin[0] + t.thin[2])
+    by_s[:n] = by_H * (grid.face_film @ t.by_stretch) - flow / t.q
     by_s[n + 1] = grid.weights @ t.P / problem.M
     by_s[n + 2] = at_rupture * t.by_stretch[-1]
     by_s /= -grid.xi[0]
@@ -134,18 +138,19 @@ def _stretch_columns(grid: Grid, problem: Problem, t: Terms, J: np.ndarray, by_H
 def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
     n, q = grid.n, t.q
     mean, by_left, by_right = t.fluidity
+    thin, by_stress, by_gradient = t.thin
     cube = t.face_density * t.face_H**3
-    by_H = t.face_density * (3.0 * t.face_H**2 * mean * t.gradient - 1.0) / q
+    by_H = t.face_density * ((3.0 * thin - by_stress + by_gradient) * t.face_H**2 * mean * t.gradient - 1.0) / q
     np.multiply(by_H[:, None], grid.face_kernel[:, :n], out=J[:n, :n])
-    by_P = cube * mean / (6.0 * grid.cells)
-    left = -by_P + cube * t.gradient * by_left * t.slope[:-1]
-    right = by_P + cube * t.gradient * by_right * t.slope[1:]
+    by_P = cube * mean / (6.0 * grid.cells) * (thin + by_gradient)
+    by_log = cube * t.gradient * (thin - by_stress)
+    left, right = by_log * by_left * t.slope[:-1] - by_P, by_log * by_right * t.slope[1:] + by_P
     i = np.arange(n)
     J[i, i] += left / q
     J[i[:-1], i[1:]] += right[:-1] / q
     rho_slope = t.density[1][:n]
     if rho_slope.any():
-        by_rho = t.face_H * (t.face_H**2 * mean * t.gradient - 1.0) / q
+        by_rho = t.face_H * (t.face_H**2 * mean * t.gradient * thin - 1.0) / q
         J[:n, :n] += by_rho[:, None] * grid.face_film[:, :n] * rho_slope
     J[:n, n] = by_H
     J[:n, n + 1] = t.flux / q**2

@@ -5,6 +5,7 @@ from .lubricant import (
     NO_LIQUID,
     ROELANDS_LOG_VISCOSITY,
     Lubricant,
+    carreau_rate,
     carried_stress,
     density_ratio,
     log_viscosity_ratio,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import Brief, choice, nonnegative, number, positive, python_fields
+from .._base import Brief, choice, nonnegative, number, positive, python_fields, shown
 from ..errors import InputError
 from .oil import Oil
 from .viscosity import checked_temperature
@@ -43,6 +43,7 @@ class Lubricant(Brief):
         which is up to 0.7 % denser at 1 GPa; fitted to about 0.4 GPa, at most 34 % denser)
     eyring_stress : Eyring stress tau_E > 0 [Pa] (Ree-Eyring flow, typically 2-10 MPa);
         None: Newtonian
+    carreau : [G [Pa], n [-]], critical stress and exponent of Carreau's law, 0.1 <= n < 1, in place of Eyring's; None
     limiting_stress_coefficient : Lambda > 0 [-]: |tau| <= tau_0 + Lambda p (Bair & Winer 1979,
         doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit
     limiting_stress_offset : tau_0 >= 0 [Pa], the limit at ambient pressure (about 1-5 MPa)
@@ -73,6 +74,7 @@ class Lubricant(Brief):
     oil: Oil | None = None
     inlet_length: float | None = None
     inlet_film: float | None = None
+    carreau: tuple[float, float] | None = None
 
     def __post_init__(self):
         python_fields(self)
@@ -85,6 +87,8 @@ class Lubricant(Brief):
         for name, unit in (("eyring_stress", "Pa"), ("limiting_stress_coefficient", "")):
             if getattr(self, name) is not None:
                 positive(name, getattr(self, name), unit)
+        if self.carreau is not None:
+            self._check_carreau()
         nonnegative("limiting_stress_offset", self.limiting_stress_offset, "Pa")
         for name in ("inlet_length", "inlet_film"):
             if getattr(self, name) is not None:
@@ -103,6 +107,20 @@ class Lubricant(Brief):
             said = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
             raise InputError(said, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")
 
+    def _check_carreau(self) -> None:
+        if not isinstance(self.carreau, (list, tuple)) or len(self.carreau) != 2:
+            raise InputError(f" = {shown(self.carreau)}", "carreau", "[G, n]: critical stress in Pa and exponent")
+        if self.eyring_stress is not None:
+            raise InputError(" and eyring_stress are two laws of one flow", "carreau", way_out="give one of them")
+        G, n = self.carreau
+        both = positive("carreau (G)", G, "Pa"), number("carreau (n)", n, "(-)", minimum=0.1, maximum=0.999)
+        object.__setattr__(self, "carreau", both)
+
+    @property
+    def critical_stress(self) -> float | None:
+        """The stress [Pa] from which shear thins the lubricant, by Eyring's or Carreau's law; None: it does not."""
+        return self.eyring_stress if self.carreau is None else self.carreau[0]
+
     @property
     def heats(self) -> bool:
         """True where temperature and temperature coefficient are known, so that the heat of the film can be found."""
@@ -116,7 +134,7 @@ class Lubricant(Brief):
     @property
     def newtonian(self) -> bool:
         """True where the shear stress grows with the shear rate without end."""
-        return self.eyring_stress is None and self.limiting_stress_coefficient is None
+        return self.critical_stress is None and self.limiting_stress_coefficient is None
 
     @property
     def roelands_exponent(self) -> float:
@@ -158,16 +176,31 @@ def shear_stress(lubricant: Lubricant, pressure, shear_rate) -> np.ndarray:
     """Shear stress [Pa] of a simple shear flow at pressure [Pa] and signed shear rate [1/s].
 
     Newtonian ``eta(p) shear_rate``; with ``eyring_stress`` the Ree-Eyring law
-    ``tau_E asinh(eta shear_rate/tau_E)`` (Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129);
+    ``tau_E asinh(eta shear_rate/tau_E)`` (Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129); with ``carreau``
+    ``eta shear_rate (1 + (eta shear_rate/G)²)^((n - 1)/2)`` (P. J. Carreau, Trans. Soc. Rheol. 16 (1972) 99-127);
     with ``limiting_stress_coefficient`` the result is cut at ``tau_0 + Lambda p``.
     """
     tau = viscosity(lubricant, pressure) * np.asarray(shear_rate, dtype=float)
     if lubricant.eyring_stress is not None:
         tau = lubricant.eyring_stress * np.arcsinh(tau / lubricant.eyring_stress)
+    if lubricant.carreau is not None:
+        tau = tau * (1 + (tau / lubricant.carreau[0]) ** 2) ** (0.5 * (lubricant.carreau[1] - 1))
     if lubricant.limiting_stress_coefficient is not None:
         limit = lubricant.limiting_stress_offset + lubricant.limiting_stress_coefficient * np.maximum(pressure, 0.0)
         tau = np.clip(tau, -limit, limit)
     return tau
+
+
+def carreau_rate(stress, n: float) -> tuple[np.ndarray, np.ndarray]:
+    """r of Carreau's law x = r (1 + r²)^((n - 1)/2) and dr/dx, at x = stress/G, any shape and sign; r = eta rate/G."""
+    log_x = np.log(np.maximum(np.abs(stress), 1e-300))
+    y = log_x + 0.5 * (1 / n - 1) * np.logaddexp(0, 2 * log_x)  # ln r by a law alike
+    for _ in range(6):  # doubling digits: to the last bit
+        steep = 1 + (n - 1) / (1 + np.exp(np.minimum(-2 * y, 700.0)))  # d ln x/d ln r
+        y = y - (y + 0.5 * (n - 1) * np.logaddexp(0, 2 * y) - log_x) / steep
+    r = np.exp(y)
+    slope = np.exp(y - log_x) / (1 + (n - 1) / (1 + np.exp(np.minimum(-2 * y, 700.0))))
+    return np.copysign(r, stress), slope
 
 
 def carried_stress(pressure) -> np.ndarray:

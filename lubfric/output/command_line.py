@@ -12,7 +12,7 @@ from .commands import INTERRUPTED, interruptible, put, say
 
 CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
 OPTIONS = {"ratios": RATIOS, "animation": IN_TIME}  # of ``lubfric run``, and what they are for
-OPTIONS |= dict.fromkeys(("speeds", "fields", "workers", "report", "vtk"), CURVE)
+OPTIONS |= dict.fromkeys(("speeds", "fields", "workers", "vtk"), CURVE)
 SPEED = "heading of its column of entrainment speeds, with the unit: 'U [mm/s]'"
 F = "heading of its column of friction coefficients"
 WITHOUT = "the coefficients do not hold the rolling part, as those averaged over both signs of slip"
@@ -79,7 +79,7 @@ def _add_run(run: argparse.ArgumentParser) -> None:
         run,
         animation="also draw film and pressure of a scene with [transient] as animation.gif",
         accept="keep results outside the range of the model, marked, instead of refusing them",
-        report="also write report.html, one page that needs nothing else",
+        report=argparse.SUPPRESS,  # once asked for report.html, which is always written
         vtk="also write the contacts of --fields for ParaView",
     )
 

@@ -21,6 +21,7 @@ import numpy as np
 
 from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, read_json, shown
 from ..errors import InputError, OutputError
+from ..quantities import KEYS, Quantity
 from ..scene import Scene, scene_as_dict
 from ..sharing import Prepared, Validity, prepare
 from ..studies import fits
@@ -191,8 +192,9 @@ class RunFolder:
         except Exception as problem:  # of any kind: a picture must not cost the numbers
             self.failures.append(f"{name} was not drawn ({type(problem).__name__}: {shown(str(problem))})")
 
-    def record(self, prepared: Prepared, result, **numbers: object) -> dict:
-        """The record of a run: resolved input, map, versions, timing, report, violated assumptions, ``numbers``."""
+    def record(self, prepared: Prepared, result, units: dict[str, Quantity], **numbers: object) -> dict:
+        """The record of a run: date, resolved input, map, versions, timing, report, violated assumptions, ``numbers``;
+        ``units`` of these, beside those of the input."""
         import scipy
 
         surface, versions = prepared.surface, {"lubfric": __version__, "numpy": np.__version__}
@@ -200,7 +202,9 @@ class RunFolder:
         statistics["rms_slope"] = dict(zip(("x", "y", "total"), rms_slope(surface)))
         map_ = {"shape": surface.shape, "spacing": surface.spacing, "statistics": statistics, "notes": surface.notes}
         return {
+            "date": time.strftime("%Y-%m-%d %H:%M:%S UTC", time.gmtime()),
             "scene": scene_as_dict(prepared.scene),
+            "units": {name: q.unit for name, q in (KEYS | units).items()},
             "surface": map_,
             "versions": versions | {"scipy": scipy.__version__, "python": platform.python_version()},
             "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,

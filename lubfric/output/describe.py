@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from ..contact import Strips, contact_map, measured, strips_of
 from ..errors import InputError
 from ..film import hertz
 from ..oil import estimate_in_words
-from ..quantities import KEYS, key_unit
+from ..quantities import KEYS, counted
 from ..sampling import forecast
 from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, told_doubts, typical
-from ..sharing import expected, gathered, takes_strips
+from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
 from ..studies import in_words
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run
+from ..units import converted, worded
 
+SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 STEP_TOLERANCE, SWING, START = 3e-5, 80.0, 30.0  # of a step; with it, steps in a period of a history; at the start
 FILM_STEP, CELL_STEP = 6e-3, 1.5e-7  # s of a step in time: its film, and a cell of its contact
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
@@ -36,14 +39,15 @@ def describe_scene(scene: Scene) -> str:
     return "\n".join(
         [
             f"scene {scene.name}",
-            *_section("bodies", _bodies(scene)),
-            *_section("lubricant", _lubricant(scene)),
-            *_section("motion", _motion(scene)),
+            *(row for name in FACTS for row in _section(name, [*_inputs(scene, name), *FACTS[name](scene)])),
             *_section("transient", told),
             *_section("surface", [surface.describe(), *(note for note in surface.notes if "nm as it is" in note)]),
             *_map_rows(scene, surface),
-            *_section("contact", [f"{_plan(scene, surface)}; {'a run in time' if told else _count(speeds)}"]),
+            *_section(
+                "contact", [f"{_plan(scene, surface)}; {'a run in time' if told else counted(len(speeds), 'speeds')}"]
+            ),
             *_section("model", _model(scene, strips, surface, speeds)),
+            *_section("left out", _left_out(scene, surface)),
             *_section("validity", _validity(scene, surface if first is None else first, sorted(set(speeds)))),
             *_speed_rows(scene, strips, surface, speeds),
         ]
@@ -52,10 +56,6 @@ def describe_scene(scene: Scene) -> str:
 
 def _section(name: str, rows) -> list[str]:
     return [f"  {name if i == 0 else '':<14} {text}" for i, text in enumerate(rows)]
-
-
-def _count(speeds) -> str:
-    return "1 speed" if len(speeds) == 1 else f"{len(speeds)} speeds"
 
 
 def _plan(scene: Scene, surface: Surface) -> str:
@@ -90,15 +90,25 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
     elif not resolved:
         rows = ["load sharing, Eq. (8), alone: the film is thick, or there is no roughness, and the models agree"]
     else:
+        ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
         rows = [
-            f"load sharing, Eq. (8), on strips of the roughness; at {resolved[0]:.3g} to {resolved[-1]:.3g} m/s",
+            f"load sharing, Eq. (8), on strips of the roughness; at {' to '.join(ends)} m/s",
             f"  corrected by strips with one gap and one pressure to {100 * scene.numerics.model_tolerance:g} % of f",
             "  (not where heat turns out to matter: these are isothermal)",
         ]
     if found and scene.transient is None:
         seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
-        rows.append(f"cost: about {seconds} of processor time for {_count(moving)} (an order of magnitude)")
+        count = counted(len(moving), "speeds")
+        rows.append(f"cost: about {seconds} of processor time for {count} (an order of magnitude)")
     return rows
+
+
+def _left_out(scene: Scene, surface: Surface) -> list[str]:
+    """What the scene leaves out, and how much that would likely change f at its own speed."""
+    speed = scene.motion.entrainment_speed
+    found = [lack_in_words(lack) for lack in lacking(scene, surface.sq, speed)]
+    head = f"likely changes of f at {speed:g} m/s, by closed forms:"
+    return [head, *(f"  {row}" for row in found)] if found else ["nothing that would change f by its tolerance"]
 
 
 def _histories(scene: Scene) -> list[str]:
@@ -155,13 +165,13 @@ def _validity(scene: Scene, surface: Surface, speeds: list[float]) -> list[str]:
 
 
 def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
-    """At some speeds of the scene: Moes numbers and Moes' film under the whole load, whether the summits touch, and
-    what the sample costs."""
-    head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (um)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
-    rows = ["  film of the whole load by Moes, and whether it clears the summits", head]
+    """At some speeds of the scene: Moes numbers and the expected film under the whole load, whether the summits touch,
+    and what the sample costs."""
+    head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (nm)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
+    rows = ["  film of the whole load by closed forms, and whether it clears the summits", head]
     if strips is not None:
         dx, dy = strips.cells.coarse
-        asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} um"
+        asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} µm"
         rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
         rows[-1] += f" {'strips':>8} {'one gap':>8} {'length (mm)':>12} {'time (s)':>9}"
     own = () if scene.transient is not None else (scene.motion.entrainment_speed,)
@@ -170,8 +180,8 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
         one, film = forecast(scene, strips, surface, speed), f"{nothing:<38}"
         if speed != 0:
             line = scene.line_contact(abs(speed))
-            ratio = line.moes_film / surface.sq if surface.sq > 0 else math.inf
-            film = f"{line.M:9.3g} {line.L:8.3g} {line.moes_film * 1e6:10.4f} {ratio:8.3g}"
+            ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
+            film = f"{line.M:9.3g} {line.L:8.3g} {line.expected_film * 1e9:10.4g} {ratio:8.3g}"
         row = f"  {speed:<12.4g} {film}  {one.touching:<22} {one.clearance:>14.2g}"
         if strips is not None:
             row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
@@ -195,7 +205,7 @@ def _map_rows(scene: Scene, surface: Surface) -> list[str]:
             "cells per b",
             f"{b / dx:.3g}",
             "correlation length",
-            f"{in_um} um = {in_cells} cells  (along x and y, to 1/e)",
+            f"{in_um} µm = {in_cells} cells  (along x and y, to 1/e)",
         ),
         ("length / 2b", f"{nx * dx / (2 * b):.3g}", "cells", f"{nx * ny}, {memory}"),
     ]
@@ -211,39 +221,37 @@ def _correlation_length(surface: Surface, axis: int) -> float | None:
         return None
 
 
-def _inputs(scene: Scene, section: str) -> list[str]:
-    """Every number of a section of the scene, with its unit and what it is."""
-    rows = []
+def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
+    """(what it is, the value with its unit, the key, the range of typical values) of every input in a section of the
+    scene."""
     for key, quantity in KEYS.items():
-        value = getattr(getattr(scene, section), key.removeprefix(f"{section}."), None)
-        if value is None or value == ():
+        value = getattr(getattr(scene, section, None), key.removeprefix(f"{section}."), None)
+        if not key.startswith(f"{section}.") or value is None or value == ():
             continue
-        if isinstance(value, tuple) and len(value) > 2:
-            text = f"{len(value)} values, {min(value):.4g} to {max(value):.4g}"
-        else:
-            text = " and ".join(f"{v:.4g}" for v in (value if isinstance(value, tuple) else (value,)))
-        told = f"{quantity.label}: {text} {key_unit(*key.split('.'))}".rstrip() + f"  ({key})"
+        text = worded(value, quantity.unit)
+        if key == "lubricant.temperature":
+            text = f"{converted(value, 'K', '°C'):.4g} °C"
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
-        if alike:
-            low, high = (f"{end:.3g}" for end in next(iter(alike.values())))
-            told += f", typical of {' or '.join(alike)}: {low} to {high}"
-        rows.append(told)
-    return rows
+        ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
+        yield quantity.label, text, key, f", typical of {' or '.join(alike)}: {ends}" if alike else ""
+
+
+def _inputs(scene: Scene, section: str) -> list[str]:
+    return [f"{label}: {text}  ({key}){note}" for label, text, key, note in inputs(scene, section)]
 
 
 def _bodies(scene: Scene) -> list[str]:
     b = scene.bodies
     peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
     return [
-        *_inputs(scene, "bodies"),
-        f"Hertz: half-width {b.half_width * 1e6:.3f} um, mean pressure {b.mean_hertz_pressure / 1e6:.1f} MPa, "
-        f"peak {peak / 1e6:.1f} MPa; {b.load / b.width / 1e3:.4g} N/mm",
+        f"Hertz: half-width {worded(b.half_width, 'm')}, mean pressure {worded(b.mean_hertz_pressure, 'Pa')}, "
+        f"peak {worded(peak, 'Pa')}; {worded(b.load / b.width, 'N/m')}",
         *(["contact spots: elastic (no bodies.hardness)"] if b.hardness is None else []),
     ]
 
 
 def _lubricant(scene: Scene) -> list[str]:
-    oil, rows = scene.lubricant, _inputs(scene, "lubricant")
+    oil, rows = scene.lubricant, []
     if oil.oil is not None and oil.temperature is not None:
         rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
     rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
@@ -256,8 +264,9 @@ def _lubricant(scene: Scene) -> list[str]:
 
 def _motion(scene: Scene) -> list[str]:
     u, ratio = scene.motion.entrainment_speed, scene.motion.slide_roll_ratio
-    if scene.transient is not None:
-        return [*_inputs(scene, "motion")]
     u1, u2 = u * (1 - ratio / 2), u * (1 + ratio / 2)
     surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
-    return [*_inputs(scene, "motion"), surfaces]
+    return [] if scene.transient is not None else [surfaces]
+
+
+FACTS = {"bodies": _bodies, "lubricant": _lubricant, "motion": _motion}  # what follows from the inputs of a section

@@ -13,9 +13,9 @@ import numpy as np
 
 from .._base import FolderLock, OwnFiles, make_ready, plain_words, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
-from ..quantities import NUMBERS, in_words
+from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
-from ..sharing import Prepared, Validity, takes_strips
+from ..sharing import Prepared, Validity, lack_in_words, takes_strips
 from ..studies import (
     AUTO,
     MOST_WORKERS,
@@ -30,16 +30,21 @@ from ..studies import (
 )
 from ..units import number_of
 from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
-from .fields import fields_bytes, report_page, vtk_bytes
+from .fields import fields_bytes, vtk_bytes
 from .pictures import plot_contact, plot_stribeck, plot_traction
+from .report import report_page
 
 WORTH = 8  # speeds from which a second process gains more than it costs
-CAPTIONS = {"stribeck.png": "Friction, shares of the load and film", "contact.png": "Contact of one speed"}
+CAPTIONS = {
+    "stribeck.png": "Friction, shares of the load and film",
+    "traction.png": "Friction over the slide-roll ratio",
+    "contact.png": "Contact at one speed",
+}
 
 
 def run_sweep(scene: Scene, arguments) -> None:
-    """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png and, last, result.json to the
-    folder ``arguments.out``; with ``.report`` and ``.vtk`` also report.html, and contact_0.vtk ... for ParaView.
+    """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, report.html and, last,
+    result.json to the folder ``arguments.out``; with ``.vtk`` also contact_0.vtk ... for ParaView.
 
     ``arguments``: of the command, with ``.speeds``, ``.fields`` and ``.workers`` (None: two if that pays) too. The
     scene is checked and made ready before the folder is touched. The results of an earlier run stay until those of this
@@ -70,7 +75,8 @@ def run_sweep(scene: Scene, arguments) -> None:
 
 
 def run_traction(scene: Scene, arguments) -> None:
-    """Compute a traction curve, and write traction.csv, traction.png and, last, result.json to ``arguments.out``."""
+    """Compute a traction curve, and write traction.csv, traction.png, report.html and, last, result.json to
+    ``arguments.out``."""
     begun = time.perf_counter()
     ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
     _check_outputs("traction", arguments, 0)
@@ -93,7 +99,7 @@ def _workers(scene: Scene, speeds, given: int | None) -> int:
 def _check_outputs(table: str, arguments, contacts: int) -> None:
     """Refuse a folder in which the files of a curve would replace others."""
     names = [f"{table}.csv", f"{table}.png", "fields.npz", "contact.png", RESULT]
-    names += ["report.html"] * arguments.report + [f"contact_{i}.vtk" for i in range(contacts)] * arguments.vtk
+    names += ["report.html", *(f"contact_{i}.vtk" for i in range(contacts if arguments.vtk else 0))]
     check_outputs(arguments, arguments.out, names, OUTPUTS)
 
 
@@ -101,7 +107,8 @@ def _write(folder: RunFolder, prepared: Prepared, curve: CurveResult, arguments,
     """The table, the fields of the ``chosen`` speeds, their pictures, the record; and what was asked for beside."""
     name, contents = "traction" if curve.SWEPT[0] == "ratio" else "stribeck", folder.contents
     contents[f"{name}.csv"] = csv_bytes(curve)
-    record = folder.record(prepared, curve, points=[_point(curve, i) for i in range(len(curve.points))])
+    units = {number: COLUMNS[number] for number in (*NUMBERS, curve.SWEPT[0])}
+    record = folder.record(prepared, curve, units, points=[_point(curve, i) for i in range(len(curve.points))])
     columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
     if _drawable(columns).any():
         folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, record["points"])
@@ -115,9 +122,8 @@ def _write(folder: RunFolder, prepared: Prepared, curve: CurveResult, arguments,
         contents |= {f"contact_{i}.vtk": vtk_bytes(prepared, point) for i, point in enumerate(touching)}
         if not touching:
             say("no .vtk file: none of the speeds of --fields has a contact with fields")
-    if arguments.report:
-        images = {text: contents[file] for file, text in CAPTIONS.items() if file in contents}
-        contents["report.html"] = report_page(prepared, curve, record, images)
+    images = {text: contents[file] for file, text in CAPTIONS.items() if file in contents}
+    contents["report.html"] = report_page(prepared, curve, record, images)
     folder.finish(record, *_doubts(prepared.scene, curve))
 
 
@@ -140,6 +146,7 @@ def _point(curve: CurveResult, index: int) -> dict:
             "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
             "errors": asdict(point.errors),
             "report": point.report.as_dict(),
+            "lacks": [lack_in_words(lack) for lack in point.lacks],
         }
     )
 
@@ -195,12 +202,11 @@ def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
     noted, said = [point for point in points if point[1].notes], []
     few = [value for value, known in points if known.few_spots]
 
-    def counted(count: int, word: str = "") -> str:
-        return f"{count} {word}{plural if count > 1 else plural[:-1]}"
-
     if noted:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
-        others = f" (the largest; result.json has {counted(len(noted) - 1, 'more ')})" if len(noted) > 1 else ""
+        others = (
+            f" (the largest; result.json has {counted(len(noted) - 1, f'more {plural}')})" if len(noted) > 1 else ""
+        )
         said.append(f"error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{others}")
         if few and few != [at]:
             where = ", ".join(f"{value:.4g}" for value in few)
@@ -218,9 +224,9 @@ def _raise_if_failed(curve: CurveResult) -> None:
         return
     total, plural = len(curve.points), curve.SWEPT[3]
     failed = sum(not isinstance(error, ValidityError) for error in curve.errors.values())
-    counts = [f"{failed} of {total} {plural} failed"] if failed else []
+    counts = [f"{failed} of {counted(total, plural)} failed"] if failed else []
     if len(curve.errors) > failed:
-        counts.append(f"{len(curve.errors) - failed} of {total} {plural} refused (--accept keeps them, marked)")
+        counts.append(f"{len(curve.errors) - failed} of {counted(total, plural)} refused (--accept keeps them, marked)")
     raise ConvergenceError(f"{', '.join(counts)}; first: {curve.errors[min(curve.errors)]}", curve.report)
 
 

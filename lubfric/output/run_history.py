@@ -26,12 +26,13 @@ from .commands import (
 )
 from .fields import npz_bytes
 from .pictures import animate, plot_history
+from .report import report_page
 from .run_curve import replot
 
 
 def run_history(scene: Scene, arguments) -> None:
-    """Compute and write history.csv, history.png, fields.npz (with ``arguments.animation``: animation.gif) and, last,
-    result.json to ``arguments.out``.
+    """Compute and write history.csv, history.png, fields.npz, report.html (with ``arguments.animation``: animation.gif)
+    and, last, result.json to ``arguments.out``.
 
     The scene is checked and made ready before the folder is touched, and the results of an earlier run stay until those
     of this one are there. An interrupted run continues from its folder checkpoint. A failed run writes what it has, and
@@ -39,7 +40,14 @@ def run_history(scene: Scene, arguments) -> None:
     """
     begun, reached, due, out = time.perf_counter(), 0.0, paced(), arguments.out
     failure: LubfricError | None = None
-    names = ["history.csv", "history.png", "fields.npz", RESULT, *["animation.gif"] * arguments.animation]
+    names = [
+        "history.csv",
+        "history.png",
+        "fields.npz",
+        "report.html",
+        RESULT,
+        *["animation.gif"] * arguments.animation,
+    ]
     check_outputs(arguments, out, names, OUTPUTS)
     prepared = ready(scene)
 
@@ -67,7 +75,10 @@ def run_history(scene: Scene, arguments) -> None:
                 raise
             result, failure = error.result, error
         _write(folder, scene, result, arguments.animation)
-        folder.finish(folder.record(prepared, result))
+        record = folder.record(prepared, result, OF_MOMENT)
+        images = {"History": folder.contents["history.png"]} if "history.png" in folder.contents else {}
+        folder.contents["report.html"] = report_page(prepared, result, record, images)
+        folder.finish(record)
     if failure:
         raise failure
 

@@ -4,7 +4,6 @@ Both write to a folder."""
 from __future__ import annotations
 
 import json
-import os
 import sys
 import time
 from pathlib import Path
@@ -15,7 +14,9 @@ from ..quantities import KEYS
 from ..scene import Scene
 from ..studies import (
     MOST_WORKERS,
+    PLAN,
     FitResult,
+    check_plan,
     check_tools,
     explain_fit,
     fit,
@@ -29,8 +30,6 @@ from ..studies import (
 from ..units import number_of
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
 
-PLAN = "study.json"  # of the store, which replaces it
-
 
 def run_study(arguments) -> None:
     """Plan, solve and write study.csv (and study.nc, study.parquet)."""
@@ -43,7 +42,7 @@ def run_study(arguments) -> None:
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     check_outputs(arguments, arguments.out, names)
-    _check_plan(arguments.out / PLAN)
+    check_plan(arguments.out)
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
@@ -58,18 +57,6 @@ def run_study(arguments) -> None:
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
         said = f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}"
         raise ConvergenceError(said, report, result)
-
-
-def _check_plan(path: Path) -> None:
-    """Raise `InputError` for a file in the place of the plan that is none, because the study would replace it."""
-    if not os.path.lexists(path):
-        return
-    try:
-        known = {} if path.is_symlink() else json.loads(path.read_text(encoding="utf-8"))
-    except (ValueError, OSError, RecursionError):
-        known = {}
-    if not (isinstance(known, dict) and {"format", "lubfric", "keys"} <= known.keys()):
-        raise InputError(f"{path} is no plan of a study, and would be replaced; move it away, or give another folder")
 
 
 def _kept(folder: Path) -> str:

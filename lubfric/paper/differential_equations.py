@@ -2,9 +2,8 @@
 
 The unknowns are the pressures P and films H at all N nodes of a `Mesh`:
 
-- Before the rupture point, mass balances at each node: the flux through face i, minus that through face i - 1, plus
-  what the film stores. Behind it P = 0, and the outflow of a node may only exceed its inflow. The fluxes are those of
-  `lubfric.film.reynolds`.
+- Before the rupture point, mass balances at each node: the flux through face i is that through face i - 1. Behind it P
+  = 0, and the outflow of a node may only exceed its inflow. The fluxes are those of `lubfric.film.reynolds`.
 - At the inlet P falls like |X|^-3 upstream of the first node (flooded), or P = 0 there.
 - The second difference of the film holds at interior nodes. It leaves a constant and a slope open. These are given by
   the films at both ends: their difference follows from the full integral, their height from the load. The residual is
@@ -33,9 +32,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..film import Problem, log_mean_fluidity, moes_film
-from ..time import Memory
 
-STEADY = Memory(0.0, np.zeros(()))
 NEAR = 20  # distance in nodes from which the second difference of the kernel is a series
 
 
@@ -121,7 +118,7 @@ class Terms:
 
     Attributes
     ----------
-    through : (N - 1,) mass flux at the faces, plus what is stored upstream
+    through : (N - 1,) mass flux at the faces
     last : the node before rupture
     q : the flux behind it
     balance : (N,) what leaves a node; P behind rupture
@@ -129,7 +126,6 @@ class Terms:
     ends : the defects of the tilt between both ends and of the load
     scale : of the fluxes
     by_H, by_P : derivatives of a face's flux by its film, and by the pressures left and right of it
-    stored_by_H, stored_by_P : those of what is stored
     slope : d ln(eta)/dP
     """
 
@@ -142,14 +138,11 @@ class Terms:
     scale: float
     by_H: np.ndarray
     by_P: np.ndarray
-    stored_by_H: np.ndarray
-    stored_by_P: np.ndarray
     slope: np.ndarray
 
 
-def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, memory: Memory = STEADY) -> Terms:
-    """Fluxes, balances and defects at pressures P and films H. ``memory``: of rho H in a step in time, T = U t in units
-    of x."""
+def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Terms:
+    """Fluxes, balances and defects at pressures P and films H."""
     log_eta, slope = problem.log_viscosity(P)
     rho, rho_slope = problem.density(P)
     fluidity, by_left, by_right = log_mean_fluidity(log_eta)
@@ -164,8 +157,7 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, memory:
             -conductance - cube * gradient * by_right * slope[1:] + 0.5 * flow * rho_slope[1:],
         ]
     )
-    stored = mesh.step * memory.rate * (rho * H - memory.film)
-    through = face_rho * flow + np.cumsum(stored)[:-1]
+    through = face_rho * flow
     balance = np.zeros_like(P)
     balance[1:-1] = np.diff(through)
     last = _last_wet(P, balance)
@@ -184,8 +176,6 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, memory:
         scale,
         face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient),
         by_P,
-        mesh.step * memory.rate * rho,
-        mesh.step * memory.rate * rho_slope * H,
         slope,
     )
 

@@ -13,9 +13,7 @@ import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ..film import Problem, step_length
-from ..time import Memory
 from .differential_equations import (
-    STEADY,
     Mesh,
     Terms,
     convolve,
@@ -85,8 +83,6 @@ def _put_reynolds(mesh: Mesh, t: Terms, put) -> None:
     dry = np.arange(t.last + 1, mesh.size)
     put(2 * dry, 2 * dry, 1.0)
     i = np.arange(1, t.last + 1)
-    put(2 * i, 2 * i, t.stored_by_P[i] / t.scale)
-    put(2 * i, 2 * i + 1, t.stored_by_H[i] / t.scale)
     for sign, face in ((1.0, i), (-1.0, i - 1)):
         put(2 * i, 2 * face, sign * t.by_P[0, face] / t.scale)
         put(2 * i, 2 * face + 2, sign * t.by_P[1, face] / t.scale)
@@ -146,20 +142,12 @@ def newton_step(mesh: Mesh, t: Terms, near) -> tuple[np.ndarray, int]:
 
 
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # history tests for it
-def newton(
-    mesh: Mesh,
-    problem: Problem,
-    P: np.ndarray,
-    H: np.ndarray,
-    tolerance: float,
-    max_steps: int,
-    memory: Memory = STEADY,
-) -> Solution:
+def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int) -> Solution:
     """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film ruptures inside
     the grid."""
     history, solves, status = [], 0, ITERATION_LIMIT
     for step in range(max_steps + 1):
-        t = evaluate(mesh, problem, P, H, memory)
+        t = evaluate(mesh, problem, P, H)
         residuals = measure(t, P, H)
         history.append(max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else np.inf)
         ruptured = t.last < mesh.size - 2 and P[t.last] > 0.0 and not np.any(P[t.last + 1 :])

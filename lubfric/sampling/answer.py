@@ -89,7 +89,7 @@ def _numbers(prepared: Prepared, speed: float, found: Found) -> dict[str, Any]:
 
 
 def _steepness(prepared: Prepared, speed: float, response: Response | None, balance) -> float:
-    """d ln(F_H/F_C)/d ln U: at a given division of the load the film grows as U^e, by Moes' formula at F_H. NaN where
+    """d ln(F_H/F_C)/d ln U: at a given division of the load the film grows as U^e, by closed forms at F_H. NaN where
     film and contact do not share the load."""
     if response is None or balance.film is None or balance.contact_load == 0:
         return math.nan

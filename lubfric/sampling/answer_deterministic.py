@@ -13,7 +13,7 @@ import numpy as np
 
 from ..deterministic import DeterministicResult, Refined
 from ..scene import Scene
-from ..sharing import Prepared, Validity, inlet_at, of_error, of_motion, of_pressure, of_thickness
+from ..sharing import Prepared, Validity, inlet_at, of_error, of_inlet, of_motion, of_pressure, of_thickness
 from .decision import Decision
 from .errors_of import TOO_SHORT
 from .levels import Levels, levels_of
@@ -133,6 +133,7 @@ def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]
     scene, speed, film = prepared.scene, numbers["speed"], numbers["central_film"]
     yield from prepared.known
     yield from of_motion(scene, speed, film)
+    yield from of_inlet(scene, speed, _mean(result.flow_film for result in results))
     for entry in of_pressure(scene, max(result.top_pressure for result in results)):
         yield replace(entry, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
     yield from of_thickness(scene, film)

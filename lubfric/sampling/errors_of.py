@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ..quantities import depending_on
-from ..scene import Scene, budget, gap_not_resolved
+from ..scene import Scene, budget, gap_not_resolved, moves
 from ..sharing import Balance, Forces
 from .sample import Found
 from .scatter import BlockError, Scatter
@@ -179,6 +179,8 @@ def model_error(scene: Scene, found: Found) -> tuple[float, tuple[str, ...]]:
     if found.strips is None:
         return math.nan, (NOT_STUDIED,)
     why = gap_not_resolved(scene)
+    if moves(scene) and found.response is not None:
+        why = why or "it was measured with roughness at rest, and here it moves"
     if why:
         return math.nan, (MODEL_UNKNOWN.format(why),)
     sq, film = float(found.contact.heights.std()), balance.film.central_film  # type: ignore[attr-defined]
@@ -213,7 +215,7 @@ def _notes(found: Found, scene: Scene, sampling: float) -> tuple[str, ...]:
         notes.append(f"more than the {percent(asked)} asked")
     if too_few(found.scatter.spots, sampling, asked):
         notes.append(
-            f"few spots carry the load (participation {found.scatter.spots:.2g}, below {FEW:g}): the interval is too "
-            "narrow more often than it says"
+            f"few spots carry the load (as {found.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
+            "interval is too narrow more often than it says"
         )
     return tuple(notes)

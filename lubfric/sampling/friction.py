@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 import time
+from dataclasses import replace
 
 import numpy as np
 
 from .._base import validate
 from ..errors import ConvergenceError, InputError
 from ..scene import FASTEST, Scene, gap_not_resolved, told_doubts
-from ..sharing import Prepared, at_speed, at_tolerance, refused
+from ..sharing import Prepared, at_speed, at_tolerance, lacking, refused
 from .answer import load_sharing_answer, passed
 from .answer_deterministic import strips_answer
 from .errors_of import model_error
 from .methods import with_methods
+from .moving import too_costly
+from .pair import cells_of
 from .ranges import with_ranges
 from .result import FrictionResult
 from .sample import Found, sampled
@@ -74,6 +77,8 @@ def friction(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
             "stresses of a lubricated contact"
         )
+    known = result.boundary_force / prepared.scene.bodies.load, result.coefficient
+    result = replace(result, lacks=lacking(prepared.scene, prepared.surface.sq, speed, known))
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, numerics.accept, result)
@@ -91,7 +96,7 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
         return strips_answer(prepared, speed, None, begun)
     found = sampled(prepared, speed, own_cells=fields)
     if asked == "auto":
-        why = _enough(prepared, found)
+        why = _enough(prepared, found) or too_costly(prepared, speed, cells_of(strips, scene.bodies.half_width))
         if why or any(entry.severe for entry in passed(found, prepared, speed)):
             return load_sharing_answer(found, prepared, speed, begun, why)
     try:

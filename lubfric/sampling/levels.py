@@ -19,7 +19,7 @@ import numpy as np
 
 from ..contact import Strips
 from ..deterministic import Strip, changes_of, estimate
-from ..scene import Numerics
+from ..scene import Numerics, moves
 from ..sharing import Prepared, quantities
 from .pair import Pair, cells_of, change_by_flow, numbers_of, solve_finer, solve_pair
 from .sample import Found, enlarged
@@ -189,14 +189,15 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, share: float) -> BlockError:
 def _on_finer_cells(
     prepared: Prepared, speed: float, pairs: Sequence[Pair]
 ) -> tuple[tuple[tuple[Strip, ...], ...], BlockError, float]:
-    """Solve the third level, if it is needed: its pieces, the standard error of their mean change of f, and the
-    relative error that the last cells leave."""
+    """Solve the third level, if it is needed and the roughness rests: its pieces, the standard error of their mean
+    change of f, and the relative error that the last cells leave."""
     scene, strips, first = prepared.scene, prepared.strips, pairs[0]
     assert strips is not None
     by_longer = _mean(changes_of((pair.longer, pair.resolved))[0] for pair in pairs)
     left = max(estimate([by_longer]), SOLVED)
     enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
-    if enough or strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1):
+    own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
+    if enough or own or moves(scene):
         return (), BlockError(0.0, 1), left
     asked = CELLS * scene.numerics.sampling_tolerance * abs(first.resolved.result.coefficient)
     pieces: list[tuple[Strip, ...]] = []

@@ -1,4 +1,4 @@
-"""The methods behind a result that have a paper behind them (`lubfric.sampling.cite.PAPERS`)."""
+"""The methods behind a result that have a paper behind them (`lubfric.sampling.cite, papers.toml`)."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def _film(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     return {
         "scaled modulus": scene.numerics.film_deflection == "scaled" and result.contact_load > 0 and not whole,
         "kept mass": whole,
-        "sheared flow": whole and scene.lubricant.eyring_stress is not None,
+        "sheared flow": scene.lubricant.critical_stress is not None,
     }
 
 
@@ -63,6 +63,7 @@ def _lubricant(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     return {name: lubricant.viscosity_law == law for law, name in LAWS.items()} | {
         "Dowson-Higginson": lubricant.density_law == "dowson-higginson",
         "Eyring stress": lubricant.eyring_stress is not None and slides,
+        "Carreau": lubricant.carreau is not None,
         "limiting stress": lubricant.limiting_stress_coefficient is not None and slides,
         "viscosity over temperature": oil is not None,
         "viscosity index": oil is not None and "viscosity_index" in oil.said,
@@ -77,6 +78,6 @@ def _heat(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
         "inlet heat": result.inlet_film_factor != 1.0,
         "film heat": warm,
         "flash": result.flash_temperature_rise > 0,
-        "hot Eyring stress": warm and lubricant.eyring_stress is not None,
+        "hot Eyring stress": warm and lubricant.critical_stress is not None,
         "hot limiting stress": warm and lubricant.limiting_stress_coefficient is not None,
     }

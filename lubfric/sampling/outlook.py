@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 from ..contact import Strips
 from ..deterministic import reach, work_of_steps
-from ..scene import Scene, gap_not_resolved
+from ..scene import Scene, gap_not_resolved, moves
 from ..surface import Surface
 from .levels import DIFFERENCE
+from .moving import MOST_WORK, moving_strip_work
 from .pair import cells_of
 from .sample import SAFETY
 from .uncertainty import OF_FILM, ORDER, student
@@ -25,14 +26,14 @@ FLOOR = 0.25  # of f_b: friction where the film carries most, about
 STEPS, FINER_STEPS = 9, 6  # of Newton's method on a strip of the deterministic model, and on smaller cells
 UNLIKE = 0.65  # scatter of the difference between the models over that of f
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
-SURE = 2.0  # factor between Moes' film and any film: outside of it contact or separation is certain
+SURE = 2.0  # factor between the expected film and any film: outside of it contact or separation is certain
 
 
 @dataclass(frozen=True)
 class Forecast:
     """To an order of magnitude, at one ``speed`` [m/s]: in words, whether the summits touch; ``clearance`` [Sq] between
-    Moes' film of the whole load and the highest summit; ``error``: relative standard error of f after the first strips;
-    ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the
+    the expected film of the whole load and the highest summit; ``error``: relative standard error of f after the first
+    strips; ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the
     deterministic model (0: Eq. (8) alone answers); and the processor time [s]."""
 
     speed: float
@@ -53,7 +54,7 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     independent heights. The effect on f follows from the share of the load that the rigid film of the whole load would
     carry if it were as thick as the gap.
     """
-    film, sq = scene.line_contact(speed).moes_film if speed else 0.0, surface.sq
+    film, sq = scene.line_contact(speed).expected_film if speed else 0.0, surface.sq
     summit = float(surface.heights.max() - surface.heights.mean())
     seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
     touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
@@ -81,8 +82,8 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
 
 
 def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float, scatter: float) -> tuple[int, float]:
-    """Number of strips of the deterministic model, and their work [s]. ``film`` [m]: Moes'; ``scatter``: of f between
-    strips, relative."""
+    """Number of strips of the deterministic model, and their work [s]. ``film`` [m]: expected; ``scatter``: of f
+    between strips, relative."""
     numerics = scene.numerics
     thick = film**2 * numerics.model_tolerance > OF_FILM * sq**2
     if (
@@ -96,5 +97,8 @@ def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float
     allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
     count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)
     (fx, fy), (dx, dy) = cells_of(strips, scene.bodies.half_width), strips.cells.coarse
+    if moves(scene):
+        work = moving_strip_work(scene, strips, sq, speed, (fx, fy))
+        return (0, 0.0) if work > MOST_WORK and numerics.model == "auto" else (count, count * work)
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
     return count, count * work_of_steps(cells, STEPS) + work_of_steps(cells * fx * fy / 2, FINER_STEPS)

@@ -11,6 +11,7 @@ from ..contact import Strips
 from ..deterministic import (
     ENOUGH,
     DeterministicResult,
+    MovingStrip,
     Strip,
     assemble,
     changes_of,
@@ -20,8 +21,10 @@ from ..deterministic import (
     solve_strip,
 )
 from ..quantities import NUMBERS
+from ..scene import moves
 from ..sharing import Prepared, on_piece, on_strip, quantities, solve_balance
 from ..surface import Surface
+from .moving import map_of, solved_strip, strip_surface
 from .scatter import friction_influence, mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
@@ -56,14 +59,13 @@ def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
 
 
 def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
-    """Strip ``index`` and the length of the cells of the deterministic model in its own; of a patch all of it, on the
-    map's own cells."""
+    """Strip ``index`` and the length of the cells of the deterministic model in its own; of a patch at rest all of it,
+    on the map's own cells."""
     strips = prepared.strips
     assert strips is not None
     fx, fy = cells_of(strips, prepared.scene.bodies.half_width)
-    if not strips.whole:
-        return surface_of(prepared, on_strip(prepared, strips, index)), (fx, fy)
-    return prepared.surface, (fx * strips.cells.factors[0], fy * strips.cells.factors[1])
+    ux, uy = strips.cells.factors if strips.whole and not moves(prepared.scene) else (1, 1)
+    return strip_surface(prepared, index), (fx * ux, fy * uy)
 
 
 def longer_than(surface: Surface, factors: tuple[int, int]) -> tuple[int, int]:
@@ -77,8 +79,8 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
     scene, strips = prepared.scene, prepared.strips
     assert strips is not None
     surface, factors = strip_of(prepared, index)
-    first = solve_strip(scene, surface, speed, factors=longer_than(surface, factors))
-    strip = solve_strip(scene, surface, speed, factors=factors, start=first, slope=slope is None)
+    first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors))
+    strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
     if strips.whole:
         return Pair(strip, first, {}, np.zeros(strip.result.load_at.size), mirrored(surface.heights))
@@ -108,7 +110,7 @@ def solve_finer(prepared: Prepared, speed: float, index: int, first: Pair) -> tu
         cells = tuple(f * n for f, n in zip(factors, strips.cells.factors))
         last = max(1, cells[0] // 2), max(1, cells[1] // 2)
         factors = cells[0] // last[0], cells[1] // last[1]
-        surface = surface_of(prepared, on_piece(prepared, strips, index, last))
+        surface = map_of(prepared, on_piece(prepared, strips, index, last))
         ladder = [solve_strip(scene, surface, speed, factors=longer_than(surface, factors))]
         ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[0]))
     while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
@@ -119,21 +121,17 @@ def solve_finer(prepared: Prepared, speed: float, index: int, first: Pair) -> tu
 
 def change_by_flow(pair: Pair) -> float:
     """Relative change of f of ``pair`` if a limiting stress thins the flow as one twice as high would, with the shear
-    stress limited as before: how fast a sheared oil at its limit flows is not known well. 0 without such a limit.
+    stress limited as before: how fast a sheared oil at its limit flows is not known well. 0 without such a limit; with
+    roughness that moves, by the same strip at rest.
     Raises `ConvergenceError`."""
-    problem, result = pair.resolved.problem, pair.resolved.result
-    oil = problem.lubricant
+    strip = pair.resolved.rest if isinstance(pair.resolved, MovingStrip) else pair.resolved
+    problem, result, oil = strip.problem, strip.result, strip.problem.lubricant
     if oil.limiting_stress_coefficient is None:
         return 0.0
     twice = {name: 2 * getattr(oil, name) for name in ("limiting_stress_coefficient", "limiting_stress_offset")}
     other = replace(problem, contact=replace(problem.contact, lubricant=replace(oil, **twice)))
     found = solve_point(other, start=result.state, tolerance=ENOUGH)
     return assemble(evaluated(problem, found.state), found.report).coefficient / result.coefficient - 1
-
-
-def surface_of(prepared: Prepared, contact) -> Surface:
-    """The map of ``contact``, a strip."""
-    return replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:

@@ -6,10 +6,11 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..contact import HalfSpaceContact, RoughContact
-from ..deterministic import solve_strip
-from ..scene import FRICTION, Scene, value_of
+from ..contact import RoughContact
+from ..deterministic import Strip, solve_strip
+from ..scene import FRICTION, Scene, moves, value_of
 from ..sharing import Prepared, on_stack, prepare, solve_balance
+from .moving import solved_strip
 from .pair import longer_than, strip_of
 from .result import FrictionResult
 from .uncertainty import Uncertainty
@@ -65,15 +66,15 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, float]])
 def _shared(prepared: Prepared, speed: float) -> Callable[[Scene], float]:
     """f of scenes alike but for inputs, by Eq. (8) on the first strips of ``prepared``, or on its only contact."""
     strips, surface = prepared.strips, prepared.surface
-    contact = prepared.contact if strips is None else on_stack(prepared, strips, strips.first)
+    stack = None if strips is None else on_stack(prepared, strips, strips.first)
+    contact = prepared.contact if stack is None else stack
     start = solve_balance(prepared.scene, speed, contact, surface.sq)
 
     def f(scene: Scene) -> float:
         there: RoughContact = contact
         if scene.bodies.hardness != prepared.scene.bodies.hardness:
-            there = prepare(scene, surface).contact
-            if isinstance(contact, HalfSpaceContact):
-                there = replace(contact, hardness=scene.bodies.hardness)
+            hardness = scene.bodies.hardness
+            there = prepare(scene, surface).contact if stack is None else replace(stack, hardness=hardness)
         return solve_balance(scene, speed, there, surface.sq, start).forces.coefficient
 
     return f
@@ -83,9 +84,11 @@ def _resolved(prepared: Prepared, speed: float) -> Callable[[Scene], float]:
     """The same by the deterministic model, on one strip or on the patch."""
     surface, factors = strip_of(prepared, 0)
     factors = longer_than(surface, factors)
-    start = solve_strip(prepared.scene, surface, speed, factors=factors)
 
-    def f(scene: Scene) -> float:
-        return solve_strip(scene, surface, speed, factors=factors, start=start).result.coefficient
+    def solved(scene: Scene, start: Strip | None = None) -> Strip:
+        if moves(scene):
+            return solved_strip(replace(prepared, scene=scene), 0, speed, factors=factors, start=start)
+        return solve_strip(scene, surface, speed, factors=factors, start=start)
 
-    return f
+    start = solved(prepared.scene)
+    return lambda scene: solved(scene, start).result.coefficient

@@ -11,7 +11,7 @@ from .._base import Shown, axes_or_new, field_image
 from ..deterministic import Refined
 from ..errors import InputError, Report
 from ..quantities import PointQuantities, described_in_doc, in_words
-from ..sharing import Balance, Validity
+from ..sharing import Balance, Lack, Validity
 from .cite import cited
 from .decision import Decision
 from .uncertainty import FieldErrors, Uncertainty
@@ -34,6 +34,8 @@ class FrictionResult(PointQuantities[float], Shown):
     errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
     decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
     validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
+    lacks : what the scene leaves out, the likely change of f by it (relative; NaN: not known), and what to do, the
+        largest first; nothing that would change f by less than the tolerance (`lubfric.sharing.lacking`)
     methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
     heights : of the cells of the contact that was solved [m], (nx, ny), about their mean; None if there are none
     """
@@ -43,6 +45,7 @@ class FrictionResult(PointQuantities[float], Shown):
     errors: FieldErrors
     decision: Decision
     validity: tuple[Validity, ...] = ()
+    lacks: tuple[Lack, ...] = ()
     methods: tuple[str, ...] = ()
     balance: Balance | None = None
     heights: np.ndarray | None = None

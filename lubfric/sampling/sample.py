@@ -32,7 +32,7 @@ GROWTH = 4.0, 8.0  # times the length so far: a standard error from few blocks i
 FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
 LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
 CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
-REFERENCES = (0.05, 0.4, 1.6)  # Moes' film of the whole load over Sq, at the speeds of reference points
+REFERENCES = (0.05, 0.4, 1.6)  # expected film of the whole load over Sq, at the speeds of reference points
 
 
 @dataclass(frozen=True)
@@ -157,12 +157,13 @@ def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
 
 
 def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | None:
-    """A balance on the first strips to start from: that of the nearest of three fixed speeds. It depends on scene and
-    cells alone, so that no result depends on which speeds were solved before."""
+    """A balance on the first strips to start from: that of the nearest of three fixed speeds (None where a given film
+    arrives, at any speed). It depends on scene and cells alone, so that no result depends on which speeds were solved
+    before."""
     scene, sq = prepared.scene, prepared.surface.sq
-    if speed == 0 or strips.whole or sq == 0:
+    if speed == 0 or strips.whole or sq == 0 or scene.lubricant.inlet_film is not None:
         return None
-    film = scene.line_contact(speed).moes_film / sq
+    film = scene.line_contact(speed).expected_film / sq
     nearest = min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))
 
     def make() -> Balance | None:
@@ -178,12 +179,12 @@ def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | No
 
 
 def _speed_of(scene, film: float) -> float:
-    """Speed [m/s] at which Moes' film of the whole load is ``film`` [m], to a per cent."""
+    """Speed [m/s] at which the expected film of the whole load is ``film`` [m], to a per cent."""
     speed = 1.0
     for _ in range(30):
         line = scene.line_contact(speed)
         exponent = exponents(line)[2]
-        step = math.log(film / line.moes_film) / exponent
+        step = math.log(film / line.expected_film) / exponent
         speed *= math.exp(step)
         if abs(step) < 1e-6:
             break

@@ -6,28 +6,25 @@ usual.
 
 from __future__ import annotations
 
-import tomllib
 from contextlib import contextmanager
 from functools import cache
-from importlib import resources
 from typing import Any
 
+from .._base import packaged
 from ..errors import ConvergenceError, InputError
 from ..quantities import KEYS
 from ..units import converted, without_unit
 
 
 @cache
-def packaged(name: str) -> dict[str, Any]:
-    """The table in the file ``name`` of this package."""
-    return tomllib.loads((resources.files(__package__) / name).read_text(encoding="utf-8"))
-
-
-@cache
 def usual() -> dict[str, dict[str, Any]]:
     """Of each key (section.key): ``low``, ``high`` and ``unit`` of its usual range in SI; ``meant``: units that are
     mistaken for it, with their factors, and the key to give instead; ``zero``: whether 0 is usual too."""
-    rows = {f"{section}.{key}": row for section, keys in packaged("usual.toml").items() for key, row in keys.items()}
+    rows = {
+        f"{section}.{key}": row
+        for section, keys in packaged(__package__, "usual.toml").items()
+        for key, row in keys.items()
+    }
     for name, row in rows.items():
         meant = [[given] if isinstance(given, str) else given for given in row["meant"]]
         unit = KEYS[name].unit
@@ -40,7 +37,7 @@ def typical(name: str) -> dict[str, list[float]]:
     """Words that stand for a value of the key ``name`` (section.key): that value, and the lowest and highest that are
     usual, in the unit of the key."""
     section, _, key = name.partition(".")
-    rows = packaged("typical.toml").get(section, {}).get(key, {})
+    rows = packaged(__package__, "typical.toml").get(section, {}).get(key, {})
     return {word: without_unit(name, values, KEYS[name].unit) for word, values in rows.items()}
 
 

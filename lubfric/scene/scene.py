@@ -27,7 +27,6 @@ RESOLVED = (  # key, the values that the deterministic model takes, why no other
     ("contact.geometry", ("cylinder",), ""),
     ("contact.model", ("half-space",), ""),
     ("contact.region", ("hertz",), " (there is no volume balance; means are over the Hertz strip)"),
-    ("motion.slide_roll_ratio", (2.0,), " (the rough body, surface 1, at rest: else the film is not steady)"),
     ("numerics.film_deflection", ("scaled", "hydrodynamic"), " (no smooth film is deflected)"),
     ("numerics.cavitated_shear", ("none",), ""),
     ("numerics.heat", ("auto", "off"), " (the model is isothermal)"),
@@ -134,9 +133,10 @@ class Scene(Shown):
         return self.with_(**whole).with_(**parts)
 
     def line_contact(self, speed: float) -> LineContact:
-        """The smooth line contact of the whole load at ``speed`` [m/s], not 0."""
-        bodies = self.bodies
-        return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, self.lubricant)
+        """The smooth line contact of the whole load at ``speed`` [m/s], not 0. Shear thins its flow, by the law of the
+        lubricant."""
+        bodies, sliding = self.bodies, self.motion.slide_roll_ratio * abs(speed)
+        return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, self.lubricant, sliding)
 
     def to_toml(self) -> str:
         """The whole scene as the text of a scene file, which `lubfric.load_scene` reads back to the same numbers.
@@ -271,12 +271,29 @@ def check_resolved_gap(scene: Scene) -> None:
         raise InputError(said, name, f"{instead}, or numerics.model = 'load-sharing'")
 
 
+def moving_bodies(scene: Scene) -> list[tuple[str, float]]:
+    """The sections of the rough bodies, each with its speed over U: surface 1 - s/2, counterface 1 + s/2, s the
+    slide-roll ratio."""
+    half = 0.5 * scene.motion.slide_roll_ratio
+    bodies = ("surface", 1 - half, scene.surface), ("counterface", 1 + half, scene.counterface)
+    return [(name, speed) for name, speed, rough in bodies if rough is not None and rough.sq != 0.0]
+
+
+def moves(scene: Scene) -> bool:
+    """Whether roughness moves through the film."""
+    return any(speed != 0 for _, speed in moving_bodies(scene))
+
+
 def _not_taken(scene: Scene) -> Iterator[tuple[str, Any, str]]:
     for name, allowed, why in RESOLVED:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)
         if value not in allowed:
             yield name, value, f"{', '.join(map(repr, allowed))}{why}"
+    bodies = moving_bodies(scene)
+    measured = [name for name, _ in bodies if getattr(scene, name).file is not None]
+    if len({u for _, u in bodies}) > 1 and (measured or scene.numerics.sampling == "patch"):
+        yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 none, or two generated ones"
     lubricant = scene.lubricant
     if lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset == 0:
         yield "lubricant.limiting_stress_offset", 0.0, "a value above 0, some 1e6 Pa (else no film flows at p = 0)"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import MISSING, fields, replace
 from typing import Any
 
-from .._base import validate
+from .._base import packaged, validate
 from ..errors import InputError
 from ..oil import Lubricant
 from ..quantities import KEYS
@@ -13,7 +13,7 @@ from ..surface import PER_SQ
 from ..units import without_unit
 from .bodies import Bodies, ContactDomain, Motion
 from .numerics import Numerics, refuse_dropped
-from .plausible import naming_slips, packaged, typical
+from .plausible import naming_slips, typical
 from .roughness import NEEDED, Roughness, as_given, named
 from .short_forms import resolve, short_keys
 from .transient import Transient
@@ -43,7 +43,7 @@ INSTEAD = {  # of a missing key
 
 def meant(section: str) -> dict[str, str]:
     """Other words for the keys of a section ("scene": for the sections), in small letters, and what to write."""
-    groups = packaged("other_words.toml").get(section, {})
+    groups = packaged(__package__, "other_words.toml").get(section, {})
     return {word: text for words, text in groups.items() for word in words.split()}
 
 

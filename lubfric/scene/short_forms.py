@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import python_value, validate
+from .._base import packaged, python_value, validate
 from ..errors import InputError
 from ..film import composite_modulus
 from ..oil import (
@@ -28,7 +28,6 @@ from ..oil import (
 from ..surface import PER_SQ
 from ..units import HV
 from .bodies import friction_of, pair
-from .plausible import packaged
 
 MOST_SPEEDS = 1_000_000
 SOURCES = ("grade", "viscosity_index", "nu40", "nu100", "viscosity_table", "oil")
@@ -81,7 +80,7 @@ def _of_radii(radii, *_) -> dict:
 
 def _of_materials(names, *_) -> dict:
     """Fields of one or two named materials (materials.toml)."""
-    known = packaged("materials.toml")
+    known = packaged(__package__, "materials.toml")
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
     first, second = (known[validate.choice("bodies.material", name, known)] for name in both)
     return {

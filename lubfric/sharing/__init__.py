@@ -6,10 +6,22 @@ an error of the gap. `checks` are the assumptions of the model.
 """
 
 from .balance import Balance, solve_balance
-from .checks import judged, of_deflection, of_ends, of_error, of_film, of_motion, of_pressure, of_thickness
+from .checks import (
+    judged,
+    of_deflection,
+    of_ends,
+    of_error,
+    of_film,
+    of_inlet,
+    of_motion,
+    of_pressure,
+    of_thickness,
+    of_typical_heat,
+)
 from .checks_before import expected
 from .forces import Forces, forces
-from .heat import Heat, film_lubricant, inlet_at, point_heat
+from .heat import Heat, film_lubricant, inlet_at, point_heat, typical_heat
+from .lacks import Lack, lack_in_words, lacking
 from .point import Point, exponents
 from .prepared import Prepared, at_speed, at_tolerance, on_piece, on_stack, on_strip, prepare, scene_of, takes_strips
 from .response import Response, Slopes, divided, grown, quantities, touched_length

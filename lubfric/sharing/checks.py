@@ -267,7 +267,8 @@ def judged(prepared, speed: float, balance, ends: float) -> tuple[Validity, ...]
         peak, found = float(film.pressure.max()), balance.forces
         force = abs(found.coefficient) * scene.bodies.load
         entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)
-        entries += of_typical_heat(scene, typical_heat(scene, balance))
+        typical = typical_heat(scene, film, balance.contact, balance.contact_load, force, found.shear)
+        entries += of_typical_heat(scene, typical)
         if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
             entries += of_deflection(scene, balance.contact.mean_gap)
     return tuple(entries)

@@ -84,12 +84,12 @@ class Heat:
         """The heat in words, each number beside its budget."""
         if self.inlet is None:
             return ""
-        limit = f"{100 * budget.HEAT * tolerance:.2g} % budget"
+        limit = f"{100 * budget.HEAT * tolerance:.2g} %"
         inlet = f"inlet left out, film -{100 * (1 - self.inlet.factor):.2g} %"
         if self.used:
             inlet = f"inlet, film x {self.inlet.factor:.3g} ({self.inlet.other:.3g} by another factor)"
         if self.heated is None:
-            return f"heat: {inlet}; film and flash left out, at most {100 * self.change:.2g} % of f < {limit}"
+            return f"heat: {inlet}; film and flash left out, at most {100 * self.change:.2g} % of f ({limit} allowed)"
         return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film:.2g} K, f -{100 * self.change:.2g} %"
 
 
@@ -184,19 +184,19 @@ def _nodes(scene, film, contact, contact_load: float, force: float):
     return (x, p, h, Surroundings(carried, sliding, wet, spots)), change_by
 
 
-def typical_heat(scene, balance) -> float:
-    """Share of f that the heat of film and surfaces would take away, at most, if the viscosity fell with the
-    temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0 where the lubricant says
-    how it falls, where ``numerics.heat`` is off, and where nothing slides."""
-    lubricant, film, shear = scene.lubricant, balance.film, balance.forces.shear
+def typical_heat(scene, film, contact, contact_load: float, force: float, shear) -> float:
+    """Share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the viscosity
+    fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0 where the
+    lubricant says how it falls, where ``numerics.heat`` is off, and where nothing slides. Arguments as of
+    `point_heat`."""
+    lubricant = scene.lubricant
     known = lubricant.heats or lubricant.temperature_coefficient == 0
     meaningless = float(film.pressure.max()) > NO_LIQUID or not shear.excess < math.inf
     if known or scene.numerics.heat == "off" or scene.motion.slide_roll_ratio == 0 or meaningless:
         return 0.0
     temperature, coefficient = lubricant.temperature or TYPICAL[0], lubricant.temperature_coefficient or TYPICAL[1]
     like = replace(lubricant, temperature=temperature, temperature_coefficient=coefficient)
-    force = abs(balance.forces.coefficient) * scene.bodies.load
-    nodes, change_by = _nodes(scene, film, balance.contact, balance.contact_load, force)
+    nodes, change_by = _nodes(scene, film, contact, contact_load, force)
     return change_by(isothermal_heat(like, *nodes).stress)
 
 

@@ -58,7 +58,8 @@ class Point:
         Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108, doi:10.1016/0043-1648(72)90445-0)."""
         bodies = self.scene.bodies
         share = film_load / bodies.load if self.scene.numerics.film_deflection == "scaled" else 1.0
-        return LineContact(film_load / bodies.width, bodies.radius, bodies.e_prime * share, self.speed, self.oil)
+        load, e_prime = film_load / bodies.width, bodies.e_prime * share
+        return replace(self.scene.line_contact(self.speed), load_per_width=load, e_prime=e_prime, lubricant=self.oil)
 
     def film(self, film_load: float, start: EHLResult | None = None, cells: int = 0) -> EHLResult:
         """The film that carries ``film_load`` [N]."""
@@ -104,11 +105,12 @@ class Point:
 
 
 def exponents(line: LineContact) -> tuple[float, float, float]:
-    """Moes' film h [m] of ``line``, and m and e of h ~ load^-m speed^e about it."""
+    """The expected film h [m] of ``line``, and m and e of h ~ load^-m speed^e about it."""
 
     def change(other: LineContact) -> float:
-        return math.log(other.moes_film / line.moes_film) / math.log1p(NUDGE)
+        return math.log(other.expected_film / line.expected_film) / math.log1p(NUDGE)
 
     heavier = replace(line, load_per_width=(1 + NUDGE) * line.load_per_width)
-    faster = replace(line, entrainment_speed=(1 + NUDGE) * line.entrainment_speed)
-    return line.moes_film, -change(heavier), change(faster)
+    sliding = None if line.sliding is None else (1 + NUDGE) * line.sliding
+    faster = replace(line, entrainment_speed=(1 + NUDGE) * line.entrainment_speed, sliding=sliding)
+    return line.expected_film, -change(heavier), change(faster)

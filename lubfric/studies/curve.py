@@ -10,7 +10,7 @@ import numpy as np
 
 from .._base import Shown, table_bytes, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError
-from ..quantities import NUMBERS, OF_UNCERTAINTY, heading
+from ..quantities import NUMBERS, OF_UNCERTAINTY, counted, heading
 from ..sampling import FrictionResult, UncertaintyCurve, curve_of, together
 from ..sharing import Validity, entries_of, gathered, in_a_cell
 
@@ -64,7 +64,7 @@ class CurveResult(Shown):
 
     def _facts(self) -> dict[str, str]:
         name, symbol, unit, plural = self.SWEPT
-        facts, good = {"": f"{len(self.points)} {plural}"}, np.isfinite(self["coefficient"])
+        facts, good = {"": counted(len(self.points), plural)}, np.isfinite(self["coefficient"])
         if good.any():
             known, f = getattr(self, name)[good], self["coefficient"][good]
             facts |= {symbol: f"{known.min():.4g} to {known.max():.4g} {unit}", "f": f"{f.min():.4g} to {f.max():.4g}"}
@@ -98,7 +98,7 @@ def report_of(solver: str, names: list[str], plural: str, points, errors: dict[i
         float(max((p.report.residual for p in points if p is not None), default=np.inf)),
         float(max((p.report.tolerance for p in points if p is not None), default=0.0)),
         notes=tuple(f"{names[i]}: {error}" for i, error in sorted(errors.items())),
-        advice=f"the other {plural} are in .result, the reason of each failed one in its .errors",
+        advice=f"the other {plural} are in .result, the reason of each failed one in its .errors" if errors else "",
     )
 
 

@@ -7,7 +7,7 @@ import json
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from functools import cache
-from typing import NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -42,21 +42,10 @@ POSITIVE = {
     "m": (0.2, 50.0),
     "r": (1e-6, 1e3),
 } | dict.fromkeys(("C1", "C2"), (1e-9, 1e9))  # searched in logarithms, between these bounds
-OTHERS = (-3.0, 3.0)  # bounds of the exponents
+OTHERS = np.array([-3.0, 3.0])  # bounds of the exponents
+START = dict.fromkeys(("c", "e1", "e2", "d1", "d2"), 0.0) | {"a": 1.0, "m": 2.0, "r": 0.5}
 SYMBOLS = {"speed": ("U", "m/s"), "temperature": ("T", "K"), "pressure": ("p", "Pa")}
-
-
 VARIED = ("lubricant.temperature", "lubricant.temperature_celsius", "bodies.load")
-
-
-class Conditions(NamedTuple):
-    """What a law knows of a scene: temperature of the oil [K], its viscosity there [Pa s], -d ln(viscosity)/dT [1/K]
-    (NaN where not known), mean Hertz pressure [Pa]."""
-
-    temperature: float
-    viscosity: float
-    coefficient: float
-    pressure: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -153,11 +142,12 @@ def _range(ends: tuple[float, float], unit: str) -> str:
     return f"{low:.5g} {unit} alone" if low == high else f"{low:.5g} to {high:.5g} {unit}"
 
 
-def conditions_of(scene: Scene) -> Conditions:
-    """The `Conditions` of a scene."""
+def conditions_of(scene: Scene) -> tuple[float, float, float, float]:
+    """What a law knows of a scene: temperature of the oil [K], its viscosity there [Pa s], -d ln(viscosity)/dT [1/K],
+    mean Hertz pressure [Pa]; NaN where not known."""
     oil = scene.lubricant
     temperature, slope = (np.nan if v is None else v for v in (oil.temperature, oil.temperature_coefficient))
-    return Conditions(temperature, oil.viscosity, slope, scene.bodies.mean_hertz_pressure)
+    return temperature, oil.viscosity, slope, scene.bodies.mean_hertz_pressure
 
 
 def value(numbers: dict[str, float], U, T, p):
@@ -178,29 +168,29 @@ def _expressions(numbers) -> dict[str, str]:
     return {"eta": WALTHER if "A" in numbers else "eta0"} | FORMULA
 
 
-def law_of(name: str, curves: Iterable[tuple[Conditions, Interpolant]], interval: float) -> Law:
-    """The `Law` of solved curves with their conditions. ``interval``: relative half width of the points'. Raises
-    `InputError` where there is none, or f is not positive."""
+def law_of(name: str, curves: Iterable[tuple[Any, Interpolant]], f, low, high, model) -> Law:
+    """The `Law` of solved curves with their conditions (`conditions_of`). ``f``, ``low``, ``high``, ``model``: of all
+    points, arrays with their intervals, and their errors by the model. Raises `InputError` where there are too few
+    points, or f is not positive."""
     rows = [np.zeros((7, 0))]
     for known, curve in curves:
         solved = curve.samples.speed
         fine = np.geomspace(solved[0], solved[-1], FINE)
         fine = np.append(solved, fine[curve.error(fine) < CLOSE])
         rows.append(np.array(np.broadcast_arrays(fine, *known, curve.boundary(fine), curve.film(fine))))
-    U, T, eta, coefficient, p, boundary, film = np.concatenate(rows, axis=1)
-    f = boundary + film
+    U, T, eta, slope, p, boundary, film = np.concatenate(rows, axis=1)
     if U.size < FEWEST:
-        raise InputError(f"a law needs {FEWEST} points that are known within {CLOSE:.0%}, and has {U.size}; {MORE}")
-    if not (f > 0).all():
-        raise InputError(
-            f"f = {f.min():.3g} at {U[f.argmin()]:.3g} m/s is not above 0: a law needs sliding in one sense"
-        )
-    numbers = {"u0": AT_REST * U.min(), "U0": _mean(U), "eta0": _mean(eta), "p0": _mean(p)}
-    numbers |= _viscosity(T, eta, coefficient)
-    numbers |= _fitted(numbers, (U, T, p), f, boundary, eta)
-    off = np.expm1(np.log(value(numbers, U, T, p) / f))
+        raise InputError(f"a law needs {FEWEST} points known within {CLOSE:.0%}, and has {U.size}; {MORE}")
+    if not (boundary + film > 0).all():
+        raise InputError("a law needs f above 0 at all speeds; give a slide-roll ratio that is not near 0")
+    numbers = {"u0": AT_REST * U.min()}
+    numbers |= {name: float(np.exp(np.log(v).mean())) for name, v in (("U0", U), ("eta0", eta), ("p0", p))}
+    numbers |= _viscosity(T, eta, slope)
+    numbers |= _fitted(numbers, (U, T, p), boundary, film, eta)
+    off = value(numbers, U, T, p) / (boundary + film) - 1
     ranges = {n: (float(v.min()), float(v.max())) for n, v in (("speed", U), ("temperature", T), ("pressure", p))}
-    return Law(name, numbers, ranges, float(abs(off).max()), float(np.sqrt(np.mean(off**2))), interval)
+    widths = np.where(np.isfinite(model), 0.5 * (high - low) / np.abs(f), np.nan)[np.isfinite(f)]
+    return Law(name, numbers, ranges, float(abs(off).max()), float(np.sqrt(np.mean(off**2))), float(widths.max()))
 
 
 def law_of_study(result) -> Law:
@@ -208,32 +198,14 @@ def law_of_study(result) -> Law:
     system simulations (`lubfric.studies.law`). Raises `InputError` where anything else was varied."""
     others = [key for axis in result.plan["axes"] for key in axis["keys"] if key not in VARIED]
     if others:
-        raise InputError(
-            f"a law is over speed, temperature and load, and this study varies {', '.join(others)} as well"
-        )
+        raise InputError(f"a law is over speed, temperature and load; this study varies {', '.join(others)} as well")
     known = result.plan.get("conditions")
-    if not fits(known, [dict.fromkeys(Conditions._fields, float | None)]):
-        raise InputError(
-            "study.json does not say temperatures and pressures; run the study again, which writes it anew"
-        )
-    curves = [
-        (Conditions(**{name: np.nan if v is None else v for name, v in one.items()}), result.curve(index))
-        for one, index in zip(known, np.ndindex(*result.status.shape[:-1]))
-    ]
-    ends = (result["uncertainty_low"], result["uncertainty_high"], result["uncertainty_model"])
-    width = half_width(result["coefficient"], *ends)
-    return law_of(result.plan["name"], [(one, curve) for one, curve in curves if curve is not None], width)
-
-
-def half_width(f, low, high, model) -> float:
-    """Largest relative half width of intervals of ``f`` from ``low`` to ``high``; NaN if the error ``model`` of one is
-    not known."""
-    widths = np.where(np.isfinite(model), 0.5 * (high - low) / np.abs(f), np.nan)[np.isfinite(f)]
-    return float(widths.max()) if widths.size else np.nan
-
-
-def _mean(values: np.ndarray) -> float:
-    return float(np.exp(np.log(values).mean()))
+    if not fits(known, list[list[float | None]]) or {len(one) for one in known} != {4}:
+        raise InputError("study.json has no conditions of its scenes; run the study again, which writes it anew")
+    found = [result.curve(index) for index in np.ndindex(*result.status.shape[:-1])]
+    curves = [(np.array(at, float), curve) for at, curve in zip(known, found) if curve is not None]
+    columns = (result[name] for name in ("coefficient", *(f"uncertainty_{n}" for n in ("low", "high", "model"))))
+    return law_of(result.plan["name"], curves, *columns)
 
 
 def _viscosity(T, eta, coefficient) -> dict[str, float]:
@@ -249,44 +221,29 @@ def _viscosity(T, eta, coefficient) -> dict[str, float]:
     return {"A": float(np.mean(y - slope * x)), "B": float(-slope)}
 
 
-def _fitted(numbers, at, f, boundary, eta) -> dict[str, float]:
+def _fitted(numbers, at, boundary, film, eta) -> dict[str, float]:
     """The other numbers, by least squares of ln f from several starts."""
     from scipy.optimize import least_squares
 
-    U, T, p = at
+    (U, T, p), f, most = at, boundary + film, float(boundary.max())
     e, q = np.log(eta / numbers["eta0"]), np.log(p / numbers["p0"])
-    b = float(boundary.max())
-    share = boundary / b if b > 0 else boundary
-    start = dict.fromkeys(("a", "c", "e1", "e2", "d1", "d2", "k1", "k2"), 0.0)
-    start |= {
-        "b": b or 1.0,
-        "n": 1.0,
-        "m": 2.0,
-        "r": 0.5,
-        "a": 1.0,
-        "C1": float(np.median(f)),
-        "C2": float(np.median(f)),
-    }
-    start["U1"] = float((U * np.exp(e))[abs(share - 0.5).argmin()]) if b > 0 else 1e-12
-    moved = [name for name, moves in (("e", np.ptp(e) > 1e-9), ("d", np.ptp(q) > 1e-9)) if moves]
-    free = [*(SHARE if b > 0 else ()), *FILM, *(name + i for name in moved for i in "12")]
-    free += [{"e": "a", "d": "c"}[name] for name in moved if b > 0]
-    low, high = np.array([np.log(POSITIVE[name]) if name in POSITIVE else np.array(OTHERS) for name in free]).T
+    middle = float((U * np.exp(e))[abs(boundary - 0.5 * most).argmin()])
+    start = START | {"b": most or 1.0, "C1": float(np.median(f)), "U1": middle if most else 1e-12}
+    free = (*(SHARE if most else ()), *FILM)
+    for exponents, moved in ((("a", "e1", "e2"), e), (("c", "d1", "d2"), q)):
+        if np.ptp(moved) > 1e-9:
+            free += exponents if most else exponents[1:]
+    low, high = np.array([np.log(POSITIVE[name]) if name in POSITIVE else OTHERS for name in free]).T
 
     def read(z) -> dict[str, float]:
-        found = {name: float(np.exp(v)) if name in POSITIVE else float(v) for name, v in zip(free, z)}
-        return numbers | start | found
+        return numbers | start | {n: float(np.exp(v) if n in POSITIVE else v) for n, v in zip(free, z)}
 
     def left(z):
         return np.log(np.maximum(value(read(z), U, T, p), 1e-9) / f)
 
     found = []
     for bend, steep in ((0.1, 1.0), (0.1, 2.0), (0.5, 1.0), (0.5, 2.0)):
-        tried = start | {"k1": bend, "k2": -bend, "C2": 3 * start["C2"], "n": steep}
-        z = [np.log(tried[name]) if name in POSITIVE else tried[name] for name in free]
-        found.append(
-            least_squares(
-                left, np.clip(z, low + 1e-6, high - 1e-6), bounds=(low, high), max_nfev=150, ftol=1e-6, xtol=1e-6
-            )
-        )
+        tried = start | {"k1": bend, "k2": -bend, "C2": 3 * start["C1"], "n": steep}
+        z = np.clip([np.log(tried[n]) if n in POSITIVE else tried[n] for n in free], low + 1e-6, high - 1e-6)
+        found.append(least_squares(left, z, bounds=(low, high), max_nfev=150, ftol=1e-6, xtol=1e-6))
     return read(min(found, key=lambda one: one.cost).x)

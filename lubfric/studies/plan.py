@@ -101,7 +101,7 @@ def plan_as_dict(plan: StudyPlan) -> dict:
         "speeds": list(plan.speeds) or AUTO,
         "shape": list(plan.shape),
         "keys": list(plan.keys),
-        "conditions": plain([conditions_of(scene)._asdict() for scene in plan.scenes]),
+        "conditions": plain([conditions_of(scene) for scene in plan.scenes]),
     }
 
 

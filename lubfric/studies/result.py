@@ -217,11 +217,26 @@ def study(
     if plan is scene and (vary is not None or speeds is not None):
         raise InputError("vary and speeds belong to the plan; give a scene with them, or a plan alone")
     executor = checked_executor(executor)
+    if store is not None:
+        check_plan(validate.folder("store", store))
     with opened(store) as kept:
         described = plan_as_dict(plan)
         if kept.root is not None:
             write_whole(Path(kept.root) / PLAN, json.dumps(described, indent=1).encode())
         return StudyResult.of_rows(described, *_carried_out(plan, executor, kept, on_progress))
+
+
+def check_plan(folder: Path) -> None:
+    """Raise `InputError` for a file in ``folder`` in the place of the plan that is none: the study would replace it."""
+    path = folder / PLAN
+    if not os.path.lexists(path):
+        return
+    try:
+        known = {} if path.is_symlink() else json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, OSError, RecursionError):
+        known = {}
+    if not (isinstance(known, dict) and {"format", "lubfric", "keys"} <= known.keys()):
+        raise InputError(f"{path} is no plan of a study, and would be replaced; move it away, or give another folder")
 
 
 def _carried_out(plan: StudyPlan, executor, store: Store, on_progress: Callable | None) -> tuple[Rows, set[str]]:

@@ -17,7 +17,7 @@ from .choose import asked_speeds, next_speed, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
-from .law import Law, conditions_of, half_width, law_of
+from .law import Law, conditions_of, law_of
 from .points import Outcome, key_of, made_ready, outcome_of, solved
 from .store import opened
 from .tables import curve_axes
@@ -83,8 +83,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         """The curve as a formula for system simulations, `lubfric.studies.law`: at one temperature and pressure;
         ``lubfric.study(...).law()`` has more of them."""
         low, high = self.uncertainty.interval.T
-        width = half_width(self.coefficient, low, high, self.uncertainty.model)
-        return law_of(self.scene.name, [(conditions_of(self.scene), self._curve)], width)
+        curves = [(conditions_of(self.scene), self._curve)]
+        return law_of(self.scene.name, curves, self.coefficient, low, high, self.uncertainty.model)
 
     def plot(self, ax=None, **style):
         """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
@@ -187,13 +187,14 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
 def _with_interpolation(curve: StribeckResult, tolerance: float) -> Report:
     """The report of a curve that chose its speeds: its residual is the estimated error between the points."""
     report, error = curve.report, next_speed(through(columns_of(curve.points)), tolerance)[1]
+    coarse = "" if error <= tolerance else "solve more speeds of your own, or loosen numerics.tolerance"
     return replace(
         report,
         status=report.status if error <= tolerance else ITERATION_LIMIT,
         residual=error,
         tolerance=tolerance,
         residuals={"interpolation": error, "points": report.residual},
-        advice=report.advice if curve.errors else "solve more speeds of your own, or loosen numerics.tolerance",
+        advice=report.advice or coarse,
     )
 
 

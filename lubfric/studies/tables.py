@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 from importlib import import_module
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from .._base import (
     RED,
     axes_or_new,
     friction_lines,
+    key_above,
     log_if_wide,
     new_figure,
     plain_ticks,
@@ -24,11 +26,14 @@ from .._base import (
     write_whole,
 )
 from ..errors import InputError
-from ..quantities import KEYS, axis_label, described, heading
+from ..quantities import KEYS, Quantity, axis_label, described, heading
+from ..units import worded
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
-MOST, NAMED, FINE = 50, 10, 200  # lines, lines with a label, points of a line between solved ones
+BAND = "95 %: solvers, grids, surface, model, inputs"
+MOST, NAMED, FINE = 500, 10, 200  # lines, lines with a label, points of a line between solved ones
+SMOOTH = 6  # values along both axes of a map from which it is drawn by contours
 
 
 def to_xarray(result):
@@ -83,30 +88,44 @@ def _table(result) -> dict[str, np.ndarray]:
 
 
 def plot(result, ax=None, **style):
-    """f over speed, a line for each curve (at most 50 of them, evenly picked), on ``ax`` or new axes, which are
-    returned; ``style``: of the lines. Where speeds were chosen, the lines are interpolated."""
+    """f over speed, a line for each curve, on ``ax`` or new axes, which are returned; ``style``: of the lines. Many
+    curves are coloured by the first number that is varied. Where speeds were chosen, the lines are interpolated."""
     from matplotlib import colormaps
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
 
     axes, indices = axes_or_new(ax), list(np.ndindex(*result.status.shape[:-1]))
     picked = np.unique(np.linspace(0, len(indices) - 1, min(MOST, len(indices))).astype(int))
-    for index, colour in zip((indices[i] for i in picked), colormaps["viridis"](np.linspace(0.0, 0.9, picked.size))):
-        own = {"color": colour, "lw": 1.0} | style
-        if picked.size <= NAMED:
-            own = {"label": plain_words(_label(result, index))} | own
+    few = picked.size <= NAMED
+    key = next((k for k, (_, v) in result.coords.items() if k != SPEED and v.dtype.kind == "f"), None)
+    place, colours = picked / max(len(indices) - 1, 1), colormaps["viridis"]
+    if key is not None and not few:
+        dim, values = result.coords[key]
+        scale = Normalize(values.min(), values.max())
+        place = scale(np.array([values[indices[i][result.dims.index(dim)]] for i in picked]))
+        axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
+    for index, colour in zip((indices[i] for i in picked), colours(place if key and not few else 0.9 * place)):
+        own = {"color": colour, "lw": 1.0} | ({"label": plain_words(_label(result, index))} if few else {}) | style
         speed = np.abs(result.columns[SPEED][index] if result.chosen else result.coords[SPEED][1])
         f, curve = result.columns["coefficient"][index], result.curve(index) if result.chosen else None
         good = np.flatnonzero(np.isfinite(f) & (speed > 0))
         good = good[np.argsort(speed[good])]
-        if curve is None:
-            axes.plot(speed[good], f[good], "o-", ms=3, **own)
-            continue
-        fine = np.geomspace(speed[good][0], speed[good][-1], FINE)
-        axes.plot(fine, curve.at(fine), **own)
-        axes.plot(speed[good], f[good], "o", ms=3, color=own["color"])
-    axes.set(xscale="log", xlabel="entrainment speed U (m/s)", ylabel="friction coefficient (-)")
-    if 1 < picked.size <= NAMED:
-        axes.legend(frameon=False)
-    axes.set_title(f"{plain_words(result.plan['name'])}: {picked.size} of {len(indices)} curves")
+        if curve is not None:
+            fine = np.geomspace(speed[good][0], speed[good][-1], FINE)
+            axes.plot(fine, curve.at(fine), **own)
+            own = {"color": own["color"], "ls": ""}
+        axes.plot(
+            speed[good], f[good], **({"marker": "o", "ms": 3} if few or curve is None and good.size < 2 else {}) | own
+        )
+    axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=FRICTION)
+    plain_ticks(axes.xaxis)
+    some, named = (
+        "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves",
+        few and picked.size > 1,
+    )
+    axes.set_title(plain_words(result.plan["name"]) + some, pad=6 + 13 * named * math.ceil(picked.size / 2))
+    if named:
+        key_above(axes, 2)
     return axes
 
 
@@ -114,9 +133,8 @@ def _label(result, index) -> str:
     words = []
     for key, (dim, values) in result.coords.items():
         if key != SPEED:
-            value, unit = values[index[result.dims.index(dim)]], KEYS[key].unit if key in KEYS else "-"
-            text = f"{value:.4g}" if isinstance(value, float) else str(value)
-            words.append(f"{key.rpartition('.')[2]} {text}{'' if unit == '-' else ' ' + unit}")
+            value, of = values[index[result.dims.index(dim)]], KEYS.get(key, Quantity("-", key.rpartition(".")[2]))
+            words.append(f"{of.label} {worded(value.item(), of.unit)}")
     return ", ".join(words)
 
 
@@ -133,20 +151,25 @@ def _tool(name: str):
         raise InputError(f"this table needs the package {name}: pip install 'lubfric[study]'") from None
 
 
-def interval_band(ax, over: np.ndarray, columns) -> None:
-    """The intervals of f as a band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what the
-    model and the finite surface leave by themselves."""
-    unknown = np.full(over.shape, np.nan)
-    if np.isfinite(columns.get("interval_low", unknown)).any():
-        band = {"color": BLUE, "alpha": 0.2, "lw": 0, "label": "95 %: solvers, grids, surface, model"}
-        ax.fill_between(over, columns["interval_low"], columns["interval_high"], **band)
-        for name, times, dashes in OF_INTERVAL:
-            error, f = times * columns.get(name, unknown), columns["coefficient"]
-            label = f"of it {name.partition('_')[0].replace('sampling', 'surface')}"
-            for sign in (1, -1):
-                thin = {"color": BLUE, "lw": 0.6, "ls": dashes, "label": label if sign > 0 else None}
-                if np.nanmax(error, initial=0.0) > 0:
-                    ax.plot(over, f * (1 + sign * error), **thin)
+def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
+    """The intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what the
+    model and the finite surface leave by themselves. ``line``: (speeds, f) of a smooth curve to draw them about."""
+    unknown, f = np.full(over.shape, np.nan), columns["coefficient"]
+    x, y = (over, f) if line is None else line
+
+    def at(error: np.ndarray) -> np.ndarray:
+        return error if line is None else np.interp(np.log(x), np.log(over), error)
+
+    low, high = (at(columns.get(f"interval_{end}", unknown) / f - 1) for end in ("low", "high"))
+    if not np.isfinite(low).any():
+        return
+    ax.fill_between(x, y * (1 + low), y * (1 + high), color=BLUE, alpha=0.2, lw=0, label=BAND)
+    for name, times, dashes in OF_INTERVAL:
+        error = at(times * columns.get(name, unknown))
+        if np.nanmax(error, initial=0.0) > 0:
+            thin = {"color": BLUE, "lw": 0.6, "ls": dashes}
+            ax.plot(x, y * (1 - error), **thin)
+            ax.plot(x, y * (1 + error), **thin, label=f"of it: {name.partition('_')[0].replace('sampling', 'surface')}")
 
 
 def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **style) -> np.ndarray:
@@ -157,7 +180,7 @@ def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **st
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
     speed, load = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
-    interval_band(axes, speed, c)
+    interval_band(axes, speed, c, between and between[:2])
     if between is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
         friction_lines(axes, speed, parts, **{"marker": "o", "ms": 4} | style)
@@ -167,6 +190,7 @@ def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **st
     axes.set(xscale="log", xlabel=speed_label(c["speed"]), ylabel=FRICTION)
     plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(c["coefficient"].min(initial=0.0))))
+    key_above(axes)
     return order
 
 
@@ -184,7 +208,6 @@ def curve_axes(curve, ax=None, **style):
         fine = np.geomspace(known.min(), known.max(), 400)
         between = fine, curve.at(fine), *curve.parts_at(fine)
     friction_over_speed(axes, columns, between, **style)
-    axes.legend(frameon=False)
     return axes
 
 
@@ -207,20 +230,37 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
     values = np.moveaxis(study[quantity], axes, (0, 1)).reshape(*(study.status.shape[a] for a in axes))
     x, y = (_numbers(key, coords[key][1]) for key in (across, up))
     values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
-    known = np.ma.masked_invalid(values)
     figure = new_figure(figsize=(7, 5))
     ax = figure.subplots()
-    shown = ax.contourf(x, y, known, levels=16, cmap="viridis")
-    ax.contour(x, y, known, levels=16, colors="w", linewidths=0.4)
-    rows, places = np.nonzero(~np.isfinite(values))
-    if rows.size:
-        ax.plot(x[places], y[rows], "x", color=RED, label="no answer")
-        ax.legend(frameon=False)
+    bar = FRICTION if quantity == "coefficient" else axis_label(quantity)
+    if min(values.shape) < SMOOTH:
+        _table_of(ax, x, y, values, bar)
+    else:
+        known = np.ma.masked_invalid(values)
+        shown = ax.contourf(x, y, known, levels=16, cmap="viridis")
+        ax.contour(x, y, known, levels=16, colors="w", linewidths=0.4)
+        rows, places = np.nonzero(~np.isfinite(values))
+        if rows.size:
+            ax.plot(x[places], y[rows], "x", color=RED, label="no answer")
+            ax.legend(frameon=False)
+        log_if_wide(ax, "x", x)
+        log_if_wide(ax, "y", y)
+        figure.colorbar(shown, label=bar)
     ax.set(xlabel=axis_label(across), ylabel=axis_label(up), title=title)
-    log_if_wide(ax, "x", x)
-    log_if_wide(ax, "y", y)
-    figure.colorbar(shown, label="friction coefficient (-)" if quantity == "coefficient" else quantity)
     figure.savefig(path, dpi=150)
+
+
+def _table_of(ax, x, y, values, bar: str) -> None:
+    """Few values (ny, nx) as a table of colours with their numbers: contours would say more than is known."""
+    image = ax.imshow(values, origin="lower", aspect="auto", cmap="viridis")
+    middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
+    for (row, column), found in np.ndenumerate(values):
+        known = np.isfinite(found)
+        colour = ("k" if found > middle else "w") if known else RED
+        ax.text(column, row, f"{found:.3g}" if known else "no answer", ha="center", va="center", color=colour)
+    ax.set_xticks(range(x.size), [f"{value:.4g}" for value in x])
+    ax.set_yticks(range(y.size), [f"{value:.4g}" for value in y])
+    ax.figure.colorbar(image, ax=ax, label=bar)
 
 
 def _numbers(key: str, values: np.ndarray) -> np.ndarray:

@@ -93,11 +93,20 @@ class Surface(FrozenArrays, Shown):
         return f"{self.source}: {text}" if self.source else text
 
     def plot(self, ax=None):
-        """The heights in the plane, on ``ax`` or new axes, which are returned."""
+        """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
+        which the title then tells."""
         axes = axes_or_new(ax)
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
-        field_image(axes, x, y, (self.heights - np.nanmean(self.heights)) * 1e9, "cividis", "height (nm)")
-        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm")
+        z = (self.heights - np.nanmean(self.heights)) * 1e9
+        (low, high), (least, most) = np.nanpercentile(z, (0.5, 99.5)), (np.nanmin(z), np.nanmax(z))
+        reach = 0.4 * (high - low)  # to some four times Sq, were the heights normally distributed
+        ends = {"vmin": max(least, low - reach), "vmax": min(most, high + reach)}
+        extend = {(1, 1): "both", (1, 0): "min", (0, 1): "max"}.get(
+            (least < ends["vmin"], most > ends["vmax"]), "neither"
+        )
+        field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
+        beyond = "" if extend == "neither" else f", lowest {least:.4g} nm, highest {most:.4g} nm"
+        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{beyond}")
         return axes
 
     def _facts(self) -> dict[str, str]:

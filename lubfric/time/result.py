@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import BLUE, FRICTION, GREY, Shown, axes_or_new, friction_lines, validate
+from .._base import BLUE, FRICTION, GREY, Shown, axes_or_new, friction_lines, key_above, validate
 from ..errors import Report
 from ..quantities import OF_MOMENT, axis_label
 from ..sampling import UncertaintyCurve, percent, student
@@ -175,17 +175,19 @@ def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outp
 
 
 def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
-    """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`."""
+    """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`. At rest there is none."""
     sense = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
     sense = np.where(sense < 0, -1.0, 1.0)  # of the coefficient
     scale, unit = time_scale(c["time"][-1])
     film = (c["couette_force"] + c["rolling_force"]) * sense / c["load"]
+    moving = (c["entrainment_speed"] != 0) | (c["sliding_speed"] != 0)
     parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film
-    friction_lines(axes, c["time"] * scale, parts)
+    friction_lines(axes, c["time"] * scale, [np.where(moving, part, np.nan) for part in parts])
+    if not moving.all():
+        rest = {"where": ~moving, "transform": axes.get_xaxis_transform(), "label": "at rest: no f"}
+        axes.fill_between(c["time"] * scale, 0, 1, color=GREY, alpha=0.2, lw=0, **rest)
     axes.set(xlabel=f"time ({unit})", ylabel=FRICTION)
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.15 * (high - low))
-    axes.legend(frameon=False, ncols=3, fontsize=8, loc="upper center")
+    key_above(axes)
 
 
 def time_scale(longest: float) -> tuple[float, str]:

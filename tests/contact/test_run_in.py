@@ -123,6 +123,15 @@ def test_softer_bodies_run_in_more_but_never_more_than_gears_do():
     assert 0 > skewness[0] > skewness[1] and skewness[2] < -0.3
 
 
+def test_the_range_of_a_hardness_gives_both_surfaces(rough):
+    """Each as if that hardness were given; and none where it is a number."""
+    found = run_in(ROUGH.with_(bodies={"hardness": [2e9, 1.5e9, 3e9]}), passes=1)
+    for hardness, end in zip((1.5e9, 3e9), found.ends, strict=True):
+        alone = run_in(ROUGH.with_(bodies={"hardness": hardness}), passes=1)
+        assert np.array_equal(alone.surface.heights, end.heights) and alone.ends == ()
+    assert found.ends[0].sq < found.surface.sq < found.ends[1].sq and "range" in repr(found)
+
+
 def test_above_the_hardness_the_strip_itself_keeps_yielding():
     p0 = PAPER.bodies.mean_hertz_pressure * 4 / np.pi
     flat = Surface(np.zeros((120, 8)), 0.45e-6)

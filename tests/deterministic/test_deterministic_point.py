@@ -147,7 +147,6 @@ def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
     "sq, load, speed, across, way, most",
     [
         (200e-9, 2.72e5, 0.3, 28, "the dry contact", 50),
-        (200e-9, 3e5, 0.05, 24, "the dry contact", 50),
         (100e-9, 3e5, 1e-3, 24, "a faster speed", 80),
     ],
 )

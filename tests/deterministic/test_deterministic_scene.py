@@ -69,7 +69,6 @@ def test_a_result_can_be_stored(point):
         {"contact": {"geometry": "flat"}},
         {"contact": {"model": "summits"}},
         {"contact": {"region": "box"}},
-        {"motion": {"slide_roll_ratio": 0.5}},
         {"numerics": {"cavitated_shear": "striated"}},
     ],
     ids=lambda change: ".".join([*change, *next(iter(change.values()))]),

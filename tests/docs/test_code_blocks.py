@@ -43,7 +43,7 @@ def test_every_block_says_what_it_is(page):
 
 
 @pytest.mark.parametrize("page", cases(PYTHON))
-def test_python_blocks_run(page, tmp_path, monkeypatch):
+def test_python_blocks_run(page, tmp_path, monkeypatch, load_sharing):
     monkeypatch.chdir(tmp_path)
     matplotlib.use("Agg")
     written(page, tmp_path)
@@ -96,10 +96,10 @@ def test_the_first_page_leads_to_a_curve_of_ones_own(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     page = ROOT / "docs" / "start.md"
     oil, surface = (tomllib.loads(b.body) for b in blocks(page) if b.language == "text" and b.body.startswith("["))
-    exec(next(b.body for b in blocks(page) if "savetxt" in b.body), {})
+    exec(next(b.body for b in blocks(page) if "savetxt" in b.body), {"lubfric": lubfric})
     assert main(["init", "my_contact.toml"]) == 0
     written = tomllib.loads((tmp_path / "my_contact.toml").read_text(encoding="utf-8"))
-    scene = lubfric.load_scene({**written, **oil, **surface, "contact": {}})
+    scene = lubfric.load_scene({**written, **oil, **surface, "contact": {}, "numerics": {"model": "load-sharing"}})
     point = lubfric.friction(scene, 0.1)
     low, high = point.uncertainty.interval
     assert 0 < low < point.coefficient < high < 0.12

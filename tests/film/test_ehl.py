@@ -169,13 +169,19 @@ def test_kernel_flattens_a_hertz_pressure():
         ("constant", {"inlet": 20.0}),
         ("dowson-higginson", {"inlet": 20.0, "fed": 3.0}),
         ("constant", {"imposed": True}),
+        ("dowson-higginson", {"law": {"eyring_stress": 3e4}}),
+        ("constant", {"law": {"carreau": (3e4, 0.4)}, "inlet": 20.0}),
+        ("constant", {"law": {"carreau": (3e4, 0.4)}, "inlet": 20.0, "fed": 3.0}),
     ],
 )
 def test_jacobian_matches_differences(density, options):
-    """Also where a starved inlet begins, and as the rupture moves through the deflection by an imposed pressure."""
+    """Also where a starved inlet begins, as the rupture moves through the deflection by an imposed pressure, and where
+    shear thins the flow."""
     si, _ = contact(5, 5)
+    law = options.pop("law", {})
     line = LineContact(si["load_per_width"], 0.01, 2.2e11, si["entrainment_speed"], Lubricant(0.04, ALPHA, "roelands"))
-    line = replace(line, lubricant=replace(line.lubricant, density_law=density))
+    line = replace(line, lubricant=replace(line.lubricant, density_law=density, **law))
+    line = replace(line, sliding=0.5 * line.entrainment_speed if law else None)
     if options.pop("imposed", False):
         x = np.linspace(-0.8, 1.2, 33) * line.half_width
         options["imposed"] = LinePressure(x, line.peak_pressure * np.sin(np.linspace(0, math.pi, 33)) ** 2)

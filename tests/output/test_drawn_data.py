@@ -7,7 +7,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scene_text import paper_scene
 
@@ -66,6 +65,7 @@ COLUMNS = {
     "film_load": np.array([3.0, 1.0, np.nan, 5.0]),
     "boundary_force": np.array([0.2, 0.4, np.nan, 0.0]),
     "shear_force": np.array([0.05, 0.05, np.nan, 0.1]),
+    "central_film": np.array([1e-7, 0.3e-7, np.nan, 4.5e-7]),
     "film_to_roughness_ratio": np.array([1.0, 0.3, np.nan, 4.5]),
     "interval_low": np.array([0.04, 0.08, np.nan, 0.019]),
     "interval_high": np.array([0.06, 0.10, np.nan, 0.022]),
@@ -85,13 +85,14 @@ def test_a_curve_is_drawn_by_its_table(figures):
     ):
         np.testing.assert_allclose(data(top, label), [[0.01, 0.1, 1.0], expected], rtol=1e-12)
     np.testing.assert_allclose(
-        edges(top, "95 %: solvers, grids, surface, model"), [[0.08, 0.04, 0.019], [0.1, 0.06, 0.022]]
+        edges(top, "95 %: solvers, grids, surface, model, inputs"), [[0.08, 0.04, 0.019], [0.1, 0.06, 0.022]]
     )
     np.testing.assert_allclose(data(top, "with cautions"), [[1.0], [0.02]])
     np.testing.assert_allclose(edges(middle, "contact $F_C$"), [[0, 0, 0], [0.8, 0.4, 0.0]], atol=1e-12)
     np.testing.assert_allclose(edges(middle, "film $F_H$"), [[0.8, 0.4, 0.0], [1, 1, 1]], atol=1e-12)
-    np.testing.assert_allclose(bottom.lines[0].get_data(), [[0.01, 0.1, 1.0], [0.3, 1.0, 4.5]])
-    assert "(m/s)" in bottom.get_xlabel() and "Sq (-)" in bottom.get_ylabel() and "(-)" in middle.get_ylabel()
+    np.testing.assert_allclose(bottom.lines[0].get_data(), [[0.01, 0.1, 1.0], [30, 100, 450]])
+    assert [line.get_ydata()[0] for line in bottom.lines[1:]] == pytest.approx([100, 300])  # Sq, and three times that
+    assert "(m/s)" in bottom.get_xlabel() and "(nm)" in bottom.get_ylabel() and "(-)" in middle.get_ylabel()
 
 
 def test_a_traction_curve_is_drawn_by_its_table(figures):
@@ -143,12 +144,12 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     assert sorted(line.get_xdata()[0] for line in above.lines if line.get_linestyle() == "--") == pytest.approx(
         [-half, half]
     )
-    x, film = data(section, "film thickness h")
+    x, film = data(section, "smooth film h")
     np.testing.assert_allclose(film, 1e9 * point.balance.film.film_at(x * 1e-6))
-    _, surface = data(section, "surface z, undeformed")
+    _, surface = data(section, "rough surface, not pressed")
     np.testing.assert_allclose(surface, 1e9 * (prepared.surface.heights[:, row] - prepared.surface.heights.mean()))
-    _, under = data(section, "separation $h_s$ = h − ε")
-    _, deformed = data(section, "surface, deformed")
+    _, under = data(section, "other surface")
+    _, deformed = data(section, "rough surface, pressed")
     np.testing.assert_allclose(under - deformed, 1e9 * point.gap[:, row], atol=1e-6)
     assert "(nm)" in section.get_ylabel()
 
@@ -181,26 +182,23 @@ def test_the_table_of_a_curve_has_the_units_of_its_numbers():
         assert [float(row[column]) for row in rows] == [getattr(point, name) for point in curve.points]
 
 
-def test_a_study_over_two_keys_is_drawn_and_written_along_its_axes(figures, monkeypatch, tmp_path):
+def test_a_study_over_two_keys_is_drawn_and_written_along_its_axes(figures, tmp_path):
     smooth = SCENE.with_(surface={"sq": 0.0, "correlation_length": 8e-6})
     study = lubfric.study(smooth, {"lubricant.viscosity": [0.2, 0.4]}, [1.0, 2.0, 4.0])
-    drawn, real = [], Axes.contourf
-    monkeypatch.setattr(
-        Axes, "contourf", lambda axes, *given, **options: drawn.append(given) or real(axes, *given, **options)
-    )
-    for across, up in (("speed", "lubricant.viscosity"), ("lubricant.viscosity", "speed")):
-        plot_map(tmp_path / "x.png", study, across, up)
-        assert figures[-1].axes[0].get_xlabel().endswith({"speed": "(m/s)"}.get(across, "(Pa s)"))
-        assert figures[-1].axes[0].get_ylabel().endswith({"speed": "(m/s)"}.get(up, "(Pa s)"))
     f = np.array(
         [
             lubfric.stribeck(smooth.with_(lubricant={"viscosity": eta}), [1.0, 2.0, 4.0]).coefficient
             for eta in (0.2, 0.4)
         ]
     )
-    for (x, y, values), expected in zip(drawn, (f, f.T)):
-        np.testing.assert_array_equal(values, expected)
-        assert (len(y), len(x)) == expected.shape
+    for (across, up), expected in zip((("speed", "lubricant.viscosity"), ("lubricant.viscosity", "speed")), (f, f.T)):
+        plot_map(tmp_path / "x.png", study, across, up)
+        axes = figures[-1].axes[0]
+        assert axes.get_xlabel().endswith({"speed": "(m/s)"}.get(across, "(Pa s)"))
+        assert axes.get_ylabel().endswith({"speed": "(m/s)"}.get(up, "(Pa s)"))
+        np.testing.assert_array_equal(axes.images[0].get_array(), expected)  # few values are no contours
+        ticks = [[float(tick.get_text()) for tick in axis.get_ticklabels()] for axis in (axes.xaxis, axes.yaxis)]
+        assert ticks == [{"speed": [1.0, 2.0, 4.0]}.get(key, [0.2, 0.4]) for key in (across, up)]
     study.to_csv(tmp_path / "study.csv")
     with (tmp_path / "study.csv").open() as file:
         rows = [
@@ -208,3 +206,60 @@ def test_a_study_over_two_keys_is_drawn_and_written_along_its_axes(figures, monk
             for row in csv.DictReader(file)
         ]
     assert rows == [[eta, u, f[i, j]] for i, eta in enumerate((0.2, 0.4)) for j, u in enumerate((1.0, 2.0, 4.0))]
+
+
+def test_many_curves_have_a_bar_of_colours_and_few_a_key():
+    smooth = SCENE.with_(surface={"sq": 0.0, "correlation_length": 8e-6})
+    for loads in ([2.0, 5.0], np.linspace(2.0, 5.0, 12).tolist()):
+        study = lubfric.study(smooth, {"bodies.load": loads}, [1.0, 2.0])
+        axes = study.plot(new_figure().subplots())
+        lines = [line for line in axes.lines if line.get_xdata().size == 2]
+        assert len(lines) == len(loads)
+        for line, f in zip(lines, study["coefficient"]):
+            np.testing.assert_array_equal(line.get_ydata(), f)
+        key = [] if axes.get_legend() is None else [text.get_text() for text in axes.get_legend().get_texts()]
+        bars = [bar.get_ylabel() for bar in axes.figure.axes[1:]]
+        few = len(loads) == 2
+        assert (key, bars) == ((["total load 2 N", "total load 5 N"], []) if few else ([], ["total load (N)"]))
+
+
+def test_at_rest_no_friction_is_drawn(figures):
+    t = np.array([0.0, 0.01, 0.02, 0.03])
+    zero = 0 * t
+    columns = {"time": t, "entrainment_speed": np.array([0.1, 0.0, 0.0, 0.1]), "load": zero + 5.0}
+    columns["sliding_speed"] = 2 * columns["entrainment_speed"]
+    columns |= dict.fromkeys(("central_film", "min_film", "mean_gap"), zero + 1e-7)
+    columns |= {"contact_load": zero + 1.0, "coefficient": np.array([0.05, 0.0, 0.0, 0.04])}
+    columns |= dict.fromkeys(("boundary_force", "couette_force", "rolling_force"), zero)
+    plot_history("x.png", columns, "title")
+    np.testing.assert_array_equal(data(figures[0].axes[3], "friction coefficient")[1], [0.05, np.nan, np.nan, 0.04])
+
+
+def test_no_point_is_ringed_where_all_would_be(figures):
+    entry = SimpleNamespace(severe=False, what="starved")
+    columns = COLUMNS | {"ratio": COLUMNS["speed"]}
+    plot_traction("x.png", columns, "title", [(entry,)] * 4)
+    assert "with cautions" not in {line.get_label() for line in figures[0].axes[0].lines}
+    assert figures[0].get_supxlabel() == "cautions, at all points: starved"
+    cold = dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), 0 * COLUMNS["speed"])
+    plot_traction("x.png", columns | cold, "title", [()] * 4)
+    assert len(figures[1].axes) == 1  # no panel of temperatures where none rises
+
+
+def test_a_spike_does_not_take_the_colours_of_a_map_and_is_told():
+    surface = lubfric.generate_surface((60, 60), 1e-6, sq=1e-7, correlation_length=4e-6, seed=1)
+    heights = surface.heights.copy()
+    heights[5, 7] = 5e-6
+    axes = lubfric.Surface(heights, surface.spacing).plot(new_figure().subplots())
+    low, high = axes.images[0].get_clim()
+    assert -500 < low < -200 and 200 < high < 500 and "highest 499" in axes.get_title()
+    assert axes.get_aspect() == 1.0  # to scale
+    low, high = surface.plot(axes.figure.subplots()).images[0].get_clim()
+    z = 1e9 * (surface.heights - surface.heights.mean())
+    assert (low, high) == pytest.approx((z.min(), z.max()), rel=0.2)
+
+
+def test_the_section_of_a_contact_is_as_high_as_its_film_and_summits(figures, solved):
+    plot_contact("x.png", *solved)
+    low, high = figures[0].axes[1].get_ylim()
+    assert high < 1.6e9 * max(solved[1].heights.max(), solved[1].balance.film.film_thickness.min()) and low > -1e3

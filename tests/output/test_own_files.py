@@ -24,9 +24,18 @@ MEASURED = "U [m/s],f\n0.1,0.05\n0.2,0.05\n0.3,0.05\n0.5,0.052\n"
 FIT = ["--coefficient", "f", "--speed", "U", "--parameter", "lubricant.viscosity=0.2:0.6"]
 NAMES = {  # of files of the user in the folder of the results: (refused with these, beside these), by kind of command
     "run": (
-        ("stribeck.csv", "stribeck.png", "fields.npz", "contact.png", "result.json", ".lubfric", ".lubfric.lock")
+        (
+            "stribeck.csv",
+            "stribeck.png",
+            "fields.npz",
+            "contact.png",
+            "report.html",
+            "result.json",
+            ".lubfric",
+            ".lubfric.lock",
+        )
         + ("unfinished",),
-        ("history.csv", "history.png", "animation.gif", "traction.csv", "traction.png", "report.html", "contact_0.vtk")
+        ("history.csv", "history.png", "animation.gif", "traction.csv", "traction.png", "contact_0.vtk")
         + ("contact_user.vtk", ".lock", ".part-mine", ".part-12345678-stribeck.csv", "study.csv", "fit.json")
         + ("notes.txt", "unfinished/notes.bin", "checkpoint/state.bin", "points/a.bin"),
     ),
@@ -35,6 +44,7 @@ NAMES = {  # of files of the user in the folder of the results: (refused with th
             "history.csv",
             "history.png",
             "fields.npz",
+            "report.html",
             "result.json",
             "checkpoint/state.bin",
             "checkpoint/output_1.bin",
@@ -173,9 +183,9 @@ def test_a_history_that_an_earlier_run_wrote_is_not_removed_under_the_next(tmp_p
 def test_a_result_that_the_user_changed_is_not_ours_any_more(tmp_path, capsys):
     out = tmp_path / "out"
     run = command("run", tmp_path, "--out", str(out))
-    assert main(run) == 0 and main([*run, "--report", "--vtk"]) == 0
-    (out / "report.html").write_text("with my notes")  # no output of the next command
-    assert main(run) == 0 and (out / "report.html").read_text() == "with my notes"
+    assert main(run) == 0 and main([*run, "--ratios", "0.5,1"]) == 0
+    (out / "traction.png").write_text("with my notes")  # no output of the next command
+    assert main(run) == 0 and (out / "traction.png").read_text() == "with my notes"
     (out / "stribeck.png").write_bytes(b"cropped")
     before = everything(out)
     assert main(run) == 2 and "was changed since" in capsys.readouterr().err
@@ -211,7 +221,7 @@ def test_a_run_stopped_while_it_replaces_another_goes_on(tmp_path, monkeypatch, 
     """A kill between any two of the files that appear: all is ours still, and result.json stands for a whole run."""
     out = tmp_path / "out"
     run, real, count = command("run", tmp_path, "--out", str(out)), os.replace, [0]
-    assert main([*run, "--report"]) == 0
+    assert main([*run, "--ratios", "0.5,1"]) == 0
 
     def killed(part, path):
         count[0] += 1
@@ -227,7 +237,7 @@ def test_a_run_stopped_while_it_replaces_another_goes_on(tmp_path, monkeypatch, 
         record = json.loads((out / "result.json").read_text())
         assert all((out / name).is_file() for name in record["files"])
     assert main(run) == 0
-    assert not (out / "report.html").exists() and not list(out.glob(".part-*"))
+    assert not (out / "traction.csv").exists() and not list(out.glob(".part-*"))
     assert json.loads((out / "result.json").read_text())["scene"]["lubricant"]["viscosity"] == 0.3
 
 
@@ -258,6 +268,11 @@ def test_a_lock_is_never_opened_through_a_link(tmp_path):
             pass
         assert (tmp_path / "aim").read_text() == "precious" and (tmp_path / ".lubfric.lock").exists()
         (tmp_path / ".lubfric.lock").unlink()
+    (tmp_path / "aim").write_text("")  # nothing in it tells whose it is
+    os.symlink(tmp_path / "aim", tmp_path / ".lubfric.lock")
+    with pytest.raises(lubfric.InputError, match=r"\.lubfric\.lock is"), FolderLock(tmp_path):
+        pass
+    assert (tmp_path / "aim").read_text() == ""
 
 
 def test_a_folder_that_was_copied_whole_is_still_ours(tmp_path):
@@ -267,3 +282,12 @@ def test_a_folder_that_was_copied_whole_is_still_ours(tmp_path):
     shutil.copytree(out, tmp_path / "copy")
     assert main([*run[:-1], str(tmp_path / "copy")]) == 0
     assert Path(tmp_path / "copy" / "result.json").is_file()
+
+
+@pytest.mark.parametrize("content", ["my plan", "{}", '{"format": 2}'])
+def test_a_study_from_python_leaves_a_plan_of_others_alone(tmp_path, content):
+    (tmp_path / "study.json").write_text(content)
+    scene = lubfric.load_scene("paper")
+    with pytest.raises(lubfric.InputError, match="study.json is no plan of a study, and would be replaced"):
+        lubfric.study(scene, {"bodies.load": [3.0]}, [1.0], store=tmp_path)
+    assert everything(tmp_path) == {"study.json": content.encode()}

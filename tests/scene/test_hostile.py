@@ -53,10 +53,10 @@ def validated(name):
 
 def test_a_sample_of_the_soak_is_answered_right():
     """Random scenes, each closed again by the independent judge."""
-    row = soak.chunk(7, range(8))
+    row = soak.chunk(7, range(5))
     assert all(c.passed for c in soak.judged([row]) if hasattr(c, "passed"))
     ended = [one["ended"] for one in row["scenes"]]
-    assert ended.count(soak.ANSWERED) >= 6 and sum(one["ratio"] is not None for one in row["scenes"]) >= 5
+    assert ended.count(soak.ANSWERED) >= 4 and sum(one["ratio"] is not None for one in row["scenes"]) >= 3
 
 
 def test_the_judge_of_the_soak_sees_a_wrong_answer():
@@ -74,7 +74,7 @@ def test_the_judge_of_the_soak_sees_a_wrong_answer():
     assert verdict(prepared, dataclasses.replace(thinner, speed=result.speed))["contact share"] > 1
 
 
-@pytest.mark.parametrize("seed, index", [(2, 5202), (2, 5988), (11, 4291)])
+@pytest.mark.parametrize("seed, index", [(2, 5202), pytest.param(2, 5988, marks=pytest.mark.slow), (11, 4291)])
 def test_scenes_that_the_soak_found_wrong_are_answered_right(seed, index):
     """Forces of film and contact that cancel, summed beside the contacts of one line only; a light contact whose
     further lines were closed too loosely; five short lines, each of its own load, that share one film."""

@@ -239,6 +239,14 @@ def test_a_starved_inlet_reaches_the_number(model, inlet):
         starved.with_(transient=lubfric.Transient(1e-4))
 
 
+def test_carreaus_law_reaches_the_number():
+    """With an exponent near 1 it is Newtonian; a smaller one moves film and shear."""
+    scene = LAWS.with_(lubricant={"eyring_stress": None}, surface={"sq": 1e-8}, bodies={"load": 50.0})
+    thinned, nearly = (scene.with_(lubricant={"carreau": (2e6, n)}) for n in (0.6, 0.999))
+    assert moved(thinned, lambda: scene) > MOVES
+    assert answer(nearly) == pytest.approx(answer(scene), rel=0.01)
+
+
 @pytest.mark.parametrize("mode", ["sweep", "transient"])
 @pytest.mark.parametrize("corner", CORNERS)
 def test_a_sweep_and_a_transient_take_every_key_of_a_corner(corner, mode):
@@ -423,21 +431,6 @@ def test_the_area_of_the_volume_balance(region):
     assert result.balance.contact.fields.pressure.shape == scene.contact.shape
 
 
-def test_a_generated_map_has_the_statistics_asked_for():
-    scene = BASE.with_(
-        surface={"sq": 2e-7, "correlation_length": (8e-6, 16e-6), "acf": "exponential", "decay_level": 0.2},
-        contact={"shape": (512, 512), "spacing": (0.5e-6, 1e-6)},
-    )
-    surface = contact_map(scene)
-    assert surface.sq == pytest.approx(2e-7, rel=1e-9) and surface.spacing == (0.5e-6, 1e-6)
-    z = surface.heights - surface.heights.mean()
-    power = np.abs(np.fft.fft2(z)) ** 2
-    acf = np.fft.ifft2(power).real / (z**2).sum()
-    assert [acf[16, 0], acf[0, 16]] == pytest.approx([0.2, 0.2], abs=0.12)
-    other = contact_map(scene.with_(surface={"seed": 3})).heights
-    assert abs(np.corrcoef(z.ravel(), other.ravel())[0, 1]) < 0.15
-
-
 def test_a_measured_map_is_prepared_as_its_keys_say(measured):
     """The same steps by hand with NumPy: unit, holes, quadratic form; then turned, scaled to sq."""
     keys = {
@@ -611,10 +604,10 @@ def test_the_boundary_film_is_the_gap_below_which_the_bodies_rub():
 # --- the list -------------------------------------------------------------------------------------
 
 ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, show their values
-    "bodies": {"hardness", "boundary_film"},
+    "bodies": {"hardness", "boundary_film", "boundary_friction_table"},  # the last: tests/scene/test_ranges.py
     "motion": {"speeds"},
     "contact": set(),
-    "lubricant": {"inlet_length", "inlet_film"},
+    "lubricant": {"inlet_length", "inlet_film", "carreau"},  # the last: below, and tests/film/test_thinned.py
     "surface": {"file", *FILE},
     "counterface": set(lubfric.Roughness.__dataclass_fields__),
     "numerics": {

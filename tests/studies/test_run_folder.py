@@ -23,6 +23,7 @@ HISTORY = (
     "[transient]\nduration = 0.0005\noutputs = 3\n"
     'speed = { kind = "harmonic", amplitude = 0.05, frequency = 500.0, phase = 1.0 }\n'
 )
+MOVING = SCENE + "sampling = 'patch'\n" + HISTORY
 COUNTED = """
 import sys
 from pictures import leave_out
@@ -34,6 +35,9 @@ def counted(*arguments, **options):
     print("solved", flush=True)
     return found
 points.friction = counted
+from lubfric.time.run import Checkpoint
+save = Checkpoint.save
+Checkpoint.save = lambda *arguments: (save(*arguments), print("saved", flush=True))
 from lubfric.output.command_line import main
 sys.exit(main(["run", *sys.argv[1:2], "--out", *sys.argv[2:]]))
 """
@@ -95,7 +99,7 @@ def whole(tmp_path_factory):
 @pytest.fixture(scope="module")
 def whole_history(tmp_path_factory):
     folder = tmp_path_factory.mktemp("whole")
-    assert main(["run", written(folder, SCENE + HISTORY), "--out", str(folder / "out")]) == 0
+    assert main(["run", written(folder, MOVING), "--out", str(folder / "out")]) == 0
     return folder / "out"
 
 
@@ -114,18 +118,17 @@ def readable(out: Path):
 
 
 def killed_until_done(scene, out, rng, kills):
-    """(points solved in all runs together, kills): killed at random moments from the start to the last file."""
+    """(points solved in all runs together, kills): killed at random moments after a point or the state of a step."""
     solved = used = 0
     while True:
         process = start(scene, out)
+        text = ""
         if used < kills:
-            first = process.stdout.readline()  # beyond the imports
-            time.sleep(rng.exponential(0.05))
+            text = "".join(process.stdout.readline() for _ in range(rng.integers(1, 5)))  # beyond the imports
+            time.sleep(rng.exponential(0.02))
             process.kill()
-            used += process.poll() is None or process.wait() == -signal.SIGKILL
-        else:
-            first = ""
-        text = first + process.communicate()[0]
+            used += process.wait() == -signal.SIGKILL
+        text += process.communicate()[0]
         solved += text.count("solved")
         if out.is_dir():
             readable(out)
@@ -135,40 +138,15 @@ def killed_until_done(scene, out, rng, kills):
 
 
 @pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
-def test_killed_sweeps_lose_repeat_and_tear_nothing(whole, tmp_path, kills):
+@pytest.mark.parametrize("text, uninterrupted", [(SCENE, "whole"), (MOVING, "whole_history")], ids=["sweep", "in time"])
+def test_killed_runs_lose_repeat_and_tear_nothing(request, tmp_path, text, uninterrupted, kills):
     rng, left = np.random.default_rng(kills), kills
     for run in range(100):
         out = tmp_path / str(run)
-        solved, used = killed_until_done(written(tmp_path), out, rng, min(left, 4))
+        solved, used = killed_until_done(written(tmp_path, text), out, rng, min(left, 4))
         complete(out)
-        same(out, whole)
+        same(out, request.getfixturevalue(uninterrupted))
         assert solved <= 5 + used  # a kill costs at most the point that is being solved
-        left -= used
-        if left <= 0:
-            break
-
-
-@pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
-def test_killed_runs_in_time_lose_repeat_and_tear_nothing(whole_history, tmp_path, kills):
-    rng, left = np.random.default_rng(kills), kills
-    for run in range(100):
-        out, used = tmp_path / str(run), 0
-        while True:
-            process = start(written(tmp_path, SCENE + HISTORY), out)
-            if used < min(left, 4):
-                while (
-                    process.poll() is None and not (out / "checkpoint").is_dir() and not (out / "result.json").is_file()
-                ):
-                    time.sleep(0.01)
-                time.sleep(rng.exponential(0.3))
-                process.kill()
-                used += 1
-            process.communicate()
-            readable(out)
-            if process.returncode == 0:
-                break
-        complete(out)
-        same(out, whole_history)
         left -= used
         if left <= 0:
             break
@@ -246,14 +224,14 @@ def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, cap
             os.kill(os.getpid(), signal.SIGTERM)
 
     monkeypatch.setattr(checkpoint.Checkpoint, "save", save)
-    assert main(["run", written(tmp_path, SCENE + HISTORY), "--out", str(tmp_path / "out")]) == 143
+    assert main(["run", written(tmp_path, MOVING), "--out", str(tmp_path / "out")]) == 143
     assert "is kept in" in capsys.readouterr().err.splitlines()[-1]
-    assert main(["run", written(tmp_path, SCENE + HISTORY), "--out", str(tmp_path / "out")]) == 0
+    assert main(["run", written(tmp_path, MOVING), "--out", str(tmp_path / "out")]) == 0
     complete(tmp_path / "out")
     same(tmp_path / "out", whole_history)
 
 
-@pytest.mark.parametrize("text", [SCENE, pytest.param(SCENE + HISTORY, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("text", [SCENE, pytest.param(MOVING, marks=pytest.mark.slow)])
 def test_broken_streams_never_stop_a_computation(tmp_path, text):
     process = start(
         written(tmp_path, text),
@@ -286,9 +264,7 @@ def test_the_results_of_an_earlier_run_stay_until_the_new_ones_are_there(tmp_pat
         assert {path.name: path.read_bytes() for path in out.iterdir()} == before
     assert main(["run", written(tmp_path), "--out", str(out), "--speeds", "nan"]) == 2
     assert {path.name: path.read_bytes() for path in out.iterdir()} == before
-    assert (
-        main(["run", written(tmp_path, SCENE + HISTORY), "--out", str(out)]) == 0
-    )  # a sweep and a run in time do not mix
+    assert main(["run", written(tmp_path, MOVING), "--out", str(out)]) == 0  # a sweep and a run in time do not mix
     assert "history.csv" in complete(out)["files"] and not (out / "stribeck.csv").exists()
 
 

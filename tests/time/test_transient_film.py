@@ -2,21 +2,18 @@
 
 import math
 from dataclasses import replace
-from types import SimpleNamespace
+from functools import partial
 
 import numpy as np
 import pytest
 
 import lubfric
-from lubfric.film import LineContact, Problem, solve_ehl
+from lubfric.film import solve_ehl
 from lubfric.oil import Lubricant
-from lubfric.paper import solve_differential_transient
 from lubfric.scene import Constant, Harmonic, Ramp, Table
 from lubfric.time import (
     ContactHistory,
     Memory,
-    Progress,
-    advance,
     make_fixed_grid,
     make_setting,
     solve_transient_ehl,
@@ -24,46 +21,11 @@ from lubfric.time import (
 )
 from lubfric.time.film_equations import Spring, StepEquations, outside, outside_shear
 from lubfric.time.film_setting import Setting, steady_start
+from verification.check import Check
+from verification.studies import transient as study
+from verification.studies.transient import contact as moes
 
-SQUEEZE = dict(
-    load_per_width=100.0,
-    radius=0.01,
-    e_prime=2.2e17,
-    entrainment_speed=0.0,
-    viscosity=0.1,
-    viscosity_law="constant",
-    initial_film=1e-6,
-)
 LOOSE = {"tolerance": 3e-3, "time_tolerance": 1e-4}
-
-
-def sinking(load, viscosity, radius):
-    """Growth of h^-1/2 under a rigid cylinder, exact."""
-    return load / (6 * math.sqrt(2) * math.pi * viscosity * radius**1.5)
-
-
-RATE = sinking(100.0, 0.1, 0.01)
-LONG = 2 / (math.sqrt(1e-6) * RATE)  # the film falls to a ninth
-
-
-def moes(M, L, density="constant"):
-    """SI keywords of a contact of given Moes numbers, with its film unit, time b/U and Problem."""
-    e, r, alpha, eta = 2.2e11, 0.01, 2.2e-8, 0.0358
-    number = (L / (alpha * e)) ** 4
-    speed = number * e * r / (2 * eta)
-    problem = Problem(
-        LineContact(M * e * r * math.sqrt(number), r, e, speed, Lubricant(eta, alpha, "roelands", density))
-    )
-    keywords = dict(
-        load_per_width=problem.contact.load_per_width,
-        radius=r,
-        e_prime=e,
-        entrainment_speed=speed,
-        viscosity=eta,
-        pressure_viscosity_coefficient=alpha,
-        density_law=density,
-    )
-    return keywords, problem, problem.half_width * problem.length_unit / speed
 
 
 def jump(value, factor, at=0.0):
@@ -71,70 +33,11 @@ def jump(value, factor, at=0.0):
     return Table(times=(*before, at, at, 1e3), values=(value,) * (len(before) + 1) + (factor * value,) * 2)
 
 
-def test_rigid_squeeze_follows_its_exact_law():
-    times = np.linspace(0, LONG, 9)
-    found = solve_transient_ehl(**SQUEEZE, times=times, tolerance=1e-3, time_tolerance=1e-6)
-    exact = (1e-6**-0.5 + RATE * times) ** -2
-    np.testing.assert_allclose(found.min_film, exact, rtol=1e-3)
-    np.testing.assert_allclose(found.load[1:], 100.0, rtol=1e-9)
-
-
-def squeeze_setting(resolution):
-    contact = ContactHistory(
-        *(Constant(v) for v in (100.0, 0.01)),
-        2.2e17,
-        Constant(0.0),
-        Constant(0.1),
-        Lubricant(0.1, 0.0, "constant"),
-        LONG,
-        1e-6,
-    )
-    setting = make_setting(contact, 3e-3)
-    edge = setting.problem.half_width
-    x = symmetric_nodes(resolution, (edge, edge), (0.1, 1.0))
-    return replace(setting, grid=make_fixed_grid(x))
-
-
-def test_second_order_in_time():
-    setting = squeeze_setting(0.5)
-    start = setting.undeformed(1e-6)
-    free = SimpleNamespace(solve=setting.solve, error_of=lambda solution, difference: 0.0)
-    ends = []
-    for steps in (32, 64, 128, 512):
-        now = Progress((start,), LONG)
-        for k in range(steps):
-            now = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, free, 1.0, 0.0)
-        ends.append(now.levels[-1].film.min())
-    errors = np.abs(np.array(ends[:3]) - ends[3])
-    orders = np.log2(errors[:-1] / errors[1:])
-    assert np.all(orders > 1.8) and np.all(orders < 2.4)
-
-
-def test_second_order_in_space():
-    errors, step = [], 1e-2 * LONG  # backward Euler is exact in terms of the film at its end
-    for resolution in (0.25, 0.5, 1.0):
-        setting = squeeze_setting(resolution)
-        start = setting.undeformed(1e-6)
-        found = setting.solve(step, Memory(1 / step, start.film), start.z)
-        h = found.terms.H.min() * setting.problem.film_unit
-        errors.append((1e-6 - h) / step / (2 * h**1.5 * RATE) - 1)
-    orders = np.log2(np.abs(errors[:-1]) / np.abs(errors[1:]))
-    assert np.all(orders > 1.7) and abs(errors[-1]) < 1e-3
-
-
-TABLE = np.array([[3.081, 2.567], [3.079, 2.301], [3.076, 2.119], [2.490, 1.982], [1.963, 1.939], [1.914, 1.621]])
-
-
-@pytest.mark.parametrize("solver", [solve_transient_ehl, solve_differential_transient])
-def test_speed_halved_matches_the_table(solver):
-    keywords, problem, unit = moes(20, 5, "dowson-higginson")
-    keywords["entrainment_speed"] = jump(keywords["entrainment_speed"], 0.5)
-    if solver is solve_differential_transient:
-        b = problem.half_width * problem.length_unit
-        keywords |= {"nodes": 513, "domain": (-4 * b, 1.5 * b)}
-    found = solver(**keywords, times=unit * np.array([0, 0.5, 1, 2, 3, 5]))
-    films = np.stack([found.central_film, found.min_film], axis=1) / problem.film_unit
-    np.testing.assert_allclose(films, TABLE, rtol=0.01)
+@pytest.mark.parametrize("part", [partial(study.squeeze, 128), study.halved, study.stopped])
+def test_every_check_of_the_study_passes(part):
+    """The exact squeeze, orders in time and space, a table by a separate solver, stops."""
+    checks = [item for item in part() if isinstance(item, Check)]
+    assert len(checks) > 1 and [check for check in checks if not check.passed] == []
 
 
 @pytest.mark.parametrize("M, L", [(0.01, 1.0), (20, 5), (200, 10)])
@@ -210,22 +113,6 @@ def test_reversal_passes_with_the_film_trapped_by_squeeze():
     wet = found.pressure > 0
     assert not wet[0, -1] and not wet[20, 0]  # at full speed the outlet has ruptured, on either side in turn
     assert wet[10].all()  # at U = 0 squeeze drives lubricant out on both sides
-
-
-def test_a_stopped_contact_decays_like_its_exact_squeeze():
-    keywords, problem, unit = moes(0.05, 1)
-    keywords |= {
-        "entrainment_speed": jump(keywords["entrainment_speed"], 0.0),
-        "viscosity_law": "constant",
-        "pressure_viscosity_coefficient": 0.0,
-        "e_prime": 1e4 * keywords["e_prime"],
-    }
-    unit *= 3 / problem.half_width
-    times = unit * np.array([4.0, 20.0, 40.0])
-    found = solve_transient_ehl(**keywords, times=times, tolerance=3e-3, time_tolerance=1e-5)
-    slope = np.diff(found.min_film**-0.5) / np.diff(found.time)
-    rate = sinking(keywords["load_per_width"], keywords["viscosity"], keywords["radius"])
-    assert slope[-1] == pytest.approx(rate, rel=3e-3)
 
 
 def rough_state():

@@ -92,9 +92,19 @@ def test_a_reversal_is_warm_on_both_sides_and_cold_at_rest():
     assert any("slide-roll ratio" in text and "times" in text for text in found.validity)
 
 
-def test_no_heat_without_knowing_the_oil():
-    plain = BASE.with_(lubricant=lubfric.Lubricant(BASE.lubricant.viscosity, 2e-8, eyring_stress=5e6))
-    assert in_time(plain).coefficient[-1] == pytest.approx(lubfric.friction(plain).coefficient, rel=5e-3)
+def test_heat_that_a_plain_viscosity_leaves_out_is_told_with_its_size():
+    """Of the size, at most, that an oil has which says how its viscosity falls: 3.5 % per K at 70 °C."""
+    oil = {"pressure_viscosity_coefficient": 2e-8, "eyring_stress": 5e6}
+    plain = BASE.with_(lubricant=lubfric.Lubricant(BASE.lubricant.viscosity, **oil))
+    steady, moving = lubfric.friction(plain), in_time(plain)
+    assert moving.coefficient[-1] == pytest.approx(steady.coefficient, rel=5e-3)
+    known = {"temperature": 343.15, "temperature_coefficient": 0.035} | oil
+    warm = lubfric.friction(BASE.with_(lubricant=lubfric.Lubricant(BASE.lubricant.viscosity, **known)))
+    share = 1 - warm.coefficient / steady.coefficient
+    off = in_time(plain.with_(numerics={"heat": "off"}))
+    for entries in (steady.validity, moving.entries[-1], off.entries[-1]):
+        told = [e.value / 100 for e in entries if e.what == "share of f that the heat of the film would take away"]
+        assert (told == []) if entries is off.entries[-1] else (0.02 < share < told[0] < 2 * share), (share, told)
     with pytest.raises(lubfric.InputError, match="heat = 'on' needs"):
         plain.with_(numerics={"heat": "on"})
 

@@ -17,7 +17,7 @@ CELLS = (["speed", "f"], [["0.1", "0.05"]])
 TABLE = Table("one", "Friction", *CELLS)
 TYPED = {  # limits and what drawings ask for, not results
     ("theory.md", "| checked | caution | no answer |"),
-    ("inputs.md", "| process | Ra, µm | Sq, µm |"),
+    ("inputs.md", "| process | Ra, µm |"),
 }
 
 

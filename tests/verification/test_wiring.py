@@ -8,7 +8,6 @@ from verification.studies import STUDIES
 from verification.studies.mutants import FAILED, table, trial
 
 WIRING = [s for s in STUDIES if s.name.startswith("wiring")]
-LOST = [mutant for mutant in table() if {s.name for s in WIRING} & set(mutant.noticed_by)]
 
 
 @pytest.mark.parametrize("study", WIRING, ids=lambda s: s.name)
@@ -17,7 +16,7 @@ def test_every_option_arrives(study):
     assert len(checks) > 10 and [c for c in checks if not c.passed] == []
 
 
-@pytest.mark.parametrize("study", [s.name for s in WIRING])
-def test_a_lost_option_is_noticed(study):
-    mutant = next(mutant for mutant in LOST if study in mutant.noticed_by)
-    assert trial(mutant, (study,)) == FAILED
+def test_a_lost_option_is_noticed():
+    """One of them; ``python -m verification --only mutants`` tries all."""
+    study = "wiring_contact"
+    assert trial(next(mutant for mutant in table() if study in mutant.noticed_by), (study,)) == FAILED

@@ -129,26 +129,23 @@ def _draw_stribeck(speeds, curves, real, lengths, loads):
 def _agrees(speeds, most: float, real, table) -> str:
     inside = [f"{length * 1e6:g}" for length, _, _, low, high in table if low <= PAPER_FILM_LOAD <= high]
     below = [f"{length * 1e6:g}" for length, *_, high in table if high < PAPER_FILM_LOAD]
-    means = ", ".join(f"{mean:.3f} ± {sd:.3f} N at {length * 1e6:g} µm" for length, mean, sd, _, _ in table)
     bracket = f"0.225 N lies inside the spread for {', '.join(inside) or 'none'} µm"
     bracket += f" and above all of {', '.join(below)} µm" if below else ""
     text = (
         "All models meet in full film and at low speed. Plastic deformation lowers the friction slightly (at most "
-        f"{100 * most:.1f} %), as the paper finds. F_H at 0.001 m/s on generated surfaces of 100 nm: {means}; "
-        f"{bracket}. "
+        f"{100 * most:.1f} %), as the paper finds. F_H at 0.001 m/s grows with the correlation length: {bracket}. "
     )
     if not real:
         where = "(LUBFRIC_SURFACES, ../shared/surfaces)"
         return f"{text}The real ground surface was not found {where} or left out of a quick run, and is skipped."
     i = int(np.argmin(np.abs(speeds - 0.01)))
     found = ", ".join(
-        f"f = {c[1][i]:.4f} (elastic {c[0][i]:.4f}, asperities {c[2][i]:.4f}) with the motion along its {axis}"
-        for axis, c in real.items()
+        f"f = {c[1][i]:.4f} (asperities {c[2][i]:.4f}) with the motion along its {axis}" for axis, c in real.items()
     )
     above = " and ".join(f"{100 * np.max(c[2] / c[0] - 1):.0f} %" for c in real.values())
     return (
-        f"{text}On the real ground surface, scaled to 100 nm: {found} at {speeds[i]:.2g} m/s; there the asperity model "
-        f"is above the half-space by up to {above}, as in the paper."
+        f"{text}On the real ground surface, scaled to 100 nm: {found} at {speeds[i]:.2g} m/s; the asperity model is up "
+        f"to {above} above the half-space, as in the paper."
     )
 
 

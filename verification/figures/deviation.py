@@ -227,12 +227,10 @@ def _verdict(rows, loads, scatter) -> tuple[str, str]:
         if all(0 < b < a for a, b in zip(pick(rows, LENGTHS[0], **reading), pick(rows, LENGTHS[1], **reading)))
     ]
     seeds = [s[3] for s in scatter]
-    short, long = (", ".join(f"{d:.0f}" for d in of_length) for of_length in base)
     agrees = (
         "With summits on a surface of exponential autocorrelation the asperity model gives the higher friction"
-        f"{growth}: {short} % (L = 34 µm) and {long} % (57 µm) at {', '.join(f'{p / 1e6:g}' for p in loads)} MPa mean "
-        f"Hertz pressure, at most {most:.0f} % at {where / 1e6:g} MPa (other seeds: {min(seeds):.0f} to "
-        f"{max(seeds):.0f} %). The paper has up to 32 % at 1 GPa: the same order."
+        f"{growth}: at most {most:.0f} % at {where / 1e6:g} MPa (other seeds: {min(seeds):.0f} to {max(seeds):.0f} %). "
+        "The paper has up to 32 % at 1 GPa: the same order."
     )
     smaller = (
         f"smaller only for: {', '.join(shrinking)}" if shrinking else "in no reading tried is it smaller at all loads"

@@ -88,8 +88,7 @@ def sphere_array(quick: bool, run: Run) -> PaperFigure:
         "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart",
         f"The asperity model does not depend on the spacing, and is Hertz to {100 * worst:.1f} %. In the half-space "
         "model, *when the mean deflection of the box is kept*, the load at a given separation falls as the spheres "
-        "come closer, and tends to the asperity model as they move apart. Load over Hertz is "
-        f"{', '.join(f'{r:.2f}' for r in falls)} at 14, 20, 30, 40 µm. That is the trend of Fig. 4.",
+        f"come closer: {', '.join(f'{r:.2f}' for r in falls)} of Hertz at 14, 20, 30, 40 µm, as in Fig. 4.",
         "In a periodic cell the mean deflection is a convention. When it is left out, the same solutions give "
         f"{', '.join(f'{r:.2f}' for r in grows)}: closer spheres carry slightly *more*. When it is kept, it grows with "
         "the box (here 2.24 p a/E', Love's kernel summed over 230 µm). So Fig. 4 measures the size of the box as much "

@@ -41,7 +41,7 @@ def boundary_film(level: str, run: Run = Run()) -> Iterator[Item]:
     )
     columns = ("film/Sq", "four laws", *(f"h < {film * 1e9:g} nm" for film in FILMS))
     rows = [
-        (f"{ratio:g}", f"{lo:.2f} - {hi:.2f}", *(f"{np.nanmin(s):.2f} - {np.nanmax(s):.2f}" for s in at.T))
+        (f"{ratio:g}", f"{lo:.2f}–{hi:.2f}", *(f"{np.nanmin(s):.2f}–{np.nanmax(s):.2f}" for s in at.T))
         for ratio, lo, hi, at in zip(RATIOS, low, high, found.swapaxes(0, 1))
     ]
     rows.append(("largest distance", "", *(f"{distance:.2f}" for distance in worst)))

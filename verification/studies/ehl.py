@@ -13,6 +13,7 @@ from ..fem.ehl import LineContact, Solution, solve_ehl
 from ..fem.ehl_body import POISSON
 from ..fem.ehl_film import PENALTY
 from ..fem.fluid import Fluid
+from ..fem.thinned_film import Law, solve_thinned
 from ..fem.triangles import von_mises
 from ..meshes import mesh_field
 from ..parts import case_of
@@ -35,6 +36,7 @@ TABLE: dict[tuple[float, float, str], tuple[float, float]] = {
     (50, 10, CONSTANT): (3.436, 4.587),
     (20, 5, COMPRESSIBLE): (2.568, 3.509),
 }
+THINNED = ((20, 10, Law(5e5), 2.0), (20, 10, Law(2e5, 0.6), 0.0), (50, 10, Law(3e5, 0.5), 1.0))
 SOLVED = ("contact", "p_h (GPa)", "unknown displacements", "points on the line", "Newton steps", "residual")
 FILMS = ("flow film", "smallest film", "flow film, difference", "smallest film, difference", "film, difference")
 TABLE_SOURCE = "separate finite-difference solver on nested meshes, inlet at -6 b"
@@ -49,7 +51,8 @@ def ehl(level: str):
     against the logarithmic kernel of a half-space, a weak form against fluxes through faces, and pressure >= 0 node by
     node on a fixed mesh against a grid that hangs on the rupture point. Contacts run from rigid (M = 0.05, film thirty
     times the Hertz width in the inlet) to 1.5 GPa. Differences of the films shrink as the finite-element mesh is
-    refined, down to where the finite body (1e-5) and the tolerance of `lubfric` (3e-5) begin to show.
+    refined, down to where the finite body (1e-5) and the tolerance of `lubfric` (3e-5) begin to show. Three films of
+    fluids that shear thins, with the profile across them integrated by each side in its own way, close it.
     """
     pairs = []
     for point in QUICK if level == "quick" else POINTS:
@@ -60,6 +63,7 @@ def ehl(level: str):
     yield from ringing()
     if level != "quick":
         yield from finite_body()
+        yield from thinned()
     yield body_field(next(p for p in pairs if p.point == (50, 10, CONSTANT)))
 
 
@@ -93,6 +97,25 @@ class Pair:
         x = np.linspace(-width, width, 2001)
         off = float(np.sqrt(np.mean((s.at(x)[1] - self.line.film_at(x)) ** 2))) / self.line.flow_film
         return s.flow_film / self.line.flow_film - 1, s.min_film / self.line.min_film - 1, off
+
+
+def thinned():
+    """Films that shear makes up to twice as thin, one mesh finer than the coarsest."""
+    for M, L, law, ratio in THINNED:
+        c = case_of(M, L)
+        sliding = ratio * c["entrainment_speed"]
+        _, fem = solve_thinned(make_contact(M, L), law, sliding)
+        eyring = law.critical if law.exponent is None else None
+        carreau = None if law.exponent is None else (law.critical, law.exponent)
+        own = lubfric.solve_ehl(**c, tolerance=1e-3, sliding=sliding, eyring_stress=eyring, carreau=carreau)
+        rows = [
+            ("flow film", "m", fem.flow_film, own.flow_film, 1e-3),
+            ("smallest film", "m", fem.min_film, own.min_film, 1e-2),
+        ]
+        name = (
+            f"Eyring {law.critical:g} Pa" if law.exponent is None else f"Carreau {law.critical:g} Pa, {law.exponent:g}"
+        )
+        yield from compared(f"M = {M}, L = {L}, {name}, slide-roll ratio {ratio:g}", rows, "lubfric.solve_ehl, 1e-3")
 
 
 def make_contact(M: float, L: float, density_law: str = CONSTANT) -> LineContact:

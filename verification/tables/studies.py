@@ -6,9 +6,11 @@ A study runs once in a process, however many tables are made of it.
 import re
 from collections.abc import Callable
 from functools import cache
+from itertools import takewhile
 
 from .. import wording
 from ..check import Check
+from ..references import SOURCES, Source
 from ..run import Outcome, quiet, run_one
 from ..studies import STUDIES
 from .measured import Cells
@@ -52,14 +54,16 @@ def load_sharing() -> Cells:
 
 
 def orders() -> Cells:
-    """The orders by which the errors of contact and film fall on ever finer grids."""
-    rows = []
+    """The orders by which the errors of contact and film fall on ever finer grids, lowest and highest of each kind."""
+    found: dict[str, list[float]] = {}
     for study in ("contact_grid", "ehl_grid"):
         for check in ran(study).checks:
             quantity = re.split(r", order$|: order in the cells$", check.name)[0]
             if quantity != check.name:
-                rows.append([quantity, f"{check.measured:.2f} ({check.expected:g})"])
-    return ["quantity", "order found (expected)"], rows
+                what = "films" if study == "ehl_grid" else quantity.partition(": ")[2] or quantity
+                found.setdefault(f"{what} ({check.expected:g})", []).append(check.measured)
+    rows = [[what, f"{min(orders):.2f} to {max(orders):.2f}"] for what, orders in found.items()]
+    return ["quantity (order expected)", "found"], rows
 
 
 def film_against_table() -> Cells:
@@ -80,7 +84,7 @@ def tolerance_asked() -> Cells:
 
 
 def transient() -> Cells:
-    """What runs in time were held against: the worst check of every kind. Times are left out."""
+    """What runs in time were held against: of the worst checks of every kind the ten nearest to their limits."""
     worst: dict[str, tuple[float, Check]] = {}
     checks = ran("transient").checks + ran("transient_mixed").checks
     for check in (c for c in checks if c.decisive and c.unit != "s"):
@@ -88,7 +92,8 @@ def transient() -> Cells:
         used = check.deviation / check.tolerance if check.tolerance else check.deviation
         if kind not in worst or used > worst[kind][0]:
             worst[kind] = used, check
-    rows = [[kind, f"{c.measured:.4g}", wording.allowed(c)] for kind, (_, c) in worst.items()]
+    nearest = sorted(worst.items(), key=lambda item: -item[1][0])[:10]
+    rows = [[kind, f"{c.measured:.4g}", wording.allowed(c)] for kind, (_, c) in nearest]
     return ["what", "found", "allowed"], rows
 
 
@@ -104,18 +109,34 @@ def formulations() -> Cells:
 
 
 def publications() -> Cells:
-    """Every source of `python -m verification published`: how many of its checks passed, and how far ours is off."""
+    """How many checks of `python -m verification published` passed, and how far ours is off: every source that differs
+    somewhere, and all others together."""
     from ..published import STUDIES as parts
-    from ..references import SOURCES
 
     checks = [c for part in parts.values() for c in run_one(part, LEVEL, quiet).checks]
-    rows = []
+    groups: dict[str, list[Check]] = {}
+    agreed = []
     for source in SOURCES.values():
         mine = [c for c in checks if c.source == source.text]
+        alike = all(c.passed for c in mine)
+        agreed += [authors(source)] if alike else []
+        groups.setdefault("others" if alike else f"{authors(source)}, {source.place}", []).extend(mine)
+    groups["; ".join(dict.fromkeys(agreed))] = groups.pop("others")
+    rows = []
+    for name, mine in groups.items():
         off = [round(100 * (c.measured / c.expected - 1), 4) + 0.0 for c in mine]
-        far = f"{min(off):+.2g} to {max(off):+.2g} %" if len(mine) > 1 else f"{off[0]:+.2g} %"
-        rows.append([source.short, f"{sum(c.passed for c in mine)} of {len(mine)}", far])
+        rows.append([name, f"{sum(c.passed for c in mine)} of {len(mine)}", f"{min(off):+.2g} to {max(off):+.2g} %"])
     return ["source", "passed", "ours off by"], rows
+
+
+def authors(source: Source) -> str:
+    """Surnames and year, as in "Dowson, Toyoda 1978"."""
+    person = re.compile(r"([A-Z]\. )+[\w-]+( et al\.| \d+)?")
+    people = takewhile(person.fullmatch, source.words.split(", "))
+    names = [re.sub(r"^([A-Z]\. )+| \d+$", "", part) for part in people]
+    year = re.search(r"\b(18|19|20)\d\d\b", source.words)
+    who = ", ".join(names) if len(names) < 3 else f"{names[0]} et al."
+    return f"{who} {year[0]}" if names and year else source.words
 
 
 TABLES: dict[str, Callable[[], Cells]] = {

@@ -1,0 +1,201 @@
+"""report.html of a run: one page for who was not there, with question, answer, pictures, doubts, inputs and sources. It
+needs no other file, and prints."""
+
+from __future__ import annotations
+
+import base64
+from html import escape
+
+import numpy as np
+
+from ..quantities import COLUMNS, counted
+from ..sampling import percent
+from ..scene import Scene
+from ..sharing import Prepared
+from ..studies import CurveResult
+from ..units import converted, printed, unit_for, worded
+from .describe import FACTS, SECTIONS, inputs
+
+STYLE = """
+@page { size: A4; margin: 15mm; }
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin-top: 2rem; border-bottom: 1px solid #ccc; }
+table { border-collapse: collapse; font-size: 0.75rem; margin-bottom: 1rem; }
+td, th { padding: 0.15rem 0.35rem; text-align: left; vertical-align: top; overflow-wrap: break-word; }
+td.key { overflow-wrap: anywhere; } th { font-weight: 600; } tbody tr:nth-child(odd) { background: #f4f4f4; }
+td.number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
+.answer { font-size: 1.25rem; } .warning { color: #b3392f; } .small { font-size: 0.85rem; color: #555; }
+figure { margin: 1rem 0; } img { max-width: 100%; max-height: 24cm; }
+@media print {
+  body { margin: 0; padding: 0; max-width: none; font-size: 10pt; }
+  tr, img, figure, li { break-inside: avoid; } thead { display: table-header-group; } h2 { break-after: avoid; }
+}
+"""
+OF_POINT = (
+    *("coefficient", "contact_load", "film_load"),
+    *("central_film", "film_to_roughness_ratio", "real_contact_area_fraction"),
+)
+UNKNOWN = "the error of the model is not known, and not in it"
+
+
+def report_page(prepared: Prepared, result, record: dict, images: dict[str, bytes]) -> bytes:
+    """The page of ``result``, a curve or a run in time. ``record``: what result.json holds; ``images``: PNG files by
+    their captions."""
+    scene, curve = prepared.scene, result if isinstance(result, CurveResult) else None
+    answer = _of_run(result) if curve is None else _of_curve(scene, curve)
+    sources = "" if curve is None else curve.cite()
+    sections = [
+        f"<h1>{escape(scene.name)}: friction of a lubricated line contact</h1>",
+        f'<p class="small">{escape(record["date"])}, lubfric {escape(record["versions"]["lubfric"])}</p>',
+        "<h2>Question</h2>",
+        f"<p>{escape(_question(scene))}</p>",
+        "<h2>Answer</h2>",
+        f'<p class="answer">{escape(answer[0])}</p>',
+        *(f"<p>{escape(text)}</p>" for text in answer[1:]),
+        *(f"<figure>{_image(content, caption)}</figure>" for caption, content in images.items()),
+        "<h2>Cautions</h2>",
+        _list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
+        *([] if curve is None else _points(curve)),
+        "<h2>Inputs</h2>",
+        *(_inputs(scene, section) for section in SECTIONS),
+        f"<p>{escape(prepared.surface.describe())}</p>",
+        _list(prepared.surface.notes),
+        *(["<h2>Sources</h2>", _list(sources.splitlines())] if sources else []),
+        "<h2>Made by</h2>",
+        _table(
+            [*record["versions"].items(), ("seconds", f"{record['seconds']:.3g}"), ("solver", result.report.message)]
+        ),
+    ]
+    title = f'<meta charset="utf-8"><title>{escape(scene.name)}</title><style>{STYLE}</style>'
+    page = f'<!DOCTYPE html><html lang="en"><head>{title}</head><body>{"".join(sections)}</body></html>\n'
+    return page.encode()
+
+
+def _question(scene: Scene) -> str:
+    bodies, oil, motion = scene.bodies, scene.lubricant, scene.motion
+    hot = "" if oil.temperature is None else f" at {oil.temperature - 273.15:.4g} °C"
+    return (
+        f"How large is the friction coefficient f of a line contact of reduced radius {worded(bodies.radius, 'm')} and "
+        f"length {worded(bodies.width, 'm')} under {worded(bodies.load, 'N')} (mean Hertz pressure "
+        f"{worded(bodies.mean_hertz_pressure, 'Pa')}), in an oil of {worded(oil.viscosity, 'Pa s')}{hot}, "
+        + (
+            "while motion or load change in time?"
+            if scene.transient
+            else f"at a slide-roll ratio of {motion.slide_roll_ratio:.4g}?"
+        )
+    )
+
+
+def _of_curve(scene: Scene, curve: CurveResult) -> list[str]:
+    """The answer of a curve: at its point nearest to the scene's own, and over all."""
+    name, symbol, unit, plural = curve.SWEPT
+    swept, f = getattr(curve, name), curve["coefficient"]
+    solved = np.flatnonzero(np.isfinite(f))
+    if not solved.size:
+        return [f"0 of {counted(f.size, plural)} have an answer."]
+    own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
+    nearest = solved[np.abs(swept[solved] - own).argmin()]
+    place, known = (
+        f"at {symbol} = {swept[nearest]:.4g} {unit}".replace(" (slide-roll ratio)", ""),
+        curve.points[nearest],
+    )
+    low, high = known.uncertainty.interval
+    model = f"; {UNKNOWN}" if np.isnan(known.uncertainty.model) else ", model included"
+    within = f", between {low:.3g} and {high:.3g} (95 %{model})" if np.isfinite(low) else ", with an error not known"
+    told = [f"f = {f[nearest]:.3g}{within}, {place}."]
+    if f.size > 1:
+        least = swept[solved[f[solved].argmin()]]
+        told.append(
+            f"{solved.size} of {f.size} {plural} have an answer. f is {f[solved].min():.4g} to {f[solved].max():.4g}, "
+            f"and least at {symbol} = {least:.4g}."
+        )
+    return told
+
+
+def _of_run(result) -> list[str]:
+    """The answer of a run in time."""
+    if result.time.size < 2:
+        return ["The run has no answer."]
+    mean, f = result.average(), result.coefficient
+    error = 100 * mean.sampling
+    film = worded(float(result.min_film.min()), "m")
+    return [
+        f"f is {mean.coefficient:.4g} on average over {result.time[-1]:.4g} s.",
+        f"Its standard error is {error:.2g} %, as the surface is finite; {UNKNOWN}.",
+        f"f is at most {f[np.abs(f).argmax()]:.4g}; the film is at least {film}.",
+    ]
+
+
+def _points(curve: CurveResult) -> list[str]:
+    """The tables of all points: their numbers, one unit for all of a kind; and the errors of f. Then what there is to
+    know about these, once for all points alike."""
+    name = curve.SWEPT[0]
+    found = {name: getattr(curve, name)} | {n: curve[n] for n in OF_POINT}
+    kinds = {n: COLUMNS[n].unit for n in (name, *OF_POINT)}
+    units = {si: unit_for([v for n in kinds if kinds[n] == si for v in found[n].tolist()], si) for si in kinds.values()}
+    heads = [
+        f"{COLUMNS[n].label} {COLUMNS[n].symbol}" + (f" ({printed(units[si])})" if printed(units[si]) else "")
+        for n, si in kinds.items()
+    ]
+    columns = [converted(found[n], si, units[si]) for n, si in kinds.items()]
+    numbers, errors = [], []
+    notes: dict[str, list[str]] = {}
+    for i, point in enumerate(curve.points):
+        if point is None:
+            why = f'<td colspan="{len(OF_POINT) + 1}" class="warning">{escape(str(curve.errors[i]))}</td>'
+            numbers.append(_cells([f"{columns[0][i]:.4g}"]) + why)
+            continue
+        cells = [f"{values[i]:.4g}" for values in columns]
+        low, high = point.uncertainty.interval
+        cells.insert(2, f"{low:.3g} to {high:.3g}" if np.isfinite(low) else "not known")
+        numbers.append(_cells(cells))
+        of = [percent(getattr(point.uncertainty, part)) for part in ("numerical", "sampling", "model", "inputs")]
+        errors.append(_cells([f"{found[name][i]:.4g}", *of]) + f"<td>{point.decision.model}</td>")
+        for note in (*point.uncertainty.notes, *point.decision.notes):
+            notes.setdefault(note, []).append(f"{found[name][i]:.4g}")
+    heads.insert(2, "interval of f, 95 %")
+    head = heads[0], "numerical", "surface (standard error)", "model (95 %)", "inputs", "solved by"
+    return [
+        "<h2>Results</h2>",
+        _rows(heads, numbers),
+        "<h2>Errors of f</h2>",
+        _rows(head, errors),
+        _list([f"{note} (at {', '.join(places)})" for note, places in notes.items()]),
+    ]
+
+
+def _cells(texts: list[str]) -> str:
+    return "".join(f'<td class="number">{text}</td>' for text in texts)
+
+
+def _rows(heads, rows: list[str]) -> str:
+    head = "".join(f"<th>{escape(text)}</th>" for text in heads)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(f'<tr>{row}</tr>' for row in rows)}</tbody></table>"
+
+
+def _inputs(scene: Scene, section: str) -> str:
+    """The inputs of a section as a table, and what follows from them."""
+    cells = "".join(
+        f"<tr><td>{escape(label)}</td><td>{escape(text).replace(' ', '&nbsp;')}</td>"
+        f'<td class="key">{escape(key + note)}</td></tr>'
+        for label, text, key, note in inputs(scene, section)
+    )
+    head = f'<thead><tr><th colspan="3">{section}</th></tr></thead>'
+    more = _list(FACTS[section](scene)) if section in FACTS else ""
+    return (f"<table>{head}<tbody>{cells}</tbody></table>" if cells else "") + more
+
+
+def _image(content: bytes, caption: str) -> str:
+    data = base64.b64encode(content).decode()
+    return f'<img alt="{escape(caption)}" src="data:image/png;base64,{data}"><figcaption>{escape(caption)}</figcaption>'
+
+
+def _table(rows) -> str:
+    cells = "".join(f"<tr><th>{escape(a)}</th><td>{escape(b)}</td></tr>" for a, b in rows)
+    return f"<table><tbody>{cells}</tbody></table>"
+
+
+def _list(lines, otherwise: str = "", kind: str = "") -> str:
+    if not lines:
+        return f"<p>{escape(otherwise)}</p>" if otherwise else ""
+    return f'<ul class="{kind}">{"".join(f"<li>{escape(line)}</li>" for line in lines)}</ul>'

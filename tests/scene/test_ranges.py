@@ -1,0 +1,101 @@
+"""Inputs known to a range only, and f_b over speed or temperature: as given, written, read, in f and its interval."""
+
+import math
+
+import numpy as np
+import pytest
+from scene_text import paper_scene
+
+import lubfric
+
+FRICTION, HARDNESS, EYRING = "boundary_friction_coefficient", "hardness", "eyring_stress"
+SMALL = paper_scene(numerics={"sampling_tolerance": 0.1}, lubricant={EYRING: 5e6})
+
+
+def f(scene, speed=0.003):
+    return lubfric.friction(scene, speed)
+
+
+def test_a_range_is_kept_as_long_as_its_value(tmp_path):
+    """Given by its ends, with a value between them, or by the name of a typical value; written and read back."""
+    scene = SMALL.with_(bodies={FRICTION: [0.08, "12 %"], HARDNESS: "100Cr6"}, lubricant={EYRING: ["5 MPa", 2e6, 1e7]})
+    keys = [name for name, *_ in scene.ranges]
+    assert keys == [f"bodies.{FRICTION}", f"bodies.{HARDNESS}", f"lubricant.{EYRING}"]
+    assert scene.bodies.boundary_friction_coefficient == pytest.approx(0.1) and scene.ranges[0][1:] == (0.08, 0.12)
+    assert scene.ranges[2][1:] == (2e6, 1e7) and scene.lubricant.eyring_stress == 5e6
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    assert lubfric.load_scene(tmp_path / "scene.toml") == scene
+    assert scene.with_(bodies={"load": 6.0}).ranges == scene.ranges
+    assert scene.with_(bodies={FRICTION: 0.1}, lubricant={EYRING: 5e6}).ranges == scene.ranges[1:2]
+    assert scene.with_(bodies={"hardness_hv": 700}).ranges == (scene.ranges[0], scene.ranges[2])
+    assert scene != scene.with_(bodies={FRICTION: scene.bodies.boundary_friction_coefficient})
+
+
+@pytest.mark.parametrize(
+    "given",
+    [[0.12, 0.08], [0.1], [0.2, 0.1, 0.15], [0.1, 0.1], [0.1, "x"], [-0.1, 0.1], {"speed": [1], "values": [1]}]
+    + [{"sliding_speed": [0, 1], "values": [0.1]}, {"sliding_speed": [1, 0], "values": [0.1, 0.1]}],
+)
+def test_what_is_no_range_and_no_table_is_refused(given):
+    with pytest.raises(lubfric.InputError, match="boundary_friction_coefficient"):
+        SMALL.with_(bodies={FRICTION: given})
+
+
+@pytest.mark.parametrize("key, ends", [(FRICTION, (0.07, 0.1)), (HARDNESS, (1.2e9, 6e9))])
+def test_both_ends_are_in_the_interval(key, ends):
+    """The scene at each end by itself, on the same first strips: its change of f adds to the half-width as squares."""
+    middle = SMALL.with_(bodies={key: [0.5 * sum(ends), *ends]}, numerics={"sampling_tolerance": 0.5})
+    known = f(middle)
+    plain = f(middle.with_(bodies={key: 0.5 * sum(ends)}))
+    changes = [f(middle.with_(bodies={key: end})).coefficient / plain.coefficient - 1 for end in ends]
+    assert known.coefficient == plain.coefficient and known.uncertainty.inputs > 1e-3
+    assert known.uncertainty.inputs == pytest.approx(max(map(abs, changes)), rel=0.02 if key == FRICTION else 0.2)
+    for side, sign in ((0, -1), (1, 1)):
+        own = abs(plain.uncertainty.interval[side] / plain.coefficient - 1)
+        by_range = max(0.0, *(sign * change for change in changes))
+        half = abs(known.uncertainty.interval[side] / known.coefficient - 1)
+        assert half == pytest.approx(math.hypot(own, by_range), rel=2e-3)
+    assert key in known.uncertainty.text and known.uncertainty.text in known.report.notes
+
+
+def test_a_range_is_in_the_columns_of_a_curve():
+    scene = SMALL.with_(bodies={FRICTION: [0.07, 0.11]})
+    curve = lubfric.stribeck(scene, [0.003, 1.0])
+    slow, fast = curve.uncertainty.inputs
+    assert slow == pytest.approx(0.02 / 0.09 * curve.contact_load[0] * 0.09 / 5.5 / curve.coefficient[0]) and fast == 0
+
+
+def test_a_table_over_the_sliding_speed_is_read_at_every_speed(tmp_path):
+    table = {"sliding_speed": [0, 0.004, 10], "values": [0.15, 0.12, 0.05]}
+    scene = SMALL.with_(bodies={FRICTION: table})
+    (tmp_path / "scene.toml").write_text(scene.to_toml())
+    assert lubfric.load_scene(tmp_path / "scene.toml") == scene
+    curve = lubfric.stribeck(scene, [0.001, 0.003])
+    for speed, found in zip((0.001, 0.003), curve.coefficient, strict=True):
+        value = np.interp(2 * speed, table["sliding_speed"], table["values"])
+        assert found == f(SMALL.with_(bodies={FRICTION: value}), speed).coefficient
+    with pytest.raises(lubfric.InputError, match="no value at 20 m/s"):
+        f(scene, 10.0)
+    assert scene.with_(bodies={FRICTION: 0.1}).bodies.boundary_friction_table is None
+
+
+def test_a_table_over_the_temperature_is_read_at_that_of_the_oil():
+    table = {"temperature": ["20 °C", "120 °C"], "values": [0.13, 0.08]}
+    oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C"}
+    scene = SMALL.with_(bodies={FRICTION: table}, lubricant=oil)
+    assert scene.bodies.boundary_friction_coefficient == pytest.approx(0.105)
+    assert scene.with_(lubricant={"temperature": "120 °C"}).bodies.boundary_friction_coefficient == pytest.approx(0.08)
+    with pytest.raises(lubfric.InputError, match="table"):
+        scene.with_(lubricant={"temperature": "130 °C"})
+    with pytest.raises(lubfric.InputError, match=r"lubricant\.temperature"):
+        SMALL.with_(bodies={FRICTION: table})
+
+
+def test_a_run_in_time_takes_f_b_at_its_own_sliding_speed():
+    """At rest in entrainment the contact carries all: f is that of the table at the sliding speed."""
+    plan = lubfric.Transient(1e-4, outputs=1, speed=0.0, sliding=0.5, initial="rest")
+    scene = SMALL.with_(
+        bodies={FRICTION: {"sliding_speed": [0, 1], "values": [0.15, 0.05]}}, numerics={"sampling": "patch"}
+    )
+    run = lubfric.transient(scene.with_(transient=plan))
+    assert run.coefficient[-1] == pytest.approx(0.1, rel=0.02)

@@ -1,0 +1,79 @@
+"""What a scene leaves out, told with its likely size: against the friction of scenes that have it."""
+
+import dataclasses
+import math
+
+import pytest
+from scene_text import paper_scene
+
+import lubfric
+from lubfric.output.describe import describe_scene
+from lubfric.sharing import lacking
+
+ROLLER = lubfric.load_scene(
+    {
+        "bodies": {"radii": [8e-3, math.inf], "width": 1e-2, "load": 2000.0, "material": "steel"}
+        | {"boundary_friction_coefficient": 0.12},
+        "lubricant": {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
+        | {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
+        "motion": {"entrainment_speed": 1.0, "slip_percent": 5},
+        "surface": {"sq": 1.5e-7, "correlation_length": 1.5e-5},
+        "contact": {"shape": [96, 48], "spacing": 4e-6},
+        "numerics": {"model": "load-sharing", "sampling": "patch", "heat": "off", "accept": True},
+    }
+)
+SQ = ROLLER.surface.sq
+
+
+def told(lacks, word):
+    (change,) = [change for what, change, _ in lacks if word in what]
+    return change
+
+
+@pytest.mark.parametrize("speed", [0.3, 1.0])
+def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(speed):
+    found = lubfric.friction(ROLLER, speed)
+    film = {"inlet_film": 0.7 * found.balance.film.flow_film}
+    warm = {
+        "oil": None,
+        "viscosity": ROLLER.lubricant.viscosity * math.exp(-10 * ROLLER.lubricant.temperature_coefficient),
+    }
+    for word, there in (
+        ("starves", ROLLER.with_(lubricant=film)),
+        ("warmer", ROLLER.with_(lubricant=warm)),
+        ("run in", ROLLER.with_(surface={"sq": 0.6 * SQ})),
+        ("f_b", ROLLER.with_(bodies={"boundary_friction_coefficient": 0.75 * 0.12})),
+    ):
+        change = lubfric.friction(there, speed).coefficient / found.coefficient - 1
+        for guess in (told(found.lacks, word), told(lacking(ROLLER, SQ, speed), word)):
+            assert 1 / 3 < guess / change < 3, (word, guess, change)
+    assert told(found.lacks, "f_b") == pytest.approx(-0.25 * found.boundary_force / 2000.0 / found.coefficient)
+    sizes = [abs(change) for _, change, _ in found.lacks if not math.isnan(change)]
+    assert sizes == sorted(sizes, reverse=True) and math.isnan(told(found.lacks, "moves"))
+
+
+def test_what_is_given_and_what_is_below_the_tolerance_is_not_told():
+    given = ROLLER.with_(lubricant={"inlet_length": 1.0}, bodies={"boundary_friction_coefficient": [0.1, 0.12]})
+    words = " ".join(what for what, *_ in lacking(given, SQ, 1.0))
+    assert "starves" not in words and "f_b" not in words and "run in" in words
+    smooth = " ".join(what for what, *_ in lacking(ROLLER, 0.0, 1.0))
+    assert "run in" not in smooth and "moves" not in smooth
+    loose = dataclasses.replace(ROLLER, numerics=dataclasses.replace(ROLLER.numerics, tolerance=0.2))
+    assert all(abs(change) > 0.2 or math.isnan(change) for _, change, _ in lacking(loose, SQ, 0.3))
+    assert [what for what, *_ in lacking(loose, 0.0, 1.0)] == []
+    assert "f_b" in lacking(paper_scene(), 1e-7, 0.0)[0][0]
+
+
+def test_info_tells_it_and_the_words_hold_the_numbers():
+    lacks = lacking(ROLLER, SQ, 1.0)
+    text = describe_scene(ROLLER)
+    for what, change, remedy in lacks:
+        size = "not estimated" if math.isnan(change) else f"{100 * change:+.2g} %"
+        assert f"{what}: f {size}; {remedy}" in text
+    assert "left out" in text and len(lacks) >= 5
+
+
+def test_a_soft_body_is_told_how_thick_its_cover_has_to_be():
+    soft = ROLLER.with_(bodies={"e_prime": 2e7, "load": 100.0})
+    (cover,) = [what for what, *_ in lacking(soft, SQ, 1.0) if "cover" in what]
+    assert f"{5e3 * soft.bodies.half_width:.2g} mm" in cover
