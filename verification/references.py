@@ -109,6 +109,35 @@ SOURCES: dict[str, Source] = {
     "stachowiak": Source(
         "G. W. Stachowiak, A. W. Batchelor, Engineering Tribology", "Table 2.3", TRANSCRIBED, UNSTATED
     ),
+    "venner": Source(
+        "C. H. Venner, F. Couhier, A. A. Lubrecht, J. A. Greenwood, Tribology Series 32 (1997) 103, "
+        "doi:10.1016/s0167-8922(08)70440-1",
+        "Table 1: amplitude reduction, line contact, pure rolling, M = 100, L = 11",
+        TRANSCRIBED,
+        UNSTATED,
+        "another project's copy of the table has the same 18 numbers",
+    ),
+    "venner-fit": Source(
+        "C. H. Venner, F. Couhier, A. A. Lubrecht, J. A. Greenwood 1997",
+        "eq. 5, which is made for A_d/A_i up to 0.5",
+        TRANSCRIBED,
+        0.1,
+    ),
+    "greenwood": Source(
+        "J. A. Greenwood, G. E. Morales-Espejel, Proc. IMechE J 208 (1994) 121",
+        "Tables 1 and 2, a case of Kweh: waves at rest",
+        TRANSCRIBED,
+        0.01,
+        "three digits, and linear in the height; their pressure is not told: at 1.016 GPa the density of Dowson and "
+        "Higginson is as stiff as in both of their rows",
+    ),
+    "hooke": Source(
+        "C. J. Hooke, Proc. IMechE J 220 (2006) 259, doi:10.1243/13506501JET146",
+        "eqs. 12 and 19: waves that move through an even film, Eyring",
+        TRANSCRIBED,
+        0.0,
+        "within 1 % of the roughness of his own solutions",
+    ),
     "shares": Source(
         "a twin disc (contact resistance), Zhou and Hoeprich (raceways), Aihara, Doleschel",
         "load share of the asperities",
@@ -178,6 +207,42 @@ def dowson_higginson(u: float, g: float, w: float) -> float:
 def dowson_toyoda(u: float, g: float, w: float) -> float:
     """Central h/R."""
     return 3.06 * u**0.69 * g**0.56 * w**-0.10
+
+
+# ---- waves across the motion; their speed is that of their body over the entrainment speed
+
+AMPLITUDES = {  # wavelength/b: A_d/A_i at A_i = .1, .2 and .5 of the film
+    4: (0.030, 0.030, 0.029),
+    2: (0.073, 0.073, 0.073),
+    1: (0.183, 0.182, 0.195),
+    0.5: (0.394, 0.393, 0.378),
+    0.25: (0.660, 0.670, 0.679),
+    0.125: (0.839, 0.838, 0.859),
+}
+STEADY = {  # temperature: alpha [1/Pa], film [m], amplitudes of pressure [Pa] and film [m]
+    "50 °C": (14.8e-9, 1.341e-6, 0.388e9, 0.0331e-6),
+    "80 °C": (12.3e-9, 0.698e-6, 0.413e9, 0.0185e-6),
+}
+STEADY_WAVE = {"e_prime": 227e9, "wavelength": 0.2e-3, "height": 0.25e-6, "pressure": 1.016e9}
+WITHIN = 0.01  # of the roughness: how closely Hooke's formulas follow his solutions
+
+
+def amplitude_fit(m: float, l: float, wavelength: float) -> float:
+    """A_d/A_i in pure rolling; ``wavelength`` in half-widths."""
+    n = wavelength * m**0.75 / l**0.5
+    return 1 / (1 + 0.17 * n + 0.03 * n**2)
+
+
+def hooke(
+    k: float, speed: float, film: float, drag: float, stiffness: float, e_prime: float
+) -> tuple[complex, complex]:
+    """What an even ``film`` [m] keeps of a wave exp(i k x) of its surface, and the complex wavenumber of the wave from
+    the inlet. ``drag``: effective viscosity times entrainment speed [N/m]; ``stiffness``: bulk modulus [Pa]."""
+    q, c = 48 * drag * (speed - 1) / (e_prime * film**3 * k**2), film * e_prime * k / (4 * stiffness)
+    kept = (1 - 1j * c * q) / (1 - 1j * (1 + c) * q)
+    q_inlet, c_inlet = 48 * drag / (e_prime * film**3 * (k * speed) ** 2), c * speed
+    roots = np.roots([1j / q_inlet, -c_inlet, c_inlet - 1, 1])
+    return kept, k * speed * roots[np.argmin(np.abs(roots - 1))]
 
 
 # ---- friction and heat

@@ -1,6 +1,7 @@
 """One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
 from .moving import Moment, MovingStrip, RoughBody, moments, moving_work, solve_moving_strip, travelling
+from .pictures import animate_moments, plot_moments, plot_passing
 from .point import Refined, Strip, change_of, deterministic_point, estimate, grids, solve_strip, work_of, work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach
 from .result import DeterministicResult

@@ -12,8 +12,8 @@ from ..oil import estimate_in_words
 from ..quantities import KEYS, counted
 from ..sampling import forecast
 from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, told_doubts, typical
-from ..sharing import expected, gathered, in_words, lacking, takes_strips
-from ..studies import in_words as in_time
+from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
+from ..studies import in_words
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run
 from ..units import converted, worded
@@ -97,17 +97,16 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
             "  (not where heat turns out to matter: these are isothermal)",
         ]
     if found and scene.transient is None:
-        seconds = in_time(sum(one.seconds for one in found) * len(moving) / len(some))
-        rows.append(
-            f"cost: about {seconds} of processor time for {counted(len(moving), 'speeds')} (an order of magnitude)"
-        )
+        seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
+        count = counted(len(moving), "speeds")
+        rows.append(f"cost: about {seconds} of processor time for {count} (an order of magnitude)")
     return rows
 
 
 def _left_out(scene: Scene, surface: Surface) -> list[str]:
     """What the scene leaves out, and how much that would likely change f at its own speed."""
     speed = scene.motion.entrainment_speed
-    found = [in_words(lack) for lack in lacking(scene, surface.sq, speed)]
+    found = [lack_in_words(lack) for lack in lacking(scene, surface.sq, speed)]
     head = f"likely changes of f at {speed:g} m/s, by closed forms:"
     return [head, *(f"  {row}" for row in found)] if found else ["nothing that would change f by its tolerance"]
 
@@ -152,7 +151,7 @@ def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float)
     seconds = one.seconds + steps * (FILM_STEP + CELL_STEP * cells)
     top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
     return (
-        f"{top}; {plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs; about {in_time(seconds)} "
+        f"{top}; {plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs; about {in_words(seconds)} "
         "(orders of magnitude)"
     )
 

@@ -15,7 +15,7 @@ from .._base import FolderLock, OwnFiles, make_ready, plain_words, read_table, v
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
-from ..sharing import Prepared, Validity, takes_strips
+from ..sharing import Prepared, Validity, lack_in_words, takes_strips
 from ..studies import (
     AUTO,
     MOST_WORKERS,
@@ -146,6 +146,7 @@ def _point(curve: CurveResult, index: int) -> dict:
             "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
             "errors": asdict(point.errors),
             "report": point.report.as_dict(),
+            "lacks": [lack_in_words(lack) for lack in point.lacks],
         }
     )
 

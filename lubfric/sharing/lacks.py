@@ -125,7 +125,7 @@ def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[fl
     return rubs * share, rubs * share + mu * (1 - share)
 
 
-def in_words(lack: Lack) -> str:
+def lack_in_words(lack: Lack) -> str:
     """One line."""
     what, change, remedy = lack
     return f"{what}: f {'not estimated' if math.isnan(change) else f'{100 * change:+.2g} %'}; {remedy}"

@@ -33,36 +33,6 @@ def films(solution: Solution) -> tuple[float, float]:
     return (solution.min_film / solution.contact.moes_film, solution.flow_film / solution.contact.moes_film)
 
 
-@pytest.fixture(scope="module")
-def bodies():
-    """One body on three nested meshes."""
-    mesh, layout = graded_mesh(Layout(240.0, -4.0, 3.0, (-1.0, 1.0), 0.1, 0.6))
-    return [make_body(mesh.refined(n) if n else mesh, layout) for n in range(3)]
-
-
-def hertz(body):
-    return np.sqrt(np.maximum(1 - body.x**2, 0))
-
-
-def test_moes_numbers_come_back():
-    c = contact(20, 5)
-    assert c.load_number == pytest.approx(20, rel=1e-12)
-    assert c.material_number == pytest.approx(5, rel=1e-12)
-    assert c.hertz_pressure * ALPHA == pytest.approx(5 * math.sqrt(20 / (2 * math.pi)), rel=1e-12)
-    assert c.speed_parameter == pytest.approx(3 * math.pi**2 / (8 * 20**2), rel=1e-12)
-
-
-def test_hertz_pressure_flattens_the_parabola(bodies):
-    """X^2/2 - u_z is constant under a Hertz pressure, down to what the finite body bends it."""
-    bends = []
-    for body in bodies:
-        inside = np.abs(body.x) < 0.9
-        gap = body.x**2 / 2 - body.trace @ body.displacement(hertz(body))
-        bends.append(np.std(gap[inside]))
-    assert bends[0] > bends[1] > bends[2]
-    assert bends[2] < 1e-4
-
-
 @settings(deadline=None, max_examples=15)
 @given(st.integers(0, 10**6), st.floats(0, 1), st.sampled_from(["constant", "dowson_higginson"]))
 def test_tangent_is_the_derivative(seed, upwind, density):
@@ -147,11 +117,3 @@ def test_a_film_that_shear_thins():
     own = lubfric.solve_ehl(**case_of(20, 10), sliding=sliding, eyring_stress=5e5)
     assert thinned.flow_film == pytest.approx(own.flow_film, rel=5e-3)
     assert thinned.flow_film < 0.55 * newtonian.flow_film
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("M", [1e-3, 0.05, 1, 20, 100, 1000])
-@pytest.mark.parametrize("L", [0, 2, 5, 10, 15])
-def test_every_regime_converges(M, L):
-    coarse, fine = solve_ehl(contact(M, L), refinements=1)
-    assert fine.flow_film == pytest.approx(coarse.flow_film, rel=0.03)

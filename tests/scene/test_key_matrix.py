@@ -431,21 +431,6 @@ def test_the_area_of_the_volume_balance(region):
     assert result.balance.contact.fields.pressure.shape == scene.contact.shape
 
 
-def test_a_generated_map_has_the_statistics_asked_for():
-    scene = BASE.with_(
-        surface={"sq": 2e-7, "correlation_length": (8e-6, 16e-6), "acf": "exponential", "decay_level": 0.2},
-        contact={"shape": (512, 512), "spacing": (0.5e-6, 1e-6)},
-    )
-    surface = contact_map(scene)
-    assert surface.sq == pytest.approx(2e-7, rel=1e-9) and surface.spacing == (0.5e-6, 1e-6)
-    z = surface.heights - surface.heights.mean()
-    power = np.abs(np.fft.fft2(z)) ** 2
-    acf = np.fft.ifft2(power).real / (z**2).sum()
-    assert [acf[16, 0], acf[0, 16]] == pytest.approx([0.2, 0.2], abs=0.12)
-    other = contact_map(scene.with_(surface={"seed": 3})).heights
-    assert abs(np.corrcoef(z.ravel(), other.ravel())[0, 1]) < 0.15
-
-
 def test_a_measured_map_is_prepared_as_its_keys_say(measured):
     """The same steps by hand with NumPy: unit, holes, quadratic form; then turned, scaled to sq."""
     keys = {

@@ -7,6 +7,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric.output.describe import describe_scene
 from lubfric.sharing import lacking
 
 ROLLER = lubfric.load_scene(
@@ -61,6 +62,15 @@ def test_what_is_given_and_what_is_below_the_tolerance_is_not_told():
     assert all(abs(change) > 0.2 or math.isnan(change) for _, change, _ in lacking(loose, SQ, 0.3))
     assert [what for what, *_ in lacking(loose, 0.0, 1.0)] == []
     assert "f_b" in lacking(paper_scene(), 1e-7, 0.0)[0][0]
+
+
+def test_info_tells_it_and_the_words_hold_the_numbers():
+    lacks = lacking(ROLLER, SQ, 1.0)
+    text = describe_scene(ROLLER)
+    for what, change, remedy in lacks:
+        size = "not estimated" if math.isnan(change) else f"{100 * change:+.2g} %"
+        assert f"{what}: f {size}; {remedy}" in text
+    assert "left out" in text and len(lacks) >= 5
 
 
 def test_a_soft_body_is_told_how_thick_its_cover_has_to_be():

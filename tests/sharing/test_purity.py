@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scene_text import paper_scene
-from small_study import same
 
 import lubfric
 
@@ -138,13 +137,3 @@ def test_a_like_scene_is_prepared_as_if_alone(scene_of):
 def test_fields_are_kept_and_change_no_number():
     shown = lubfric.friction(LINE, 0.01, fields=True)
     assert bits(shown) == alone("line", LINE, (0.01,))[0.01] and shown.pressure.shape == shown.heights.shape
-
-
-def test_a_study_that_goes_on_has_the_same_bits(tmp_path):
-    vary = {"bodies.load": [4.0, 5.5]}
-    whole = lubfric.study(PATCH, vary, SPEEDS)
-    lubfric.study(PATCH, vary, SPEEDS[1:3], store=tmp_path)
-    with ProcessPoolExecutor(2) as pool:
-        same(lubfric.study(PATCH, vary, SPEEDS, executor=pool, store=tmp_path), whole)
-    alone = [float.fromhex(at(PATCH, u)[0]["coefficient"]) for u in SPEEDS]
-    np.testing.assert_array_equal(whole["coefficient"][1], alone)

@@ -4,7 +4,6 @@ import csv
 import json
 import os
 import signal
-import subprocess
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
@@ -137,72 +136,6 @@ def test_a_longer_study_takes_over_what_is_known(serial, tmp_path, monkeypatch):
 
 
 # kept through everything
-
-SCRIPT = """
-import sys
-import lubfric
-from lubfric.studies import points
-real = points.friction
-def counted(model, speed, **options):
-    found = real(model, speed, **options)
-    print("solved", flush=True)
-    return found
-points.friction = counted
-scene = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling": "patch"}).with_(
-    contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6})
-lubfric.study(scene, {"bodies.load": [3.0, 5.5], "surface.seed": [1, 2]}, (0.003, 0.03, 0.3), store=sys.argv[1])
-print("done", flush=True)
-"""
-
-
-def killed_until_done(folder, rng, kills):
-    """(points solved in all runs together, kills)."""
-    solved, count = 0, 0
-    while True:
-        environment = os.environ | {"PYTHONPATH": str(ROOT), "OMP_NUM_THREADS": "1"}
-        process = subprocess.Popen([sys.executable, "-c", SCRIPT, str(folder)], env=environment, stdout=subprocess.PIPE)
-        first = b""
-        if count < kills:
-            first = process.stdout.readline()
-            time.sleep(rng.exponential(0.02))
-            process.send_signal(signal.SIGKILL)
-            count += 1
-        text = first + process.communicate()[0]
-        solved += text.decode().count("solved")
-        if b"done" in text:
-            return solved, count
-
-
-@pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
-def test_killed_studies_lose_and_repeat_nothing(serial, tmp_path, kills):
-    """A kill may cost the point that is being solved, never one that was finished."""
-    rng, left = np.random.default_rng(kills), kills
-    for run in range(1000):
-        folder = tmp_path / str(run)
-        solved, used = killed_until_done(folder, rng, min(left, 10))
-        left -= used
-        found = lubfric.open_study(folder)
-        same(found, serial)
-        assert solved <= found.status.size + used and len(records(folder)) == found.status.size
-        if left <= 0:
-            break
-
-
-def test_a_damaged_record_is_told_of_solved_again_and_stops_no_other(serial, tmp_path, monkeypatch):
-    lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path)
-    cut, overwritten, old, *_ = records(tmp_path)
-    cut.write_bytes(cut.read_bytes()[:50])
-    overwritten.write_bytes(overwritten.read_bytes().replace(b"0", b"1"))
-    old.write_bytes(b"of another version")
-    with pytest.warns(UserWarning, match="damaged"):
-        found = lubfric.open_study(tmp_path)
-    assert found.missing == 3 and found.solved == 9
-    solved, real = [], points.friction
-    monkeypatch.setattr(points, "friction", lambda *args, **kw: solved.append(args) or real(*args, **kw))
-    with pytest.warns(UserWarning, match="is to be solved again"):
-        same(lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path), serial)
-    assert len(solved) == 3
-    same(lubfric.open_study(tmp_path), serial)
 
 
 def test_two_writers_are_refused(tmp_path):
@@ -373,7 +306,7 @@ def test_the_time_is_foretold_within_a_factor_of_four(scene, speeds):
     lubfric.study(plan)
     took = time.process_time() - begun
     took /= 0.5 * (before + slowness())
-    assert unit == "s" and 0.25 < float(number) / took < 4, (number, took)
+    assert unit == "s" and 1 / 3 < float(number) / took < 3, (number, took)
 
 
 @pytest.mark.parametrize("speeds", [(0.003, 0.03, 0.3, 1.0), "auto"])

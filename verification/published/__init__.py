@@ -16,6 +16,7 @@ PARTS: tuple[tuple[str, str], ...] = (
     ("dry", "Dry contact: Hertz, waves, rough surfaces"),
     ("films", "Smooth films"),
     ("friction", "Rolling and sliding friction of smooth films"),
+    ("waves", "Waves of a surface in the film, at rest and moving"),
     ("heat", "Heat of a film"),
     ("oils", "Oils: viscosity, density, pressure-viscosity coefficient"),
     ("mixed", "Mixed lubrication"),
@@ -26,7 +27,12 @@ STUDIES = {name: Study(name, f"verification.published.{name}:{name}", title, gra
 def main(argv: list[str]) -> int:
     """The command."""
     command = frame.Command(
-        "published", __doc__, tuple(STUDIES.values()), "out/published", ("default",), finished=lambda r, o: failed(r)
+        "published",
+        __doc__,
+        tuple(STUDIES.values()),
+        "out/published",
+        ("default", "full"),
+        finished=lambda r, o: failed(r),
     )
     return frame.main(command, argv)
 

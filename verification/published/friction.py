@@ -28,7 +28,7 @@ def friction(level: str) -> Iterator[Item]:
     Barus' law; the inlet is flooded, or begins with p = 0. Our error is what the solver states for the film, and for
     the rolling force also that of its sum.
     """
-    rolled = {(m, l): rolling(m, l) for l in OILS for m in LOADS}
+    rolled: dict[tuple[float, float], tuple[float, float]] = {(m, l): rolling(m, l) for l in OILS for m in LOADS}
     for (m, l), (ours, error) in rolled.items():
         name = f"rolling torque, M = {m}, L = {l}"
         yield against("biboulet", name, ours, references.rolling_torque(m), error, "p_h b²/M^1.5", WIDE)

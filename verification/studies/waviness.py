@@ -1,37 +1,50 @@
-"""Waves of small height at rest in the elastic film: the deterministic film beside finite elements.
+"""Waves of small height in the elastic film, at rest and moving: the deterministic film beside finite elements.
 
-How far a film flattens waves that move with a surface is published as one curve (C. H. Venner, F. Couhier, A. A.
-Lubrecht & J. A. Greenwood, Tribology Series 32 (1997) 103-112, doi:10.1016/s0167-8922(08)70440-1). Here the waves rest
-and the smooth body moves, which is another limit. It has a linear theory of its own, which `fem.ripple` solves on the
-full-system finite elements. In a film of even thickness h and viscosity eta it is |h1|/A = 1/sqrt(1 + q²), with
-q = 48 eta U/(E' k² h³): that is told beside it.
+Reynolds' equation lets two waves live in a film of even thickness (C. J. Hooke, Proc. IMechE J 220 (2006) 259-271,
+doi:10.1243/13506501JET146; `verification.references.hooke`). One goes with the surface and keeps a part of its height.
+The other is made in the inlet and goes with the flow. Its wavenumber is that of the surface times the speed of the
+waves over the entrainment speed: for waves at rest it is a uniform change of the film. Both parts are fitted here to
+the film over the middle of the contact. They are compared with the linear response of full-system finite elements
+(`fem.ripple`). A wave of finite height is compared in time (`fem.moving`).
 """
 
+import itertools
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lubfric.deterministic import lay_out, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
-from lubfric.surface.height_map import Surface
 
 from ..check import ABSOLUTE, Check, Item, Table
 from ..fem import ehl
 from ..fem.fluid import Fluid
+from ..fem.moving import march
 from ..fem.ripple import ripple
+from ..waves import Smooth, history, laid_out, response
 
-CELLS, HEIGHT = 1024, 0.002  # of 5 b; of the film
-PRECISION = 1e-9
+CELLS, HEIGHT = 40, 0.002  # a wave; of the film
+NEAR = 0.5  # half-widths: where both parts are fitted
 SOURCE = "linear response of full-system finite elements"
-ALLOWED = 0.02  # of the height of the waves
-COLUMNS = ("case", "wavelength/b", "kept: lubfric", "finite elements", "even film", "rms of the difference")
+ALLOWED, MOVING = 0.02, 0.1  # of the height of the waves, at rest and moving
+COLUMNS = (
+    "case",
+    "speed",
+    "wavelength/b",
+    "of the surface: lubfric",
+    "finite elements",
+    "from the inlet: lubfric",
+    "finite elements",
+    "rms of the difference",
+)
 
 
 @dataclass(frozen=True)
 class Case:
-    """A smooth line contact in SI units; ``coefficient``: of pressure and viscosity (None: constant)."""
+    """A smooth line contact in SI units; ``coefficient``: of pressure and viscosity (None: constant); ``eyring``: its
+    Eyring stress [Pa] (None: Newtonian)."""
 
     name: str
     load: float
@@ -40,6 +53,7 @@ class Case:
     speed: float
     viscosity: float
     coefficient: float | None
+    eyring: float | None = None
 
     @property
     def law(self) -> str:
@@ -49,71 +63,97 @@ class Case:
     @property
     def line(self) -> LineContact:
         """For lubfric."""
-        oil = Lubricant(self.viscosity, self.coefficient or 0.0, self.law)
+        oil = Lubricant(self.viscosity, self.coefficient or 0.0, self.law, eyring_stress=self.eyring)
         return LineContact(self.load, self.radius, self.e_prime, self.speed, oil)
 
-    @property
-    def elements(self) -> ehl.LineContact:
-        """For the finite elements."""
-        fluid = Fluid(self.viscosity, self.law, self.coefficient or 0.0)
-        return ehl.LineContact(self.load, self.radius, self.e_prime, self.speed, fluid)
+    def elements(self, speed: float = 0.0) -> ehl.LineContact:
+        """For the finite elements, with waves of this ``speed`` over the entrainment speed."""
+        fluid = Fluid(self.viscosity, self.law, self.coefficient or 0.0, eyring_stress=self.eyring or math.inf)
+        sliding = 2 * abs(speed - 1) * self.speed
+        return ehl.LineContact(self.load, self.radius, self.e_prime, self.speed, fluid, sliding)
 
 
 SOFT = Case("soft, isoviscous", 2e4, 1e-2, 2e9, 0.5, 0.05, None)
 STEEL = Case("steel, Roelands", 2e5, 1e-2, 2.3e11, 1.0, 0.04, 18e-9)
-CASES = {
-    "quick": (),
-    "default": (SOFT, STEEL),
-    "full": (SOFT, replace(SOFT, name="soft, Roelands", coefficient=10e-9), STEEL),
+SHEARED = replace(STEEL, name="steel, Eyring 5 MPa", eyring=5e6)
+CASES: dict[str, tuple[tuple[Case, float, float], ...]] = {  # case, speed of the waves, wavelength in half-widths
+    "quick": ((STEEL, 1.0, 1.0),),
+    "default": (
+        *((case, 0.0, length) for case in (SOFT, STEEL) for length in (1.0, 0.5, 0.25)),
+        *((case, speed, 0.5) for case in (SOFT, STEEL, SHEARED) for speed in (0.5, 1.5)),
+        (STEEL, 1.0, 1.0),
+    ),
 }
-LENGTHS = (1.0, 0.5, 0.25)  # in half-widths
+CASES["full"] = (*CASES["default"], *((SHEARED, speed, length) for speed in (0.5, 1.5) for length in (1.0, 0.25)))
 
 
 def waviness(level: str) -> Iterator[Item]:
-    """Both responses over |x| < b/2, and what is left of the waves at x = 0."""
+    """Both films over |x| < b/2, and their two parts; a wave of finite height in time."""
     rows = []
-    for case in CASES[level]:
-        for row in compared(case):
-            rows.append((case.name, *row))
-            name = f"{case.name}: waves of {row[0]:g} b at rest, rms of the film beside finite elements"
-            yield Check(name, row[-1], 0.0, ALLOWED, SOURCE, ABSOLUTE, note="of their height")
-    if rows:
-        yield Table("waviness", "Waves of small height at rest: the part that the film keeps", COLUMNS, tuple(rows))
+    for case, speed, length in CASES[level]:
+        row = compared(case, speed, length)
+        rows.append((case.name, f"{speed:g} U", length, *row))
+        name = f"{case.name}: waves of {length:g} b at {speed:g} U"
+        allowed = MOVING if speed else ALLOWED
+        yield Check(f"{name}, rms of the film", row[-1], 0.0, allowed, SOURCE, ABSOLUTE, note="of their height")
+        for part, mine, judge in (("of the surface", *row[:2]), ("from the inlet", *row[2:4])):
+            yield Check(f"{name}, part {part}", mine, judge, max(0.1 * judge, 0.003), SOURCE, ABSOLUTE)
+    yield Table("waviness", "Waves of small height: what the film has of them", COLUMNS, tuple(rows))
+    if level != "quick":
+        yield from in_time()
 
 
-def compared(
-    case: Case, lengths=LENGTHS, judged: Case | None = None, refinements: int = 2, fineness: float = 1.0
-) -> Iterator[tuple[float, float, float, float, float]]:
-    """Wavelength, |h1|/A at x = 0 by lubfric, finite elements (of ``judged``) and an even film; rms difference."""
-    line = case.line
-    b = line.half_width
-    flat = Surface(np.zeros((64, 1)), (5 * b / CELLS,) * 2, periodic_axes=(True, True))
-    smooth = lay_out(flat, line, sliding=2 * case.speed, boundary_friction=0.09, ends=(3 * b, 2 * b))
-    base = solve_point(smooth, tolerance=PRECISION)
-    solution = ehl.solve_ehl((judged or case).elements, refinements=refinements, fineness=fineness)[-1]
-    near = np.flatnonzero(np.abs(base.x) < 0.5 * b)
-    middle = near[np.argmin(np.abs(base.x[near]))]
-    pick = solution.body.line.probes(base.x[None, near] / b)
-    for length in lengths:
-        mine = response(smooth, base, 2 * np.pi / (length * b))
-        judge = pick @ ripple(solution, length * b).film
-        rms = float(np.sqrt(np.mean(np.abs(mine[near] - judge) ** 2)))
-        even = _even(case, length * b, float(base.gap[middle, 0]), float(base.pressure[middle, 0]))
-        yield length, float(abs(mine[middle])), float(abs(judge[near == middle][0])), even, rms
+def compared(case: Case, speed: float, length: float) -> tuple[float, float, float, float, float]:
+    """The part that goes with the surface by lubfric and by finite elements, the part from the inlet by both (0 in
+    pure rolling, where they are one), and the rms difference of the films."""
+    smooth = laid_out(case.line, speed, CELLS * max(1.0, speed) / length)
+    b, x = smooth.half_width, smooth.film.x
+    near = np.flatnonzero(np.abs(x) < NEAR * b)
+    mine, _ = response(smooth, 2 * np.pi / (length * b), HEIGHT * smooth.film.central_gap)
+    solution = ehl.solve_ehl(case.elements(speed), refinements=0, fineness=1.0, between=0.05 * min(length, 1.0))[-1]
+    judge = solution.body.line.probes(x[None, near] / b) @ ripple(solution, length * b, speed).film
+    rms = float(np.sqrt(np.mean(np.abs(mine[near] - judge) ** 2)))
+    (own, other), (theirs, their_other) = (parts(film, x[near] / b, length, speed) for film in (mine[near], judge))
+    return own, theirs, other, their_other, rms
 
 
-def response(smooth, base, k: float) -> np.ndarray:
-    """Change of the gap per height of exp(i k x), complex (nx,)."""
-    height = HEIGHT * base.central_gap
+def parts(film: np.ndarray, x: np.ndarray, length: float, speed: float) -> tuple[float, float]:
+    """Amplitudes of the wave of the surface and of that from the inlet; the second may fall along x."""
+    surface, inlet = np.exp(2j * np.pi * x / length), np.exp(2j * np.pi * x * speed / length)
+    if speed == 1:
+        return float(np.abs(np.vdot(surface, film)) / x.size), 0.0
+    columns = np.stack([surface, inlet, inlet * x], axis=1)
+    found = np.linalg.lstsq(columns, film, rcond=None)[0]
+    return float(abs(found[0])), float(abs(found[1]))
 
-    def change(wave):
-        wavy = replace(smooth, heights=height * wave[:, None])
-        return (solve_point(wavy, start=base.state, tolerance=PRECISION).gap - base.gap)[:, 0] / height
 
-    return change(np.cos(k * base.x)) + 1j * change(np.sin(k * base.x))
+def in_time() -> Iterator[Check]:
+    """A wave of a fifth of the film, one half-width long, in pure rolling: gap over a period by both."""
+    smooth = laid_out(STEEL.line, 1.0, 2.4 * CELLS)
+    height, (times, gaps, _) = finite(smooth)
+    at = ehl.solve_ehl(STEEL.elements(1.0), refinements=0, fineness=1.0, between=0.03)[-1]
+    b, unit, count = smooth.half_width, at.contact.film_unit, 64
+
+    def waves(x, time):
+        grown = min(time, 1.0)
+        return height / unit * grown**2 * (3 - 2 * grown) * np.cos(2 * np.pi * (x - time))
+
+    x = smooth.film.x[np.abs(smooth.film.x) < NEAR * b]
+    pick = at.body.line.probes(x[None] / b)
+    whole = list(itertools.islice(march(at, waves, 1 / count), 5 * count))[-count:]
+    judge = np.array([pick @ m.H for m in whole]) * unit
+    mine = gaps[:, np.abs(smooth.film.x) < NEAR * b]
+    turns = np.exp(2j * np.pi * times * STEEL.speed / b), np.exp(2j * np.pi * np.array([m.time for m in whole]))
+    one, two = (2 / turn.size / height * turn @ film for turn, film in zip(turns, (mine, judge)))
+    source = "full-system finite elements in time"
+    size = float(np.sqrt(np.mean(np.abs(two) ** 2)))
+    rms = float(np.sqrt(np.mean(np.abs(one - two) ** 2)))
+    yield Check("a wave in time: amplitude in the film", np.sqrt(np.mean(np.abs(one) ** 2)), size, 0.02, source)
+    yield Check("a wave in time: rms of the film", rms, 0.0, 0.02, source, ABSOLUTE, note="of its height")
+    yield Check("a wave in time: mean film", mine.mean(), judge.mean(), 0.005, source, unit="m")
 
 
-def _even(case: Case, length: float, film: float, pressure: float) -> float:
-    eta = float(case.elements.fluid.eta(pressure))
-    q = 48 * eta * case.speed / (case.e_prime * (2 * np.pi / length) ** 2 * film**3)
-    return float(1 / np.hypot(1, q))
+def finite(smooth: Smooth):
+    """Height [m] of a wave of a fifth of the film, and its history."""
+    height = 0.2 * smooth.film.central_gap
+    return height, history(smooth, 2 * np.pi / smooth.half_width, height)

@@ -89,15 +89,15 @@ def _seconds(job: Callable[[], object]) -> float:
 
 
 def waviness() -> Cells:
-    """Small waves at rest in an elastic film: what it keeps of them (`verification.studies.waviness`)."""
+    """Small waves in an elastic film, at rest and moving: both their parts (`verification.studies.waviness`)."""
     from ..studies.waviness import CASES, COLUMNS, compared
 
-    rows = [
-        [case.name, f"{length:g}", *(f"{part:.3f}" for part in parts), f"{rms:.4f}"]
-        for case in CASES["default"]
-        for length, *parts, rms in compared(case)
-    ]
-    return COLUMNS, rows
+    rows = []
+    for case, speed, length in CASES["default"]:
+        *parts, rms = compared(case, speed, length)
+        shown = [f"{part:.3f}" for part in parts[:2]] + [f"{part:.3f}" if speed != 1 else "" for part in parts[2:]]
+        rows.append([case.name, f"{speed:g} U", f"{length:g}", *shown, f"{rms:.3f}"])
+    return list(COLUMNS), rows
 
 
 TABLES: dict[str, Callable[[], Cells]] = {

@@ -1,0 +1,87 @@
+"""Pictures of roughness that moves: moments side by side, an animation, and film and spots over time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from .._base import BLUE, GREEN, GREY, RED, field_image, key_above, new_figure
+from .moving import Moment, MovingStrip
+
+MOST = 8  # moments side by side
+TIME = "time since the roughness began to move (ms)"
+
+
+def plot_moments(path: Path | str, moments: Sequence[Moment]) -> None:
+    """Gap and pressure at up to eight ``moments``, one column each."""
+    shown = moments[:: -(-len(moments) // MOST)]
+    figure = new_figure(figsize=(2.1 * len(shown) + 1, 5))
+    for column, moment in zip(figure.subplots(2, len(shown), squeeze=False, sharex=True, sharey="row").T, shown):
+        _fields(column, moment, *_limits(shown))
+    figure.savefig(path, dpi=130)
+
+
+def animate_moments(path: Path | str, moments: Sequence[Moment], frames_per_second: int = 10) -> None:
+    """Gap and pressure as an animated GIF, one frame a moment."""
+    from matplotlib.animation import FuncAnimation, PillowWriter
+
+    figure = new_figure(figsize=(5, 5.5))
+    limits = _limits(moments)
+
+    def draw(number: int):
+        figure.clear()
+        _fields(figure.subplots(2, 1, sharex=True), moments[number], *limits)
+        return []
+
+    animation = FuncAnimation(figure, draw, frames=len(moments), blit=False)
+    animation.save(path, writer=PillowWriter(fps=frames_per_second), dpi=90)
+
+
+def plot_passing(path: Path | str, strip: MovingStrip) -> None:
+    """Film, share of the load that rubs with f_b, and f over time; what does not count is grey."""
+    figure = new_figure(figsize=(7, 6.5))
+    film, share, f = figure.subplots(3, 1, sharex=True)
+    series, t = strip.series, 1e3 * strip.times
+    for name, label, color in (
+        ("mean_gap", "mean gap", BLUE),
+        ("central_gap", "at x = 0", GREEN),
+        ("min_gap", "smallest", GREY),
+    ):
+        film.plot(t, 1e9 * series[name], color=color, label=label, lw=1)
+    share.plot(t, series["share"], color=RED, lw=1)
+    f.plot(t, series["coefficient"], color=BLUE, lw=1)
+    rest = strip.rest.result
+    share.axhline(rest.split.spots / rest.load, color=GREY, ls="--", lw=0.8, label="roughness at rest")
+    f.axhline(rest.coefficient, color=GREY, ls="--", lw=0.8)
+    for axes, label in ((film, "gap (nm)"), (share, "share of the load\nthat rubs with f_b (-)"), (f, "f (-)")):
+        axes.axvspan(0, t[strip.discarded - 1], color=GREY, alpha=0.2, lw=0)
+        axes.set(ylabel=label, xlim=(0, t[-1]), ylim=(0, None))
+    key_above(film)
+    key_above(share)
+    f.set_xlabel(TIME)
+    figure.savefig(path, dpi=130)
+
+
+def _limits(moments: Sequence[Moment]) -> tuple[float, float]:
+    """The largest gap [nm] and pressure [GPa] that are drawn."""
+    near = np.abs(moments[0].at.problem.x) < 1.2 * moments[0].at.problem.contact.half_width
+    gap = max(np.quantile(moment.at.gap[near], 0.98) for moment in moments)
+    return 1e9 * float(gap), 1e-9 * float(max(moment.at.state.pressure.max() for moment in moments))
+
+
+def _fields(axes, moment: Moment, gap: float, pressure: float) -> None:
+    """Both fields of a ``moment``; lines, if there is one row of cells."""
+    problem = moment.at.problem
+    y = np.arange(moment.at.gap.shape[1]) * problem.spacing[1]
+    for one, values, most, colours, label in (
+        (axes[0], 1e9 * moment.at.balance.film, gap, "viridis", "gap (nm)"),
+        (axes[1], 1e-9 * moment.at.state.pressure, pressure, "magma_r", "pressure (GPa)"),
+    ):
+        if y.size == 1:
+            one.plot(1e6 * problem.x, values[:, 0], color=BLUE, lw=1)
+            one.set(ylim=(0, most), xlabel="x (µm)", ylabel=label)
+        else:
+            field_image(one, problem.x, y, values, colours, label, vmin=0, vmax=most)
+    axes[0].set_title(f"{1e3 * moment.time:.3g} ms", fontsize=9)
