@@ -82,7 +82,7 @@ def test_quick_contact_map_has_no_wrong_cell_and_no_warning():
         warnings.simplefilter("error")
         *found, counted, picture = stability_map("quick", "contact")
     assert len(found) > 100 and {verdict(c) for c in found} == {RIGHT} and picture.data[:4] == b"\x89PNG"
-    assert counted.rows == [("all 7 maps", len(found), len(found), 0, 0)]
+    assert list(counted.rows) == [("all 7 maps", len(found), len(found), 0, 0)]
 
 
 def test_films_at_the_corners_of_the_promise():
