@@ -90,8 +90,7 @@ def main() -> None:
     opened = time.perf_counter() - begun
     size = sum(path.stat().st_size for path in (folder / "all").rglob("*"))
     rows = [
-        ("points", f"{whole.points}, {result.failed} failed, {again.missing} missing"),
-        ("processes", str(arguments.workers)),
+        ("points", f"{whole.points} on {arguments.workers} processes, {result.failed} failed, {again.missing} missing"),
         ("wall time", f"{wall:.1f} s, {whole.points / wall:.0f} points a second"),
         ("processor time", f"{1e3 * there:.2f} ms a point: {there * whole.points / wall:.2f} cores' worth were had"),
         ("processor time of a tenth of the curves, serial over there", f"{here / there:.1%}"),

@@ -14,10 +14,13 @@ Under a cylinder the contact load does not flatten the surface as a whole: its s
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from .._base import FieldsOnly
 from ..errors import ConvergenceError
 from ..scene import Scene
 from .asperity import AsperityResult, find_asperities
@@ -25,23 +28,17 @@ from .rough_contract import ContactState, RoughContact, area_weight, centred_axi
 
 
 @dataclass(frozen=True)
-class AsperityContact(RoughContact):
-    """A rough surface with independent asperities under a cylinder, free along x, periodic along y.
+class AsperityContact(FieldsOnly, RoughContact):
+    """The contact of ``scene`` by independent asperities under a cylinder, free along x, periodic along y.
 
-    heights [m] (nx, ny) around their mean; x [m] (nx,); weight (nx,): area A; definition, reading: see the module.
-    tolerance: of the mean gap, relative.
+    heights [m] (nx, ny) around their mean; x [m] (nx,); weight (nx,): area A.
     """
 
+    scene: Scene
     heights: np.ndarray
     spacing: tuple[float, float]
     x: np.ndarray
     weight: np.ndarray
-    e_prime: float
-    width: float
-    hardness: float | None
-    definition: str
-    reading: str
-    tolerance: float
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
         """Offset at which the asperities carry ``load`` [N] on the whole width; ``start`` is not needed.
@@ -53,37 +50,43 @@ class AsperityContact(RoughContact):
         touch = float((under - self.heights).min())
         if load == 0:
             return self._state(film, under - touch, None)
-        law = find_asperities(
+        separation = under - touch - self._approach(film, load, lambda a: self._at(under - touch - a).load)
+        return self._state(film, separation, self._at(separation))
+
+    @cached_property
+    def _at(self) -> Callable[..., AsperityResult]:
+        """What touches at a separation [m], (nx, ny)."""
+        bodies, definition = self.scene.bodies, self.scene.contact.model
+        return find_asperities(
             self.heights,
             self.spacing,
-            self.e_prime,
-            definition=self.definition,
-            hardness=self.hardness,
+            bodies.e_prime,
+            definition=definition,
+            hardness=bodies.hardness,
             periodic=(False, True),
         )
-        separation = under - touch - self._approach(film, load, lambda a: law(under - touch - a).load)
-        return self._state(film, separation, law(separation))
 
     def _approach(self, film, load, carried) -> float:
         """The approach [m] from first touch at which ``carried(approach)`` [N] of the map is ``load`` of the width."""
         from scipy.optimize import brentq
 
-        target = load * self.heights.shape[1] * self.spacing[1] / self.width
+        width = self.scene.bodies.width
+        target = load * self.heights.shape[1] * self.spacing[1] / width
         span = float(np.ptp(self.heights))
         last, approach = 0.0, 0.02 * span
         while carried(approach) < target:
             last, approach = approach, 1.5 * approach
             if approach > 20 * span:
                 raise ConvergenceError(
-                    f"{self.definition} cannot carry {load:.4g} N on a width of {self.width:.3g} m: below the deepest "
-                    "valley at the end of the search"
+                    f"{self.scene.contact.model} cannot carry {load:.4g} N on a width of {width:.3g} m: below the "
+                    "deepest valley at the end of the search"
                 )
-        nearest = 0.1 * self.tolerance * max(weighted_mean(film, self.weight), 1e-3 * span)
+        nearest = 0.1 * self.scene.numerics.tolerances.contact * max(weighted_mean(film, self.weight), 1e-3 * span)
         return brentq(lambda a: carried(a) / target - 1, last, approach, xtol=nearest, rtol=1e-12)
 
     @property
     def name(self) -> str:
-        return f"independent {self.definition}"
+        return f"independent {self.scene.contact.model}"
 
     @property
     def grid(self) -> tuple[int, int]:
@@ -91,7 +94,7 @@ class AsperityContact(RoughContact):
 
     def _state(self, film, separation, found: AsperityResult | None) -> ContactState:
         gap = separation - self.heights
-        if self.reading == "volume":
+        if self.scene.contact.asperity_separation == "volume":
             gap = np.maximum(gap, 0.0)
         fraction, plastic = np.zeros(self.x.size), 0.0
         if found is not None:
@@ -121,17 +124,5 @@ class AsperityContact(RoughContact):
 
 def asperities_under_cylinder(scene: Scene, heights, spacing) -> AsperityContact:
     """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean."""
-    bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
     x = centred_axis(heights.shape[0], spacing[0])
-    return AsperityContact(
-        heights=heights,
-        spacing=spacing,
-        x=x,
-        weight=area_weight(scene, x, spacing[0]),
-        e_prime=bodies.e_prime,
-        width=bodies.width,
-        hardness=bodies.hardness,
-        definition=contact.model,
-        reading=contact.asperity_separation,
-        tolerance=numerics.tolerances.contact,
-    )
+    return AsperityContact(scene, heights, spacing, x, area_weight(scene, x, spacing[0]))

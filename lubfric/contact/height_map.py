@@ -25,9 +25,9 @@ def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
     """Generate the heights of ``scene``, or read, turn, scale and cut them and make them periodic; those of both bodies
     become one map. A given ``surface`` is taken as it is.
 
-    A measured map is mirrored along every axis on which the contact is periodic. Under a cylinder it is cut, about its
-    middle, to the length of ``contact.shape`` (default: 6 Hertz half-widths on each side). The notes of the surface
-    tell everything that was done.
+    Under a cylinder a measured map is cut, about its middle, to the length of ``contact.shape`` (default: 6 Hertz
+    half-widths on each side), and goes on along y as it is, as a given one does. A flat contact is periodic along both
+    axes, and mirrors it. The notes of the surface tell everything that was done.
     """
     if surface is None:
         surface = whole_map(scene)
@@ -200,4 +200,8 @@ def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
             f"than the map; allowed: up to {surface.shape[0]} x {surface.shape[1]}, or leave contact.shape out"
             f"{'' if mirrored or nx <= surface.shape[0] else '; ' + TOO_SHORT}"
         )
-    return surface.cropped((nx, ny)).periodic(axes=(not cylinder, True))
+    cut = surface.cropped((nx, ny))
+    if not cylinder:
+        return cut.periodic()
+    notes = cut.notes if cut.periodic_axes[1] else (*cut.notes, "taken as periodic along y, across the motion")
+    return replace(cut, periodic_axes=(cut.periodic_axes[0], True), notes=notes)

@@ -125,14 +125,7 @@ def run_in(
     passes = validate.integer("passes", passes, minimum=1, maximum=10_000)
     tolerance = validate.positive("tolerance", tolerance, "m", minimum=1e-15, maximum=1e-3)
     before = _whole(scene, surface)
-    half_width, dx = scene.bodies.half_width, before.spacing[0]
-    if step is None:
-        step = max(dx, half_width / STEPS)
-    columns = round(validate.number("step", step, "m", minimum=dx * (1 - 1e-9), maximum=half_width) / dx)
-    last = before.shape[0] - 1
-    centres = np.linspace(0, last, 1 + math.ceil(last / columns)).round().astype(int)
-    centres = centres[:: -1 if scene.motion.entrainment_speed > 0 else 1]
-    heights = before.heights
+    centres, heights = _way(scene, before, step), before.heights
     operator, shaken = _operator(scene, before), False
     deepest: list[float] = []
     sinking: list[float] = []
@@ -178,6 +171,16 @@ def _whole(scene: Scene, surface: Surface | None) -> Surface:
             f"most its half-width {half_width:.3g} m"
         )
     return surface
+
+
+def _way(scene: Scene, surface: Surface, step: float | None) -> np.ndarray:
+    """The columns of the map above which the cylinder stands, one after the other, about ``step`` [m] apart."""
+    half_width, dx, last = scene.bodies.half_width, surface.spacing[0], surface.shape[0] - 1
+    if step is None:
+        step = max(dx, half_width / STEPS)
+    columns = round(validate.number("step", step, "m", minimum=dx * (1 - 1e-9), maximum=half_width) / dx)
+    centres = np.linspace(0, last, 1 + math.ceil(last / columns)).round().astype(int)
+    return centres[:: -1 if scene.motion.entrainment_speed > 0 else 1]
 
 
 def _operator(scene: Scene, surface: Surface) -> HalfSpace:

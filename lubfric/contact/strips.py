@@ -8,7 +8,7 @@ measured map, or there is one only: the patch that a scene asks for, or a map th
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -53,7 +53,7 @@ class Strips:
     ``lengths`` [m]: correlation lengths at 1/e along x and y; ``length`` [m]: what one strip adds to a stack;
     ``first``, ``available``: number of strips that are solved first, and that there are; ``pieces``: number of pieces.
     ``windows``: whether each strip is a window of a measured map, which may differ from place to place. ``exact_sq``:
-    whether every strip has the Sq of the surface.
+    whether every strip has the Sq of the surface; ``whole``: whether a piece is all that there is.
     """
 
     scene: Scene
@@ -65,24 +65,24 @@ class Strips:
     pieces: int = 1
     windows: bool = False
     exact_sq: bool = False
+    whole: bool = False
+
+    def joined(self, indices: Sequence[int]) -> Surface:
+        """The strips of these numbers joined along y, the last to the first: periodic, on ``cells``."""
+        raise NotImplementedError
 
     def stack(self, count: int) -> Surface:
-        """The first ``count`` strips joined along y, periodic, on ``cells``."""
-        raise NotImplementedError
+        """The first ``count`` strips joined."""
+        return self.joined(range(count))
 
     def strip(self, index: int) -> Surface:
-        """Strip number ``index`` alone, its last rows passing into its first: periodic along y, on ``cells``."""
-        raise NotImplementedError
+        """Strip number ``index`` alone, its last rows passing into its first."""
+        return self.joined([index])
 
     def piece(self, index: int) -> Surface:
         """A piece on the scene's own cells, some 42 correlation lengths long: number ``index`` of ``pieces``. Every
         n-th of its cells, in each direction, gives the coarse cells to compare it with."""
         raise NotImplementedError
-
-    @property
-    def whole(self) -> bool:
-        """Whether a piece is all that there is."""
-        return False
 
     def halved(self) -> Strips:
         """The same strips on cells half as long."""
@@ -93,13 +93,7 @@ class Strips:
 class GeneratedStrips(FieldsOnly, Strips):
     """Strips of one endless generated surface, or of two whose heights are added."""
 
-    def stack(self, count: int) -> Surface:
-        return self._joined(range(count))
-
-    def strip(self, index: int) -> Surface:
-        return self._joined([index])
-
-    def _joined(self, indices) -> Surface:
+    def joined(self, indices: Sequence[int]) -> Surface:
         blend = blend_of(self.lengths[1], self.cells.coarse[1])
         shape = self.cells.count, self.cells.rows(self.length) + blend
         known, strip = self._known, self._generator(STRIPS, self.cells.coarse, shape)
@@ -149,18 +143,12 @@ class MeasuredStrips(Strips):
     surface: Surface = field(kw_only=True)
     starts: tuple[int, ...] = field(kw_only=True)
 
-    def stack(self, count: int) -> Surface:
-        return self._joined(self.starts[:count])
-
-    def strip(self, index: int) -> Surface:
-        return self._joined([self.starts[index]])
-
-    def _joined(self, starts) -> Surface:
+    def joined(self, indices: Sequence[int]) -> Surface:
         fx, fy = self.cells.factors
-        pieces = [self._columns(start)[fx // 2 :: fx] for start in starts]
+        pieces = [self._columns(self.starts[index])[fx // 2 :: fx] for index in indices]
         heights = stacked(pieces, self._blend)
         rows = heights.shape[1] // (4 * fy) * 4 * fy
-        note = f"{len(starts)} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
+        note = f"{len(pieces)} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
 
     def piece(self, index: int) -> Surface:
@@ -192,18 +180,11 @@ class OnePatch(Strips):
 
     surface: Surface = field(kw_only=True)
 
-    def stack(self, count: int = 1) -> Surface:
+    def joined(self, indices: Sequence[int]) -> Surface:
         heights = self.cells.thinned(self.surface.heights, self.cells.factors)
         return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
 
-    def strip(self, index: int = 0) -> Surface:
-        return self.stack()
-
-    @property
-    def whole(self) -> bool:
-        return True
-
-    def piece(self, index: int = 0) -> Surface:
+    def piece(self, index: int) -> Surface:
         return self.surface
 
 
@@ -284,7 +265,7 @@ def one_patch(scene: Scene, surface: Surface, lengths: tuple[float, float]) -> O
     cells = cells_of_a_box(surface.spacing, lengths, scene.bodies.half_width, surface.shape, first)
     while scene.numerics.grid == "given" and not cells.own:
         cells = cells.halved()
-    return OnePatch(scene, cells, lengths, surface.size[1], surface=surface)
+    return OnePatch(scene, cells, lengths, surface.size[1], whole=True, surface=surface)
 
 
 def _seed_of(*words: int) -> int:

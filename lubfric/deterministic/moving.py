@@ -87,7 +87,7 @@ def moments(
     """
     problem, count = problem_at(0.0), 0
     at = before = evaluated(problem, solve_point(problem).state if start is None else start)
-    smooth = max(1, round(SMOOTH * _half_width(problem.contact) / problem.spacing[0]))
+    smooth = max(1, round(SMOOTH * half_width(problem.contact) / problem.spacing[0]))
     yield Moment(0.0, at, Work(0))
     while True:
         count += 1
@@ -260,11 +260,11 @@ def _plan(contact: LineContact, cell: float, fastest: float, length: float) -> t
     """Length [s] of a step, and the numbers of steps that are discarded and that count, for cells [m] along x and a
     ``fastest`` body [m/s] whose map has this ``length`` [m]."""
     step = cell / abs(fastest)
-    discarded = math.ceil(SWEEP * _half_width(contact) / (contact.entrainment_speed * step))
+    discarded = math.ceil(SWEEP * half_width(contact) / (contact.entrainment_speed * step))
     return step, discarded, max(1, round(length / cell))
 
 
-def _half_width(contact: LineContact) -> float:
+def half_width(contact: LineContact) -> float:
     """That of the Hertz strip [m], or of the smooth film where that is wider."""
     return max(contact.half_width, math.sqrt(2 * contact.radius * contact.moes_film))
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from .._base import BLUE, GREEN, GREY, RED, field_image, key_above, new_figure
-from .moving import Moment, MovingStrip
+from .moving import Moment, MovingStrip, half_width
 
 MOST = 8  # moments side by side
 TIME = "time since the roughness began to move (ms)"
@@ -17,7 +17,7 @@ TIME = "time since the roughness began to move (ms)"
 def plot_moments(path: Path | str, moments: Sequence[Moment]) -> None:
     """Gap and pressure at up to eight ``moments``, one column each."""
     shown = moments[:: -(-len(moments) // MOST)]
-    figure = new_figure(figsize=(2.1 * len(shown) + 1, 5))
+    figure = new_figure(figsize=(2.4 * len(shown) + 1, 6))
     for column, moment in zip(figure.subplots(2, len(shown), squeeze=False, sharex=True, sharey="row").T, shown):
         _fields(column, moment, *_limits(shown))
     figure.savefig(path, dpi=130)
@@ -66,8 +66,8 @@ def plot_passing(path: Path | str, strip: MovingStrip) -> None:
 
 def _limits(moments: Sequence[Moment]) -> tuple[float, float]:
     """The largest gap [nm] and pressure [GPa] that are drawn."""
-    near = np.abs(moments[0].at.problem.x) < 1.2 * moments[0].at.problem.contact.half_width
-    gap = max(np.quantile(moment.at.gap[near], 0.98) for moment in moments)
+    near = np.abs(moments[0].at.problem.x) < 1.2 * half_width(moments[0].at.problem.contact)
+    gap = 1.3 * max(np.quantile(moment.at.gap[near], 0.98) for moment in moments)
     return 1e9 * float(gap), 1e-9 * float(max(moment.at.state.pressure.max() for moment in moments))
 
 
@@ -84,4 +84,5 @@ def _fields(axes, moment: Moment, gap: float, pressure: float) -> None:
             one.set(ylim=(0, most), xlabel="x (µm)", ylabel=label)
         else:
             field_image(one, problem.x, y, values, colours, label, vmin=0, vmax=most)
+        one.label_outer()
     axes[0].set_title(f"{1e3 * moment.time:.3g} ms", fontsize=9)

@@ -4,6 +4,7 @@ with an estimate of the error that is left."""
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
@@ -14,16 +15,14 @@ from ..scene import Scene, check_resolved_gap, moving_bodies
 from ..surface import Surface
 from .problem import BOUNDARY_FILM, Problem, lay_out
 from .result import DeterministicResult
-from .solve import TOLERANCE, refined_start, solve_point
+from .solve import refined_start, solve_point
 
-ENOUGH = 1e-3  # tolerance of a strip's residuals: f moves by some .1 %
+ENOUGH = 3e-3  # tolerance of a strip's residuals: f moves by some .1 %
 LOOSE = 1e-2  # on longer cells, from which a strip starts
 FIRST = 12_000  # cells from which longer ones come first
 HEAVIER = 1.03  # times the load: the second solve, for the slope
 # counted work [s of a usual core] a cell: a Newton step, its factorisation over log2 of the cells, a step of GMRES
 STEP, FACTORISATION, KRYLOV = 1.7e-6, 1.35e-7, 1.9e-7
-LEAST = 32  # columns of the coarsest grid
-KEPT = 0.9  # of Sq there
 RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
 UNKNOWN_RATIO = 0.6  # from two grids: as measured on cells of 3.6, 1.8 and 0.9 um of the built-in surface
 BLOCK = 2  # columns of the coarser of two grids in a place that changes by itself
@@ -43,10 +42,10 @@ class Strip:
 
     @property
     def deviations(self) -> np.ndarray:
-        """F_i - slope (w_i - w) - F [N/m] of every column i along y (ny,), with a mean of 0: what places deviate by if
-        the load is balanced."""
+        """(F_i - slope (w_i - w) - F)/w of every column i along y (ny,), with a mean of 0: what f of places deviates by
+        if the load is balanced."""
         friction, load = self.result.friction_at, self.result.load_at
-        return friction - friction.mean() - self.slope * (load - load.mean())
+        return (friction - friction.mean() - self.slope * (load - load.mean())) / self.result.load
 
 
 def solve_strip(
@@ -117,11 +116,10 @@ def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int,
 
 @dataclass(frozen=True)
 class Refined:
-    """The solution on every grid, the coarsest first; ``error``: estimated relative error of the coefficient on the
-    last grid (None with one grid)."""
+    """The solution on every grid, the coarsest first; ``error``: estimated relative error of f on the last."""
 
     results: tuple[DeterministicResult, ...]
-    error: float | None
+    error: float
 
     @property
     def result(self) -> DeterministicResult:
@@ -129,51 +127,22 @@ class Refined:
         return self.results[-1]
 
 
-def deterministic_point(scene: Scene, surface: Surface, speed: float) -> Refined:
-    """The deterministic film of ``surface`` at ``speed`` [m/s], not 0, on each of its `grids` until the `estimate` is
-    <= ``numerics.tolerance``. A grid starts from the next coarser one. For a negative speed the map is turned.
+def estimate(changes: Sequence[float]) -> float:
+    """Relative error of f on the last of several grids, each twice as fine as the one before, by its ``changes`` from
+    grid to grid (`change_of`).
 
-    Raises `InputError` (`lubfric.scene.resolved_gap`) and `ConvergenceError`.
+    It is the geometric series of the last change, with the ratio q of the last two kept within 1/4 and 3/4 (0.6 from
+    one change).
     """
-    strips: list[Strip] = []
-    tolerance = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
-    for factors in grids(scene, surface):
-        start = strips[-1] if strips else None
-        strips.append(solve_strip(scene, surface, speed, factors=factors, start=start, tolerance=TOLERANCE))
-        error = estimate([strip.result for strip in strips])
-        if error is not None and error <= tolerance:
-            break
-    return Refined(tuple(strip.result for strip in strips), error)
-
-
-def grids(scene: Scene, surface: Surface) -> tuple[tuple[int, int], ...]:
-    """Lengths of the cells to try, in cells of the map, coarsest first. The last are the map's own: there is no more of
-    the surface. They double as long as they keep 90 % of Sq and 32 columns; with ``numerics.grid = "given"`` there are
-    only the next longer ones, for the estimate."""
-    nx, ny = surface.shape
-    wider = next((n for n in range(2, ny + 1) if ny % n == 0), 1)
-    found = [(2, wider if scene.numerics.grid == "given" or ny < 2 * LEAST or ny % 2 else 2), (1, 1)]
-    while scene.numerics.grid != "given" and not ny % (2 * found[0][1]) and ny >= 2 * found[0][1] * LEAST:
-        longer = 2 * found[0][0], 2 * found[0][1]
-        if surface.resampled(shape=(max(nx // longer[0], 1), ny // longer[1])).sq < KEPT * surface.sq:
-            break
-        found.insert(0, longer)
-    return tuple(found)
-
-
-def estimate(results) -> float | None:
-    """Relative error of f of the last of ``results`` on grids each twice as fine as the one before; None for one.
-
-    It is the geometric series of the last `change_of`, with the ratio q of the last two kept within 1/4 and 3/4 (0.6
-    from two grids).
-    """
-    if len(results) < 2:
-        return None
-    changes = [change_of(coarse, fine) for coarse, fine in zip(results[:-1], results[1:])]
     ratio = UNKNOWN_RATIO
     if len(changes) > 1 and changes[-2] > 0:
         ratio = min(max(changes[-1] / changes[-2], RATIO[0]), RATIO[1])
     return changes[-1] * ratio / (1 - ratio)
+
+
+def changes_of(strips: Sequence[Strip]) -> list[float]:
+    """The `change_of` f from each of ``strips`` to the next."""
+    return [change_of(coarse.result, fine.result) for coarse, fine in zip(strips[:-1], strips[1:])]
 
 
 def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:

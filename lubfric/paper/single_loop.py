@@ -16,7 +16,7 @@ The form "consistent" (default) keeps the single loop, and changes what prevents
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -25,7 +25,6 @@ from ..contact import ContactResult, Found
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
 from .imposed_film import ImposedFilm, impose
 
-FORMS = ("consistent", "printed")
 STOPS = ("residual", "separation")
 PATIENCE = 200  # iterations without a tenth off the best residual
 
@@ -73,131 +72,106 @@ def single_loop(
     validate.positive("separation_tolerance", separation_tolerance, "(-)")
 
     def iterate(pressure) -> Found:
-        step = {"consistent": _Consistent, "printed": _Printed}[form](contact, pressure)
         with np.errstate(all="ignore"):  # a printed loop may overflow; it then ends as diverged
-            return _loop(contact, step, stop, separation_tolerance)
+            return _ended(contact, FORMS[form](contact, pressure), stop, separation_tolerance)
 
     contact = impose(heights, film, spacing, e_prime, max_iterations=max_iterations, **problem)
     return contact.solved(iterate, f"single loop, {form}", raise_on_failure)
 
 
-def _loop(contact: ImposedFilm, step, stop: str, separation_tolerance: float) -> Found:
-    """Iterate; both stopping tests are made after every iteration."""
-    problem, status = contact.problem, ITERATION_LIMIT
-    history: list[float] = []
-    notes: list[str] = []
-    best, lowest, waiting, old = (np.inf, step.pressure, step.offset), np.inf, 0, np.inf
-    for iteration in range(problem.max_iterations + 1):
-        if iteration > 0 and not step.advance():
-            status = DIVERGED
-            break
-        error = contact.residual(step.pressure, step.displacement, step.offset)
-        error = error if np.isfinite(error) else np.inf
-        history.append(error)
-        if error < best[0]:
-            best = (error, step.pressure.copy(), step.offset)
-        lowest, waiting = (error, 0) if error < 0.9 * lowest else (lowest, waiting + 1)
-        separation = contact.mean(problem.gap0) - step.offset  # Eq. (23), from the mean plane of the surface over A
-        settled = np.isfinite(old) and abs(separation - old) <= separation_tolerance * abs(old)
-        old = separation
-        if settled and not notes:
-            notes.append(f"Eq. (23) met at iteration {iteration}, where the residual was {error:.2e}")
-        if settled if stop == "separation" else error <= 0.9 * problem.tolerance:
-            status = CONVERGED
-        elif error == np.inf and iteration > 0:
-            status = DIVERGED
-        elif waiting > PATIENCE:
-            status = STAGNATED
-        if status != ITERATION_LIMIT:
-            break
-    pressure, offset = (step.pressure, step.offset) if status == CONVERGED else best[1:]
-    return contact.ended(pressure, offset, status, step.convolutions + 1, history, notes, iteration)
+Iterate = tuple[np.ndarray, np.ndarray, float, int]  # pressure, its displacement, epsilon, convolutions so far
 
 
-class _Printed:
-    """One iteration of Appendix 2, Eqs. (14)-(22), in the sign of the paper: its g is minus the gap."""
-
-    def __init__(self, contact: ImposedFilm, pressure):
-        self.contact, self.pressure = contact, pressure
-        self.displacement = contact.problem.operator.apply(pressure)
-        self.offset = contact.lubricated_offset(self.displacement, pressure)
-        self.direction = np.zeros_like(pressure)
-        self.power, self.keep, self.convolutions = 1.0, 0.0, 1
-
-    def advance(self) -> bool:
-        problem, p = self.contact.problem, self.pressure
-        g = self.offset - problem.gap0 - self.displacement
+def _printed(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
+    """The iterates of Appendix 2, Eqs. (14)-(22), in the sign of the paper: its g is minus the gap. They end where one
+    has no successor."""
+    problem, apply = contact.problem, contact.problem.operator.apply
+    displacement, convolutions = apply(p), 1
+    offset = contact.lubricated_offset(displacement, p)
+    t, last, keep, tau = np.zeros_like(p), 1.0, 0.0, 0.0
+    while convolutions == 1 or np.isfinite(offset) and np.isfinite(tau):
+        yield p, displacement, offset, convolutions
+        g = offset - problem.gap0 - displacement
         inside = p > 0
         if not inside.any():
-            return False
+            return
         power = np.vdot(g[inside], g[inside])
-        t = np.where(inside, g + self.keep * (power / self.power) * self.direction, 0.0)
-        r = -problem.operator.apply(t)
+        t = np.where(inside, g + keep * (power / last) * t, 0.0)
+        r = -apply(t)
         r -= r[inside].mean()
         tau = np.vdot(g[inside], t[inside]) / np.vdot(r[inside], t[inside])
         p = np.maximum(p - tau * t, 0.0)
         overlapping = (p == 0) & (g > 0)
         p[overlapping] -= tau * g[overlapping]
-        self.pressure = np.clip(p, 0.0, problem.hardness)
-        self.direction, self.power, self.keep = t, power, 0.0 if overlapping.any() else 1.0
-        self.displacement = problem.operator.apply(self.pressure)
-        self.offset = self.contact.lubricated_offset(self.displacement, self.pressure)
-        self.convolutions += 2
-        return bool(np.isfinite(self.offset) and np.isfinite(tau))
+        p = np.clip(p, 0.0, problem.hardness)
+        last, keep = power, 0.0 if overlapping.any() else 1.0
+        displacement, convolutions = apply(p), convolutions + 2
+        offset = contact.lubricated_offset(displacement, p)
 
 
-class _Consistent:
-    """One iteration of the consistent form.
-
-    Cells enter and leave the working set. Directions are kept (Polak-Ribiere, never negative), and epsilon follows from
-    Eq. (8) after every step.
-    """
-
-    def __init__(self, contact: ImposedFilm, pressure):
-        self.contact, self.pressure = contact, pressure
-        self.displacement = contact.problem.operator.apply(pressure)
-        self.offset = contact.offset(self.displacement)
-        self.bulk = bulk(contact, pressure)
-        self.direction: Any = None
-        self.residue: Any = None
-        self.convolutions = 2
-
-    def advance(self) -> bool:
-        problem, p, hardness = self.contact.problem, self.pressure, self.contact.problem.hardness
-        gap = problem.gap0 + self.displacement - self.offset
+def _consistent(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
+    """The iterates of the consistent form. Cells enter and leave the working set. Directions are kept (Polak-Ribiere,
+    never negative), and epsilon follows from Eq. (8) after every step."""
+    problem, hardness, apply = contact.problem, contact.problem.hardness, contact.problem.operator.apply
+    displacement, convolutions = apply(p), 2
+    offset, shared = contact.offset(displacement), bulk(contact, p)
+    d, residue, kept = np.zeros_like(p), np.zeros_like(p), False  # the direction, from what, whether it goes on
+    while True:
+        yield p, displacement, offset, convolutions
+        gap = problem.gap0 + displacement - offset
         free = ((p > 0) & (p < hardness)) | ((p <= 0) & (gap < 0)) | ((p >= hardness) & (gap > 0))
-        if not free.any():  # all that touches has yielded: epsilon alone is not that of Eq. (8) yet
-            self._follow(0.0)
-            return True
-        r = np.where(free, gap, 0.0)
-        d = -r
-        if self.direction is not None:
-            keep = max(0.0, np.vdot(r, r - self.residue) / np.vdot(self.residue, self.residue))
-            d += np.where(free, keep * self.direction, 0.0)
-        curvature = np.vdot(d, problem.operator.apply(d)) - self.bulk * d.sum() ** 2
-        if curvature <= 0 and self.bulk > 0:  # contact has left the area the bulk was taken from
-            curvature, self.bulk = curvature + self.bulk * d.sum() ** 2, 0.0
-        step: Any = -(np.vdot(r, d) / curvature)
-        if not step > 0:
-            if self.direction is None:
-                return False
-            self.direction = None  # begin again from the steepest descent
-            return self.advance()
-        self.pressure = np.clip(p + step * d, 0.0, hardness)
-        self.direction, self.residue = d, r
-        self.displacement = problem.operator.apply(self.pressure)
-        self.convolutions += 2
-        self._follow(self.pressure.sum() - p.sum())
-        return True
+        more = 0.0
+        if free.any():  # else all that touches has yielded, and epsilon alone is not that of Eq. (8) yet
+            r, step = np.where(free, gap, 0.0), 0.0
+            while not step > 0:
+                keep = max(0.0, float(np.vdot(r, r - residue) / np.vdot(residue, residue))) if kept else 0.0
+                d = np.where(free, keep * d, 0.0) - r if kept else -r
+                curvature = np.vdot(d, apply(d)) - shared * d.sum() ** 2
+                if curvature <= 0 and shared > 0:  # contact has left the area the bulk was taken from
+                    curvature, shared = curvature + shared * d.sum() ** 2, 0.0
+                step = -float(np.vdot(r, d) / curvature)
+                if not step > 0 and not kept:
+                    return
+                residue, kept = r, step > 0  # else begin again from the steepest descent
+            before, p = p.sum(), np.clip(p + step * d, 0.0, hardness)
+            displacement, convolutions, more = apply(p), convolutions + 2, p.sum() - before
+        above = problem.gap0 + displacement - (offset + shared * more)  # epsilon has taken over the bulk deflection
+        offset = contact.offset(displacement, np.where(p >= hardness, np.maximum(-above, 0.0), 0.0))
 
-    def _follow(self, more) -> None:
-        """Take epsilon from Eq. (8), with the overlap of yielded cells after epsilon has taken over the bulk
-        deflection."""
-        problem = self.contact.problem
-        offset = self.offset + self.bulk * more
-        gap = problem.gap0 + self.displacement - offset
-        overlap = np.where(self.pressure >= problem.hardness, np.maximum(-gap, 0.0), 0.0)
-        self.offset = self.contact.offset(self.displacement, overlap)
+
+FORMS: dict[str, Callable[[ImposedFilm, np.ndarray], Iterator[Iterate]]] = {
+    "consistent": _consistent,
+    "printed": _printed,
+}
+
+
+def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separation_tolerance: float) -> Found:
+    """The end of the loop; both stopping tests are made after every iteration."""
+    problem, status = contact.problem, DIVERGED  # where an iterate has no successor
+    history: list[float] = []
+    notes: list[str] = []
+    best, lowest, waiting, old = np.inf, np.inf, 0, np.inf
+    for iteration, (pressure, displacement, offset, convolutions) in enumerate(iterates):
+        error = contact.residual(pressure, displacement, offset)
+        error = error if np.isfinite(error) else np.inf
+        history.append(error)
+        if error < best or not iteration:
+            best, nearest = error, (pressure, offset)
+        lowest, waiting = (error, 0) if error < 0.9 * lowest else (lowest, waiting + 1)
+        separation = contact.mean(problem.gap0) - offset  # Eq. (23), from the mean plane of the surface over A
+        settled = np.isfinite(old) and abs(separation - old) <= separation_tolerance * abs(old)
+        old = separation
+        if settled and not notes:
+            notes.append(f"Eq. (23) met at iteration {iteration}, where the residual was {error:.2e}")
+        if settled if stop == "separation" else error <= 0.9 * problem.tolerance:
+            status, nearest = CONVERGED, (pressure, offset)
+            break
+        if error == np.inf and iteration > 0:
+            break
+        if waiting > PATIENCE or iteration == problem.max_iterations:
+            status = STAGNATED if waiting > PATIENCE else ITERATION_LIMIT
+            break
+    return contact.ended(*nearest, status, convolutions + 1, history, notes, iteration)
 
 
 def bulk(contact: ImposedFilm, pressure) -> float:

@@ -24,14 +24,14 @@ def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: f
     scene = prepared.scene
     numbers = _numbers(prepared, speed, found)
     uncertainty, errors = errors_of(scene, found)
-    factors, ends = _cells(found)
+    factors, _ = _cells(found)
     sample = {"coarsening": factors, "strips": found.count, "change_by_cells": found.change("gap")}
     decision = decided(scene, found.contact, found.balance, numbers["clearance"], why, **sample)
-    passed, tolerance = judged(prepared, speed, found.balance, ends), scene.numerics.tolerance
+    tolerance = scene.numerics.tolerance
     cautions = (*_finer(found.change("beyond"), tolerance), *of_error(uncertainty.numerical, tolerance, CLOSER))
     oil, temperature = scene.lubricant.oil, scene.lubricant.temperature
     known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
-    validity = (*passed, *cautions)
+    validity = (*passed(found, prepared, speed), *cautions)
     notes = (*found.balance.report.notes, decision.text, *known, *(entry.text for entry in validity), uncertainty.text)
     return FrictionResult(
         **numbers,
@@ -44,6 +44,11 @@ def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: f
         balance=replace(found.balance, contact=replace(found.balance.contact, fields=found.solved.contact.fields)),
         heights=None if found.strips is None else found.contact.heights,  # type: ignore[attr-defined]
     )
+
+
+def passed(found: Found, prepared: Prepared, speed: float) -> tuple[Validity, ...]:
+    """Entries for every limit of Eq. (8) that ``found`` is beyond."""
+    return judged(prepared, speed, found.balance, _cells(found)[1])
 
 
 def _cells(found: Found) -> tuple[tuple[int, int], float]:

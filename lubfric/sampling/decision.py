@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ..contact import RoughContact
 from ..scene import Scene, budget
 from ..sharing import Balance
+from .uncertainty import percent
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ class Decision:
     @property
     def text(self) -> str:
         """The decision in words."""
-        film = f"film: {self.film}" + (f", tolerance {_percent(self.film_tolerance)}" if self.film_tolerance else "")
+        film = f"film: {self.film}" + (f", tolerance {percent(self.film_tolerance)}" if self.film_tolerance else "")
         parts = film, f"contact: {self.contact}", self._cells(), self.heat, *self.notes
         return "; ".join(part for part in parts if part)
 
@@ -48,7 +49,7 @@ class Decision:
         if self.coarsening == (1, 1):
             return f"{text}, the map's own"
         fx, fy = self.coarsening
-        return f"{text}, each {fx} x {fy} of the map's own, by which f is corrected ({_percent(self.change_by_cells)})"
+        return f"{text}, each {fx} x {fy} of the map's own, by which f is corrected ({percent(self.change_by_cells)})"
 
 
 def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample) -> Decision:
@@ -72,7 +73,3 @@ def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: fl
         notes=notes,
         **sample,
     )
-
-
-def _percent(value: float) -> str:
-    return "not known" if math.isnan(value) else f"{100 * value:.2g} %"

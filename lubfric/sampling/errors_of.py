@@ -57,10 +57,12 @@ def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
     error, why = BlockError(0.0, ORDER), "there was none of it, or too little to tell"
     relative = numerical.shear
     if balance.film is None:
-        errors, why = _dry_errors(balance, scatter, scene), "no entrainment: there is no film"
+        errors, why = _area_errors(scene, balance, scatter), "no entrainment: there is no film"  # only areas scatter
+        errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
         relative += forces.felt * numerical.film
-        errors, why = _film_errors(numerical.film, forces), "no contact was met: it has no relative error"
+        errors, why = _given_load(forces, numerical.film), "no contact was met: it has no relative error"
+        errors |= {"film_load": 0.0}
     else:
         error, mean_film = found.friction_error, balance.contact.mean_film
         relative += response.per_film(forces, mean_film) * numerical.film
@@ -144,17 +146,6 @@ def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, 
     return {
         name: error / value if value > 0 else math.nan for name, (value, error) in zip(depending_on("area"), finite)
     }
-
-
-def _dry_errors(balance: Balance, scatter: Scatter, scene: Scene) -> dict[str, float]:
-    """Errors without entrainment: the contact carries the whole load, so only the areas scatter."""
-    none = dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
-    return _area_errors(scene, balance, scatter) | none
-
-
-def _film_errors(film: float, found: Forces) -> dict[str, float]:
-    """Errors without contact: everything depends on the film, whose relative error is ``film``."""
-    return _given_load(found, film) | {"film_load": 0.0}
 
 
 def _given_load(found: Forces, film: float) -> dict[str, float]:

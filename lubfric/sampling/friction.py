@@ -10,10 +10,10 @@ import numpy as np
 
 from .._base import validate
 from ..errors import ConvergenceError, InputError
-from ..scene import FASTEST, Scene, gap_not_resolved, moves, told_doubts
+from ..scene import FASTEST, Scene, gap_not_resolved, told_doubts
 from ..sharing import Prepared, at_speed, at_tolerance, lacking, refused
-from .answer import load_sharing_answer
-from .answer_deterministic import patch_answer, strips_answer
+from .answer import load_sharing_answer, passed
+from .answer_deterministic import strips_answer
 from .errors_of import model_error
 from .methods import with_methods
 from .moving import too_costly
@@ -92,15 +92,13 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
     asked = scene.numerics.model
     if asked == "load-sharing" or speed == 0 or strips is None or prepared.surface.sq == 0:
         return load_sharing_answer(sampled(prepared, speed, own_cells=fields), prepared, speed, begun)
-    if asked == "deterministic" and strips.whole and not moves(scene):
-        return patch_answer(prepared, speed, begun)
+    if asked == "deterministic" and strips.whole:
+        return strips_answer(prepared, speed, None, begun)
     found = sampled(prepared, speed, own_cells=fields)
     if asked == "auto":
-        cells = cells_of(strips, scene.bodies.half_width)
-        why = _enough(prepared, found) or too_costly(prepared, speed, cells)
-        shared = load_sharing_answer(found, prepared, speed, begun, why)
-        if why or any(entry.severe for entry in shared.validity):
-            return shared
+        why = _enough(prepared, found) or too_costly(prepared, speed, cells_of(strips, scene.bodies.half_width))
+        if why or any(entry.severe for entry in passed(found, prepared, speed)):
+            return load_sharing_answer(found, prepared, speed, begun, why)
     try:
         return strips_answer(prepared, speed, found, begun)
     except ConvergenceError as error:

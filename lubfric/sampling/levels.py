@@ -2,7 +2,7 @@
 
     f = [f of Eq. (8) on the long line of the sample]               many strips
       + mean over strips (f deterministic - f of Eq. (8))           a few of the same strips
-      + mean over strips (f on cells half as long - f)              fewer still
+      + mean over pieces (f on cells half as long - f)              fewer still, half as long
 
 The second level needs few strips where both models scatter alike, as they do about lift-off on most surfaces. Where
 they do not, the first level is left out, and the second is the deterministic f alone. Which of the two needs fewer
@@ -18,19 +18,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..contact import Strips
-from ..deterministic import Strip, estimate
-from ..scene import moves
+from ..deterministic import Strip, changes_of, estimate
+from ..scene import Numerics, moves
 from ..sharing import Prepared, quantities
-from .pair import Pair, cells_of, deviations, numbers_of, solve_finer, solve_pair
+from .pair import Pair, cells_of, change_by_flow, numbers_of, solve_finer, solve_pair
 from .sample import Found, enlarged
-from .scatter import BlockError, add_errors, place_error
+from .scatter import BlockError, add_errors, block_error
 from .uncertainty import ORDER, student
 
-DIFFERENCE = 0.85  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
+DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
-ALONE = 1.2  # scatter of the deterministic f between strips over that of blocks along them
-SOLVED = 1.5e-3  # of f: what the tolerance of a strip may move
-GROWTH = 4.0, 2.0  # of the number of strips: those that are solved are kept
+ALONE = 1.3  # scatter of the deterministic f between strips over that of blocks along them
+PRIOR, FREEDOM = 3, 5  # strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
+MOST_PIECES = 4
+SOLVED = 2e-3  # of f: what the tolerance of a strip may move
+GROWTH, SPARE = (4.0, 2.0), (1.1, 1.2)  # of the number of strips, which are dear: see `enlarged`
 MOST_WORK = 120.0  # s, counted: of the strips of one point
 FEWEST = 3  # strips whose scatter tells an error
 LINEAR = (  # numbers of Eq. (8) that a difference is added to
@@ -45,8 +47,9 @@ class Levels:
     """The sum over levels.
 
     - ``numbers``: of the deterministic model on an endless line, by name; ``errors``: their relative standard errors.
-      ``by_film``: relative change of f by half and by twice the boundary film.
-    - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second and third.
+      ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of the flow.
+    - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second;
+      ``pieces``: of the third, each on shorter and shorter cells.
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
       the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips.
     """
@@ -54,21 +57,39 @@ class Levels:
     numbers: dict[str, float]
     errors: dict[str, float]
     by_film: tuple[float, ...]
+    by_flow: float
     line: int
     pairs: tuple[Pair, ...]
+    pieces: tuple[tuple[Strip, ...], ...]
     sampling: BlockError
     difference: BlockError
     numerical: float
     length: float
 
-    @property
-    def finer(self) -> int:
-        """Number of strips of the third level."""
-        return sum(pair.finer is not None for pair in self.pairs)
+
+@dataclass(frozen=True)
+class Sum:
+    """The first two levels: ``line``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part of it
+    that is the ``difference`` between the models."""
+
+    line: int
+    numbers: dict[str, float]
+    whole: BlockError
+    difference: BlockError
+
+    def wanted(self, numerics: Numerics, count: int, most: int) -> int:
+        """Number of strips of the second level, at most ``most``, that the tolerances need; there are ``count``."""
+        f, asked = abs(self.numbers["coefficient"]), numerics.sampling_tolerance
+        if not self.line:
+            return enlarged(count, 1, most, self.whole, f * asked, growth=GROWTH, spare=SPARE)
+        allowed = f * DIFFERENCE * numerics.model_tolerance / student(self.difference.freedom)
+        errors = (self.whole, math.hypot(f * asked, allowed)), (self.difference, allowed)
+        return max(enlarged(count, 1, most, error, limit, growth=GROWTH, spare=SPARE) for error, limit in errors)
 
 
-def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
-    """The sum over levels at ``speed`` [m/s], not 0, for a scene with strips. ``found``: its sample of Eq. (8) there.
+def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
+    """The sum over levels at ``speed`` [m/s], not 0, for a scene with strips. ``found``: its sample of Eq. (8) there
+    (None: there is no first level).
 
     Strips are solved until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
     difference of the models may leave a half-width of `DIFFERENCE` times ``numerics.model_tolerance`` beside it. No
@@ -78,128 +99,128 @@ def levels_of(prepared: Prepared, speed: float, found: Found) -> Levels:
     strips, numerics, load = prepared.strips, prepared.scene.numerics, prepared.scene.bodies.load
     assert strips is not None
     pairs = [solve_pair(prepared, speed, 0, None)]
-    most = max(1, min(strips.available, int(MOST_WORK / pairs[0].resolved.work)))
-
-    def wanted(line: int) -> int:
-        count, scatter = len(pairs), _scatter(pairs, strips, line)
-        f, asked = abs(_sum(prepared, pairs, found, line)["coefficient"]), numerics.sampling_tolerance
-        if not line:
-            return enlarged(count, 1, most, scatter, f * asked, growth=GROWTH)
-        whole = replace(scatter, error=math.hypot(scatter.error, _of_line(found, line, count) * f))
-        allowed = f * numerics.model_tolerance / student(scatter.freedom)
-        both = math.hypot(f * asked, DIFFERENCE * allowed)
-        errors = (whole, both), (scatter, allowed)
-        return max(enlarged(count, 1, most, error, limit, growth=GROWTH) for error, limit in errors)
-
-    same = found.strips is not None and found.strips.cells == strips.cells and math.isfinite(found.sampling)
-    whole = found.count if same and not strips.whole else 0
+    first = pairs[0].resolved
+    most = max(1, min(strips.available, int(MOST_WORK / first.work)))
+    same = found is not None and found.strips is not None and found.strips.cells == strips.cells
+    lines = [0]
+    if found is not None and same and not strips.whole and math.isfinite(found.sampling):
+        lines = [found.count, 0]
     while True:
-        line = whole if wanted(whole) <= min(wanted(0), whole) else 0
-        line = line if 0 <= _sum(prepared, pairs, found, line)["contact_load"] <= load else 0
-        count = wanted(line)
-        if count <= len(pairs):
+        sums = [_sum(prepared, pairs, found, line) for line in lines]
+        sums = [one for one in sums if not one.line or 0 <= one.numbers["contact_load"] <= load]
+        counts = [one.wanted(numerics, len(pairs), most) for one in sums]
+        best = next(k for k, one in enumerate(sums) if not one.line or counts[k] <= min(counts[-1], one.line))
+        if counts[best] <= len(pairs):
             break
-        pairs += [solve_pair(prepared, speed, i, pairs[0].resolved.slope) for i in range(len(pairs), count)]
-    by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
-    numbers, alone = _sum(prepared, pairs, found, line), _sum(prepared, pairs, found, 0)["coefficient"]
-    f, scatter = abs(numbers["coefficient"]), _scatter(pairs, strips, line)
-    rest = _of_line(found, line, len(pairs)) * f if line else scatter.error
-    freedom = scatter.freedom if not line else found.friction_error.freedom if found.response is not None else ORDER
-    of_strips = add_errors(BlockError(rest, freedom), by_cells)
-    sampling = replace(of_strips, error=of_strips.error / f)
-    difference = BlockError(scatter.error / f if line else 0.0, scatter.freedom)
-    both = math.hypot(sampling.error, difference.error, numerical)
-    errors = _errors(prepared, pairs, numbers) | {"coefficient": both}
-    length = strips.length * max(line, len(pairs))
-    films = tuple((numbers.pop(name) - alone) / f for name in OTHER_FILMS)
-    return Levels(numbers, errors, films, line, tuple(pairs), sampling, difference, numerical, length)
+        pairs += [solve_pair(prepared, speed, i, first.slope) for i in range(len(pairs), counts[best])]
+    both = sums[best]
+    pieces, by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
+    numbers = both.numbers
+    for piece in pieces:
+        before, after = numbers_of(prepared, piece[1].result), numbers_of(prepared, piece[-1].result)
+        numbers = {name: value + (after[name] - before[name]) / len(pieces) for name, value in numbers.items()}
+    f = abs(numbers["coefficient"])
+    of_strips = add_errors(both.whole, by_cells)
+    difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
+    sampling = replace(of_strips, error=math.sqrt((of_strips.error / f) ** 2 - difference.error**2))
+    results = [pair.resolved.result for pair in pairs]
+    films = tuple(_mean(getattr(one, name) - one.coefficient for one in results) / f for name in OTHER_FILMS)
+    errors = _errors(prepared, pairs, numbers)
+    errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
+    length, flow = strips.length * max(both.line, len(pairs)), change_by_flow(pairs[0])
+    return Levels(
+        numbers, errors, films, flow, both.line, tuple(pairs), pieces, sampling, difference, numerical, length
+    )
 
 
-def _of_line(found: Found, line: int, count: int) -> float:
-    """Relative standard error of f by those strips of the first level that are not among ``count`` of the second."""
-    return math.sqrt(max(1 - count / line, 0.0)) * found.sampling if line else 0.0
+def _sum(prepared: Prepared, pairs: Sequence[Pair], found: Found | None, line: int) -> Sum:
+    """The first two levels; ``line``: strips of the first (0: without it)."""
+    assert prepared.strips is not None
+    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
+    numbers = {name: _mean(row[name] for row in rows) for name in rows[0]}
+    if not line or found is None:
+        return Sum(0, numbers, _scatter(pairs, prepared.strips, 0.0), BlockError(0.0, 1))
+    solved, freedom = found.solved, ORDER if found.response is None else found.friction_error.freedom
+    loads = solved.film_load, solved.contact_load
+    of_line = quantities(solved.forces, solved.film, loads, solved.contact.mean_film)
+    for name in LINEAR:
+        numbers[name] += of_line[name] - _mean(pair.shared[name] for pair in pairs)
+    rest = max(1 - len(pairs) / line, 0.0)
+    others = BlockError(math.sqrt(rest) * found.sampling * abs(numbers["coefficient"]), freedom)
+    whole = add_errors(_scatter(pairs, prepared.strips, rest), others)
+    return Sum(line, numbers, whole, _scatter(pairs, prepared.strips, 1.0))
 
 
-def _sum(prepared: Prepared, pairs: Sequence[Pair], found: Found, line: int) -> dict[str, float]:
-    """The numbers of the result by all levels that are solved; ``line``: strips of the first (0: without it)."""
-    mean = _mean(_numbers(prepared, pair.resolved) for pair in pairs)
-    if line:
-        solved = found.solved
-        loads = solved.film_load, solved.contact_load
-        whole = quantities(solved.forces, solved.film, loads, solved.contact.mean_film)
-        shared = _mean(pair.shared for pair in pairs)
-        mean |= {name: mean[name] + whole[name] - shared[name] for name in LINEAR}
-    finer = [pair for pair in pairs if pair.finer is not None]
-    if finer:
-        before = _mean(_numbers(prepared, pair.resolved) for pair in finer)
-        after = _mean(_numbers(prepared, pair.finer) for pair in finer)
-        mean = {name: value + after[name] - before[name] for name, value in mean.items()}
-    return mean
-
-
-def _numbers(prepared: Prepared, strip: Strip | None) -> dict[str, float]:
-    assert strip is not None
-    others = {name: getattr(strip.result, name) for name in OTHER_FILMS}
-    return numbers_of(prepared.scene, prepared.surface.sq, strip.result) | others
-
-
-def _mean(rows) -> dict[str, float]:
-    rows = list(rows)
-    return {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
+def _mean(values) -> float:
+    return float(np.mean(list(values)))
 
 
 def _errors(prepared: Prepared, pairs: Sequence[Pair], numbers: dict[str, float]) -> dict[str, float]:
     """Relative standard errors of the ``numbers`` by their scatter between strips."""
     if len(pairs) < FEWEST:
         return {}
-    rows = [_numbers(prepared, pair.resolved) for pair in pairs]
+    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
     errors = {name: float(np.std([row[name] for row in rows], ddof=1)) / math.sqrt(len(rows)) for name in numbers}
     return {name: errors[name] / abs(value) for name, value in numbers.items() if value}
 
 
-def _scatter(pairs: Sequence[Pair], strips: Strips, line: int) -> BlockError:
-    """Standard error of f by the second level. On a line of N strips, of which the n ``pairs`` are part, Eq. (8) counts
-    by 1 - n/N: the rest of it is the same strips again."""
-    share = max(1 - len(pairs) / line, 0.0) if line else 0.0
-    values = [
-        pair.resolved.result.coefficient
-        - share * pair.shared["coefficient"]
-        + pair.deviations
-        - share * pair.shared_deviations
-        for pair in pairs
-    ]
-    error = _block_error(values, strips, pairs[0])
-    return error if line else replace(error, error=ALONE * error.error)
+def _scatter(pairs: Sequence[Pair], strips: Strips, share: float) -> BlockError:
+    """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times that by Eq. (8).
+    (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 - n/N: Eq. (8) on the pairs is part
+    of the line.)
+
+    Strips tell their scatter themselves, but few of them badly. Blocks within them tell it at once, but off by up to a
+    factor of two. So the variances of both are pooled, that of blocks with the weight of `PRIOR` strips. If windows of
+    a measured map scatter more, their own scatter counts.
+    """
+    count = len(pairs)
+    within = _block_error([p.resolved.deviations - share * p.shared_deviations for p in pairs], strips, pairs[0])
+    by_blocks = count * (within.error * (1.0 if share else ALONE)) ** 2
+    if count == 1:
+        return BlockError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
+    f = [p.resolved.result.coefficient - share * p.shared.get("coefficient", 0.0) for p in pairs]
+    by_strips = float(np.var(f, ddof=1))
+    pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
+    if strips.windows and count >= FEWEST and by_strips > pooled:
+        return BlockError(math.sqrt(by_strips / count), count - 1)
+    return BlockError(math.sqrt(pooled / count), FREEDOM + count - 1)
 
 
-def _on_finer_cells(prepared: Prepared, speed: float, pairs: list[Pair]) -> tuple[BlockError, float]:
-    """Solve the third level, if it is needed and the roughness rests: the standard error of its mean change of f, and
-    the relative error that its cells leave."""
+def _on_finer_cells(
+    prepared: Prepared, speed: float, pairs: Sequence[Pair]
+) -> tuple[tuple[tuple[Strip, ...], ...], BlockError, float]:
+    """Solve the third level, if it is needed and the roughness rests: its pieces, the standard error of their mean
+    change of f, and the relative error that the last cells leave."""
     scene, strips, first = prepared.scene, prepared.strips, pairs[0]
     assert strips is not None
-    left = max(estimate([first.longer.result, first.resolved.result]) or 0.0, SOLVED)
-    if left <= scene.numerics.tolerance or cells_of(strips, scene.bodies.half_width) == (1, 1) or moves(scene):
-        return BlockError(0.0, 1), left
+    by_longer = _mean(changes_of((pair.longer, pair.resolved))[0] for pair in pairs)
+    left = max(estimate([by_longer]), SOLVED)
+    enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
+    own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
+    if enough or own or moves(scene):
+        return (), BlockError(0.0, 1), left
     asked = CELLS * scene.numerics.sampling_tolerance * abs(first.resolved.result.coefficient)
-    changes: list[np.ndarray] = []
-    for index, pair in enumerate(pairs):
-        pairs[index] = solve_finer(prepared, speed, pair)
-        changes.append(_changes(pairs[index]))
-        error = _block_error(changes, strips, pair)
-        if error.error <= asked:
-            break
-    ladder = [pairs[0].longer, pairs[0].resolved, pairs[0].finer]
-    return error, max(estimate([strip.result for strip in ladder if strip is not None]) or 0.0, SOLVED)
+    pieces: list[tuple[Strip, ...]] = []
+    error = BlockError(math.inf, 0)
+    while len(pieces) < min(strips.pieces, MOST_PIECES) and not error.error <= asked:
+        pieces.append(solve_finer(prepared, speed, len(pieces), first))
+        error = BlockError(0.0, 1) if strips.whole else _block_error([_change(one) for one in pieces], strips, first)
+    if strips.whole:
+        return tuple(pieces), error, max(estimate(changes_of(pieces[0])), SOLVED)
+    change = _mean(one[-1].result.coefficient / one[1].result.coefficient - 1 for one in pieces)  # its error is told
+    return tuple(pieces), error, max(estimate((by_longer, abs(change))), SOLVED)
 
 
 def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:
     """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
-    step, kept = strips.length / values[0].size, values[0].size // (2 if pair.mirrored else 1)
-    return place_error(np.concatenate([one[:kept] for one in values]), step, strips, len(values))
+    kept = values[0].size // (2 if pair.mirrored else 1)
+    return block_error(
+        np.concatenate([one[:kept] for one in values]), pair.resolved.problem.spacing[1], strips.lengths[1]
+    )
 
 
-def _changes(pair: Pair) -> np.ndarray:
-    """Change of f by the finer cells, from place to place."""
-    assert pair.finer is not None
-    change = pair.finer.result.coefficient - pair.resolved.result.coefficient
-    return change + deviations(pair.finer).reshape(pair.deviations.size, -1).mean(axis=1) - pair.deviations
+def _change(piece: Sequence[Strip]) -> np.ndarray:
+    """Change of f from the cells of the second level to the last ones, from place to place."""
+    base, last = piece[1], piece[-1]
+    places = last.deviations.reshape(base.result.load_at.size, -1).mean(axis=1)
+    return last.result.coefficient - base.result.coefficient + places - base.deviations

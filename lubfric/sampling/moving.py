@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ..contact import Strips
+from ..contact import HalfSpaceContact, Strips
 from ..deterministic import RoughBody, Strip, moving_work, reach, solve_moving_strip, solve_strip
 from ..scene import Scene, moves, moving_bodies
 from ..sharing import Prepared, on_strip
@@ -22,9 +22,15 @@ def solved_strip(prepared: Prepared, index: int, speed: float, **how) -> Strip:
 
 
 def strip_surface(prepared: Prepared, index: int) -> Surface:
-    """The map of strip ``index``."""
+    """The map of strip ``index``; of a patch at rest all of it, on its own cells."""
     assert prepared.strips is not None
-    contact = on_strip(prepared, prepared.strips, index)
+    if prepared.strips.whole and not moves(prepared.scene):
+        return prepared.surface
+    return map_of(prepared, on_strip(prepared, prepared.strips, index))
+
+
+def map_of(prepared: Prepared, contact: HalfSpaceContact) -> Surface:
+    """The map of ``contact``, a strip or a piece."""
     return replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
 
 

@@ -101,4 +101,4 @@ def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float
         work = moving_strip_work(scene, strips, sq, speed, (fx, fy))
         return (0, 0.0) if work > MOST_WORK and numerics.model == "auto" else (count, count * work)
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
-    return count, count * work_of_steps(cells, STEPS) + work_of_steps(cells * fx * fy, FINER_STEPS)
+    return count, count * work_of_steps(cells, STEPS) + work_of_steps(cells * fx * fy / 2, FINER_STEPS)

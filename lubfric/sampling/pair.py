@@ -8,43 +8,44 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..contact import Strips
-from ..deterministic import DeterministicResult, Strip
+from ..deterministic import (
+    ENOUGH,
+    DeterministicResult,
+    MovingStrip,
+    Strip,
+    assemble,
+    changes_of,
+    estimate,
+    evaluated,
+    solve_point,
+    solve_strip,
+)
 from ..quantities import NUMBERS
-from ..scene import Scene
-from ..sharing import Prepared, on_strip, quantities, solve_balance
-from .moving import solved_strip
+from ..scene import moves
+from ..sharing import Prepared, on_piece, on_strip, quantities, solve_balance
+from ..surface import Surface
+from .moving import map_of, solved_strip, strip_surface
 from .scatter import friction_influence, mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
+SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 
 
 @dataclass(frozen=True)
 class Pair:
-    """Strip number ``index`` of the sample.
+    """One strip of the sample.
 
-    - ``resolved``: by the deterministic model; ``finer``: on cells half as long (None: not solved); ``longer``: on
-      cells twice as long, from which it started. ``shared``: its numbers by Eq. (8).
-    - ``deviations``, ``shared_deviations``: of f from place to place along y (ny,), with a mean of 0, by the two
-      models. ``mirrored``: whether the second half along y is the mirror image of the first.
+    - ``resolved``: by the deterministic model; ``longer``: on cells twice as long, from which it started. ``shared``:
+      its numbers by Eq. (8) (of a patch, which is all that there is, none).
+    - ``shared_deviations``: of f by Eq. (8) from place to place along y (ny,), with a mean of 0, as
+      `Strip.deviations`. ``mirrored``: whether the second half along y is the mirror image of the first.
     """
 
-    index: int
     resolved: Strip
     longer: Strip
     shared: dict[str, float]
     shared_deviations: np.ndarray
     mirrored: bool = False
-    finer: Strip | None = None
-
-    @property
-    def deviations(self) -> np.ndarray:
-        """Of f by the deterministic model."""
-        return deviations(self.resolved)
-
-
-def deviations(strip: Strip) -> np.ndarray:
-    """Of f from place to place along ``strip``."""
-    return strip.deviations / strip.result.load
 
 
 def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
@@ -57,36 +58,86 @@ def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
     return 1 + along, 1 + across
 
 
+def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
+    """Strip ``index`` and the length of the cells of the deterministic model in its own; of a patch at rest all of it,
+    on the map's own cells."""
+    strips = prepared.strips
+    assert strips is not None
+    fx, fy = cells_of(strips, prepared.scene.bodies.half_width)
+    ux, uy = strips.cells.factors if strips.whole and not moves(prepared.scene) else (1, 1)
+    return strip_surface(prepared, index), (fx * ux, fy * uy)
+
+
+def longer_than(surface: Surface, factors: tuple[int, int]) -> tuple[int, int]:
+    """Cells of ``surface`` twice as long as ``factors``; as long along y where twice that does not divide the map."""
+    return 2 * factors[0], factors[1] if surface.shape[1] % (2 * factors[1]) else 2 * factors[1]
+
+
 def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> Pair:
     """Strip ``index`` at ``speed`` [m/s], not 0. The deterministic model begins on cells twice as long. ``slope``:
     of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`."""
     scene, strips = prepared.scene, prepared.strips
     assert strips is not None
-    contact = on_strip(prepared, strips, index)
-    fx, fy = cells_of(strips, scene.bodies.half_width)
-    longer = 2 * fx, fy if contact.heights.shape[1] % (2 * fy) else 2 * fy
-    first = solved_strip(prepared, index, speed, factors=longer)
-    strip = solved_strip(prepared, index, speed, factors=(fx, fy), start=first, slope=slope is None)
+    surface, factors = strip_of(prepared, index)
+    first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors))
+    strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
+    if strips.whole:
+        return Pair(strip, first, {}, np.zeros(strip.result.load_at.size), mirrored(surface.heights))
+    contact = on_strip(prepared, strips, index)
     balance = solve_balance(scene, speed, contact, prepared.surface.sq)
     loads = balance.film_load, balance.contact_load
     mean = balance.contact.mean_gap if balance.contact_load else balance.contact.mean_film
     numbers = quantities(balance.forces, balance.film, loads, mean)
     by_place = friction_influence(scene, contact, balance) * balance.forces.coefficient
-    rows = by_place[: by_place.size // fy * fy].reshape(-1, fy).mean(axis=1)
-    return Pair(index, strip, first, numbers, rows, strips.whole and mirrored(contact.heights))
+    rows = by_place[: by_place.size // factors[1] * factors[1]].reshape(-1, factors[1]).mean(axis=1)
+    return Pair(strip, first, numbers, rows)
 
 
-def solve_finer(prepared: Prepared, speed: float, pair: Pair) -> Pair:
-    """``pair``, on the cells of the strips too. Raises `ConvergenceError`."""
-    finer = solved_strip(prepared, pair.index, speed, start=pair.resolved)
-    return replace(pair, finer=replace(finer, slope=pair.resolved.slope))
+def solve_finer(prepared: Prepared, speed: float, index: int, first: Pair) -> tuple[Strip, ...]:
+    """A piece of the surface (or a strip, if that is as `SHORT`) on cells twice as long as those of ``first``, on the
+    same, and on cells half as long. Of a patch: all of it, on shorter and shorter cells until the estimated error is
+    within ``numerics.tolerance``, at last (with ``numerics.grid = "given"`` always) on the map's own. Raises
+    `ConvergenceError`."""
+    scene, strips = prepared.scene, prepared.strips
+    assert strips is not None
+    surface, factors = strip_of(prepared, index)
+    enough = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
+    short = index == 0 and strips.length < SHORT * strips.lengths[1] and factors != (1, 1)
+    if strips.whole or short:
+        ladder = [first.longer, first.resolved]
+    else:
+        cells = tuple(f * n for f, n in zip(factors, strips.cells.factors))
+        last = max(1, cells[0] // 2), max(1, cells[1] // 2)
+        factors = cells[0] // last[0], cells[1] // last[1]
+        surface = map_of(prepared, on_piece(prepared, strips, index, last))
+        ladder = [solve_strip(scene, surface, speed, factors=longer_than(surface, factors))]
+        ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[0]))
+    while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
+        factors = max(1, factors[0] // 2), max(1, factors[1] // 2)
+        ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[-1]))
+    return tuple(replace(one, slope=first.resolved.slope) for one in ladder)
 
 
-def numbers_of(scene: Scene, sq: float, result: DeterministicResult) -> dict[str, float]:
-    """All numbers of a point but the time, by name; NaN where the model has no such number. ``sq`` [m]: of the
-    surface."""
-    bodies, width = scene.bodies, scene.bodies.width
+def change_by_flow(pair: Pair) -> float:
+    """Relative change of f of ``pair`` if a limiting stress thins the flow as one twice as high would, with the shear
+    stress limited as before: how fast a sheared oil at its limit flows is not known well. 0 without such a limit; with
+    roughness that moves, by the same strip at rest.
+    Raises `ConvergenceError`."""
+    strip = pair.resolved.rest if isinstance(pair.resolved, MovingStrip) else pair.resolved
+    problem, result, oil = strip.problem, strip.result, strip.problem.lubricant
+    if oil.limiting_stress_coefficient is None:
+        return 0.0
+    twice = {name: 2 * getattr(oil, name) for name in ("limiting_stress_coefficient", "limiting_stress_offset")}
+    other = replace(problem, contact=replace(problem.contact, lubricant=replace(oil, **twice)))
+    found = solve_point(other, start=result.state, tolerance=ENOUGH)
+    return assemble(evaluated(problem, found.state), found.report).coefficient / result.coefficient - 1
+
+
+def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:
+    """All numbers of a point but the time, by name; NaN where the model has no such number."""
+    bodies, sq = prepared.scene.bodies, prepared.surface.sq
+    width = bodies.width
     contact_load = result.split.spots * width
     return dict.fromkeys(NUMBERS, math.nan) | {
         "speed": result.speed,

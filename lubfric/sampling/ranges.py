@@ -7,11 +7,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from ..contact import RoughContact
-from ..deterministic import Strip, grids, solve_strip
+from ..deterministic import Strip, solve_strip
 from ..scene import FRICTION, Scene, moves, value_of
 from ..sharing import Prepared, on_stack, prepare, solve_balance
-from .moving import solved_strip, strip_surface
-from .pair import cells_of
+from .moving import solved_strip
+from .pair import longer_than, strip_of
 from .result import FrictionResult
 from .uncertainty import Uncertainty
 
@@ -82,14 +82,8 @@ def _shared(prepared: Prepared, speed: float) -> Callable[[Scene], float]:
 
 def _resolved(prepared: Prepared, speed: float) -> Callable[[Scene], float]:
     """The same by the deterministic model, on one strip or on the patch."""
-    strips = prepared.strips
-    assert strips is not None
-    if strips.whole and prepared.scene.numerics.model == "deterministic" and not moves(prepared.scene):
-        surface, factors = prepared.surface, grids(prepared.scene, prepared.surface)[0]
-    else:
-        surface = strip_surface(prepared, 0)
-        fx, fy = cells_of(strips, prepared.scene.bodies.half_width)
-        factors = 2 * fx, fy if surface.shape[1] % (2 * fy) else 2 * fy
+    surface, factors = strip_of(prepared, 0)
+    factors = longer_than(surface, factors)
 
     def solved(scene: Scene, start: Strip | None = None) -> Strip:
         if moves(scene):

@@ -27,8 +27,8 @@ from .missed import hidden_share, missed_share
 from .scatter import BlockError, Scatter, add_errors, scatter_of
 from .uncertainty import FEW, MATTERS, too_few
 
-SAFETY = 1.3  # of the length that a standard error asks for
-LEAST, GROWTH = 1.5, (4.0, 8.0)  # times the length so far: a standard error from few blocks is no guide further
+SAFETY, LEAST = 1.3, 1.5  # times the length that a standard error asks for; times the length so far, at least
+GROWTH = 4.0, 8.0  # times the length so far: a standard error from few blocks is no guide further
 FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
 LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
 CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
@@ -138,9 +138,12 @@ def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
         contact = on_stack(prepared, strips, count)
         coarse = not strips.cells.own
         solved = solve_balance(scene, speed, contact, prepared.surface.sq, start, correctable=coarse)
-        found = Found(solved, solved, contact, Scatter(_length(contact)), strips=strips, count=count)
+        found = Found(
+            solved, solved, contact, Scatter(contact.heights.shape[1] * contact.spacing[1]), strips=strips, count=count
+        )
         if solved.response is None:
-            found = replace(found, missed=_missed(prepared, found, strips))
+            missed = missed_share(scene, contact, solved.film, solved.forces, strips.lengths[1])
+            found = replace(found, missed=missed)
         else:
             scatter = scatter_of(scene, contact, solved, strips, count)
             if effect is None and solved.film is not None:
@@ -198,13 +201,22 @@ def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
 
 
 def enlarged(
-    count: int, first: int, available: int, error: BlockError, asked: float, enough: float = 0.0, growth=GROWTH
+    count: int,
+    first: int,
+    available: int,
+    error: BlockError,
+    asked: float,
+    enough: float = 0.0,
+    *,
+    growth: tuple[float, float] = GROWTH,
+    spare: tuple[float, float] = (SAFETY, LEAST),
 ) -> int:
     """Number of strips at which a standard ``error`` on ``count`` of them falls to the one ``asked``: ``count`` if it
     has, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
 
-    It is (reached/asked)² x 1.3 times the present number, at least 1.5 times that, and at most by ``growth`` more: of
-    the ``first``, and of a later one. A standard error from few blocks is itself known to 1/sqrt(2 nu) only, with nu
+    It is (reached/asked)² times the present number, with some to ``spare`` (1.3 times that, and at least 1.5 times the
+    present number), and at most ``growth`` times as many: of the ``first``, and of a later one. A standard error from
+    few blocks is itself known to 1/sqrt(2 nu) only, with nu
     degrees of freedom. If a sample counted as long enough whenever its blocks happen to scatter little, the stated
     error would be too small. So the first one counts as long enough only if even 1 + 1/sqrt(nu) times its error is
     within what is asked.
@@ -214,13 +226,8 @@ def enlarged(
     if reached <= asked and not enough:
         return count
     most = growth[count > first]
-    times = SAFETY * max((reached / asked) ** 2, enough) if math.isfinite(reached) else most
-    return min(available, math.ceil(min(max(times, LEAST), most) * count - 1e-9))
-
-
-def _missed(prepared: Prepared, found: Found, strips: Strips) -> float:
-    """Contact that a sample without any may have missed by chance: its relative effect on f."""
-    return missed_share(prepared.scene, found.contact, found.solved.film, found.solved.forces, strips.lengths[1])
+    times = spare[0] * max((reached / asked) ** 2, enough) if math.isfinite(reached) else most
+    return min(available, math.ceil(min(max(times, spare[1]), most) * count - 1e-9))
 
 
 def _too_coarse(prepared: Prepared, speed: float, found: Found) -> bool:
@@ -266,7 +273,3 @@ def _corrected(prepared: Prepared, speed: float, found: Found) -> Found:
     there = forces(scene, film, state, loads[1])
     balance = replace(solved, film_load=loads[0], contact_load=loads[1], film=film, contact=state, forces=there)
     return replace(found, balance=balance)
-
-
-def _length(contact) -> float:
-    return contact.heights.shape[1] * contact.spacing[1]

@@ -181,14 +181,9 @@ def mirrored(heights: np.ndarray) -> bool:
 
 
 def add_errors(*parts: BlockError) -> BlockError:
-    """Error of a sum of independent quantities."""
-    return weighted_errors([(1.0, part) for part in parts])
-
-
-def weighted_errors(parts) -> BlockError:
-    """Error of a weighted sum of independent quantities, given as (weight, `BlockError`). The degrees of freedom are
-    by Welch and Satterthwaite (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
-    terms = [((weight * part.error) ** 2, part.freedom) for weight, part in parts]
+    """Error of a sum of independent quantities. The degrees of freedom are by Welch and Satterthwaite
+    (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
+    terms = [(part.error**2, part.freedom) for part in parts]
     variance = sum(v for v, _ in terms)
     if variance == 0 or not math.isfinite(variance):
         return BlockError(math.sqrt(variance), sum(f for _, f in terms))

@@ -125,14 +125,6 @@ def field_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] |
     return FieldErrors(**errors, reasons={name: (reasons or {}).get(name, why) for name in unknown})
 
 
-def not_sampled(numerical: float | None, scene, length: float, why: str) -> Uncertainty:
-    """The `Uncertainty` where nothing is known of the surface beyond the ``length`` [m] that was solved; ``why`` says
-    why."""
-    error = math.nan if numerical is None else numerical
-    asked = scene.numerics.sampling_tolerance
-    return Uncertainty(numerical=error, length=length, tolerance=asked, notes=(why,))
-
-
 def interval(value: float, numerical: float, sampling: float, freedom: float, model: float) -> tuple[float, float]:
     """value (1 ± sqrt(numerical² + (t sampling)² + model²)), t the 97.5 % quantile of Student's t with ``freedom``
     degrees; ``model`` counts where it is known."""

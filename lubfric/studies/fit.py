@@ -181,24 +181,21 @@ class Search:
 
     def slopes(self, unit: np.ndarray) -> np.ndarray:
         """df/d(unit), (n, p), by differences at the curve there, or the last ones if these were computed near by."""
-        if np.abs(unit - self._base).max() > STEP:
-            self._base, self._slopes = unit.copy(), self.differences(unit, STEP)
-        return self._slopes
-
-    def differences(self, here: np.ndarray, step: float) -> np.ndarray:
-        """df/d(unit), (n, p), by differences of ``step`` that stay within the bounds."""
+        if np.abs(unit - self._base).max() <= STEP:
+            return self._slopes
         columns = []
         for i, key in enumerate(self.parameters):
-            moved = here.copy()
-            moved[i] += step if moved[i] + step <= 1.0 else -step
+            moved = unit.copy()
+            moved[i] += STEP if moved[i] + STEP <= 1.0 else -STEP  # within the bounds
             try:
                 away = self.coefficient(moved)
             except ConvergenceError as error:
                 raise ConvergenceError(
-                    f"{key} moved by {step:g} of its range: {error}", error.report, error.result
+                    f"{key} moved by {STEP:g} of its range: {error}", error.report, error.result
                 ) from error
-            columns.append((away - self.coefficient(here)) / (moved[i] - here[i]))
-        return np.stack(columns, axis=1)
+            columns.append((away - self.coefficient(unit)) / (moved[i] - unit[i]))
+        self._base, self._slopes = unit.copy(), np.stack(columns, axis=1)
+        return self._slopes
 
     def foretold(self, unit: np.ndarray) -> tuple[Prepared, float]:
         """The scene made ready there, with the map of the last one where that is the same; and the processor seconds of

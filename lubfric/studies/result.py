@@ -22,7 +22,7 @@ from .interpolate import Interpolant, through
 from .law import law_of_study
 from .plan import StudyPlan, is_plan, plan_as_dict, plan_study
 from .points import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, row_of, solved, stored_rows
-from .store import Store, opened
+from .store import POINTS, Store, opened
 from .tables import plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN = "study.json"
@@ -227,9 +227,10 @@ def study(
 
 
 def check_plan(folder: Path) -> None:
-    """Raise `InputError` for a file in ``folder`` in the place of the plan that is none: the study would replace it."""
+    """Raise `InputError` for a file in ``folder`` in the place of the plan that is none, which the study would replace.
+    Beside stored points it is a plan, if a damaged one."""
     path = folder / PLAN
-    if not os.path.lexists(path):
+    if not os.path.lexists(path) or (not path.is_symlink() and (folder / POINTS).is_dir()):
         return
     try:
         known = {} if path.is_symlink() else json.loads(path.read_text(encoding="utf-8"))

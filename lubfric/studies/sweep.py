@@ -9,7 +9,7 @@ import numpy as np
 
 from .._base import validate, write_whole
 from ..errors import ITERATION_LIMIT, InputError, Report
-from ..quantities import ESTIMATED, PointQuantities, described_in_doc
+from ..quantities import PointQuantities, described_in_doc
 from ..sampling import FrictionResult
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from ..sharing import Prepared, prepare
@@ -37,7 +37,6 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         the point's result
     validity : the assumptions that do not hold, gathered over the speeds
     uncertainty : arrays of the numbers of `Uncertainty`; ``interval`` is (n, 2)
-    field_errors : {quantity: its relative errors, (n,)}
     report : whether all speeds were solved
     scene : that was solved
     """
@@ -48,11 +47,6 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     errors: dict[int, Exception]
     report: Report
     scene: Scene
-
-    @property
-    def field_errors(self) -> dict[str, np.ndarray]:
-        """Relative errors of the other numbers, arrays (n,) by name."""
-        return {n: np.array([np.nan if p is None else getattr(p.errors, n) for p in self.points]) for n in ESTIMATED}
 
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.studies.interpolate`). They

@@ -47,8 +47,7 @@ def read_surface(
                          values; needs ``spacing``, or a line ``# spacing = dx dy`` (m)
     .xyz                 lines "x y z" on a uniform grid, any order; points left out are unmeasured
     .x3p                 ISO 25178-72; x is the fast axis of the file and axis 0 here; metres
-    .sur .al3d .opd ...  every format that SurfaceTopography reads (the extra ``lubfric[formats]``;
-                         `read_instrument_file` chooses a channel of a file that has several)
+    .sur .al3d .opd ...  every format of SurfaceTopography (``lubfric[formats]``): its first channel
     ==================== ==================================================================
 
     In a text file, lines that start with # are skipped, and so are titles without numbers above the table (which are
@@ -69,9 +68,7 @@ def read_surface(
     missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN always
         does
 
-    Returns
-    -------
-    Surface
+    Returns a `Surface`.
 
     Raises
     ------
@@ -81,14 +78,16 @@ def read_surface(
         since heights and spacing are then in different units
     """
     path = _existing(path)
-    _check_form(level, form)
+    validate.choice("form", form, FORMS)
+    if not level and form != "plane":
+        raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = 'plane' with level = False")
     if decimal is not None:
         validate.choice("decimal", decimal, DECIMALS)
     suffix = path.suffix.lower()
     by_instrument = suffix in TEXT and _binary(path) or suffix not in SUFFIXES and suffix in INSTRUMENTS
     if by_instrument or suffix in OWN_GRID:
         _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)
-        surface = _instrument(path, 0, None) if by_instrument else OWN_GRID[suffix](path)
+        surface = _instrument(path) if by_instrument else OWN_GRID[suffix](path)
     elif suffix in SUFFIXES:
         surface = _plain(path, suffix, spacing, unit, decimal, missing_value)
     else:
@@ -170,12 +169,6 @@ def _masked(heights, scale, missing_value, spacing, notes) -> Surface:
     return Surface(np.where(measured, heights * scale, np.nan), spacing, mask=measured, notes=notes)
 
 
-def _check_form(level, form) -> None:
-    validate.choice("form", form, FORMS)
-    if not level and form != "plane":
-        raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = 'plane' with level = False")
-
-
 def _prepared(surface, level, fill, form) -> Surface:
     """The map without its ``form``, noted with what the other forms would leave, and filled."""
     if level:
@@ -205,24 +198,10 @@ def _read_npy(path) -> np.ndarray:
     return np.array(data)
 
 
-def read_instrument_file(path, *, channel=0, lateral_unit=None, level=True, form="plane", fill=True) -> Surface:
-    """A file of an instrument (.sur, .al3d, .opd, ...) through the optional package SurfaceTopography.
-
-    As `read_surface`, and with what only these files have: ``channel`` is the index of the height channel;
-    ``lateral_unit`` ("m", "mm", "um", "nm") overrules the unit of x and y that the reader found. Its units are not
-    always right (lateral units of .nms were found wrong by 1e6): compare ``surface.describe()`` with the instrument's
-    report. Raises `InputError` for a file it cannot read, a unit it does not know, and without the package.
-    """
-    path = _existing(path)
-    _check_form(level, form)
-    channel = validate.integer("channel", channel, minimum=0)
-    if lateral_unit is not None:
-        validate.choice("lateral_unit", lateral_unit, UNITS)
-    return _prepared(_instrument(path, channel, lateral_unit), level, fill, form)
-
-
-def _instrument(path: Path, channel: int, lateral_unit: str | None) -> Surface:
-    """The height map as it stands: unmeasured points NaN, neither levelled nor filled.
+def _instrument(path: Path) -> Surface:
+    """The first height map of a file of an instrument as it stands, through the optional package SurfaceTopography:
+    unmeasured points NaN, neither levelled nor filled. Its units are not always right (lateral units of .nms were found
+    wrong by 1e6): compare ``surface.describe()`` with the instrument's report.
 
     Raises `InputError` without the package, for a file that it cannot read, for one that names no unit of length.
     """
@@ -230,29 +209,26 @@ def _instrument(path: Path, channel: int, lateral_unit: str | None) -> Surface:
     try:
         reader = open_topography(str(path))
         channels = [c.name for c in reader.channels]
-        topography = reader.topography(channel_index=channel)
+        topography = reader.topography(channel_index=0)
         heights, sizes, found = topography.heights(), topography.physical_sizes, topography.unit
     except Exception as problem:  # the package raises many kinds for files it cannot read
-        said = f", channel {channel}, cannot be read by SurfaceTopography"
-        why = f"({type(problem).__name__}: {validate.shown(str(problem))})"
-        raise InputError(f"{said} {why}", name, way_out="give a complete file of a format it knows") from problem
+        said = f" cannot be read by SurfaceTopography ({type(problem).__name__}: {validate.shown(str(problem))})"
+        raise InputError(said, name, way_out="give a complete file of a format it knows") from problem
     if found not in UNITS:
         raise InputError(f": heights are in {found!r}", name, f"a channel of heights in {', '.join(UNITS)}")
     heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
     if heights.ndim != 2 or not np.isfinite(heights).any():
         raise InputError(f" holds {heights.shape} heights", name, "a map with measured points")
-    spacing = tuple(size / n * UNITS[lateral_unit or found] for size, n in zip(sizes, heights.shape))
-    notes = [f"read by SurfaceTopography, heights in {found}, lateral in {lateral_unit or found}"]
+    spacing = tuple(size / n * UNITS[found] for size, n in zip(sizes, heights.shape))
+    notes = [f"read by SurfaceTopography, in {found}"]
     if len(channels) > 1:
-        notes.append(f"channel {channel} ({channels[channel]}) of {len(channels)}")
+        notes.append(f"channel {channels[0]}, the first of {len(channels)}")
     heights = heights * UNITS[found]
     return Surface(heights, spacing, mask=~np.isnan(heights), source=path.name, notes=tuple(notes))
 
 
 def _package(path: Path):
     """SurfaceTopography's reader; imported here only, since that takes seconds and hundreds of MB."""
-    import warnings
-
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of other packages, at their import

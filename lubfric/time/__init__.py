@@ -4,6 +4,6 @@ from .begin import speeds_of_run
 from .film import TIME_SHARE, TransientFilm, solve_transient_ehl
 from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import FIRST_STEP, WET, ContactHistory, make_setting
-from .march import Memory, Plan, Progress, Step, advance, checked_times, marched, plan_of, report_of, steps
+from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of, report_of, steps
 from .result import TransientResult, friction_over_time, time_scale
 from .run import STATE, transient

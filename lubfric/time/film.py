@@ -12,7 +12,7 @@ from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
 from .film_setting import FINER, ContactHistory, Setting, discretisation, make_setting, steady_start
-from .march import Plan, Step, checked_times, marched, plan_of, report_of
+from .march import Plan, Step, begun, checked_times, plan_of, report_of, steps
 
 TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step
 
@@ -122,16 +122,20 @@ def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, di
 
 
 def _marched(setting: Setting, start: Step, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
-    now, found, films = marched(setting, plan, start)
+    now = begun(start, plan)
+    outputs = [(0.0, start.terms)] if plan.times[0] == 0.0 else []
+    for now in steps(setting, plan, now):
+        if now.at_output:
+            outputs.append((now.time, now.solution.terms))
     p, x = setting.problem, setting.grid.x
-    H, P = (np.array([getattr(s.terms, name) for s in films]).reshape(-1, x.size) for name in "HP")
+    H, P = (np.array([getattr(terms, name) for _, terms in outputs]).reshape(-1, x.size) for name in "HP")
     return TransientFilm(
-        time=np.array(found),
+        time=np.array([time for time, _ in outputs]),
         x=x * p.length_unit,
         pressure=P * p.pressure_unit,
         film_thickness=H * p.film_unit,
         min_film=np.array([smallest(x, h) for h in H]) * p.film_unit,
         central_film=H[:, x.size // 2] * p.film_unit,
-        load=np.array([s.terms.carried for s in films]) * setting.load_unit,
+        load=np.array([terms.carried for _, terms in outputs]) * setting.load_unit,
         report=report_of("transient line-contact EHL, BDF2", plan, now, f"{setting.grid.n} cells", residuals),
     )

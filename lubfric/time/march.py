@@ -149,17 +149,6 @@ def steps(solver, plan: Plan, now: Progress) -> Iterator[Progress]:
             yield now
 
 
-def marched(solver, plan: Plan, first: Step) -> tuple[Progress, list[float], list[Any]]:
-    """The last progress of a run from the state ``first``, and the times [s] and steps of its outputs."""
-    now = begun(first, plan)
-    times, outputs = ([0.0], [first]) if plan.times[0] == 0.0 else ([], [])
-    for now in steps(solver, plan, now):
-        if now.at_output:
-            times.append(now.time)
-            outputs.append(now.solution)
-    return now, times, outputs
-
-
 def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dict[str, float]) -> Report:
     """The report of a run: ``residuals``, each over its tolerance, and "step", the largest accepted local error."""
     residuals = {"step": now.worst} | residuals

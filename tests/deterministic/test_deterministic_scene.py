@@ -32,7 +32,7 @@ def test_the_words_of_a_result_keep_their_meaning(point):
     assert spots == pytest.approx(point.contact_load)
     assert point.real_contact_area == pytest.approx(found.spots.sum() * dx * dy * b.width / (ny * dy))
     assert point.balance is None and np.isnan(point.volume_residual) and point.report.converged
-    assert point.decision.model == "deterministic" and "estimated error" in point.report.notes[0]
+    assert point.decision.model == "deterministic" and "one pressure" in point.report.notes[0]
 
 
 def test_it_is_not_far_from_load_sharing_and_not_the_same(point):

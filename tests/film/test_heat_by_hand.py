@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from scene_text import paper_scene
+from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 import lubfric
@@ -46,6 +47,26 @@ def test_a_film_that_hardly_heats_is_as_hot_in_the_mean_as_a_parabola():
     tau, rise = heated_stress(plain, np.zeros(1), film, sliding, np.array([T0]))
     assert tau[0] == pytest.approx(ETA * sliding / 2e-7, rel=1e-2)
     assert rise[0] == pytest.approx(tau[0] * sliding * 2e-7 / (12 * K), rel=1e-9)
+
+
+def test_a_hot_carreau_film_is_that_of_the_heat_equation_across_it():
+    """k T'' = -tau rate, rate = that of the stress in the walls times exp(beta (T - T_w)), from the middle to the wall;
+    G goes with the mean temperature."""
+    G0, n, h, sliding = 2e5, 0.6, 4e-6, 12.0
+    oil = Lubricant(ETA, 0.0, "constant", carreau=(G0, n), **LAWS)
+    (tau,), (rise,) = heated_stress(oil, np.zeros(1), np.array([h]), sliding, np.array([T0]))
+    G = G0 * (T0 + rise) / T0
+    rate = G / ETA * brentq(lambda r: r * (1 + r * r) ** ((n - 1) / 2) - tau / G, 0.0, (tau / G) ** (1 / n) + 1)
+
+    def across(middle):
+        def of(z, y):
+            here = rate * math.exp(BETA * y[0])
+            return [y[1], -tau * here / K, here]
+
+        return solve_ivp(of, (0.0, h / 2), [middle, 0.0, 0.0], rtol=1e-9, atol=1e-9).y[:, -1]
+
+    middle = brentq(lambda t: across(t)[0], 0.0, 1.8 * rise)  # 1.5 for a parabola
+    assert middle > 5 and 2 * across(middle)[2] == pytest.approx(sliding, rel=2e-3)
 
 
 def test_a_film_at_its_limit_bears_what_its_mean_temperature_allows():

@@ -12,9 +12,11 @@ import scipy.stats
 import lubfric
 from lubfric.deterministic import solve_strip
 from lubfric.sampling import levels
-from lubfric.sampling.pair import Pair
+from lubfric.sampling.pair import Pair, change_by_flow, solve_pair, strip_of
 
-SCENE = lubfric.load_scene("paper").with_(numerics={"film_deflection": "scaled"})
+FINE = lubfric.load_scene("paper").with_(numerics={"film_deflection": "scaled"})
+SCENE = FINE.with_(contact={"shape": (40, 40), "spacing": 3.6e-6})  # whose cells are those of the second level
+PATCH = FINE.with_(contact={"shape": (40, 32), "spacing": 2.4e-6}, numerics={"sampling": "patch"})
 ROLLING = {"slide_roll_ratio": 0.3}
 
 
@@ -47,17 +49,30 @@ def test_interval_holds_numerical_sampling_and_model(found):
     t = scipy.stats.t.ppf(0.975, known.freedom)
     assert known.model > 0 and known.sampling > 0
     assert half(found) == pytest.approx(math.sqrt(known.numerical**2 + (t * known.sampling) ** 2 + known.model**2))
-    assert half(found) < 0.065
+    assert half(found) < 0.09
 
 
 def test_f_is_that_of_other_strips_one_by_one(prepared, found):
-    """Eight strips of another seed, each by itself on the cells of the last level."""
-    other = lubfric.prepare(SCENE.with_(surface={"seed": 77}))
-    strips = [replace(other.surface, heights=other.strips.strip(k).heights, mask=None) for k in range(8)]
-    f = [solve_strip(SCENE, replace(s, spacing=other.strips.cells.coarse), 0.01, factors=(2, 2)).result for s in strips]
-    values = np.array([one.coefficient for one in f])
-    error = math.hypot(values.std(ddof=1) / math.sqrt(8) / values.mean(), 0.012)  # by strips, by cells
-    assert abs(found.coefficient / values.mean() - 1) < math.hypot(half(found), 2 * error)
+    """Eight strips of another seed, each by itself on the same cells."""
+    strips = lubfric.prepare(SCENE.with_(surface={"seed": 77})).strips
+    f = [solve_strip(SCENE, strips.strip(k), 0.01).result.coefficient for k in range(8)]
+    error = np.std(f, ddof=1) / math.sqrt(8) / np.mean(f)
+    assert abs(found.coefficient / np.mean(f) - 1) < math.hypot(half(found), 2 * error)
+
+
+def test_the_effect_of_shorter_cells_is_that_on_other_strips():
+    """Three strips of other seeds on cells of 3.6 and 1.8 µm at .1 m/s, beside what pieces of the scene add."""
+    found = levels.levels_of(prepared := lubfric.prepare(FINE), 0.1, None)
+    alone = np.mean([pair.resolved.result.coefficient for pair in found.pairs])
+    changes = []
+    for k in range(3):
+        surface = lubfric.prepare(FINE.with_(surface={"seed": 90 + k})).strips.strip(0)
+        coarse, own = (solve_strip(FINE, surface, 0.1, factors=n).result.coefficient for n in ((2, 2), (1, 1)))
+        changes.append(own / coarse - 1)
+    shift = found.numbers["coefficient"] / alone - 1
+    assert len(found.pieces) >= 1 and prepared.strips.cells.factors == (4, 4)
+    assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * found.sampling.error)
+    assert found.numerical < FINE.numerics.tolerance
 
 
 def test_eq_8_alone_states_its_error(prepared, found):
@@ -98,14 +113,49 @@ def test_a_tighter_tolerance_takes_more_strips(prepared, found):
     assert abs(found.coefficient / loose.coefficient - 1) < half(loose) + half(found)
 
 
-def test_half_and_twice_the_boundary_film_are_part_of_the_model_unless_it_is_given():
-    scene = SCENE.with_(numerics={"sampling": "patch"}, lubricant={"limiting_stress_coefficient": 0.045})
-    open_, given, half_of_it, twice = (
-        lubfric.friction(scene.with_(bodies={"boundary_film": film}), 0.01) for film in (None, 20e-9, 10e-9, 40e-9)
-    )
-    assert open_.coefficient == pytest.approx(given.coefficient, rel=1e-12) and given.uncertainty.model == 0.0
-    changes = [abs(other.coefficient / open_.coefficient - 1) for other in (half_of_it, twice)]
-    assert open_.uncertainty.model == pytest.approx(max(changes), rel=0.05) and min(changes) > 0.01
+def test_half_and_twice_the_boundary_film_and_the_law_of_the_flow_are_the_error_of_the_model():
+    scene = PATCH.with_(lubricant={"limiting_stress_coefficient": 0.045}, numerics={"tolerance": 0.05})
+    films = (None, 20e-9, 10e-9, 40e-9)
+    open_, given, *others = (lubfric.friction(scene.with_(bodies={"boundary_film": one}), 0.01) for one in films)
+    assert open_.coefficient == pytest.approx(given.coefficient, rel=1e-12)
+    changes = [abs(other.coefficient / open_.coefficient - 1) for other in others]
+    by_flow = given.uncertainty.model
+    assert open_.uncertainty.model == pytest.approx(math.hypot(max(changes), by_flow), rel=0.05) and min(changes) > 0.01
+    assert 1e-4 < by_flow < 0.1 and "thinned half as much" in given.decision.text
+    newtonian = PATCH.with_(bodies={"boundary_film": 20e-9}, numerics={"tolerance": 0.05})
+    assert lubfric.friction(newtonian, 0.01).uncertainty.model == 0.0
+
+
+def test_the_flow_of_a_limit_twice_as_high_by_hand():
+    """The pressure and gap of an oil with twice the limit, sheared by the oil itself at the middle of the grid."""
+    scene = PATCH.with_(lubricant={"limiting_stress_coefficient": 0.045}, bodies={"boundary_film": 20e-9})
+    prepared = lubfric.prepare(scene)
+    pair = solve_pair(prepared, 0.03, 0, None)
+    twice = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2 * scene.lubricant.limiting_stress_offset}
+    surface, factors = strip_of(prepared, 0)
+    other = solve_strip(scene.with_(lubricant=twice), surface, 0.03, factors=factors).result
+    dx, ny = other.spacing[0], other.pressure.shape[1]
+    rate = 2 * 0.03 / other.gap
+    law = lubfric.oil.shear_stress(scene.lubricant, other.pressure, rate)
+    stress = np.where(other.gap < 20e-9, 0.09 * other.pressure, np.where(other.wet, law, 0.0))
+    of_twice = lubfric.oil.shear_stress(scene.with_(lubricant=twice).lubricant, other.pressure, rate)
+    before = np.where(other.gap < 20e-9, 0.09 * other.pressure, np.where(other.wet, of_twice, 0.0))
+    f = other.coefficient + (stress - before).sum() * dx / ny / other.load
+    assert change_by_flow(pair) == pytest.approx(f / pair.resolved.result.coefficient - 1, abs=2e-3)
+    assert change_by_flow(solve_pair(lubfric.prepare(PATCH), 0.03, 0, 0.0)) == 0.0
+
+
+def test_a_patch_has_one_answer_by_whatever_name_and_goes_to_its_own_cells():
+    """By default, by name, and solved by hand on the map's own cells."""
+    fine = PATCH.with_(contact={"shape": (80, 64), "spacing": 1.2e-6})
+    patch = fine.with_(numerics={"tolerance": 1e-4})
+    auto, named = lubfric.friction(patch, 0.01), lubfric.friction(patch, 0.01, model="deterministic")
+    surface = lubfric.prepare(patch).surface
+    own = solve_strip(patch, surface, 0.01).result
+    assert auto.coefficient == named.coefficient == pytest.approx(own.coefficient, rel=3e-3)
+    assert named.deterministic.result.pressure.shape == own.pressure.shape
+    loose = lubfric.friction(fine.with_(numerics={"tolerance": 0.2}), 0.01)
+    assert loose.deterministic.result.pressure.shape[1] < own.pressure.shape[1]
 
 
 def test_a_limit_of_zero_at_ambient_pressure_is_left_to_eq_8():
@@ -128,28 +178,35 @@ def test_strips_that_fail_are_told(prepared, monkeypatch):
         lubfric.friction(prepared, 0.01, model="deterministic")
 
 
-def synthetic(rng, strips, places=40):
-    """Pairs whose two models have the same scatter but for a small part, places independent."""
+def synthetic(rng, strips, places=40, between=0.0):
+    """Pairs whose two models have the same scatter but for a small part. Places are independent, and strips differ by
+    ``between`` more than places tell, alike by both models."""
     common, own = 0.1 * rng.standard_normal((2, strips, places)) * np.array([1.0, 0.3])[:, None, None]
+    common += between * rng.standard_normal((strips, 1))
     both = []
-    for index in range(strips):
-        resolved, shared = 1 + common[index] + own[index], 1.1 + common[index]
+    for resolved, shared in zip(1 + common + own, 1.1 + common):
         result = type("Result", (), {"coefficient": float(resolved.mean()), "load": 1.0})()
-        strip = type("Strip", (), {"result": result, "deviations": resolved - resolved.mean()})()
-        both.append(Pair(index, strip, math.nan, {"coefficient": float(shared.mean())}, shared - shared.mean()))
+        problem = type("Problem", (), {"spacing": (18e-6, 18e-6)})()
+        strip = type("Strip", (), {"result": result, "deviations": resolved - resolved.mean(), "problem": problem})()
+        both.append(Pair(strip, strip, {"coefficient": float(shared.mean())}, shared - shared.mean()))
     return both
 
 
-def test_standard_error_of_the_difference_by_monte_carlo(prepared):
-    """What `_scatter` states, with what the rest of the line adds, is the scatter of the sum over levels."""
-    rng, line, n = np.random.default_rng(5), 12, 4
-    strips = replace(prepared.strips, lengths=(8e-6, prepared.strips.length / 90))
-    sums, stated = [], []
+@pytest.mark.parametrize(("n", "between"), [(4, 0.0), (12, 0.0), (12, 0.03)])
+def test_standard_error_of_the_sum_by_monte_carlo(prepared, n, between):
+    """What `_scatter` states of the difference, with what the rest of the line adds, is the scatter of the sum over
+    levels; without a line, of the mean (by 1.3 if places alone tell it)."""
+    rng, line = np.random.default_rng(5), 24
+    strips = replace(prepared.strips, lengths=(8e-6, 8e-6))
+    sums, means, stated, alone = [], [], [], []
     for _ in range(400):
-        pairs = synthetic(rng, line)
-        shared = [p.shared["coefficient"] for p in pairs]
-        few = pairs[:n]
-        sums.append(np.mean(shared) + np.mean([p.resolved.result.coefficient - p.shared["coefficient"] for p in few]))
+        pairs = synthetic(rng, line, between=between)
+        shared, few = [p.shared["coefficient"] for p in pairs], pairs[:n]
+        f = [p.resolved.result.coefficient for p in few]
+        sums.append(np.mean(shared) + np.mean(np.subtract(f, shared[:n])))
+        means.append(np.mean(f))
         rest = (1 - n / line) * np.var(shared, ddof=1) / line
-        stated.append(levels._scatter(few, strips, line).error ** 2 + rest)
+        stated.append(levels._scatter(few, strips, 1 - n / line).error ** 2 + rest)
+        alone.append(levels._scatter(few, strips, 0.0).error)
     assert math.sqrt(np.mean(stated)) == pytest.approx(np.std(sums), rel=0.15)
+    assert 0.85 < math.sqrt(np.mean(np.square(alone))) / np.std(means) < 1.35

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lubfric.sampling.scatter import BlockError, add_errors, block_error, participation, weighted_errors
+from lubfric.sampling.scatter import BlockError, add_errors, block_error, participation
 from lubfric.sampling.uncertainty import student
 
 
@@ -75,9 +75,7 @@ def test_independent_errors_add_and_freedom_follows_welch_and_satterthwaite():
     both = add_errors(BlockError(3.0, 10), BlockError(4.0, 20))
     assert both.error == pytest.approx(5.0)
     assert both.freedom == int(25**2 / (9**2 / 10 + 16**2 / 20))
-    assert weighted_errors([(0.5, BlockError(2.0, 8)), (0.5, BlockError(2.0, 8))]).error == pytest.approx(
-        math.sqrt(2.0)
-    )
+    assert add_errors(BlockError(1.0, 8), BlockError(1.0, 8)).error == pytest.approx(math.sqrt(2.0))
     assert add_errors().error == 0.0
 
 

@@ -69,3 +69,25 @@ def test_a_prepared_scene_is_used_again_or_made_again():
     np.testing.assert_array_equal(back.surface.heights, model.surface.heights)
     with pytest.raises(lubfric.InputError, match="surface = .* is not that of the prepared scene"):
         lubfric.prepare(PAPER.with_(surface={"seed": 2}), like=model)
+
+
+def test_a_patch_from_a_file_answers_as_the_same_map_from_memory(tmp_path):
+    """Its own rows, none twice; by both models, and the same if it is turned along y."""
+    rough = lubfric.generate_surface((80, 96), 2e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=6)
+    x, y = np.meshgrid(*(np.linspace(-1, 1, n) for n in rough.shape), indexing="ij")
+    plane = np.column_stack([np.ones(x.size), x.ravel(), y.ravel()])
+    level = rough.heights - (plane @ np.linalg.lstsq(plane, rough.heights.ravel(), rcond=None)[0]).reshape(x.shape)
+    np.save(tmp_path / "m.npy", level)
+    scene = PAPER.with_(contact={"shape": (80, 96), "spacing": 2e-6}, numerics={"sampling": "patch", "tolerance": 0.1})
+    own = {"surface": {"file": str(tmp_path / "m.npy"), "spacing": 2e-6}, "contact": {"shape": None, "spacing": None}}
+    file = lubfric.prepare(scene.with_(**own))
+    n = file.surface.shape[0]
+    cut = level[(80 - n) // 2 : (80 - n) // 2 + n]
+    np.testing.assert_allclose(file.surface.heights, cut, atol=1e-12)
+    memory, rolled = (
+        lubfric.prepare(scene, lubfric.Surface(z, (2e-6, 2e-6), periodic_axes=(False, True)))
+        for z in (cut, np.roll(cut, 16, axis=1))
+    )
+    for model in ("load-sharing", "deterministic"):
+        f = [lubfric.friction(one, 0.01, model=model).coefficient for one in (file, memory, rolled)]
+        assert f[0] == pytest.approx(f[1], rel=1e-6) and f[0] == pytest.approx(f[2], rel=0.02)

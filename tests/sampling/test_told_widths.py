@@ -9,7 +9,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.sampling.missed import missed_load, summit_radius
-from lubfric.sampling.scatter import BlockError, block_error, weighted_errors
+from lubfric.sampling.scatter import BlockError, add_errors, block_error
 from lubfric.sampling.uncertainty import interval, load_sharing_error
 
 E_PRIME, WIDTH, RX, RY, SQ = 2.3e11, 6e-3, 40e-6, 90e-6, 1e-7
@@ -77,7 +77,7 @@ def test_a_mean_of_correlated_places_is_not_surer_than_it_tells():
 
 def test_freedom_of_a_sum_is_no_more_than_that_of_its_largest_part():
     """Welch and Satterthwaite: 9²/(8.1²/5 + .9²/50) = 6.2, cut to 6."""
-    found = weighted_errors([(3.0, BlockError(math.sqrt(0.9), 5)), (1.0, BlockError(math.sqrt(0.9), 50))])
+    found = add_errors(BlockError(3 * math.sqrt(0.9), 5), BlockError(math.sqrt(0.9), 50))
     assert found.error == pytest.approx(3.0) and found.freedom == 6
 
 

@@ -98,7 +98,7 @@ def test_a_study_shows_itself(study):
     assert "<table>" in study._repr_html_()
     axes = study.plot()
     lines = axes.get_lines()
-    assert len(lines) == 4 and lines[0].get_label() == "viscosity 0.1 Pa s"
+    assert len(lines) == 4 and lines[0].get_label() == "viscosity at ambient pressure 100 mPa s"
     solved = study["coefficient"][0]
     np.testing.assert_array_equal(np.sort(lines[1].get_ydata()), np.sort(solved[np.isfinite(solved)]))
     np.testing.assert_allclose(lines[0].get_ydata(), study.at(lines[0].get_xdata())[0])

@@ -360,5 +360,6 @@ def test_folders_that_are_no_store(tmp_path):
         (tmp_path / "study.json").write_text(text)
         with pytest.raises(lubfric.InputError, match="damaged"):
             lubfric.open_study(tmp_path)
+    (tmp_path / "points").mkdir()  # so that it is a damaged store, and no file of others
     lubfric.study(SCENE, {}, [0.01], store=tmp_path)
     assert json.loads((tmp_path / "study.json").read_text())["speeds"] == [0.01]

@@ -7,7 +7,7 @@ line). A step then solves for pressure and approach alone, by Newton's method wi
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from skfem import LinearForm
@@ -27,14 +27,12 @@ def gained(v, w):
     return w.c * v
 
 
-@dataclass(frozen=True)
-class Moment:
-    """Time b/U, pressure p_h and film b²/R at the degrees of freedom of the line, and the Newton steps it took."""
+class Moment(NamedTuple):
+    """Time b/U, pressure p_h and film b²/R at the degrees of freedom of the line."""
 
     time: float
     P: np.ndarray
     H: np.ndarray
-    iterations: int
 
 
 def march(
@@ -59,7 +57,7 @@ def march(
         a = BDF2 if time else EULER
         time += step
         shape = x**2 / 2 - waves(x, time)
-        for iteration in range(max_iterations + 1):
+        for _ in range(max_iterations + 1):
             H = H0 + shape + compliance @ P
             flow = assemble(film, P, H)
             then = content(at, P, H)
@@ -77,7 +75,7 @@ def march(
         else:
             raise SolveError(f"wave in time: T = {time:g} b/U, error {error:.1e} after {max_iterations} steps")
         before, now = now, then
-        yield Moment(time, P, H, iteration)
+        yield Moment(time, P, H)
 
 
 def content(at: Solution, P, H):

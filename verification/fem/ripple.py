@@ -9,22 +9,12 @@ solve the tangent of the whole system (`ehl_newton`) at the smooth solution, wit
 its right side. The rupture point stays, as pressure and its slope vanish there.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 from skfem import BilinearForm
 
 from .ehl import Solution
 from .ehl_film import Film, assemble
 from .ehl_newton import load_weights, solve, tangent
-
-
-@dataclass(frozen=True)
-class Ripple:
-    """Film [m/m] and pressure [Pa/m] of a wave exp(i k x) over its height, complex, at the dofs of the line."""
-
-    film: np.ndarray
-    pressure: np.ndarray
 
 
 @BilinearForm
@@ -40,11 +30,9 @@ def stored(film: Film, P, H):
     return mass.assemble(line, c=film.wave(p, h)), mass.assemble(line, c=film.density(p))
 
 
-def ripple(at: Solution, wavelength: float, speed: float = 0.0) -> Ripple:
-    """The response of the smooth solution to a wave of ``wavelength`` [m] across the motion, at one moment.
-
-    speed : of the waves, over the entrainment speed
-    """
+def ripple(at: Solution, wavelength: float, speed: float = 0.0) -> np.ndarray:
+    """Change of the smooth film per height of a wave exp(i k x) of ``wavelength`` [m] at one moment, complex, at the
+    dofs of the line. ``speed``: of the waves, over the entrainment speed."""
     body, contact = at.body, at.contact
     k = 2 * np.pi * contact.half_width / wavelength
     wave = np.exp(1j * k * body.x)
@@ -55,7 +43,4 @@ def ripple(at: Solution, wavelength: float, speed: float = 0.0) -> Ripple:
     matrix = tangent(body, by_P[:, free], by_H, free, weights)
     right = np.concatenate([np.zeros(at.displacement.size), by_H @ wave, [0.0]])
     change = solve(matrix, right, body.order)
-    u, p, approach = change[: at.displacement.size], change[at.displacement.size : -1], change[-1]
-    pressure = np.zeros(at.P.size, dtype=complex)
-    pressure[free] = p
-    return Ripple(approach - body.trace @ u - wave, pressure * contact.hertz_pressure / contact.film_unit)
+    return change[-1] - body.trace @ change[: at.displacement.size] - wave

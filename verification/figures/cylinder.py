@@ -196,8 +196,7 @@ def pressure_map(quick: bool, run: Run) -> PaperFigure:
         f"{h1:.3f} and {h2:.3f} N (paper: 5.275 and 0.225 N), {spots1} and {spots2} spots. "
         f"{reached if top2 >= 6e9 else ''}",
         f"On the smooth (Gaussian) surface the highest pressure is {top1 / 1e9:.1f} GPa. Only the sharper summits of "
-        "the exponential one yield. Contact reaches beyond the Hertz strip (dashed), because summits stand up to three "
-        "Sq above the mean plane.",
+        "the exponential one yield. Contact reaches beyond the Hertz strip (dashed).",
         canvas,
         {"fig9": (headings, rows)},
         (
@@ -241,9 +240,8 @@ def sections(quick: bool, run: Run) -> PaperFigure:
         "In boundary lubrication the separation cuts through the summits. In full film it clears them.\n\n- "
         + "\n- ".join(words)
         + "\n",
-        "Where the surface is drawn above h_s, the contact deflects it: the gap h_s - z + u is zero there (last column "
-        "of the table). In this line-contact kernel u is known up to a constant, so the distance between h_s and z "
-        "depends on it, and the gap does not. The section is one of the generated surface.",
+        "Where the surface is drawn above h_s, the contact deflects it: the gap h_s - z + u is zero there. u is known "
+        "up to a constant, so the distance between h_s and z depends on it, and the gap does not.",
         canvas,
         {"fig10": (("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)},
         (Check("smallest gap over Sq", min(r[5] for r in rows) / 100e-9, 0.0, 0.01, "no penetration", AT_LEAST),),

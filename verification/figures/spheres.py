@@ -92,8 +92,7 @@ def sphere_array(quick: bool, run: Run) -> PaperFigure:
         "In a periodic cell the mean deflection is a convention. When it is left out, the same solutions give "
         f"{', '.join(f'{r:.2f}' for r in grows)}: closer spheres carry slightly *more*. When it is kept, it grows with "
         "the box (here 2.24 p a/E', Love's kernel summed over 230 µm). So Fig. 4 measures the size of the box as much "
-        "as the interaction. In the friction model Eq. (8) removes the mean. One period is solved instead of 2000 x "
-        "2000 points; none of the four spacings divides 230 µm.",
+        "as the interaction. In the friction model Eq. (8) removes the mean.",
         canvas,
         {"fig4": (headings, rows)},
         (

@@ -41,9 +41,8 @@ def generated_surfaces(quick: bool, run: Run) -> PaperFigure:
         "Fig. 2: generated surfaces, L = 34 and 57 µm",
         f"Sq is 240 nm exactly and the measured lengths lie within {100 * off:.0f} % of those asked for (sampling "
         "scatter of one map). The longer length gives broader hills and smaller slopes.",
-        "The paper gives neither the shape of the autocorrelation function nor the level at which L is read. The "
-        "exponential one has fine ripples down to the grid, the Gaussian one is smooth. The ripples decide what an "
-        "asperity is in Figs. 5 and 6.",
+        "The paper gives neither the shape of the autocorrelation function nor the level at which L is read. The fine "
+        "ripples of the exponential one decide what an asperity is in Figs. 5 and 6.",
         canvas,
         {"fig2": (headings, rows)},
         (

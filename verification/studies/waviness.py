@@ -23,7 +23,7 @@ from ..fem import ehl
 from ..fem.fluid import Fluid
 from ..fem.moving import march
 from ..fem.ripple import ripple
-from ..waves import Smooth, history, laid_out, response
+from ..waves import history, laid_out, response
 
 CELLS, HEIGHT = 40, 0.002  # a wave; of the film
 NEAR = 0.5  # half-widths: where both parts are fitted
@@ -103,15 +103,19 @@ def waviness(level: str) -> Iterator[Item]:
         yield from in_time()
 
 
-def compared(case: Case, speed: float, length: float) -> tuple[float, float, float, float, float]:
+def compared(
+    case: Case, speed: float, length: float, judged: Case | None = None
+) -> tuple[float, float, float, float, float]:
     """The part that goes with the surface by lubfric and by finite elements, the part from the inlet by both (0 in
-    pure rolling, where they are one), and the rms difference of the films."""
-    smooth = laid_out(case.line, speed, CELLS * max(1.0, speed) / length)
+    pure rolling, where they are one), and the rms difference of the films. ``judged``: what the elements solve."""
+    smooth = laid_out(case.line, speed, CELLS * (max(1.0, speed) if speed else 2.5) / length)
     b, x = smooth.half_width, smooth.film.x
     near = np.flatnonzero(np.abs(x) < NEAR * b)
     mine, _ = response(smooth, 2 * np.pi / (length * b), HEIGHT * smooth.film.central_gap)
-    solution = ehl.solve_ehl(case.elements(speed), refinements=0, fineness=1.0, between=0.05 * min(length, 1.0))[-1]
-    judge = solution.body.line.probes(x[None, near] / b) @ ripple(solution, length * b, speed).film
+    solution = ehl.solve_ehl(
+        (judged or case).elements(speed), refinements=0, fineness=1.0, between=0.1 * min(length, 1.0) / max(speed, 1.0)
+    )[-1]
+    judge = solution.body.line.probes(x[None, near] / b) @ ripple(solution, length * b, speed)
     rms = float(np.sqrt(np.mean(np.abs(mine[near] - judge) ** 2)))
     (own, other), (theirs, their_other) = (parts(film, x[near] / b, length, speed) for film in (mine[near], judge))
     return own, theirs, other, their_other, rms
@@ -130,7 +134,8 @@ def parts(film: np.ndarray, x: np.ndarray, length: float, speed: float) -> tuple
 def in_time() -> Iterator[Check]:
     """A wave of a fifth of the film, one half-width long, in pure rolling: gap over a period by both."""
     smooth = laid_out(STEEL.line, 1.0, 2.4 * CELLS)
-    height, (times, gaps, _) = finite(smooth)
+    height = 0.2 * smooth.film.central_gap
+    times, gaps, _ = history(smooth, 2 * np.pi / smooth.half_width, height)
     at = ehl.solve_ehl(STEEL.elements(1.0), refinements=0, fineness=1.0, between=0.03)[-1]
     b, unit, count = smooth.half_width, at.contact.film_unit, 64
 
@@ -138,11 +143,10 @@ def in_time() -> Iterator[Check]:
         grown = min(time, 1.0)
         return height / unit * grown**2 * (3 - 2 * grown) * np.cos(2 * np.pi * (x - time))
 
-    x = smooth.film.x[np.abs(smooth.film.x) < NEAR * b]
-    pick = at.body.line.probes(x[None] / b)
+    near = np.abs(smooth.film.x) < NEAR * b
+    pick, mine = at.body.line.probes(smooth.film.x[None, near] / b), gaps[:, near]
     whole = list(itertools.islice(march(at, waves, 1 / count), 5 * count))[-count:]
     judge = np.array([pick @ m.H for m in whole]) * unit
-    mine = gaps[:, np.abs(smooth.film.x) < NEAR * b]
     turns = np.exp(2j * np.pi * times * STEEL.speed / b), np.exp(2j * np.pi * np.array([m.time for m in whole]))
     one, two = (2 / turn.size / height * turn @ film for turn, film in zip(turns, (mine, judge)))
     source = "full-system finite elements in time"
@@ -151,9 +155,3 @@ def in_time() -> Iterator[Check]:
     yield Check("a wave in time: amplitude in the film", np.sqrt(np.mean(np.abs(one) ** 2)), size, 0.02, source)
     yield Check("a wave in time: rms of the film", rms, 0.0, 0.02, source, ABSOLUTE, note="of its height")
     yield Check("a wave in time: mean film", mine.mean(), judge.mean(), 0.005, source, unit="m")
-
-
-def finite(smooth: Smooth):
-    """Height [m] of a wave of a fifth of the film, and its history."""
-    height = 0.2 * smooth.film.central_gap
-    return height, history(smooth, 2 * np.pi / smooth.half_width, height)

@@ -88,20 +88,7 @@ def _seconds(job: Callable[[], object]) -> float:
     return min(found)
 
 
-def waviness() -> Cells:
-    """Small waves in an elastic film, at rest and moving: both their parts (`verification.studies.waviness`)."""
-    from ..studies.waviness import CASES, COLUMNS, compared
-
-    rows = []
-    for case, speed, length in CASES["default"]:
-        *parts, rms = compared(case, speed, length)
-        shown = [f"{part:.3f}" for part in parts[:2]] + [f"{part:.3f}" if speed != 1 else "" for part in parts[2:]]
-        rows.append([case.name, f"{speed:g} U", f"{length:g}", *shown, f"{rms:.3f}"])
-    return list(COLUMNS), rows
-
-
 TABLES: dict[str, Callable[[], Cells]] = {
-    "waviness": waviness,
     "stribeck": stribeck,
     "roughness": roughness,
     "times": times,

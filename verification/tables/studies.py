@@ -147,6 +147,7 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "contact-cells": copied("friction", "contact_cells", "d", ".1f", ".1e"),
     "tolerance-asked": tolerance_asked,
     "area": copied("friction", "area", "g", ".4f"),
+    "waviness": copied("deterministic", "waviness", "", "", "g", ".3f"),
     "patch-length": copied("friction", "patch_size", "g", ".4f"),
     "transient": transient,
     "formulations": formulations,
