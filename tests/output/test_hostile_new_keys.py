@@ -80,7 +80,11 @@ def test_it_is_refused_in_words(trial):
 
 @pytest.mark.parametrize("speed, ratio", [(1e-12, 2.0), (0.05, 0.0), (0.05, -4.0), (0.05, 1e4), (0.0, 1.0)])
 def test_heat_at_the_ends_of_motion_is_finite_or_told(speed, ratio):
-    found = lubfric.friction(HOT.with_(motion={"slide_roll_ratio": ratio}), speed)
+    try:
+        found = lubfric.friction(HOT.with_(motion={"slide_roll_ratio": ratio}), speed)
+    except lubfric.ConvergenceError as error:
+        assert f"slide_roll_ratio = {ratio:.3g}" in str(error) and ratio > 1e3
+        return
     assert np.isfinite(found.coefficient)
     assert (abs(ratio) <= 2) == (not any("slide-roll ratio" in entry.what for entry in found.validity))
 
