@@ -81,7 +81,7 @@ def test_turning_the_contact_upside_down_leaves_the_force_on_each_body():
 
 def test_motion_backwards_is_the_mirror_image():
     scene = scene_of(slide_roll_ratio=1.0)
-    surface = rough(4, shape=(16, 12))
+    surface = rough(4, shape=(24, 12))
     turned = replace(surface, heights=surface.heights[::-1])
     there = solve_moving_strip(scene, [RoughBody(surface, 0.15)], 0.3)
     back = solve_moving_strip(scene, [RoughBody(turned, 0.15)], -0.3)
