@@ -16,6 +16,7 @@ from lubfric.deterministic import (
     plot_passing,
     solve_moving_strip,
     solve_point,
+    solve_strip,
     travelling,
 )
 from lubfric.film import LineContact
@@ -77,6 +78,15 @@ def test_turning_the_contact_upside_down_leaves_the_force_on_each_body():
     f, rolling = lower.result.coefficient, lower.result.rolling / LINE.load_per_width
     assert upper.result.coefficient == pytest.approx(f + moment / LINE.load_per_width, abs=0.05 * rolling)
     assert upper.result.coefficient < 0.9 * f and rolling > 0.1 * f
+
+
+def test_of_either_sense_of_sliding_the_film_rolls_the_same_way():
+    """What it drags turns with the sliding, its resistance to rolling does not: f, against the sliding, may be below
+    0."""
+    smooth = replace(rough(3), heights=np.zeros((32, 12)))
+    one, other = (solve_strip(scene_of(slide_roll_ratio=s), smooth, 0.3).result for s in (1e-4, -1e-4))
+    assert other.couette == pytest.approx(one.couette, rel=1e-9) and other.rolling == pytest.approx(-one.rolling)
+    assert other.coefficient < 0 < one.coefficient
 
 
 def test_motion_backwards_is_the_mirror_image():
