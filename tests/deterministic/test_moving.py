@@ -89,6 +89,15 @@ def test_of_either_sense_of_sliding_the_film_rolls_the_same_way():
     assert other.coefficient < 0 < one.coefficient
 
 
+def test_of_a_map_that_was_given_nobody_knows_which_of_two_bodies_moves_it():
+    rough_too, map_ = {"sq": 1e-7, "correlation_length": 12e-6}, rough(1, shape=(96, 64))
+    scene = scene_of(slide_roll_ratio=2.0).with_(surface=rough_too, counterface=rough_too)
+    with pytest.raises(lubfric.InputError, match="counterface.*second rough body"):
+        lubfric.prepare(scene.with_(numerics={"model": "deterministic"}), map_)
+    found = lubfric.friction(lubfric.prepare(scene, map_), 0.1)
+    assert found.deterministic is None and "second rough body" in found.decision.text
+
+
 def test_motion_backwards_is_the_mirror_image():
     scene = scene_of(slide_roll_ratio=1.0)
     surface = rough(4, shape=(16, 12))
