@@ -184,7 +184,7 @@ class Motion(Brief):
         validate.python_fields(self)
         for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", LARGEST_RATIO)):
             value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
-            object.__setattr__(self, name, value)
+            object.__setattr__(self, name, value + 0.0)  # -0.0 is no direction
         if not isinstance(self.speeds, (list, tuple)):
             raise InputError(f" = {validate.shown(self.speeds)}", "motion.speeds", "a list of numbers in m/s")
         speeds = validate.numbers("motion.speeds", self.speeds, "m/s", FASTEST) if self.speeds else ()
