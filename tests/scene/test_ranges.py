@@ -1,12 +1,14 @@
 """Inputs known to a range only, and f_b over speed or temperature: as given, written, read, in f and its interval."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric.scene import Table
 
 FRICTION, HARDNESS, EYRING = "boundary_friction_coefficient", "hardness", "eyring_stress"
 SMALL = paper_scene(numerics={"sampling_tolerance": 0.1}, lubricant={EYRING: 5e6})
@@ -111,3 +113,15 @@ def test_a_run_in_time_takes_f_b_at_its_own_sliding_speed():
     )
     run = lubfric.transient(scene.with_(transient=plan))
     assert run.coefficient[-1] == pytest.approx(0.1, rel=0.02)
+
+
+def test_a_run_in_time_takes_a_range_and_a_table_that_begins_above_zero():
+    """Its hardness is that of the middle; where the entrainment turns, the surfaces slide at 0.5 m/s as before. Outside
+    the table it is refused before any work."""
+    plan = lubfric.Transient(1e-4, outputs=1, speed=0.0, sliding=0.5, initial="rest")
+    table = {FRICTION: {"sliding_speed": [0.2, 0.8], "values": [0.13, 0.07]}, HARDNESS: [6e9, 5e9, 7e9]}
+    scene = SMALL.with_(bodies=table, numerics={"sampling": "patch"}, motion={"entrainment_speed": 0.2})
+    assert lubfric.transient(scene.with_(transient=plan)).coefficient[-1] == pytest.approx(0.1, rel=0.02)
+    late = Table(times=(0.0, 0.9e-4, 1e-4), values=(0.5, 0.5, 1.0))
+    with pytest.raises(lubfric.InputError, match="no value at"):
+        lubfric.transient(scene.with_(transient=replace(plan, sliding=late)), on_step=pytest.fail)
