@@ -51,7 +51,9 @@ class Quantities(Generic[T]):
     """The numbers of an operating point whose errors are estimated (T: float), or of many points (T: array)."""
 
     coefficient: T = quantity(
-        "-", "friction coefficient", "f", error="all", note="(f_b F_C + F_sh)/F_T (Akchurin et al. 2015, Eq. 9)"
+        *("-", "friction coefficient", "f"),
+        error="all",
+        note="(f_b F_C + F_sh)/F_T (Akchurin et al. 2015, Eq. 9), of surface 2 against its sliding",
     )
     contact_load: T = quantity("N", "load carried by the rough contact", "F_C", error="split")
     film_load: T = quantity("N", "load carried by the film", "F_H", error="split")

@@ -2,8 +2,7 @@
 
 from .moving import Moment, MovingStrip, RoughBody, moments, moving_work, solve_moving_strip, travelling
 from .pictures import animate_moments, plot_moments, plot_passing
-from .point import ENOUGH, Refined, Strip, change_of, changes_of, estimate, solve_strip, work_of, work_of_steps
+from .point import Refined, Strip, change_by_flow, change_of, changes_of, estimate, solve_strip, work_of, work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach
-from .result import DeterministicResult, assemble
+from .result import DeterministicResult
 from .solve import dry_contact, solve_point
-from .state import evaluated

@@ -14,8 +14,9 @@ from ..errors import ConvergenceError
 from ..scene import Scene, check_resolved_gap, moving_bodies
 from ..surface import Surface
 from .problem import BOUNDARY_FILM, Problem, lay_out
-from .result import DeterministicResult
+from .result import DeterministicResult, assemble
 from .solve import refined_start, solve_point
+from .state import evaluated
 
 ENOUGH = 3e-3  # tolerance of a strip's residuals: f moves by some .1 %
 LOOSE = 1e-2  # on longer cells, from which a strip starts
@@ -84,6 +85,19 @@ def solve_strip(
         work += work_of(second)
         rise = (second.coefficient * second.load - result.coefficient * result.load) / (second.load - result.load)
     return Strip(problem, result, rise, work)
+
+
+def change_by_flow(strip: Strip) -> float:
+    """Relative change of f of ``strip`` if a limiting stress thins the flow as one twice as high would, with the shear
+    stress limited as before: how fast a sheared oil at its limit flows is not known well. 0 without such a limit.
+    Raises `ConvergenceError`."""
+    problem, result, oil = strip.problem, strip.result, strip.problem.lubricant
+    if oil.limiting_stress_coefficient is None:
+        return 0.0
+    twice = {name: 2 * getattr(oil, name) for name in ("limiting_stress_coefficient", "limiting_stress_offset")}
+    other = replace(problem, contact=replace(problem.contact, lubricant=replace(oil, **twice)))
+    found = solve_point(other, start=result.state, tolerance=ENOUGH)
+    return assemble(evaluated(problem, found.state), found.report).coefficient / result.coefficient - 1
 
 
 def work_of(result: DeterministicResult) -> float:

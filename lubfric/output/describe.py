@@ -10,7 +10,7 @@ from ..errors import InputError
 from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, counted
-from ..sampling import forecast
+from ..sampling import MOST_WORK, forecast
 from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, told_doubts, typical
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
 from ..studies import in_words
@@ -87,6 +87,8 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
         rows = ["one gap and one pressure (the deterministic model), as asked"]
     elif why:
         rows = [f"load sharing, Eq. (8), alone; {unknown}:", f"  {why}"]
+    elif not resolved and max((one.moving for one in found), default=0.0) > MOST_WORK:
+        rows = [f"load sharing, Eq. (8), alone; {unknown}: the other model would take too long"]
     elif not resolved:
         rows = ["load sharing, Eq. (8), alone: the film is thick, or there is no roughness, and the models agree"]
     else:
@@ -96,6 +98,11 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
             f"  corrected by strips with one gap and one pressure to {100 * scene.numerics.model_tolerance:g} % of f",
             "  (not where heat turns out to matter: these are isothermal)",
         ]
+    if strip := max((one.moving for one in found), default=0.0):
+        rows.append(
+            f"the roughness moves: one strip with one gap and one pressure takes about {in_words(strip)}; beyond "
+            f"{MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
+        )
     if found and scene.transient is None:
         seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
         count = counted(len(moving), "speeds")

@@ -7,6 +7,7 @@ interval. `friction` is the entry; `answer` and `answer_deterministic` are the t
 
 from .cite import together
 from .friction import friction
+from .moving import MOST_WORK
 from .outlook import forecast
 from .result import FrictionResult
 from .sample import sampled

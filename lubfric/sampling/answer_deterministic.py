@@ -9,14 +9,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
 from ..deterministic import DeterministicResult, Refined
 from ..scene import Scene
 from ..sharing import Prepared, Validity, inlet_at, of_error, of_inlet, of_motion, of_pressure, of_thickness
 from .decision import Decision
 from .errors_of import TOO_SHORT
-from .levels import Levels, levels_of
+from .levels import Levels, levels_of, mean
 from .result import FrictionResult
 from .sample import Found
 from .uncertainty import Uncertainty, field_errors_of, interval, percent, student
@@ -25,6 +23,10 @@ FEW_STRIPS = "not known from fewer than three strips"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
 BY_FLOW = "f by a flow that is thinned half as much at the limiting stress {:+.2g} %"
+OF_MODEL = (
+    "the boundary film, the law of the flow, or the scatter between the models leaves that",
+    "give bodies.boundary_film if you know it, or a longer map",
+)
 FINER = "a larger numerics.tolerance, or a finer contact.spacing"
 DRAWN, CUT = 0.1, 0.1  # lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
 
@@ -79,16 +81,10 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     return Decision("deterministic", words, "boundary film", tolerance, strips=len(results), notes=notes)
 
 
-def _of_model(model: float, tolerance: float) -> tuple[Validity, ...]:
+def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
     """A caution where the error of the model, relative, is above ``tolerance``."""
-    if not model > tolerance:
-        return ()
-    what, consequence = (
-        "error of f by the model",
-        "the boundary film, the law of the flow, or the scatter between the models leaves that",
-    )
-    remedy = "give bodies.boundary_film if you know it, or a longer map"
-    return (Validity(what, 100 * model, 100 * tolerance, "%", consequence, remedy),)
+    if model > tolerance:
+        yield Validity("error of f by the model", 100 * model, 100 * tolerance, "%", *OF_MODEL)
 
 
 def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:
@@ -115,7 +111,7 @@ def _words_of_levels(levels: Levels) -> str:
 def _division(results: Sequence[DeterministicResult]) -> str:
     """The load that rubs with f_b, by its parts, in words."""
     touching, thin, capped = (
-        100 * _mean(getattr(result.split, name) / result.load for result in results)
+        100 * mean(getattr(result.split, name) / result.load for result in results)
         for name in ("touching", "thin", "capped")
     )
     return (
@@ -124,25 +120,21 @@ def _division(results: Sequence[DeterministicResult]) -> str:
     )
 
 
-def _mean(values) -> float:
-    return float(np.mean(list(values)))
-
-
 def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]) -> Iterator[Validity]:
     """Entries for all assumptions that are violated; those about bodies and map first."""
     scene, speed, film = prepared.scene, numbers["speed"], numbers["central_film"]
     yield from prepared.known
     yield from of_motion(scene, speed, film)
-    yield from of_inlet(scene, speed, _mean(result.flow_film for result in results))
+    yield from of_inlet(scene, speed, mean(result.flow_film for result in results))
     for entry in of_pressure(scene, max(result.top_pressure for result in results)):
         yield replace(entry, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
     yield from of_thickness(scene, film)
-    cut = _mean(result.split.capped / result.load for result in results)
+    cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
         remedy = "choose lubricant.eyring_stress or a limiting stress"
         yield Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy)
-    drawn = _mean(result.drawn for result in results)
+    drawn = mean(result.drawn for result in results)
     if drawn > DRAWN:
         consequence = "f depends on the 1 nm of lubricant that touching bodies are said to keep, by about a percent"
         remedy = "read f to a percent or two: hardly any lubricant passes the contact"

@@ -18,10 +18,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..contact import Strips
-from ..deterministic import Strip, changes_of, estimate
+from ..deterministic import MovingStrip, Strip, change_by_flow, changes_of, estimate
 from ..scene import Numerics, moves
 from ..sharing import Prepared, quantities
-from .pair import Pair, cells_of, change_by_flow, numbers_of, solve_finer, solve_pair
+from .pair import Pair, cells_of, numbers_of, solve_finer, solve_pair
 from .sample import Found, enlarged
 from .scatter import BlockError, add_errors, block_error
 from .uncertainty import ORDER, student
@@ -96,6 +96,30 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     more are solved than `MOST_WORK` allows. Finer cells follow if the change of f from longer cells is not within
     ``numerics.tolerance``. Raises `ConvergenceError`.
     """
+    assert prepared.strips is not None
+    pairs, both = _first_levels(prepared, speed, found)
+    pieces, by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
+    numbers = both.numbers
+    for piece in pieces:
+        before, after = numbers_of(prepared, piece[1].result), numbers_of(prepared, piece[-1].result)
+        numbers = {name: value + (after[name] - before[name]) / len(pieces) for name, value in numbers.items()}
+    f = abs(numbers["coefficient"])
+    of_strips = add_errors(both.whole, by_cells)
+    difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
+    sampling = replace(of_strips, error=math.sqrt((of_strips.error / f) ** 2 - difference.error**2))
+    results = [pair.resolved.result for pair in pairs]
+    films = tuple(mean(getattr(one, name) - one.coefficient for one in results) / f for name in OTHER_FILMS)
+    errors = _errors(prepared, pairs, numbers)
+    errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
+    length, first = prepared.strips.length * max(both.line, len(pairs)), pairs[0].resolved
+    flow = change_by_flow(first.rest if isinstance(first, MovingStrip) else first)
+    return Levels(
+        numbers, errors, films, flow, both.line, tuple(pairs), pieces, sampling, difference, numerical, length
+    )
+
+
+def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tuple[list[Pair], Sum]:
+    """The strips of the second level, as many as it takes, and the sum of the first two."""
     strips, numerics, load = prepared.strips, prepared.scene.numerics, prepared.scene.bodies.load
     assert strips is not None
     pairs = [solve_pair(prepared, speed, 0, None)]
@@ -113,45 +137,29 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
         if counts[best] <= len(pairs):
             break
         pairs += [solve_pair(prepared, speed, i, first.slope) for i in range(len(pairs), counts[best])]
-    both = sums[best]
-    pieces, by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
-    numbers = both.numbers
-    for piece in pieces:
-        before, after = numbers_of(prepared, piece[1].result), numbers_of(prepared, piece[-1].result)
-        numbers = {name: value + (after[name] - before[name]) / len(pieces) for name, value in numbers.items()}
-    f = abs(numbers["coefficient"])
-    of_strips = add_errors(both.whole, by_cells)
-    difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
-    sampling = replace(of_strips, error=math.sqrt((of_strips.error / f) ** 2 - difference.error**2))
-    results = [pair.resolved.result for pair in pairs]
-    films = tuple(_mean(getattr(one, name) - one.coefficient for one in results) / f for name in OTHER_FILMS)
-    errors = _errors(prepared, pairs, numbers)
-    errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
-    length, flow = strips.length * max(both.line, len(pairs)), change_by_flow(pairs[0])
-    return Levels(
-        numbers, errors, films, flow, both.line, tuple(pairs), pieces, sampling, difference, numerical, length
-    )
+    return pairs, sums[best]
 
 
 def _sum(prepared: Prepared, pairs: Sequence[Pair], found: Found | None, line: int) -> Sum:
     """The first two levels; ``line``: strips of the first (0: without it)."""
     assert prepared.strips is not None
     rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
-    numbers = {name: _mean(row[name] for row in rows) for name in rows[0]}
+    numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     if not line or found is None:
         return Sum(0, numbers, _scatter(pairs, prepared.strips, 0.0), BlockError(0.0, 1))
     solved, freedom = found.solved, ORDER if found.response is None else found.friction_error.freedom
     loads = solved.film_load, solved.contact_load
     of_line = quantities(solved.forces, solved.film, loads, solved.contact.mean_film)
     for name in LINEAR:
-        numbers[name] += of_line[name] - _mean(pair.shared[name] for pair in pairs)
+        numbers[name] += of_line[name] - mean(pair.shared[name] for pair in pairs)
     rest = max(1 - len(pairs) / line, 0.0)
     others = BlockError(math.sqrt(rest) * found.sampling * abs(numbers["coefficient"]), freedom)
     whole = add_errors(_scatter(pairs, prepared.strips, rest), others)
     return Sum(line, numbers, whole, _scatter(pairs, prepared.strips, 1.0))
 
 
-def _mean(values) -> float:
+def mean(values) -> float:
+    """Of any iterable."""
     return float(np.mean(list(values)))
 
 
@@ -193,7 +201,7 @@ def _on_finer_cells(
     change of f, and the relative error that the last cells leave."""
     scene, strips, first = prepared.scene, prepared.strips, pairs[0]
     assert strips is not None
-    by_longer = _mean(changes_of((pair.longer, pair.resolved))[0] for pair in pairs)
+    by_longer = mean(changes_of((pair.longer, pair.resolved))[0] for pair in pairs)
     left = max(estimate([by_longer]), SOLVED)
     enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
     own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
@@ -207,7 +215,7 @@ def _on_finer_cells(
         error = BlockError(0.0, 1) if strips.whole else _block_error([_change(one) for one in pieces], strips, first)
     if strips.whole:
         return tuple(pieces), error, max(estimate(changes_of(pieces[0])), SOLVED)
-    change = _mean(one[-1].result.coefficient / one[1].result.coefficient - 1 for one in pieces)  # its error is told
+    change = mean(one[-1].result.coefficient / one[1].result.coefficient - 1 for one in pieces)  # its error is told
     return tuple(pieces), error, max(estimate((by_longer, abs(change))), SOLVED)
 
 

@@ -34,7 +34,8 @@ class Forecast:
     """To an order of magnitude, at one ``speed`` [m/s]: in words, whether the summits touch; ``clearance`` [Sq] between
     the expected film of the whole load and the highest summit; ``error``: relative standard error of f after the first
     strips; ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the
-    deterministic model (0: Eq. (8) alone answers); and the processor time [s]."""
+    deterministic model (0: Eq. (8) alone answers); and the processor time [s]. ``moving``: that of one strip of the
+    deterministic model if its roughness moves, else 0."""
 
     speed: float
     touching: str
@@ -44,6 +45,7 @@ class Forecast:
     length: float
     resolved: int
     seconds: float
+    moving: float = 0.0
 
 
 def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float) -> Forecast:
@@ -77,13 +79,18 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     piece = 0.0 if cells.own else cells.count * fx * fy * strips.length / dy / 2
     if touching != "none":
         seconds += CELL_SECONDS * cells.count * count * strips.length / dy + PIECE_SECONDS * piece
-    resolved, work = _resolved(scene, strips, sq, speed, film, error * math.sqrt(strips.first))
-    return Forecast(speed, touching, clearance, error, count, count * strips.length, resolved, seconds + work)
+    factors = cells_of(strips, scene.bodies.half_width)
+    moving = moving_strip_work(scene, strips, sq, speed, factors) if speed and moves(scene) else 0.0
+    resolved, work = _resolved(scene, strips, sq, speed, film, error * math.sqrt(strips.first), moving)
+    length = count * strips.length
+    return Forecast(speed, touching, clearance, error, count, length, resolved, seconds + work, moving)
 
 
-def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float, scatter: float) -> tuple[int, float]:
+def _resolved(
+    scene: Scene, strips: Strips, sq: float, speed: float, film: float, scatter: float, moving: float
+) -> tuple[int, float]:
     """Number of strips of the deterministic model, and their work [s]. ``film`` [m]: expected; ``scatter``: of f
-    between strips, relative."""
+    between strips, relative; ``moving`` [s]: work of one whose roughness moves."""
     numerics = scene.numerics
     thick = film**2 * numerics.model_tolerance > OF_FILM * sq**2
     if (
@@ -97,8 +104,7 @@ def _resolved(scene: Scene, strips: Strips, sq: float, speed: float, film: float
     allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
     count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)
     (fx, fy), (dx, dy) = cells_of(strips, scene.bodies.half_width), strips.cells.coarse
-    if moves(scene):
-        work = moving_strip_work(scene, strips, sq, speed, (fx, fy))
-        return (0, 0.0) if work > MOST_WORK and numerics.model == "auto" else (count, count * work)
+    if moving:
+        return (0, 0.0) if moving > MOST_WORK and numerics.model == "auto" else (count, count * moving)
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
     return count, count * work_of_steps(cells, STEPS) + work_of_steps(cells * fx * fy / 2, FINER_STEPS)

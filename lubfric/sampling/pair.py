@@ -8,18 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..contact import Strips
-from ..deterministic import (
-    ENOUGH,
-    DeterministicResult,
-    MovingStrip,
-    Strip,
-    assemble,
-    changes_of,
-    estimate,
-    evaluated,
-    solve_point,
-    solve_strip,
-)
+from ..deterministic import DeterministicResult, Strip, changes_of, estimate, solve_strip
 from ..quantities import NUMBERS
 from ..scene import moves
 from ..sharing import Prepared, on_piece, on_strip, quantities, solve_balance
@@ -117,21 +106,6 @@ def solve_finer(prepared: Prepared, speed: float, index: int, first: Pair) -> tu
         factors = max(1, factors[0] // 2), max(1, factors[1] // 2)
         ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[-1]))
     return tuple(replace(one, slope=first.resolved.slope) for one in ladder)
-
-
-def change_by_flow(pair: Pair) -> float:
-    """Relative change of f of ``pair`` if a limiting stress thins the flow as one twice as high would, with the shear
-    stress limited as before: how fast a sheared oil at its limit flows is not known well. 0 without such a limit; with
-    roughness that moves, by the same strip at rest.
-    Raises `ConvergenceError`."""
-    strip = pair.resolved.rest if isinstance(pair.resolved, MovingStrip) else pair.resolved
-    problem, result, oil = strip.problem, strip.result, strip.problem.lubricant
-    if oil.limiting_stress_coefficient is None:
-        return 0.0
-    twice = {name: 2 * getattr(oil, name) for name in ("limiting_stress_coefficient", "limiting_stress_offset")}
-    other = replace(problem, contact=replace(problem.contact, lubricant=replace(oil, **twice)))
-    found = solve_point(other, start=result.state, tolerance=ENOUGH)
-    return assemble(evaluated(problem, found.state), found.report).coefficient / result.coefficient - 1
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:

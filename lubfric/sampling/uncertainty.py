@@ -50,11 +50,16 @@ class Uncertainty(UncertaintyQuantities[float]):
         if not math.isfinite(self.sampling):
             return "; ".join((f"f: numerical {percent(self.numerical)}, surface not known", *self.notes))
         surface = f"surface {percent(self.sampling)} of a line of {1e3 * self.length:.3g} mm"
-        return "; ".join((f"{first}, {surface}, model {percent(self.model)}", *self.notes))
+        return "; ".join((f"{first}, {surface}, model {percent(self.model)}{self._of_inputs}", *self.notes))
+
+    @property
+    def _of_inputs(self) -> str:
+        return f", inputs {percent(self.inputs)}" if self.inputs > 0 else ""
 
     def short(self, coefficient: float) -> str:
         """f = value ± half of the interval, and the parts of the error."""
         parts = f"numerical {percent(self.numerical)}, surface {percent(self.sampling)}, model {percent(self.model)}"
+        parts += self._of_inputs
         if not math.isfinite(self.sampling):
             return f"f = {coefficient:.4g} ({parts})"
         half = 0.5 * (self.interval[1] - self.interval[0])

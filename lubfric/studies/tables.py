@@ -31,7 +31,7 @@ from ..units import worded
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
-BAND = "95 %: solvers, grids, surface, model, inputs"
+BAND = "95 %: solvers, grids, surface, inputs, model"
 MOST, NAMED, FINE = 500, 10, 200  # lines, lines with a label, points of a line between solved ones
 SMOOTH = 6  # values along both axes of a map from which it is drawn by contours
 
@@ -163,7 +163,9 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
     low, high = (at(columns.get(f"interval_{end}", unknown) / f - 1) for end in ("low", "high"))
     if not np.isfinite(low).any():
         return
-    ax.fill_between(x, y * (1 + low), y * (1 + high), color=BLUE, alpha=0.2, lw=0, label=BAND)
+    known = np.isfinite(columns.get("model_error", unknown)).any()
+    band = BAND if known else f"{BAND} (not known)"
+    ax.fill_between(x, y * (1 + low), y * (1 + high), color=BLUE, alpha=0.2, lw=0, label=band)
     for name, times, dashes in OF_INTERVAL:
         error = at(times * columns.get(name, unknown))
         if np.nanmax(error, initial=0.0) > 0:

@@ -100,7 +100,7 @@ def test_of_a_map_that_was_given_nobody_knows_which_of_two_bodies_moves_it():
 
 def test_motion_backwards_is_the_mirror_image():
     scene = scene_of(slide_roll_ratio=1.0)
-    surface = rough(4, shape=(16, 12))
+    surface = rough(4, shape=(24, 12))
     turned = replace(surface, heights=surface.heights[::-1])
     there = solve_moving_strip(scene, [RoughBody(surface, 0.15)], 0.3)
     back = solve_moving_strip(scene, [RoughBody(turned, 0.15)], -0.3)

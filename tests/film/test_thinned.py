@@ -9,8 +9,10 @@ from scipy.optimize import brentq
 from test_ehl import contact
 
 from lubfric import InputError, Lubricant, solve_ehl
+from lubfric.film import LineContact
 from lubfric.film.thinning import thinned
 from lubfric.oil import shear_stress
+from lubfric.sharing import exponents
 
 EYRING, CARREAU = {"eyring_stress": 5e6}, {"carreau": (5e6, 0.5)}
 
@@ -81,6 +83,19 @@ def test_only_the_size_of_the_sliding_counts_and_the_film_mirrors():
     back = solve_ehl(**(arguments | {"entrainment_speed": -speed}), sliding=-speed, **law)
     assert film.flow_film < 0.97 * solve_ehl(**arguments).flow_film
     assert back.flow_film == film.flow_film and np.array_equal(back.pressure[::-1], film.pressure)
+
+
+@pytest.mark.parametrize("fluid", [{"inlet_length": 3.5e-4}, {"inlet_film": 1e-7}, {"carreau": (2e5, 0.7)}])
+def test_the_film_to_expect_is_that_of_the_solution_to_a_quarter(fluid):
+    """By closed forms, for forecasts and starts; that of what arrives does not grow with the speed."""
+    arguments, _ = contact(100, 10)
+    oil = Lubricant(arguments["viscosity"], arguments["pressure_viscosity_coefficient"], **fluid)
+    names = ("load_per_width", "radius", "e_prime", "entrainment_speed")
+    line = LineContact(*(arguments[name] for name in names), oil, arguments["entrainment_speed"])
+    film = solve_ehl(**arguments, **fluid, sliding=line.sliding)
+    assert film.flow_film < 0.85 * solve_ehl(**arguments).flow_film
+    assert line.expected_film == pytest.approx(film.flow_film, rel=0.25)
+    assert (exponents(line)[2] == 0) == ("inlet_film" in fluid)
 
 
 def test_carreaus_law_as_it_is_written():

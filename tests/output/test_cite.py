@@ -70,7 +70,7 @@ def test_an_option_is_cited_where_it_was_used(author, used, not_used):
         assert name in cites(used) and name not in cites(not_used)
 
 
-def test_the_shear_of_the_flow_is_cited_for_an_eyring_film_in_one_gap_only():
+def test_the_shear_of_the_flow_is_cited_for_a_film_that_it_thins():
     whole = PATCH.with_(
         contact={"shape": (48, 48), "spacing": 1.9e-6},
         surface={"acf": "gaussian", "correlation_length": 16e-6},
@@ -81,7 +81,9 @@ def test_the_shear_of_the_flow_is_cited_for_an_eyring_film_in_one_gap_only():
     assert "Jakobsson" in newtonian and "one rough gap" in newtonian
     assert "Akchurin" not in newtonian and "Conry" not in newtonian
     assert "Conry" in sheared and "Tevaarwerk" in sheared
-    assert "Conry" not in lubfric.friction(PATCH.with_(lubricant=LAWS), 0.1).cite()
+    assert "Conry" in lubfric.friction(PATCH.with_(lubricant=LAWS), 0.1).cite()
+    carreau = lubfric.friction(PATCH.with_(lubricant=LAWS | {"eyring_stress": None, "carreau": (5e6, 0.7)}), 0.1).cite()
+    assert "Carreau" in carreau and "Tevaarwerk" not in carreau and "Conry" not in lubfric.friction(PATCH, 0.1).cite()
 
 
 def test_filters_are_cited_and_a_map_that_was_handed_over_is_not(tmp_path):

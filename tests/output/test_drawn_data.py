@@ -85,7 +85,8 @@ def test_a_curve_is_drawn_by_its_table(figures):
     ):
         np.testing.assert_allclose(data(top, label), [[0.01, 0.1, 1.0], expected], rtol=1e-12)
     np.testing.assert_allclose(
-        edges(top, "95 %: solvers, grids, surface, model, inputs"), [[0.08, 0.04, 0.019], [0.1, 0.06, 0.022]]
+        edges(top, "95 %: solvers, grids, surface, inputs, model (not known)"),
+        [[0.08, 0.04, 0.019], [0.1, 0.06, 0.022]],
     )
     np.testing.assert_allclose(data(top, "with cautions"), [[1.0], [0.02]])
     np.testing.assert_allclose(edges(middle, "contact $F_C$"), [[0, 0, 0], [0.8, 0.4, 0.0]], atol=1e-12)

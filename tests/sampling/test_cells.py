@@ -74,7 +74,7 @@ def sharp(tmp_path):
             | {"boundary_friction_coefficient": 0.12},
             "lubricant": {"viscosity": 0.012, "pressure_viscosity_coefficient": 1.6e-8, "eyring_stress": 5e6}
             | {"limiting_stress_coefficient": 0.06},
-            "motion": {"entrainment_speed": 3.5, "slip_percent": 4},
+            "motion": {"entrainment_speed": 3.6, "slip_percent": 4},
             "surface": {"file": str(tmp_path / "map.npy"), "spacing": [0.32e-6, 0.16e-6], "extension": "mirror"},
             "numerics": {"model": "load-sharing"},
         }
@@ -93,7 +93,7 @@ def test_the_fields_of_a_speed_are_those_of_its_own_cells(sharp, tmp_path):
     """Kept on the cells that its contact was solved on, shorter than those of the line."""
     (tmp_path / "sharp.toml").write_text(sharp.to_toml())
     out = tmp_path / "out"
-    assert main(["run", str(tmp_path / "sharp.toml"), "--speeds", "3.5", "--out", str(out)]) == 0
+    assert main(["run", str(tmp_path / "sharp.toml"), "--speeds", "3.6", "--out", str(out)]) == 0
     assert (out / "contact.png").stat().st_size > 10_000
     with np.load(out / "fields.npz") as fields:
         pressure, gap, heights, x = (fields[n] for n in ("contact_pressure_0", "gap_0", "heights", "contact_x"))

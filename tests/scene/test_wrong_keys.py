@@ -87,9 +87,12 @@ def test_a_dict_of_a_scene_stays_as_it_is(tmp_path):
     assert repr(table) == before
 
 
+QUICK = {"sampling": "patch", "model": "load-sharing"}
+
+
 def test_a_slide_roll_ratio_in_percent_is_questioned_and_still_solved():
     """3 was meant to be 3 %. A ratio of 3 is possible, where the surfaces move against one another."""
-    asked = lubfric.load_scene("paper").with_(motion={"slide_roll_ratio": 3.0}, numerics={"sampling": "patch"})
+    asked = lubfric.load_scene("paper").with_(motion={"slide_roll_ratio": 3.0}, numerics=QUICK)
     point = lubfric.friction(asked.with_(numerics={"tolerance": 0.1}), 0.1)
     told = [entry.text for entry in point.validity if "slide" in entry.what]
     assert told and all("caution" in text for text in told) and "3 % = 0.03" in told[0] and "slip_percent" in told[0]

@@ -19,6 +19,7 @@ from . import ehl
 from .contact import Contact
 from .harmonic import Compliance, press
 from .report import CONVERGED, ITERATION_LIMIT, SolveReport
+from .thinned_film import Law, solve_thinned
 
 POINTS = 16  # of the film in a cell of the contact
 PARTS = 10  # of a cell of the film, to integrate shear on
@@ -214,7 +215,11 @@ def divided(bodies: Bodies | FlatBodies, split: float, refinements: int) -> Shar
     film_load = bodies.load / (1 + math.exp(-split))
     contact_load = bodies.load - film_load
     contact = replace(bodies.contact, load_per_width=film_load / bodies.width)
-    film = ehl.solve_ehl(contact, refinements=refinements)[-1]
+    if math.isfinite(contact.fluid.eyring_stress) and bodies.sliding:
+        law = Law(contact.fluid.eyring_stress)
+        _, film = solve_thinned(contact, law, abs(bodies.sliding), refinements=refinements)
+    else:
+        film = ehl.solve_ehl(contact, refinements=refinements)[-1]
     shape = cell_means(film, bodies.edges)
     under = bodies.under(shape, contact_load)
     weight = bodies.weight / bodies.weight.sum()
