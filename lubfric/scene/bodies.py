@@ -72,7 +72,8 @@ def friction_of(given: Any) -> dict[str, Any]:
         if over is None or set(given) != {over, "values"}:
             ways = " or ".join(f"{{ {key} = [...], values = [...] }}" for key in FRICTION_OVER)
             raise InputError(f" = {validate.shown(given)}", FRICTION, ways)
-        table = FrictionTable(over, without_unit(FRICTION, given[over], FRICTION_OVER[over]), given["values"])
+        units = {over: FRICTION_OVER[over], "values": "-"}
+        table = FrictionTable(over, *(without_unit(FRICTION, given[name], unit) for name, unit in units.items()))
         given = table.values[0]
     return {"boundary_friction_coefficient": given, "boundary_friction_table": table}
 

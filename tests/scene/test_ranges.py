@@ -8,6 +8,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric.output.describe import inputs
 from lubfric.scene import Table
 
 FRICTION, HARDNESS, EYRING = "boundary_friction_coefficient", "hardness", "eyring_stress"
@@ -94,7 +95,7 @@ def test_a_table_over_the_sliding_speed_is_read_at_every_speed(tmp_path):
 
 
 def test_a_table_over_the_temperature_is_read_at_that_of_the_oil():
-    table = {"temperature": ["20 °C", "120 °C"], "values": [0.13, 0.08]}
+    table = {"temperature": ["20 °C", "120 °C"], "values": ["13 %", 0.08]}
     oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C"}
     scene = SMALL.with_(bodies={FRICTION: table}, lubricant=oil)
     assert scene.bodies.boundary_friction_coefficient == pytest.approx(0.105)
@@ -103,6 +104,20 @@ def test_a_table_over_the_temperature_is_read_at_that_of_the_oil():
         scene.with_(lubricant={"temperature": "130 °C"})
     with pytest.raises(lubfric.InputError, match=r"lubricant\.temperature"):
         SMALL.with_(bodies={FRICTION: table})
+
+
+def test_info_and_report_tell_ranges_and_tables():
+    """The range that was given, not the usual one of a typical value that has the same middle."""
+    told = {}
+    for given in (
+        {FRICTION: [0.1, 0.14], HARDNESS: [5e9, 7e9]},
+        {FRICTION: {"sliding_speed": [0, 2], "values": [0.15, 0.1]}},
+    ):
+        rows = inputs(SMALL.with_(bodies=given), "bodies")
+        told |= {key.partition(".")[2] + str(len(given)): note for _, _, key, note in rows}
+    assert told[FRICTION + "2"] == ", known to lie in 0.1 to 0.14" and told[HARDNESS + "1"] == ""
+    assert told[HARDNESS + "2"] == ", known to lie in 5 GPa to 7 GPa"
+    assert told[FRICTION + "1"] == ", by a table over sliding_speed: 0.15 at 0 m/s, 0.1 at 2 m/s"
 
 
 def test_a_run_in_time_takes_f_b_at_its_own_sliding_speed():
