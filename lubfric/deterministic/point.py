@@ -123,9 +123,8 @@ def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int,
         boundary_film=BOUNDARY_FILM if film is None else film,
         factors=factors,
     )
-    return (
-        replace(found, upper=found.heights) if [name for name, _ in moving_bodies(scene)] == ["counterface"] else found
-    )
+    alone = [name for name, _ in moving_bodies(scene)] == ["counterface"]
+    return replace(found, sense=-1.0 if ratio < 0 else 1.0, upper=found.heights if alone else None)
 
 
 @dataclass(frozen=True)
@@ -170,7 +169,7 @@ def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:
     friction = _blocks(fine.friction_at, count) - _blocks(coarse.friction_at, count)
     own = friction - load * ((friction @ load) / max(load @ load, 1e-300))
     scatter = float(np.std(own)) / math.sqrt(count - 1) / fine.load
-    return math.hypot(fine.coefficient - coarse.coefficient, scatter) / fine.coefficient
+    return math.hypot(fine.coefficient - coarse.coefficient, scatter) / abs(fine.coefficient)
 
 
 def _blocks(values, count: int) -> np.ndarray:

@@ -11,7 +11,18 @@ from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, counted
 from ..sampling import MOST_WORK, forecast
-from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, told_doubts, typical
+from ..scene import (
+    CHANGING,
+    FRICTION,
+    FRICTION_OVER,
+    Harmonic,
+    History,
+    Scene,
+    Table,
+    gap_not_resolved,
+    told_doubts,
+    typical,
+)
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
 from ..studies import in_words
 from ..surface import Surface, correlation_length, rms_slope
@@ -229,8 +240,8 @@ def _correlation_length(surface: Surface, axis: int) -> float | None:
 
 
 def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
-    """(what it is, the value with its unit, the key, the range of typical values) of every input in a section of the
-    scene."""
+    """(what it is, the value with its unit, the key, and its range, its table, or the range of typical values) of every
+    input in a section of the scene."""
     for key, quantity in KEYS.items():
         value = getattr(getattr(scene, section, None), key.removeprefix(f"{section}."), None)
         if not key.startswith(f"{section}.") or value is None or value == ():
@@ -240,7 +251,16 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
             text = f"{converted(value, 'K', '°C'):.4g} °C"
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
         ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
-        yield quantity.label, text, key, f", typical of {' or '.join(alike)}: {ends}" if alike else ""
+        note = f", typical of {' or '.join(alike)}: {ends}" if alike else ""
+        for name, *known in scene.ranges:
+            if name == key:
+                note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"
+        table = scene.bodies.boundary_friction_table
+        if table is not None and key == FRICTION:
+            unit = FRICTION_OVER[table.over]
+            points = (f"{value:.4g} at {worded(at, unit)}" for at, value in zip(table.at, table.values))
+            note = f", by a table over {table.over}: {', '.join(points)}"
+        yield quantity.label, text, key, note
 
 
 def _inputs(scene: Scene, section: str) -> list[str]:

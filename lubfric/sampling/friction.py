@@ -110,7 +110,7 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
 def _enough(prepared: Prepared, found: Found) -> str:
     """Why Eq. (8) alone answers, in words; "" if it does not."""
     scene, balance = prepared.scene, found.balance
-    why = gap_not_resolved(scene)
+    why = gap_not_resolved(scene, prepared.given)
     if why:
         return f"Eq. (8) alone: {why}"
     heat = balance.forces.heat

@@ -35,10 +35,10 @@ def map_of(prepared: Prepared, contact: HalfSpaceContact) -> Surface:
 
 
 def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
-    """The rough bodies of strip ``index``. In pure rolling two are one, and a map that was given is all: surface 1."""
+    """The rough bodies of strip ``index``. In pure rolling two are one: surface 1."""
     found, strips = moving_bodies(prepared.scene), prepared.strips
     assert strips is not None
-    if len(found) == 1 or prepared.given or found[0][1] == found[1][1]:
+    if len(found) == 1 or found[0][1] == found[1][1]:
         name, ratio = found[0]
         return [RoughBody(strip_surface(prepared, index), abs(speed) * ratio, name == "counterface")]
     return [

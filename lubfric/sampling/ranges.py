@@ -47,8 +47,8 @@ def with_ranges(prepared: Prepared, result: FrictionResult) -> FrictionResult:
 
 def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, float]]) -> Uncertainty:
     """``old`` of ``f`` with the relative ``changes`` by the two ends of inputs, by name."""
-    down = math.hypot(*(min(0.0, *ends) for ends in changes.values())) * abs(f)
-    up = math.hypot(*(max(0.0, *ends) for ends in changes.values())) * abs(f)
+    moved = [(f * low, f * high) for low, high in changes.values()]  # f may be negative
+    down, up = math.hypot(*(min(0.0, *ends) for ends in moved)), math.hypot(*(max(0.0, *ends) for ends in moved))
     low, high = old.interval
     told = (
         f"{name.partition('.')[2]} in its range: f {100 * low:+.2g} to {100 * high:+.2g} %"

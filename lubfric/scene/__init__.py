@@ -1,6 +1,6 @@
 """What is asked: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
-from .bodies import FASTEST, FRICTION, LARGEST_RATIO, Bodies, ContactDomain, FrictionTable, Motion
+from .bodies import FASTEST, FRICTION, FRICTION_OVER, LARGEST_RATIO, Bodies, ContactDomain, FrictionTable, Motion
 from .file import builtin_scenes, load_scene, read_toml, write_template
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics

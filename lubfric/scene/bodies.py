@@ -72,7 +72,8 @@ def friction_of(given: Any) -> dict[str, Any]:
         if over is None or set(given) != {over, "values"}:
             ways = " or ".join(f"{{ {key} = [...], values = [...] }}" for key in FRICTION_OVER)
             raise InputError(f" = {validate.shown(given)}", FRICTION, ways)
-        table = FrictionTable(over, without_unit(FRICTION, given[over], FRICTION_OVER[over]), given["values"])
+        units = {over: FRICTION_OVER[over], "values": "-"}
+        table = FrictionTable(over, *(without_unit(FRICTION, given[name], unit) for name, unit in units.items()))
         given = table.values[0]
     return {"boundary_friction_coefficient": given, "boundary_friction_table": table}
 
@@ -184,7 +185,7 @@ class Motion(Brief):
         validate.python_fields(self)
         for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", LARGEST_RATIO)):
             value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
-            object.__setattr__(self, name, value)
+            object.__setattr__(self, name, value + 0.0)  # -0.0 is no direction
         if not isinstance(self.speeds, (list, tuple)):
             raise InputError(f" = {validate.shown(self.speeds)}", "motion.speeds", "a list of numbers in m/s")
         speeds = validate.numbers("motion.speeds", self.speeds, "m/s", FASTEST) if self.speeds else ()

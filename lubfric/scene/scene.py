@@ -255,18 +255,16 @@ def resolves_gap(scene: Scene) -> bool:
     return scene.numerics.model == "deterministic"
 
 
-def gap_not_resolved(scene: Scene) -> str:
+def gap_not_resolved(scene: Scene, given: bool = False) -> str:
     """The first key of ``scene`` that the deterministic model does not take, and what it takes, in words; "" if it
-    takes all."""
-    return next(
-        (f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in _not_taken(scene)),
-        "",
-    )
+    takes all. ``given``: its map was given to `lubfric.prepare`."""
+    found = _not_taken(scene, given)
+    return next((f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in found), "")
 
 
-def check_resolved_gap(scene: Scene) -> None:
-    """Raise `InputError` for keys that the deterministic model does not take."""
-    for name, value, instead in _not_taken(scene):
+def check_resolved_gap(scene: Scene, given: bool = False) -> None:
+    """Raise `InputError` for keys that the deterministic model does not take. ``given``: as in `gap_not_resolved`."""
+    for name, value, instead in _not_taken(scene, given):
         said = f" = {value!r} does not go with numerics.model = 'deterministic'"
         raise InputError(said, name, f"{instead}, or numerics.model = 'load-sharing'")
 
@@ -284,7 +282,7 @@ def moves(scene: Scene) -> bool:
     return any(speed != 0 for _, speed in moving_bodies(scene))
 
 
-def _not_taken(scene: Scene) -> Iterator[tuple[str, Any, str]]:
+def _not_taken(scene: Scene, given: bool) -> Iterator[tuple[str, Any, str]]:
     for name, allowed, why in RESOLVED:
         section, _, key = name.partition(".")
         value = getattr(getattr(scene, section), key)
@@ -292,7 +290,7 @@ def _not_taken(scene: Scene) -> Iterator[tuple[str, Any, str]]:
             yield name, value, f"{', '.join(map(repr, allowed))}{why}"
     bodies = moving_bodies(scene)
     measured = [name for name, _ in bodies if getattr(scene, name).file is not None]
-    if len({u for _, u in bodies}) > 1 and (measured or scene.numerics.sampling == "patch"):
+    if len({u for _, u in bodies}) > 1 and (given or measured or scene.numerics.sampling == "patch"):
         yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 none, or two generated ones"
     lubricant = scene.lubricant
     if lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset == 0:

@@ -111,7 +111,7 @@ def prepare(
     """
     instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
     if resolves_gap(scene):
-        check_resolved_gap(scene)
+        check_resolved_gap(scene, surface is not None or isinstance(like, Prepared) and like.given)
     if like is not None:
         instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, surface, contact)

@@ -23,6 +23,7 @@ FEWEST, MORE = 12, "solve more speeds, or speeds='auto'"
 ROUNDED = 1e-9  # by which a number may be outside a range
 AT_REST = 0.03  # of the slowest speed: below it f falls to nothing at rest
 WALTHER = "0.001*(pow(10.0, pow(10.0, A - B*log10(T))) - 0.7)"  # ASTM D341, of eta in mPa s
+THINNEST = 3.001e-4  # Pa s, beyond which it has no value
 FORMULA = {  # valid in Python and C, one name after the other
     "V": "sqrt(U*U + u0*u0)",
     "e": "eta/eta0",
@@ -43,7 +44,7 @@ POSITIVE = {
     "r": (1e-6, 1e3),
 } | dict.fromkeys(("C1", "C2"), (1e-9, 1e9))  # searched in logarithms, between these bounds
 OTHERS = np.array([-3.0, 3.0])  # bounds of the exponents
-START = dict.fromkeys(("c", "e1", "e2", "d1", "d2"), 0.0) | {"a": 1.0, "m": 2.0, "r": 0.5}
+START = dict.fromkeys(("c", "e1", "e2", "d1", "d2"), 0.0) | {"a": 1.0, "n": 1.0, "m": 2.0, "r": 0.5}
 SYMBOLS = {"speed": ("U", "m/s"), "temperature": ("T", "K"), "pressure": ("p", "Pa")}
 VARIED = ("lubricant.temperature", "lubricant.temperature_celsius", "bodies.load")
 
@@ -209,9 +210,16 @@ def law_of_study(result) -> Law:
 
 
 def _viscosity(T, eta, coefficient) -> dict[str, float]:
-    """A and B of `WALTHER` through the viscosities, or through one with its slope; none without a temperature."""
-    if not np.isfinite(T).all():
+    """A and B of `WALTHER` through the viscosities, or through one with its slope; none without a temperature, or where
+    at a single one the fluid is too thin for it."""
+    thin = eta.min() <= THINNEST
+    if not np.isfinite(T).all() or thin and np.ptp(T) == 0:
         return {}
+    if thin:
+        allowed = f"above {THINNEST:g} Pa s, or one temperature"
+        raise InputError(
+            f" = {eta.min():.3g} Pa s is too thin for a law over temperature", "lubricant.viscosity", allowed
+        )
     x, y = np.log10(T), np.log10(np.log10(1e3 * eta + 0.7))
     if np.ptp(T) > 0:
         slope = np.polyfit(x, y, 1)[0]

@@ -15,7 +15,7 @@ from ..scene import Constant, Scene
 from ..sharing import Prepared, on_stack, prepare, scene_of, solve_balance
 from .film_setting import FINER, ContactHistory, discretisation, make_setting, steady_start
 from .march import Step
-from .sharing import Contact, Sharing, changes, inlet_viscosity, make_sharing
+from .sharing import Contact, Sharing, changes, inlet_viscosity, looks, make_sharing, scene_at
 
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
@@ -41,6 +41,8 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, Step, float]:
             f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
             f"{base.bodies.load:g} N, whose Hertz strip is the area A"
         )
+    for time in looks(base) if base.bodies.boundary_friction_table is not None else ():
+        scene_at(base, time)  # raises where the table of f_b has no value
     prepared, *of_strip = strip_for(scene if isinstance(scene, Prepared) else prepare(scene))
     sq, contact = prepared.surface.sq, _contact_history(prepared.scene)
     if not sq > 0.0 and plan.initial_film is None and contact.speed.before(0.0) == 0.0:

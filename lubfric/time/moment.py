@@ -42,7 +42,7 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
     t, p, contact, state = solution.terms, setting.problem, solution.payload, solution.payload.state
     total, film_load, speed = scene.bodies.load, t.carried * setting.load_unit, scene.motion.entrainment_speed
     shear, heat, typical = film_shear(sharing, scene, time, sliding, solution)
-    boundary = scene.bodies.boundary_friction(sliding, scene.lubricant.temperature) * contact.load * np.sign(sliding)
+    boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
     loads, parts, force = (contact.load, film_load), (boundary, shear.total), boundary + shear.total
     sense = np.sign(sliding) or np.sign(speed) or 1.0
     inlet, _ = inlet_at(scene, speed)
@@ -159,7 +159,7 @@ def film_shear(
         entrainment_speed=speed,
         rupture=float(x[-1] if speed > 0 else x[0]),
     )
-    boundary = scene.bodies.boundary_friction(sliding, scene.lubricant.temperature) * contact.load * np.sign(sliding)
+    boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
     of_point = film, contact.state, contact.load, abs(boundary + isothermal.total), isothermal
     heat, warm = point_heat(scene, *of_point)
     if warm is None or warm.stress is None:

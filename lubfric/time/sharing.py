@@ -34,20 +34,27 @@ def changes(scene: Scene) -> Transient:
 
 def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
     """``scene``, whose ``transient`` says what changes, just "before" ``time`` [s], or "at" it: just after. It has the
-    load, radius, speed, slide-roll ratio and viscosity of the moment. Its hardness is left out, because the contact has
-    it."""
+    load, radius, speed, slide-roll ratio, f_b and viscosity of the moment. Its hardness is left out, because the
+    contact has it, and so are its ranges."""
 
     def now(name: str, constant: float) -> float:
         return _value(scene, name, constant, time, side)
 
     bodies, oil = scene.bodies, scene.lubricant
-    bodies = replace(bodies, load=now("load", bodies.load), radius=now("radius", bodies.radius), hardness=None)
-    oil = replace(oil, viscosity=now("viscosity", oil.viscosity))
     speed, sliding = now("speed", scene.motion.entrainment_speed), sliding_at(scene, time, side)
+    bodies = replace(
+        bodies,
+        load=now("load", bodies.load),
+        radius=now("radius", bodies.radius),
+        hardness=None,
+        boundary_friction_coefficient=bodies.boundary_friction(sliding, oil.temperature),
+        boundary_friction_table=None,
+    )
+    oil = replace(oil, viscosity=now("viscosity", oil.viscosity))
     alone = abs(sliding) > FASTER * abs(speed)
     ratio = math.copysign(FASTER, sliding) if alone else sliding / speed if sliding else 0.0
     motion = replace(scene.motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
-    return replace(scene, bodies=bodies, lubricant=oil, motion=motion)
+    return replace(scene, bodies=bodies, lubricant=oil, motion=motion, ranges=())
 
 
 def sliding_at(scene: Scene, time: float, side: str = "before") -> float:
@@ -81,7 +88,7 @@ class WarmInlet(History):
 
     @cached_property
     def _seen(self) -> tuple[float, float]:
-        found = [self._warm(t, side) for t in _looks(self.scene) for side in ("before", "at")]
+        found = [self._warm(t, side) for t in looks(self.scene) for side in ("before", "at")]
         return min(found), max(found)
 
     def _warm(self, time: float, side: str) -> float:
@@ -96,13 +103,13 @@ def inlet_viscosity(scene: Scene) -> History:
     if scene.numerics.heat == "off" or not scene.lubricant.heats:
         return cold
     if scene.numerics.heat == "auto":
-        moments = (scene_at(scene, time) for time in _looks(scene))
+        moments = (scene_at(scene, time) for time in looks(scene))
         if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in moments):
             return cold
     return WarmInlet(scene.with_(numerics={"heat": "on"}))
 
 
-def _looks(scene: Scene) -> list[float]:
+def looks(scene: Scene) -> list[float]:
     plan = changes(scene)
     stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
     return sorted({*np.linspace(0, plan.duration, LOOKS).tolist(), *stops})

@@ -16,6 +16,7 @@ from lubfric.deterministic import (
     plot_passing,
     solve_moving_strip,
     solve_point,
+    solve_strip,
     travelling,
 )
 from lubfric.film import LineContact
@@ -77,6 +78,24 @@ def test_turning_the_contact_upside_down_leaves_the_force_on_each_body():
     f, rolling = lower.result.coefficient, lower.result.rolling / LINE.load_per_width
     assert upper.result.coefficient == pytest.approx(f + moment / LINE.load_per_width, abs=0.05 * rolling)
     assert upper.result.coefficient < 0.9 * f and rolling > 0.1 * f
+
+
+def test_of_either_sense_of_sliding_the_film_rolls_the_same_way():
+    """What it drags turns with the sliding, its resistance to rolling does not: f, against the sliding, may be below
+    0."""
+    smooth = replace(rough(3), heights=np.zeros((32, 12)))
+    one, other = (solve_strip(scene_of(slide_roll_ratio=s), smooth, 0.3).result for s in (1e-4, -1e-4))
+    assert other.couette == pytest.approx(one.couette, rel=1e-9) and other.rolling == pytest.approx(-one.rolling)
+    assert other.coefficient < 0 < one.coefficient
+
+
+def test_of_a_map_that_was_given_nobody_knows_which_of_two_bodies_moves_it():
+    rough_too, map_ = {"sq": 1e-7, "correlation_length": 12e-6}, rough(1, shape=(96, 64))
+    scene = scene_of(slide_roll_ratio=2.0).with_(surface=rough_too, counterface=rough_too)
+    with pytest.raises(lubfric.InputError, match="counterface.*second rough body"):
+        lubfric.prepare(scene.with_(numerics={"model": "deterministic"}), map_)
+    found = lubfric.friction(lubfric.prepare(scene, map_), 0.1)
+    assert found.deterministic is None and "second rough body" in found.decision.text
 
 
 def test_motion_backwards_is_the_mirror_image():

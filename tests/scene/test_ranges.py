@@ -1,12 +1,15 @@
 """Inputs known to a range only, and f_b over speed or temperature: as given, written, read, in f and its interval."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric.output.describe import inputs
+from lubfric.scene import Table
 
 FRICTION, HARDNESS, EYRING = "boundary_friction_coefficient", "hardness", "eyring_stress"
 SMALL = paper_scene(numerics={"sampling_tolerance": 0.1}, lubricant={EYRING: 5e6})
@@ -58,6 +61,18 @@ def test_both_ends_are_in_the_interval(key, ends):
     assert key in known.uncertainty.text and known.uncertainty.text in known.report.notes
 
 
+def test_a_range_widens_a_friction_below_zero_to_the_right_side():
+    """Backwards f is below 0, and a larger f_b raises it. On the other side the interval stays."""
+    scene = SMALL.with_(motion={"slide_roll_ratio": -1e-5}, bodies={FRICTION: 1e-4})
+    plain, known = f(scene, 0.03), f(scene.with_(bodies={FRICTION: [1e-4, 1e-4, 0.02]}), 0.03)
+    assert known.coefficient == plain.coefficient < 0 < plain.contact_load
+    (low, high), (least, most) = plain.uncertainty.interval, known.uncertainty.interval
+    assert least == pytest.approx(low, rel=1e-9)
+    assert most - plain.coefficient == pytest.approx(
+        math.hypot(high - plain.coefficient, 0.0199 * plain.contact_load / 5.5), rel=1e-6
+    )
+
+
 def test_a_range_is_in_the_columns_of_a_curve():
     scene = SMALL.with_(bodies={FRICTION: [0.07, 0.11]})
     curve = lubfric.stribeck(scene, [0.003, 1.0])
@@ -80,7 +95,7 @@ def test_a_table_over_the_sliding_speed_is_read_at_every_speed(tmp_path):
 
 
 def test_a_table_over_the_temperature_is_read_at_that_of_the_oil():
-    table = {"temperature": ["20 °C", "120 °C"], "values": [0.13, 0.08]}
+    table = {"temperature": ["20 °C", "120 °C"], "values": ["13 %", 0.08]}
     oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": "70 °C"}
     scene = SMALL.with_(bodies={FRICTION: table}, lubricant=oil)
     assert scene.bodies.boundary_friction_coefficient == pytest.approx(0.105)
@@ -91,6 +106,20 @@ def test_a_table_over_the_temperature_is_read_at_that_of_the_oil():
         SMALL.with_(bodies={FRICTION: table})
 
 
+def test_info_and_report_tell_ranges_and_tables():
+    """The range that was given, not the usual one of a typical value that has the same middle."""
+    told = {}
+    for given in (
+        {FRICTION: [0.1, 0.14], HARDNESS: [5e9, 7e9]},
+        {FRICTION: {"sliding_speed": [0, 2], "values": [0.15, 0.1]}},
+    ):
+        rows = inputs(SMALL.with_(bodies=given), "bodies")
+        told |= {key.partition(".")[2] + str(len(given)): note for _, _, key, note in rows}
+    assert told[FRICTION + "2"] == ", known to lie in 0.1 to 0.14" and told[HARDNESS + "1"] == ""
+    assert told[HARDNESS + "2"] == ", known to lie in 5 GPa to 7 GPa"
+    assert told[FRICTION + "1"] == ", by a table over sliding_speed: 0.15 at 0 m/s, 0.1 at 2 m/s"
+
+
 def test_a_run_in_time_takes_f_b_at_its_own_sliding_speed():
     """At rest in entrainment the contact carries all: f is that of the table at the sliding speed."""
     plan = lubfric.Transient(1e-4, outputs=1, speed=0.0, sliding=0.5, initial="rest")
@@ -99,3 +128,15 @@ def test_a_run_in_time_takes_f_b_at_its_own_sliding_speed():
     )
     run = lubfric.transient(scene.with_(transient=plan))
     assert run.coefficient[-1] == pytest.approx(0.1, rel=0.02)
+
+
+def test_a_run_in_time_takes_a_range_and_a_table_that_begins_above_zero():
+    """Its hardness is that of the middle; where the entrainment turns, the surfaces slide at 0.5 m/s as before. Outside
+    the table it is refused before any work."""
+    plan = lubfric.Transient(1e-4, outputs=1, speed=0.0, sliding=0.5, initial="rest")
+    table = {FRICTION: {"sliding_speed": [0.2, 0.8], "values": [0.13, 0.07]}, HARDNESS: [6e9, 5e9, 7e9]}
+    scene = SMALL.with_(bodies=table, numerics={"sampling": "patch"}, motion={"entrainment_speed": 0.2})
+    assert lubfric.transient(scene.with_(transient=plan)).coefficient[-1] == pytest.approx(0.1, rel=0.02)
+    late = Table(times=(0.0, 0.9e-4, 1e-4), values=(0.5, 0.5, 1.0))
+    with pytest.raises(lubfric.InputError, match="no value at"):
+        lubfric.transient(scene.with_(transient=replace(plan, sliding=late)), on_step=pytest.fail)

@@ -11,6 +11,7 @@ import pytest
 from small_study import SCENE
 
 import lubfric
+from lubfric.studies.law import law_of
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
 WARM, LOADS = [333.15, 353.15], [4.0, 8.0]  # K, N
@@ -113,6 +114,18 @@ def test_a_curve_has_a_law_at_its_own_temperature_and_pressure():
     law = curve.law()
     assert np.abs(law(curve.speed) / curve.coefficient - 1).max() <= law.largest * (1 + 1e-9) < 0.06
     assert "T not known, and not used" in law.text and law.ranges["pressure"][0] == law.ranges["pressure"][1]
+
+
+def test_of_smooth_bodies_in_a_fluid_too_thin_for_the_law_of_its_viscosity():
+    """At one temperature that law is not needed."""
+    fluid = {"viscosity": 2e-4, "viscosity_law": "constant", "temperature": 300.0, "temperature_coefficient": 0.01}
+    scene = SCENE.with_(lubricant=fluid, surface={"sq": 0.0}, numerics={"heat": "off", "accept": True})
+    curve = lubfric.stribeck(scene, np.geomspace(0.1, 3.0, 12))
+    law = curve.law()
+    assert np.abs(law(curve.speed) / curve.coefficient - 1).max() <= law.largest * (1 + 1e-9) < 0.06
+    both = [((T, 2e-4, 0.01, 1e8), curve._curve) for T in (300.0, 320.0)]
+    with pytest.raises(lubfric.InputError, match="viscosity = 0.0002 Pa s is too thin"):
+        law_of("", both, curve.coefficient, *curve.uncertainty.interval.T, curve.uncertainty.model)
 
 
 def test_what_it_cannot_hold_is_refused(study):

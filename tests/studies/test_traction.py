@@ -61,6 +61,13 @@ def test_the_mean_over_both_signs_of_slip_is_f_without_the_rolling_part():
     assert there.without_rolling[0] < rolling[0] < 0.01 * there.without_rolling[1]  # the rest vanishes with the slip
 
 
+def test_rolling_backwards_without_sliding_is_resisted_as_forwards():
+    """Its slide-roll ratio comes out as -0.0, which is no sense of sliding."""
+    smooth = SCENE.with_(surface={"sq": 0.0})
+    there, back = (lubfric.friction(smooth.with_(motion={"surface_speeds": [u, u]})).coefficient for u in (0.3, -0.3))
+    assert back == pytest.approx(there, rel=1e-9) and there > 0
+
+
 def test_a_refused_ratio_is_marked_and_the_others_kept():
     plain = SCENE.with_(
         lubricant={"eyring_stress": None, "limiting_stress_coefficient": None}, numerics={"heat": "off"}
