@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from ..scene import Constant, Scene
 from ..sharing import Prepared, on_stack, prepare, scene_of, solve_balance
 from .film_setting import FINER, ContactHistory, discretisation, make_setting, steady_start
 from .march import Step
-from .sharing import Contact, Sharing, changes, inlet_viscosity, looks, make_sharing, scene_at
+from .sharing import Contact, Sharing, changes, inlet_viscosity, looks, make_sharing, scene_at, sliding_at
 
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
@@ -74,6 +75,7 @@ def _contact_history(scene: Scene) -> ContactHistory:
         duration=plan.duration,
         initial_film=plan.initial_film,
         width=bodies.width,
+        sliding=partial(sliding_at, scene),
     )
 
 

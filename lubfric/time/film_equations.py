@@ -1,11 +1,12 @@
 """One implicit time step of the line contact: its complementarity equations and their Jacobian.
 
-    d(rho H)/dT + u d(rho H)/dX = d/dX( rho H³/(6 nu eta) dP/dX )   where P > 0,
+    d(rho H)/dT + u d(rho H)/dX = d/dX( Φ rho H³/(6 nu eta) dP/dX )   where P > 0,
     the film no thinner than the gap where P = 0 (Swift-Stieber)
 
 The units are those of `lubfric.film.Problem` for a reference speed, and T = t U_ref/(unit of x). The time derivative is
 ``rate (rho H - memory)``. Any implicit formula has that form (BDF2: `lubfric.time.march`), and rate = 0 gives the
-steady state. The unknowns z are the pressures at all nodes, and H00 in H = H00 + c X²/2 + K P.
+steady state. Shear makes the flow Φ times the Newtonian one (`lubfric.film.thinning`). The unknowns z are the pressures
+at all nodes, and H00 in H = H00 + c X²/2 + K P.
 
 Mass is balanced in control volumes around the nodes. The Couette flow takes film and density by third-order upwind
 interpolation. The Poiseuille flow takes a centred film and the logarithmic mean of the fluidity. At both end nodes P
@@ -103,6 +104,7 @@ class StepTerms:
     centre: tuple
     fluidity: tuple
     gradient: np.ndarray
+    thin: tuple  # Φ, s dΦ/ds, b dΦ/db
     flux: np.ndarray  # towards +X, (n,)
     stored: np.ndarray  # per unit time in each control volume
     r: np.ndarray  # node equations
@@ -137,7 +139,8 @@ class StepEquations:
         up_rho, up_H, mid_rho, mid_H = up(rho[0]), up(H), centred(rho[0]), centred(H)
         fluidity = tuple(f / self.viscosity for f in log_mean_fluidity(log_eta))
         gradient = np.diff(P) / (6.0 * grid.cells)
-        flux = speed * up_rho * up_H - mid_rho * mid_H**3 * fluidity[0] * gradient
+        thin = self.problem.thinned(fluidity[0], mid_H, 6.0 * gradient)
+        flux = speed * up_rho * up_H - mid_rho * mid_H**3 * fluidity[0] * gradient * thin[0]
         stored = memory.rate * (rho[0] * H - memory.film) * grid.weights
         r = np.empty_like(P)
         r[1:-1] = stored[1:-1] + flux[1:] - flux[:-1]
@@ -149,7 +152,7 @@ class StepEquations:
             carried += load[0] if pressure[0] > 0.0 else 0.0
             ends.append((pressure, load))
         shared = self.spring.at(H) if self.spring else (0.0, 0.0)
-        flows = (up_rho, up_H), (mid_rho, mid_H), fluidity, gradient, flux, stored
+        flows = (up_rho, up_H), (mid_rho, mid_H), fluidity, gradient, thin, flux, stored
         balance = carried + shared[0] - self.load
         return StepTerms(P, H, rho, log_slope, *flows, r, tuple(ends), carried, shared, balance)
 
@@ -189,20 +192,25 @@ class StepEquations:
         up, centred = grid.upwind(speed), grid.centred
         mean, by_left, by_right = t.fluidity
         rho, H = t.centre
-        couette, poiseuille = speed * t.up[0], 3.0 * rho * H**2 * mean * t.gradient
+        thin, by_stress, by_gradient = t.thin
+        couette = speed * t.up[0]
+        poiseuille = (3.0 * thin - by_stress + by_gradient) * rho * H**2 * mean * t.gradient
         G = np.empty((n, n + 2))
         np.multiply(couette[:, None], up.kernel, out=G[:, :-1])
         G[:, :-1] -= poiseuille[:, None] * centred.kernel
         G[:, -1] = couette - poiseuille
         i, cube = np.arange(n), rho * H**3
-        by_P = cube * mean / (6.0 * grid.cells)
-        G[i, i] += by_P - cube * t.gradient * by_left * t.log_slope[:-1]
-        G[i, i + 1] -= by_P + cube * t.gradient * by_right * t.log_slope[1:]
+        by_P = cube * mean / (6.0 * grid.cells) * (thin + by_gradient)
+        by_log = cube * t.gradient * (thin - by_stress)
+        G[i, i] += by_P - by_log * by_left * t.log_slope[:-1]
+        G[i, i + 1] -= by_P + by_log * by_right * t.log_slope[1:]
         slope = t.rho[1]
         if slope.any():
             rows = i[:, None]
             G[rows, up.columns] += (speed * t.up[1])[:, None] * up.values * slope[up.columns]
-            G[rows, centred.columns] -= (H**3 * mean * t.gradient)[:, None] * centred.values * slope[centred.columns]
+            G[rows, centred.columns] -= (
+                (H**3 * mean * t.gradient * thin)[:, None] * centred.values * slope[centred.columns]
+            )
         return G
 
     def residual(self, t: StepTerms) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -34,6 +35,7 @@ class ContactHistory:
     speed : [m/s], of entrainment
     viscosity : [Pa s], ambient; the law of the pressure stays
     initial_film : [m] flying height of the undeformed parabola at t = 0; None: steady before t = 0
+    sliding : of a time, u2 - u1 [m/s] just before it, with which shear thins the flow; None: Newtonian flow
     """
 
     load: History
@@ -45,6 +47,11 @@ class ContactHistory:
     duration: float
     initial_film: float | None = None
     width: float = 1.0
+    sliding: Callable[[float], float] | None = None
+
+    def sliding_before(self, time: float) -> float | None:
+        """The sliding speed [m/s], if it is known."""
+        return None if self.sliding is None else self.sliding(time)
 
 
 @dataclass(frozen=True)
@@ -66,9 +73,10 @@ class Setting:
         c, reference = self.contact, self.problem.contact
         time_unit = self.problem.length_unit / reference.entrainment_speed
         memory = memory or Memory(0.0, np.zeros(self.grid.n + 1))
+        sheared = replace(self.problem, contact=replace(reference, sliding=c.sliding_before(time)))
         return StepEquations(
             self.grid,
-            self.problem,
+            sheared,
             Memory(memory.rate * time_unit, memory.film),
             c.speed.before(time) / reference.entrainment_speed,
             c.load.before(time) / self.load_unit,
@@ -157,7 +165,7 @@ def steady_start(setting: Setting, load: float | None = None) -> Step:
     c, p, grid, equations = setting.contact, setting.problem, setting.grid, setting.equations(0.0)
     load = load or c.load.before(0.0)
     oil = replace(c.lubricant, viscosity=c.viscosity.before(0.0))
-    line = LineContact(load / c.width, c.radius.before(0.0), c.e_prime, c.speed.before(0.0), oil)
+    line = LineContact(load / c.width, c.radius.before(0.0), c.e_prime, c.speed.before(0.0), oil, c.sliding_before(0.0))
     found = solve_line_contact(line, Effort(tolerance=0.01))
     x, P = found.x / p.length_unit, found.pressure / p.pressure_unit
     forwards = found.entrainment_speed > 0

@@ -79,14 +79,21 @@ class Judge:
         return Sides(film, gap, mean_film, self.strip.x, touching * (np.mean(areas) if areas else 1.0))
 
     def film(self, film_load: float, modulus: float):
-        """The film by differential deflection, or by the tightest Newton solution where that does not converge."""
+        """The film by differential deflection, or by the tightest Newton solution where that does not converge or where
+        shear thins the flow."""
         scene = self.prepared.scene
         case = case_of_scene(scene, film_load, self.speed)
         case |= {"e_prime": modulus * scene.bodies.e_prime, "viscosity": inlet_viscosity(scene, self.speed)}
+        sheared = {
+            "sliding": scene.motion.slide_roll_ratio * self.speed,
+            "eyring_stress": scene.lubricant.eyring_stress,
+        }
         try:
-            return solve_differential_deflection(**case, tolerance=self.film_tolerance)
+            if sheared["eyring_stress"] is None:
+                return solve_differential_deflection(**case, tolerance=self.film_tolerance)
         except LubfricError:
-            return solve_ehl(**case, tolerance=1e-4)
+            pass
+        return solve_ehl(**case, **sheared, tolerance=1e-4)
 
     def pressed(self, strip: Strip, film, load: float) -> tuple[float, float, np.ndarray]:
         """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""

@@ -25,7 +25,7 @@ RAMPED = {
 }
 OILS: dict[str, dict[str, Any]] = {
     "Newtonian": {},
-    "Eyring": {"eyring_stress": 3e6},  # lower ones thin the steady film, but not that of a run in time
+    "Eyring": {"eyring_stress": 2e5},
     "limiting stress": {"limiting_stress_coefficient": 0.002, "limiting_stress_offset": 5e4},
     "Dowson-Higginson": {"density_law": "dowson-higginson"},
     "Barus": {"viscosity_law": "barus"},
