@@ -93,7 +93,7 @@ class Judge:
                 return solve_differential_deflection(**case, tolerance=self.film_tolerance)
         except LubfricError:
             pass
-        return solve_ehl(**case, **sheared, tolerance=1e-4)
+        return solve_ehl(**case, sliding=sliding, eyring_stress=stress, tolerance=1e-4)
 
     def pressed(self, strip: Strip, film, load: float) -> tuple[float, float, np.ndarray]:
         """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
