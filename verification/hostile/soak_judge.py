@@ -84,12 +84,9 @@ class Judge:
         scene = self.prepared.scene
         case = case_of_scene(scene, film_load, self.speed)
         case |= {"e_prime": modulus * scene.bodies.e_prime, "viscosity": inlet_viscosity(scene, self.speed)}
-        sheared = {
-            "sliding": scene.motion.slide_roll_ratio * self.speed,
-            "eyring_stress": scene.lubricant.eyring_stress,
-        }
+        stress, sliding = scene.lubricant.eyring_stress, scene.motion.slide_roll_ratio * self.speed
         try:
-            if sheared["eyring_stress"] is None:
+            if stress is None:
                 return solve_differential_deflection(**case, tolerance=self.film_tolerance)
         except LubfricError:
             pass
