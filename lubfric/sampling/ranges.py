@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from ..contact import RoughContact
 from ..deterministic import Strip, solve_strip
+from ..errors import ConvergenceError
 from ..scene import FRICTION, Scene, moves, value_of
 from ..sharing import Prepared, on_stack, prepare, solve_balance
 from .moving import solved_strip
@@ -24,7 +25,7 @@ def with_ranges(prepared: Prepared, result: FrictionResult) -> FrictionResult:
     f is linear in f_b at a given division of the load. At both ends of every other range it is solved again, by the
     model of the result: Eq. (8) on the first strips, or the deterministic model on one of them, on cells twice as long.
     The changes are relative to the middle on the same cells. Those of several inputs add up as squares, up and down for
-    themselves. Raises `ConvergenceError`.
+    themselves. An end that cannot be solved leaves ``inputs`` NaN, and a note.
     """
     scene, f = prepared.scene, result.coefficient
     if not scene.ranges or not f:
@@ -36,8 +37,11 @@ def with_ranges(prepared: Prepared, result: FrictionResult) -> FrictionResult:
             slope = result.contact_load / scene.bodies.load * (scene.motion.slide_roll_ratio != 0) / f
             low, high = (slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
         else:
-            at = at or (_resolved if result.deterministic is not None else _shared)(prepared, result.speed)
-            low, high = (at(end) / at(scene) - 1 for end in ends)
+            try:
+                at = at or (_resolved if result.deterministic is not None else _shared)(prepared, result.speed)
+                low, high = (at(end) / at(scene) - 1 for end in ends)
+            except ConvergenceError:  # the point itself is solved
+                low = high = math.nan
         changes[name] = low, high
     old = result.uncertainty
     known = widened(old, result.coefficient, changes)
@@ -47,6 +51,8 @@ def with_ranges(prepared: Prepared, result: FrictionResult) -> FrictionResult:
 
 def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, float]]) -> Uncertainty:
     """``old`` of ``f`` with the relative ``changes`` by the two ends of inputs, by name."""
+    unknown = [name for name, ends in changes.items() if math.isnan(sum(ends))]
+    changes = {name: ends for name, ends in changes.items() if name not in unknown}
     moved = [(f * low, f * high) for low, high in changes.values()]  # f may be negative
     down, up = math.hypot(*(min(0.0, *ends) for ends in moved)), math.hypot(*(max(0.0, *ends) for ends in moved))
     low, high = old.interval
@@ -55,11 +61,13 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, float]])
         for name, (low, high) in changes.items()
         if max(abs(low), abs(high)) > LEAST
     )
+    missed = "in its range: not in the interval, as an end was not solved"
+    not_in = (f"{name.partition('.')[2]} {missed}" for name in unknown)
     return replace(
         old,
-        inputs=max(down, up) / abs(f),
+        inputs=math.nan if unknown else max(down, up) / abs(f),
         interval=(f - math.hypot(f - low, down), f + math.hypot(high - f, up)),
-        notes=(*old.notes, *told),
+        notes=(*old.notes, *told, *not_in),
     )
 
 

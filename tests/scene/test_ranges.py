@@ -44,6 +44,16 @@ def test_what_is_no_range_and_no_table_is_refused(given):
         SMALL.with_(bodies={FRICTION: given})
 
 
+def test_an_end_that_is_not_solved_does_not_lose_the_point(monkeypatch):
+    def fails(*args):
+        raise lubfric.ConvergenceError("no balance")
+
+    monkeypatch.setattr("lubfric.sampling.ranges.solve_balance", fails)
+    known = f(SMALL.with_(bodies={HARDNESS: [1.2e9, 6e9]})).uncertainty
+    assert np.isfinite(known.interval).all() and math.isnan(known.inputs)
+    assert "hardness in its range: not in the interval" in known.text
+
+
 @pytest.mark.parametrize("key, ends", [(FRICTION, (0.07, 0.1)), (HARDNESS, (1.2e9, 6e9))])
 def test_both_ends_are_in_the_interval(key, ends):
     """The scene at each end by itself, on the same first strips: its change of f adds to the half-width as squares."""
