@@ -5,11 +5,10 @@ coarse cells; `scatter` reads the standard error off one solved contact; `errors
 interval. `friction` is the entry; `answer` and `answer_deterministic` are the two models.
 """
 
-from .cite import together
 from .friction import friction
 from .moving import MOST_WORK
 from .outlook import forecast
-from .result import FrictionResult
+from .result import FrictionResult, together
 from .sample import sampled
 from .scatter import moment_error
 from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, percent, student

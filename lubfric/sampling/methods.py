@@ -1,4 +1,4 @@
-"""The methods behind a result that have a paper behind them (`lubfric.sampling.cite, papers.toml`)."""
+"""The methods behind a result that have a paper behind them (papers.toml)."""
 
 from __future__ import annotations
 

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from .._base import Shown, axes_or_new, field_image
+from .._base import Shown, axes_or_new, field_image, packaged
 from ..deterministic import Refined
 from ..errors import InputError, Report
 from ..quantities import PointQuantities, described_in_doc, in_words
 from ..sharing import Balance, Lack, Validity
-from .cite import cited
 from .decision import Decision
 from .uncertainty import FieldErrors, Uncertainty
 
@@ -131,3 +131,14 @@ class FrictionResult(PointQuantities[float], Shown):
 def _interval(interval: tuple[float, float]) -> str:
     low, high = interval
     return f" ({low:.4g} to {high:.4g} at 95 %)" if np.isfinite(low) and np.isfinite(high) else ""
+
+
+def cited(methods: Iterable[str]) -> str:
+    """The papers of ``methods`` (keys of papers.toml), one a line, the model's first."""
+    used = set(methods)
+    return "\n".join(paper for name, paper in packaged(__package__, "papers.toml").items() if name in used)
+
+
+def together(points) -> str:
+    """The papers of several results, each once, one a line."""
+    return cited(name for point in points for name in point.methods)

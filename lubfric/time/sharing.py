@@ -110,6 +110,7 @@ def inlet_viscosity(scene: Scene) -> History:
 
 
 def looks(scene: Scene) -> list[float]:
+    """Times [s] at which a run is looked through before it begins: `LOOKS` of them evenly, and all stops and jumps."""
     plan = changes(scene)
     stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
     return sorted({*np.linspace(0, plan.duration, LOOKS).tolist(), *stops})
