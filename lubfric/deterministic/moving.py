@@ -217,7 +217,8 @@ def solve_moving_strip(
     """
     whole = replace(bodies[0].surface, heights=np.sum([body.surface.heights for body in bodies], axis=0), mask=None)
     near = start.rest if isinstance(start, MovingStrip) else start
-    rest = solve_strip(scene, whole, speed, factors=factors, start=near, slope=slope)
+    upper = next((body.surface for body in bodies if body.upper), None)
+    rest = solve_strip(scene, whole, speed, factors=factors, start=near, slope=slope, upper=upper)
     if speed < 0:
         bodies = [body._replace(surface=replace(body.surface, heights=body.surface.heights[::-1])) for body in bodies]
     fastest = max(bodies, key=lambda body: abs(body.speed))
