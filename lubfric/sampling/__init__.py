@@ -11,4 +11,4 @@ from .outlook import forecast
 from .result import FrictionResult, together
 from .sample import sampled
 from .scatter import moment_error
-from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, percent, student
+from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, load_sharing_error, percent, student
