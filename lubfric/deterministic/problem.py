@@ -47,6 +47,8 @@ class Problem(OfLineContact):
     against U, if nothing slides): its shear stress, and the pressure on the flanks of its own roughness. ``upper`` z2
     [m] (nx, ny): that roughness, part of z (None: surface 2 is smooth). The force on surface 1 is the opposite, but for
     the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
+
+    least_flow [m²/s]: what the residuals of the mass are relative to, where less flows in (in time, where U may be 0).
     """
 
     contact: LineContact
@@ -60,6 +62,7 @@ class Problem(OfLineContact):
     floor: float = FLOOR
     sense: float = 1.0
     upper: np.ndarray | None = None
+    least_flow: float = 0.0
 
     @property
     def spacing(self) -> tuple[float, float]:
