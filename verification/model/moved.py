@@ -22,8 +22,9 @@ BALANCES = "mass", "load", "gap", "bounds"
 
 def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
     """Means over one pass of the fastest of ``bodies`` (at rest: of the steady film): ``f``, ``central`` and ``mean``
-    gap [m], ``shares`` of the load on gaps below each of `FILMS`; the same at rest, from which it starts; ``off``: the
-    worst of each of the `BALANCES` (`balances`)."""
+    gap [m], ``shares`` of the load on gaps below each of `FILMS`, and ``drawn``, the share of the lubricant that
+    touching cells are said to give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are
+    from 0."""
     heights = np.sum([body.surface.heights for body in bodies], axis=0)
     whole = lubfric.Surface(heights, bodies[0].surface.spacing, periodic_axes=(True, True))
     upper = next((body.surface for body in bodies if body.upper), None)
@@ -53,7 +54,8 @@ def row(problem, result) -> dict[str, Any]:
     """The numbers of one moment."""
     p, h = result.pressure, result.gap
     shares = [float(p[h < film].sum() / p.sum()) for film in FILMS]
-    return {"f": result.coefficient, "central": result.central_gap, "mean": result.mean_gap, "shares": shares}
+    numbers = {"f": result.coefficient, "central": result.central_gap, "mean": result.mean_gap, "drawn": result.drawn}
+    return numbers | {"shares": shares}
 
 
 def balances(problem, result, passing: Sequence, step: float) -> dict[str, float]:
