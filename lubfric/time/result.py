@@ -15,9 +15,11 @@ from ..scene import FRICTION as FRICTION_KEY
 from ..scene import value_of
 from ..sharing import Validity, gathered
 from .march import Plan, Progress, report_of
+from .one_gap import OneGap
 from .sharing import Sharing
 
-# at an output time: numbers by name, assumptions that do not hold, pressures and films in the units of the setting
+Solver = Sharing | OneGap
+# at an output time: numbers by name, assumptions that do not hold, pressures [Pa] and films [m] over x
 Output = tuple[dict[str, float], tuple[Validity, ...], np.ndarray, np.ndarray]
 MANY = 30  # blocks less one: of a strip
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
@@ -156,32 +158,31 @@ class TransientResult(Shown):
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
-def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
+def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
     """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
-    p, x = sharing.setting.problem, sharing.setting.grid.x
     columns = {name: np.array([row[name] for row, *_ in outputs], float) for name in OF_MOMENT}
-    P, H = (np.array([output[k] for output in outputs]).reshape(-1, x.size) for k in (2, 3))
+    P, H = (np.array([output[k] for output in outputs]).reshape(-1, solver.x.size) for k in (2, 3))
     worst = {
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / MASS,
-        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / sharing.tolerance,
+        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / solver.tolerance,
     }
     if not math.isnan(grid_error):
-        worst["grid"] = grid_error / sharing.scene.numerics.tolerances.film
+        worst["grid"] = grid_error / solver.scene.numerics.tolerances.film
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
-    prepared, renewal = sharing.prepared, math.nan
+    prepared, renewal = solver.prepared, math.nan
     ends = {name: [end - value_of(prepared.scene, name) for end in both] for name, *both in prepared.scene.ranges}
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
-    report = report_of("transient, BDF2", plan, now, f"{x.size - 1} cells; surface: {surface}", worst)
+    report = report_of("transient, BDF2", plan, now, f"{solver.cells}; surface: {surface}", worst)
     if prepared.strips is not None and not prepared.strips.whole:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
     return TransientResult(
         columns=columns,
-        x=x * p.length_unit,
-        pressure=P * p.pressure_unit,
-        film_thickness=H * p.film_unit,
+        x=solver.x,
+        pressure=P,
+        film_thickness=H,
         report=replace(report, notes=(*report.notes, *not_in)),
         entries=tuple(entries for _, entries, _, _ in outputs),
         inputs=np.outer((-low, high), by_load),
