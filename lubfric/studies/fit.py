@@ -254,7 +254,6 @@ def _result(search: Search, end) -> FitResult:
     _, singular, axes = np.linalg.svd(end.jac, full_matrices=False)
     known = np.maximum(singular, max(1e-8 * singular[0], LEAST_SLOPE))  # a direction without effect: a huge variance
     status = CONVERGED if end.status > 0 else ITERATION_LIMIT
-    coarse = "give start = {...} closer to the answer, narrower bounds, or fewer parameters"
     report = Report(
         "fit, trust region",
         status,
@@ -262,7 +261,7 @@ def _result(search: Search, end) -> FitResult:
         0.0 if status == CONVERGED else 1.0,
         CLOSE,
         {"sum of squares": squares},
-        advice="" if status == CONVERGED else coarse,
+        advice="give start = {...} closer to the answer, narrower bounds, or fewer parameters",
     )
     return FitResult(
         base=search.scene,

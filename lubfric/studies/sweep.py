@@ -181,14 +181,13 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
 def _with_interpolation(curve: StribeckResult, tolerance: float) -> Report:
     """The report of a curve that chose its speeds: its residual is the estimated error between the points."""
     report, error = curve.report, next_speed(through(columns_of(curve.points)), tolerance)[1]
-    coarse = "" if error <= tolerance else "solve more speeds of your own, or loosen numerics.tolerance"
     return replace(
         report,
         status=report.status if error <= tolerance else ITERATION_LIMIT,
         residual=error,
         tolerance=tolerance,
         residuals={"interpolation": error, "points": report.residual},
-        advice=report.advice or coarse,
+        advice=report.advice or "solve more speeds of your own, or loosen numerics.tolerance",
     )
 
 

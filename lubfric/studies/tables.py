@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import math
 from importlib import import_module
 from pathlib import Path
 
@@ -119,13 +118,9 @@ def plot(result, ax=None, **style):
         )
     axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=FRICTION)
     plain_ticks(axes.xaxis)
-    some, named = (
-        "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves",
-        few and picked.size > 1,
-    )
-    axes.set_title(plain_words(result.plan["name"]) + some, pad=6 + 13 * named * math.ceil(picked.size / 2))
-    if named:
-        key_above(axes, 2)
+    some = "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves"
+    rows = key_above(axes, 2) if few and picked.size > 1 else 0
+    axes.set_title(plain_words(result.plan["name"]) + some, pad=6 + 13 * rows)
     return axes
 
 

@@ -105,8 +105,10 @@ class Surface(FrozenArrays, Shown):
             (least < ends["vmin"], most > ends["vmax"]), "neither"
         )
         field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
-        beyond = "" if extend == "neither" else f", lowest {least:.4g} nm, highest {most:.4g} nm"
+        beyond = "" if extend == "neither" else f"\nlowest {least:.4g}, highest {most:.4g} nm"
         axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{beyond}")
+        if ax is None:
+            axes.figure.set_layout_engine("compressed")
         return axes
 
     def _facts(self) -> dict[str, str]:
