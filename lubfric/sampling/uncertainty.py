@@ -47,29 +47,23 @@ class Uncertainty(UncertaintyQuantities[float]):
     @property
     def text(self) -> str:
         """How sure f is, in words."""
-        low, high = self.interval
-        first = f"f within {low:.4g} .. {high:.4g} (95 %): numerical {percent(self.numerical)}"
+        first = f"f within {self.interval[0]:.4g} .. {self.interval[1]:.4g} (95 %): numerical {percent(self.numerical)}"
         if not math.isfinite(self.sampling):
             return "; ".join((f"f: numerical {percent(self.numerical)}, surface not known", *self.notes))
         surface = f"surface {percent(self.sampling)} of a line of {1e3 * self.length:.3g} mm"
-        return "; ".join((f"{first}, {surface}, {self._of_model}{self._of_inputs}", *self.notes))
+        return "; ".join((f"{first}, {surface}, {self._others}", *self.notes))
 
     @property
-    def _of_inputs(self) -> str:
-        return f", inputs {percent(self.inputs)}" if self.inputs != 0 else ""
-
-    @property
-    def _of_model(self) -> str:
-        return f"model {percent(self.model)}{' and not in it' * math.isnan(self.model)}"
+    def _others(self) -> str:
+        inputs = f", inputs {percent(self.inputs)}" if self.inputs != 0 else ""
+        return f"model {percent(self.model)}{' and not in it' * math.isnan(self.model)}{inputs}"
 
     def short(self, coefficient: float) -> str:
         """f = value, its interval (± half of it where both sides are alike), and the parts of the error."""
-        parts = f"numerical {percent(self.numerical)}, surface {percent(self.sampling)}, {self._of_model}"
-        parts += self._of_inputs
+        parts = f"numerical {percent(self.numerical)}, surface {percent(self.sampling)}, {self._others}"
         if not math.isfinite(self.sampling):
             return f"f = {coefficient:.4g} ({parts})"
-        low, high = self.interval
-        half = 0.5 * (high - low)
+        low, high, half = *self.interval, 0.5 * (self.interval[1] - self.interval[0])
         digits = min(max(0, 1 - math.floor(math.log10(half))), 7) if 0 < half < math.inf else 4
         even = abs(low + high - 2 * coefficient) <= EVEN * half
         within = f" ± {half:.1g}" if even else f", {low:.{digits}f} to {high:.{digits}f}"

@@ -23,6 +23,7 @@ Solver = Sharing | OneGap
 Output = tuple[dict[str, float], tuple[Validity, ...], np.ndarray, np.ndarray]
 MANY = 30  # blocks less one: of a strip
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
+TINY = 1e-30  # no f is divided by less
 MASS = 1e-3  # largest residual of a step's mass
 
 
@@ -105,8 +106,6 @@ class TransientResult(Shown):
         f, error = self.coefficient, self.sampling_error
         half, unknown = student(MANY) * error * np.abs(f), np.full(f.size, math.nan)
         down, up = np.broadcast_to(self.inputs, (2, f.size))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            moved = np.where(np.maximum(down, up) > 0, np.maximum(down, up) / np.abs(f), 0.0)
         return UncertaintyCurve(
             numerical=unknown,
             sampling=error,
@@ -116,11 +115,8 @@ class TransientResult(Shown):
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
             model=unknown,
-            inputs=unknown if self.not_in else moved,
-            text=tuple(
-                "; ".join((f"surface {percent(each)}" + (f", inputs {percent(by)}" if by else ""), *self.not_in))
-                for each, by in zip(error, moved)
-            ),
+            inputs=unknown if self.not_in else np.maximum(down, up) / np.maximum(np.abs(f), TINY),
+            text=tuple("; ".join((f"surface {percent(each)}", *self.not_in)) for each in error),
         )
 
     def plot(self, ax=None):
@@ -128,15 +124,8 @@ class TransientResult(Shown):
         axes, (low, high) = axes_or_new(ax), self.uncertainty.interval.T
         if (high > low).any():
             time = self.time * time_scale(self.time[-1])[0]
-            axes.fill_between(
-                time,
-                low,
-                high,
-                color=BLUE,
-                alpha=0.2,
-                lw=0,
-                label="95 %: finite surface, range of f_b" if np.any(self.inputs) else "95 %: finite surface",
-            )
+            label = f"95 %: finite surface{', range of f_b' * bool(np.any(self.inputs))}"
+            axes.fill_between(time, low, high, color=BLUE, alpha=0.2, lw=0, label=label)
         friction_over_time(axes, self.columns)
         return axes
 
