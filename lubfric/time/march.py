@@ -109,8 +109,8 @@ def checked_times(times) -> np.ndarray:
 def plan_of(
     times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float, more: Iterable[float] = ()
 ) -> Plan:
-    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change; ``more`` [s], rising: at which steps
-    end too, unless a stop is close. Times that differ only by rounding become one, because no step is as short as
+    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change. Steps end at ``more`` [s] too,
+    which rise, unless a stop is close. Times that differ only by rounding become one, because no step is as short as
     that."""
     histories, end = tuple(histories), float(times[-1])
     jumps = _onto(times, [t for h in histories for t in h.jumps(end)])
