@@ -37,13 +37,13 @@ def plain_words(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def axes_or_new(ax):
+def axes_or_new(ax, layout="constrained"):
     """``ax``, or the axes of a new figure."""
     if ax is not None:
         return ax
     from matplotlib import pyplot
 
-    return pyplot.subplots(figsize=(7, 4.5), layout="constrained")[1]
+    return pyplot.subplots(figsize=(7, 4.5), layout=layout)[1]
 
 
 def friction_lines(axes, x, parts, **style) -> None:

@@ -95,7 +95,7 @@ class Surface(FrozenArrays, Shown):
     def plot(self, ax=None):
         """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
         which the title then tells."""
-        axes = axes_or_new(ax)
+        axes = axes_or_new(ax, "compressed")
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
         z = (self.heights - np.nanmean(self.heights)) * 1e9
         (low, high), (least, most) = np.nanpercentile(z, (0.5, 99.5)), (np.nanmin(z), np.nanmax(z))
@@ -107,8 +107,6 @@ class Surface(FrozenArrays, Shown):
         field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
         beyond = "" if extend == "neither" else f"\nlowest {least:.4g}, highest {most:.4g} nm"
         axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{beyond}")
-        if ax is None:
-            axes.figure.set_layout_engine("compressed")
         return axes
 
     def _facts(self) -> dict[str, str]:
