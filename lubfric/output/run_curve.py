@@ -11,7 +11,7 @@ from dataclasses import asdict
 
 import numpy as np
 
-from .._base import FolderLock, OwnFiles, make_ready, plain_words, read_table, validate
+from .._base import FolderLock, OwnFiles, figures, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
@@ -51,23 +51,24 @@ def run_sweep(scene: Scene, arguments) -> None:
     one are there. Every point is on disk when it ends, so an interrupted run continues from there. A failed run writes
     what it has, then raises `ConvergenceError`.
     """
-    begun, out, done_so_far = time.perf_counter(), arguments.out, [0]
+    begun, out, ended = time.perf_counter(), arguments.out, []
     speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
     total, progress = "some" if speeds == AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
     _check_outputs("stribeck", arguments, len(chosen))
-    with pool(_workers(scene, speeds, arguments.workers)) as executor:
+
+    def on_point(*point):
+        ended.append(point)
+        progress(*point)
+
+    if arguments.workers is not None:
+        workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=MOST_WORKERS)
+    else:  # the numbers do not depend on it
+        workers = 2 if speeds != AUTO and len(speeds) >= WORTH and takes_strips(scene) and processors() > 1 else 1
+    with pool(workers) as executor:
         prepared = ready(scene)
-
-        def on_point(done, *point):
-            done_so_far[0] = done
-            progress(done, *point)
-
-        def kept() -> str:
-            points = f"{done_so_far[0]} of {total} points"
-            return f"interrupted; {points} are kept in {out}: the same command goes on from there"
-
-        with keeping(kept), run_folder(out, begun, fingerprint(prepared, speeds, chosen)) as folder:
-            threading.Thread(target=make_ready, daemon=True).start()  # while the speeds are solved
+        kept = keeping(lambda: f"{len(ended)} of {total} points are kept in {out}")
+        with kept, run_folder(out, begun, fingerprint(prepared, speeds, chosen)) as folder:
+            threading.Thread(target=figures.make_ready, daemon=True).start()  # while the speeds are solved
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
             curve = stribeck(prepared, speeds, None if speeds == AUTO else executor, **options)
             _write(folder, prepared, curve, arguments, chosen)
@@ -86,14 +87,6 @@ def run_traction(scene: Scene, arguments) -> None:
         curve = traction(prepared, ratios, on_point=progress, raise_on_failure=False)
         _write(folder, prepared, curve, arguments, [])
     _raise_if_failed(curve)
-
-
-def _workers(scene: Scene, speeds, given: int | None) -> int:
-    """Processes that share the ``speeds``: as ``given``, else two if there are as many processors, enough speeds, and
-    each is solved on strips. The numbers do not depend on it."""
-    if given is not None:
-        return validate.integer("--workers", given, minimum=1, maximum=MOST_WORKERS)
-    return 2 if speeds != AUTO and len(speeds) >= WORTH and takes_strips(scene) and processors() > 1 else 1
 
 
 def _check_outputs(table: str, arguments, contacts: int) -> None:
@@ -139,16 +132,13 @@ def _point(curve: CurveResult, index: int) -> dict:
     found = {name: getattr(curve, name)[index], "validity": [asdict(entry) for entry in curve.entries(index)]}
     if point is None:
         return found | {"error": str(curve.errors[index])}
-    return (
-        {number: getattr(point, number) for number in NUMBERS}
-        | found
-        | {
-            "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
-            "errors": asdict(point.errors),
-            "report": point.report.as_dict(),
-            "lacks": [lack_in_words(lack) for lack in point.lacks],
-        }
-    )
+    more = {
+        "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
+        "errors": asdict(point.errors),
+        "report": point.report.as_dict(),
+        "lacks": [lack_in_words(lack) for lack in point.lacks],
+    }
+    return {number: getattr(point, number) for number in NUMBERS} | found | more
 
 
 def plot_again(arguments) -> None:
@@ -182,16 +172,13 @@ def replot(arguments, name: str, plot: Callable, *given) -> None:
 
 def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
     """The picture of the table of a curve; ``points``: those of its record."""
-    entries = [[Validity(**entry | _known(entry)) for entry in point["validity"]] for point in points]
-    title = plain_words(title)
+    unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
+    known = [[{k: v for k, v in entry.items() if v is not None} for entry in point["validity"]] for point in points]
+    entries = [[Validity(**unknown | entry) for entry in each] for each in known]
+    title = figures.plain_words(title)
     if "ratio" in columns:
         title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured)
-
-
-def _known(entry: dict) -> dict[str, float]:
-    """The numbers of an entry of a record, in which those that are not finite are null."""
-    return {name: math.nan if entry[name] is None else entry[name] for name in ("value", "limit")}
 
 
 def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
@@ -201,20 +188,16 @@ def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
     noted, said = [point for point in points if point[1].notes], []
     few = [value for value, known in points if known.few_spots]
-
     if noted:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
-        others = (
-            f" (the largest; result.json has {counted(len(noted) - 1, f'more {plural}')})" if len(noted) > 1 else ""
-        )
-        said.append(f"error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{others}")
+        others = counted(len(noted) - 1, f"more {plural}")
+        more = f" (the largest; result.json has {others})" if len(noted) > 1 else ""
+        said.append(f"error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{more}")
         if few and few != [at]:
             where = ", ".join(f"{value:.4g}" for value in few)
             said.append(f"few spots carry the load at {where} {unit}: these intervals are too narrow")
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.entries(i)):
-        said.append(
-            "accepted although outside the range of the model: these coefficients are marked, and are no answers"
-        )
+        said.append("accepted although outside the range of the model: the coefficients marked are no answers")
     return said
 
 
@@ -268,11 +251,9 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
         validate.number(option, speed, unit, minimum=-most, maximum=most)
     if not ranged:
         return numbers
-    if len(numbers) != 3 or not (
-        0 < numbers[0] < numbers[1] and 1 <= numbers[2] <= MOST_SPEEDS and numbers[2] % 1 == 0
-    ):
+    if len(numbers) != 3 or not 0 < numbers[0] < numbers[1] or numbers[2] not in range(1, MOST_SPEEDS + 1):
         raise refusal
-    return [float(u) for u in np.geomspace(numbers[0], numbers[1], int(numbers[2]))]
+    return np.geomspace(numbers[0], numbers[1], int(numbers[2])).tolist()
 
 
 def _progress(place: str) -> Callable:

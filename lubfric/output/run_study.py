@@ -8,7 +8,7 @@ import sys
 import time
 from pathlib import Path
 
-from .._base import new_figure, plain, shown, validate
+from .._base import figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
 from ..quantities import KEYS
 from ..scene import Scene
@@ -61,10 +61,10 @@ def run_study(arguments) -> None:
 
 def _kept(folder: Path) -> str:
     if not (folder / PLAN).is_file():
-        return "interrupted before the first point"
+        return "nothing is solved yet"
     found = open_study(folder)
     left = f"{found.missing} {'curves' if found.chosen else 'points'} are left"
-    return f"interrupted; {found.solved} points are kept in {folder}, {left}: the same command goes on from there"
+    return f"{found.solved} points are kept in {folder}, {left}"
 
 
 def _progress(begun: float):
@@ -115,11 +115,13 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
             unit = KEYS[key.strip()].unit if key.strip() in KEYS else "-"
             low, high = (number_of("--parameter", end, unit) for end in ends.split(":"))
         except ValueError as error:
-            refusal = InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI or with units")
+            refusal = InputError(
+                f"--parameter {validate.shown(text)}; write 'section.key=lowest:highest', in SI or with units"
+            )
             refusal.hint(getattr(error, "said", "").removeprefix(" = "))
             raise refusal from None
         if key.strip() in found:
-            raise InputError(f"--parameter {shown(text)}: {key.strip()} is given twice; give it once")
+            raise InputError(f"--parameter {validate.shown(text)}: {key.strip()} is given twice; give it once")
         found[key.strip()] = (low, high)
     return found
 
@@ -136,7 +138,7 @@ def _record(found: FitResult) -> dict:
 
 
 def _draw(path: Path, found: FitResult) -> None:
-    figure = new_figure(figsize=(7, 6.5))
+    figure = figures.new_figure(figsize=(7, 6.5))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
     found.plot(top).set_xlabel("")
     found.plot_residuals(bottom)

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from .._base import integer, number
+from .._base import validate
 from ..errors import CONVERGED, STAGNATED, InputError, Report
 from ..film import (
     Effort,
@@ -80,9 +80,9 @@ def solve_differential_deflection(
     oil = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, inlet_length=inlet_length)
     Effort(tolerance, 0, max_iterations)  # checks both
     if nodes is not None:
-        integer("nodes", nodes, minimum=COARSEST + 1)
-    integer("most_nodes", most_nodes, minimum=COARSEST + 1)
-    integer("bandwidth", bandwidth, minimum=0)
+        validate.integer("nodes", nodes, minimum=COARSEST + 1)
+    validate.integer("most_nodes", most_nodes, minimum=COARSEST + 1)
+    validate.integer("bandwidth", bandwidth, minimum=0)
     problem = make_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, oil))
     ends = domain_ends(problem, domain)
     cells = _cells(problem, ends, nodes, most_nodes)
@@ -102,8 +102,8 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
             raise InputError("domain and inlet_length both say where the grid begins; give one of them")
         if np.shape(domain) != (2,):
             raise InputError(f"domain = {domain!r} is not a pair; give (first, last) in m")
-        first = number("domain[0]", domain[0], "m", maximum=-b * unit) / unit
-        return first, number("domain[1]", domain[1], "m", minimum=b * unit) / unit
+        first = validate.number("domain[0]", domain[0], "m", maximum=-b * unit) / unit
+        return first, validate.number("domain[1]", domain[1], "m", minimum=b * unit) / unit
     first = -2.0 * b - 20.0 * rise if problem.inlet is None else -problem.inlet
     return first, rupture_guess(problem) + 0.2 * b + rise
 

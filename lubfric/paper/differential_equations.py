@@ -151,12 +151,8 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Term
     flow = h - h**3 * fluidity * gradient
     cube = face_rho * h**3
     conductance = cube * fluidity / (6.0 * mesh.step)
-    by_P = np.stack(
-        [
-            conductance - cube * gradient * by_left * slope[:-1] + 0.5 * flow * rho_slope[:-1],
-            -conductance - cube * gradient * by_right * slope[1:] + 0.5 * flow * rho_slope[1:],
-        ]
-    )
+    left = conductance - cube * gradient * by_left * slope[:-1] + 0.5 * flow * rho_slope[:-1]
+    right = -conductance - cube * gradient * by_right * slope[1:] + 0.5 * flow * rho_slope[1:]
     through = face_rho * flow
     balance = np.zeros_like(P)
     balance[1:-1] = np.diff(through)
@@ -166,18 +162,8 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Term
     balance[0] = P[0] - inlet_ratio(mesh) * P[1]
     defect = H - 0.5 * mesh.X**2 - convolve(mesh.log_transform, P)
     ends = np.array([defect[0] - defect[-1], load_row(mesh, problem) @ P - 1.0])
-    return Terms(
-        through,
-        last,
-        float(through[last]),
-        balance,
-        defect - defect[0],
-        ends,
-        scale,
-        face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient),
-        by_P,
-        slope,
-    )
+    by_H, by_P = face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient), np.stack([left, right])
+    return Terms(through, last, float(through[last]), balance, defect - defect[0], ends, scale, by_H, by_P, slope)
 
 
 def load_row(mesh: Mesh, problem: Problem) -> np.ndarray:

@@ -13,7 +13,6 @@ from .scene import (
     moves,
     moving_bodies,
     resolves_gap,
-    scene_as_dict,
     value_of,
 )
 from .sections import SECTIONS

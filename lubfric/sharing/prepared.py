@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FieldsOnly, Shown, instance
+from .._base import FieldsOnly, Shown, validate
 from ..contact import (
     BOUNDARY,
     AsperityContact,
@@ -109,11 +109,11 @@ def prepare(
     ------
     InputError : the map does not fit the scene, or ``like`` does not
     """
-    instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
+    validate.instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
     if resolves_gap(scene):
         check_resolved_gap(scene, surface is not None or isinstance(like, Prepared) and like.given)
     if like is not None:
-        instance("like", like, Prepared, "what lubfric.prepare returned")
+        validate.instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, surface, contact)
         if _same_contact(scene, like.scene):
             kept = {key: value for key, value in like.memo.items() if key[0] != "reference"}
@@ -213,7 +213,7 @@ def scene_of(scene: Scene | Prepared) -> Scene:
     """The scene that was prepared, or the scene itself; anything else is an `InputError`."""
     if isinstance(scene, Prepared):
         return scene.scene
-    instance("scene", scene, Scene, "what lubfric.load_scene or lubfric.prepare returned")
+    validate.instance("scene", scene, Scene, "what lubfric.load_scene or lubfric.prepare returned")
     return scene
 
 

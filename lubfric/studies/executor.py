@@ -12,7 +12,7 @@ from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import contextmanager
 from queue import SimpleQueue
 
-from .._base import shown
+from .._base import validate
 from ..errors import InputError
 
 WATCH = 0.2  # s between two looks at whether the command still lives
@@ -23,7 +23,7 @@ LAST = 2.0  # s that an interrupted process is waited for
 def checked_executor(executor):
     """``executor``, None or a `concurrent.futures.Executor`; raises `InputError` for anything else."""
     if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {shown(executor)}; allowed: None or a concurrent.futures.Executor")
+        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     return executor
 
 

@@ -217,9 +217,8 @@ def _viscosity(T, eta, coefficient) -> dict[str, float]:
         return {}
     if thin:
         allowed = f"above {THINNEST:g} Pa s, or one temperature"
-        raise InputError(
-            f" = {eta.min():.3g} Pa s is too thin for a law over temperature", "lubricant.viscosity", allowed
-        )
+        said = f" = {eta.min():.3g} Pa s is too thin for a law over temperature"
+        raise InputError(said, "lubricant.viscosity", allowed)
     x, y = np.log10(T), np.log10(np.log10(1e3 * eta + 0.7))
     if np.ptp(T) > 0:
         slope = np.polyfit(x, y, 1)[0]

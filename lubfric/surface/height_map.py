@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FrozenArrays, Shown, axes_or_new, field_image, validate
+from .._base import FrozenArrays, Shown, figures, validate
 from ..errors import InputError
 from . import prepare, regrid, statistics
 
@@ -95,7 +95,7 @@ class Surface(FrozenArrays, Shown):
     def plot(self, ax=None):
         """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
         which the title then tells."""
-        axes = axes_or_new(ax)
+        axes = figures.axes_or_new(ax)
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
         z = (self.heights - np.nanmean(self.heights)) * 1e9
         (low, high), (least, most) = np.nanpercentile(z, (0.5, 99.5)), (np.nanmin(z), np.nanmax(z))
@@ -104,7 +104,7 @@ class Surface(FrozenArrays, Shown):
         extend = {(1, 1): "both", (1, 0): "min", (0, 1): "max"}.get(
             (least < ends["vmin"], most > ends["vmax"]), "neither"
         )
-        field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
+        figures.field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
         beyond = "" if extend == "neither" else f", lowest {least:.4g} nm, highest {most:.4g} nm"
         axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{beyond}")
         return axes

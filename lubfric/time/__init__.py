@@ -6,4 +6,4 @@ from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import FIRST_STEP, WET, ContactHistory, make_setting
 from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of, report_of, steps
 from .result import TransientResult, friction_over_time, time_scale
-from .run import STATE, transient
+from .run import transient

@@ -12,7 +12,6 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 import lubfric
 from lubfric._base import FolderLock, write_checked
 from lubfric.output import main
-from lubfric.time import STATE
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\nspeeds = [0.3]\n" + SMALL_PATCH
@@ -46,11 +45,9 @@ NAMES = {  # of files of the user in the folder of the results: (refused with th
             "fields.npz",
             "report.html",
             "result.json",
-            "checkpoint/state.bin",
-            "checkpoint/output_1.bin",
-            "checkpoint",
+            "unfinished",
         ),
-        ("stribeck.csv", "animation.gif", "contact.png", ".lock", ".part-x", "checkpoint/notes.txt", "state.bin"),
+        ("stribeck.csv", "animation.gif", "contact.png", ".lock", ".part-x", "unfinished/notes.bin", "checkpoint"),
     ),
     "study": (
         ("study.csv", "study.json", ".lubfric"),
@@ -243,21 +240,13 @@ def test_a_run_stopped_while_it_replaces_another_goes_on(tmp_path, monkeypatch, 
 
 def test_a_checkpoint_leaves_what_is_not_its_own(tmp_path):
     folder = tmp_path / "checkpoint"
-    folder.mkdir()
-    (folder / "output_mine.bin").write_bytes(b"mine")
-    scene = lubfric.load_scene(command("history", tmp_path)[1])
-    before = everything(folder)
-    with pytest.raises(lubfric.InputError, match="not of lubfric"):
-        lubfric.transient(scene, checkpoint=folder)
-    assert everything(folder) == before
-    (folder / "output_mine.bin").rename(folder / "mine.txt")
+    (folder / "points").mkdir(parents=True)
+    (folder / "points" / "mine.bin").write_bytes(b"mine")
     (tmp_path / "aim").write_bytes(b"aim")
-    (folder / STATE).symlink_to(tmp_path / "aim")
-    with pytest.raises(lubfric.InputError, match="not of lubfric"):
-        lubfric.transient(scene, checkpoint=folder)
-    (folder / STATE).unlink()
-    lubfric.transient(scene, checkpoint=folder)
-    assert everything(folder) == {"mine.txt": b"mine"} and (tmp_path / "aim").read_bytes() == b"aim"
+    (folder / "link").symlink_to(tmp_path / "aim")
+    before = everything(folder)
+    lubfric.transient(lubfric.load_scene(command("history", tmp_path)[1]), checkpoint=folder)
+    assert everything(folder) == before and (tmp_path / "aim").read_bytes() == b"aim"
 
 
 def test_a_lock_is_never_opened_through_a_link(tmp_path):
