@@ -13,9 +13,11 @@ from ..quantities import OF_MOMENT, axis_label
 from ..sampling import UncertaintyCurve, percent, student
 from ..sharing import Validity, gathered
 from .march import Plan, Progress, report_of
+from .one_gap import OneGap
 from .sharing import Sharing
 
-# at an output time: numbers by name, assumptions that do not hold, pressures and films in the units of the setting
+Solver = Sharing | OneGap
+# at an output time: numbers by name, assumptions that do not hold, pressures [Pa] and films [m] over x
 Output = tuple[dict[str, float], tuple[Validity, ...], np.ndarray, np.ndarray]
 MANY = 30  # blocks less one: of a strip
 MASS = 1e-3  # largest residual of a step's mass
@@ -147,28 +149,27 @@ class TransientResult(Shown):
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
-def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
+def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
     """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
-    p, x = sharing.setting.problem, sharing.setting.grid.x
     columns = {name: np.array([row[name] for row, *_ in outputs], float) for name in OF_MOMENT}
-    P, H = (np.array([output[k] for output in outputs]).reshape(-1, x.size) for k in (2, 3))
+    P, H = (np.array([output[k] for output in outputs]).reshape(-1, solver.x.size) for k in (2, 3))
     worst = {
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / MASS,
-        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / sharing.tolerance,
+        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / solver.tolerance,
     }
     if not math.isnan(grid_error):
-        worst["grid"] = grid_error / sharing.scene.numerics.tolerances.film
+        worst["grid"] = grid_error / solver.scene.numerics.tolerances.film
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
-    prepared, renewal = sharing.prepared, math.nan
+    prepared, renewal = solver.prepared, math.nan
     if prepared.strips is not None and not prepared.strips.whole:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
     return TransientResult(
         columns=columns,
-        x=x * p.length_unit,
-        pressure=P * p.pressure_unit,
-        film_thickness=H * p.film_unit,
-        report=report_of("transient, BDF2", plan, now, f"{x.size - 1} cells; surface: {surface}", worst),
+        x=solver.x,
+        pressure=P,
+        film_thickness=H,
+        report=report_of("transient, BDF2", plan, now, f"{solver.cells}; surface: {surface}", worst),
         entries=tuple(entries for _, entries, _, _ in outputs),
         line_length=prepared.surface.size[1],
         width=prepared.scene.bodies.width,

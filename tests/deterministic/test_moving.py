@@ -66,6 +66,19 @@ def test_two_rough_bodies_at_one_speed_are_one():
     assert np.allclose(apart.at.state.pressure, together.at.state.pressure, rtol=1e-5, atol=1e3)
 
 
+def test_at_rest_too_the_pressure_presses_on_the_flanks_of_the_upper_body():
+    scene = scene_of(slide_roll_ratio=0.5)
+    lower, upper = rough(1, 0.05e-6, (24, 12)), rough(2, 0.1e-6, (24, 12))
+    rest = solve_moving_strip(scene, [RoughBody(lower, 0.225), RoughBody(upper, 0.375, upper=True)], 0.3).rest
+    whole = replace(lower, heights=lower.heights + upper.heights)
+    alone = solve_strip(scene, whole, 0.3).result
+    x, p = rest.problem.x, rest.result.pressure
+    place = np.rint(x / CELL + 23 / 2).astype(int) % 24
+    flanks = -(0.5 * (p[1:] + p[:-1]) * np.diff(upper.heights[place], axis=0)).sum(axis=0).mean()
+    assert abs(flanks) > 1e-3 * alone.rolling
+    assert rest.result.rolling == pytest.approx(alone.rolling + flanks, rel=1e-9)
+
+
 def test_turning_the_contact_upside_down_leaves_the_force_on_each_body():
     """Then the rough body is surface 2, and f the force on it: that on the other, but for the moment of the load."""
     surface = rough(3, sq=0.05e-6)
