@@ -81,20 +81,16 @@ class Lubricant(Brief):
         validate.choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
         validate.choice("density_law", self.density_law, DENSITY_LAWS)
         validate.in_range("lubricant", self, prefix="")
-        if self.viscosity_law == "roelands":
-            self._check_roelands()
+        alpha, least = "pressure_viscosity_coefficient", math.exp(-ROELANDS_LOG_VISCOSITY)
+        if self.viscosity_law == "roelands" and self.pressure_viscosity_coefficient == 0.0:
+            raise InputError(" = 0 1/Pa has no Roelands exponent", alpha, "> 0 1/Pa, or viscosity_law = 'constant'")
+        if self.viscosity_law == "roelands" and self.viscosity <= least:
+            said = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
+            raise InputError(said, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")
         if self.carreau is not None:
             self._check_carreau()
         if self.temperature is not None:
             checked_temperature(self.temperature, "lubricant.temperature")
-
-    def _check_roelands(self) -> None:
-        name, least = "pressure_viscosity_coefficient", math.exp(-ROELANDS_LOG_VISCOSITY)
-        if self.pressure_viscosity_coefficient == 0.0:
-            raise InputError(" = 0 1/Pa has no Roelands exponent", name, "> 0 1/Pa, or viscosity_law = 'constant'")
-        if self.viscosity <= least:
-            said = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
-            raise InputError(said, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")
 
     def _check_carreau(self) -> None:
         if not isinstance(self.carreau, (list, tuple)) or len(self.carreau) != 2:

@@ -130,7 +130,11 @@ def _ascend(
     levels: list[Solution] = []
     for n in cells:
         mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet is None)
-        P, H = _transferred(mesh, levels[-1]) if levels else cold_start(mesh, problem)
+        P, H = cold_start(mesh, problem)
+        if levels:  # pressure (linear) and film (cubic) of the mesh before
+            X, last = levels[-1].mesh.X, levels[-1]
+            P = np.interp(mesh.X, X, last.P)
+            H = cubic(X, last.H - 0.5 * X**2, mesh.X) + 0.5 * mesh.X**2
         levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_iterations))
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
             levels.pop()  # too coarse to start on
@@ -152,12 +156,6 @@ def cold_start(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     return P, gap - gap.min() + film
 
 
-def _transferred(mesh: Mesh, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure (linear) and film (cubic) of a solution on another mesh."""
-    X, parabola = solution.mesh.X, 0.5 * mesh.X**2
-    return np.interp(mesh.X, X, solution.P), cubic(X, solution.H - 0.5 * X**2, mesh.X) + parabola
-
-
 def grid_error(levels: list[Solution]) -> float:
     """Largest relative change of minimum, central and flow film between the last two grids, or a quarter of the change
     before that. This is some three times the error, because the rupture point is always at a node, which makes the
@@ -174,17 +172,13 @@ def _at_centre(solution: Solution) -> float:
     return float(cubic(X, solution.H - 0.5 * X**2, np.zeros(1))[0])
 
 
-def _domain_error(problem: Problem, solution: Solution) -> float:
-    """The estimated effect of the finite inlet: the tail's share of the load times its departure from the parabola."""
-    if problem.inlet is not None:
-        return 0.0
-    a = -solution.mesh.X[0]
-    return float(0.5 * a * solution.P[0] / problem.M * abs(2.0 * solution.H[0] / a**2 - 1.0))
-
-
 def _report(problem: Problem, levels: list[Solution], tolerance: float) -> Report:
     last = levels[-1]
-    residuals = {"discretisation": grid_error(levels), "domain": _domain_error(problem, last)}
+    a = -last.mesh.X[
+        0
+    ]  # the effect of a finite inlet: the tail's share of the load times its departure from a parabola
+    tail = float(0.5 * a * last.P[0] / problem.M * abs(2.0 * last.H[0] / a**2 - 1.0))
+    residuals = {"discretisation": grid_error(levels), "domain": tail if problem.inlet is None else 0.0}
     residuals |= last.residuals
     residual = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else math.inf
     status = last.status

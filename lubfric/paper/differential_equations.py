@@ -146,7 +146,8 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Term
     log_eta, slope = problem.log_viscosity(P)
     rho, rho_slope = problem.density(P)
     fluidity, by_left, by_right = log_mean_fluidity(log_eta)
-    face_rho, h = 0.5 * (rho[1:] + rho[:-1]), _film_at_faces(H)
+    first = 0.375 * H[0] + 0.75 * H[1] - 0.125 * H[2]  # third-order upwind; the first face has nothing upstream
+    face_rho, h = 0.5 * (rho[1:] + rho[:-1]), np.append(first, 0.375 * H[2:] + 0.75 * H[1:-1] - 0.125 * H[:-2])
     gradient = np.diff(P) / (6.0 * mesh.step)
     flow = h - h**3 * fluidity * gradient
     cube = face_rho * h**3
@@ -182,12 +183,6 @@ def tilt_row(mesh: Mesh) -> np.ndarray:
 def inlet_ratio(mesh: Mesh) -> float:
     """P at the first node as a share of P at the second."""
     return (mesh.X[1] / mesh.X[0]) ** 3 if mesh.flooded else 0.0
-
-
-def _film_at_faces(H: np.ndarray) -> np.ndarray:
-    """Film between neighbouring nodes, third-order upwind; the first face has nothing upstream."""
-    first = 0.375 * H[0] + 0.75 * H[1] - 0.125 * H[2]
-    return np.append(first, 0.375 * H[2:] + 0.75 * H[1:-1] - 0.125 * H[:-2])
 
 
 def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:

@@ -12,7 +12,6 @@ from .scene import (
     gap_not_resolved,
     moves,
     moving_bodies,
-    resolves_gap,
     value_of,
 )
 from .sections import SECTIONS

@@ -60,6 +60,7 @@ def read_toml(path, what: str) -> dict:
 
 
 def _put_map(table: dict, section: str, path) -> None:
+    """Put the map at ``path`` in the place of the roughness in ``section`` of a scene's ``table``."""
     path = _map_path(f"{section}_file", path, Path())
     if not all(isinstance(table.get(name, {}), dict) for name in (section, "contact")):
         return  # refused by what reads the tables

@@ -219,11 +219,6 @@ def as_ranges(found: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
     return tuple((name, *found[name]) for name in sorted(found) if found[name] is not None)
 
 
-def resolves_gap(scene: Scene) -> bool:
-    """Whether the rough gap is resolved: the deterministic model."""
-    return scene.numerics.model == "deterministic"
-
-
 def gap_not_resolved(scene: Scene, given: bool = False) -> str:
     """The first key of ``scene`` that the deterministic model does not take, and what it takes, in words; "" if it
     takes all. ``given``: its map was given to `lubfric.prepare`."""

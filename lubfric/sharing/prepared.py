@@ -31,7 +31,7 @@ from ..contact import (
 )
 from ..contact import check_grid as check_map
 from ..errors import InputError
-from ..scene import Bodies, Scene, check_resolved_gap, resolves_gap, told_doubts
+from ..scene import Bodies, Scene, check_resolved_gap, told_doubts
 from ..surface import Surface
 from .checks_before import beforehand
 from .validity import Validity
@@ -110,7 +110,7 @@ def prepare(
     InputError : the map does not fit the scene, or ``like`` does not
     """
     validate.instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
-    if resolves_gap(scene):
+    if scene.numerics.model == "deterministic":
         check_resolved_gap(scene, surface is not None or isinstance(like, Prepared) and like.given)
     if like is not None:
         validate.instance("like", like, Prepared, "what lubfric.prepare returned")

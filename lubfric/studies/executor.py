@@ -93,22 +93,16 @@ def pool(workers: int):
         for _ in range(workers):
             executor.submit(os.getpid)
         yield executor
-    except BaseException:
-        _end(executor)
+    except BaseException:  # its own thread is waited for, but not for ever: an interrupt may have left a lock it needs
+        ending = threading.Thread(target=executor.shutdown, kwargs={"cancel_futures": True}, daemon=True)
+        ending.start()
+        for process in multiprocessing.active_children():
+            process.terminate()
+        ending.join(LAST)
+        for process in multiprocessing.active_children():
+            process.join(LAST)
         raise
     executor.shutdown()
-
-
-def _end(executor: ProcessPoolExecutor) -> None:
-    """End an interrupted ``executor`` with its processes. Its own thread is waited for, but not for ever: an interrupt
-    may have left a lock that it needs."""
-    ending = threading.Thread(target=executor.shutdown, kwargs={"cancel_futures": True}, daemon=True)
-    ending.start()
-    for process in multiprocessing.active_children():
-        process.terminate()
-    ending.join(LAST)
-    for process in multiprocessing.active_children():
-        process.join(LAST)
 
 
 def _follow(parent: int) -> None:

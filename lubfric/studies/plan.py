@@ -190,21 +190,20 @@ def _lists(table, where: str, folder: Path) -> dict[str, list]:
     for key, values in found.items():
         if not isinstance(values, list):
             raise InputError(f"[{where}] {key} = {values!r}; allowed: a list of values")
-    for section in ("surface", "counterface"):
-        key = f"{section}.file"
+
+    def beside(key: str, name) -> str:
+        path = (folder / str(name)).resolve()
+        if not path.is_file():
+            raise InputError(f"{key} = {name!r}: no such file in {folder}")
+        return str(path)
+
+    for key in ("surface.file", "counterface.file"):
         if key in found:
-            found[key] = [_beside(folder, key, name) for name in found[key]]
-        for part in found.get(section, []):
+            found[key] = [beside(key, name) for name in found[key]]
+        for part in found.get(key.removesuffix(".file"), []):
             if isinstance(part, dict) and "file" in part:
-                part["file"] = _beside(folder, key, part["file"])
+                part["file"] = beside(key, part["file"])
     return found
-
-
-def _beside(folder: Path, key: str, name) -> str:
-    path = (folder / str(name)).resolve()
-    if not path.is_file():
-        raise InputError(f"{key} = {name!r}: no such file in {folder}")
-    return str(path)
 
 
 def _sampled(table, file: str) -> tuple:

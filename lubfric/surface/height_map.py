@@ -101,12 +101,11 @@ class Surface(FrozenArrays, Shown):
         (low, high), (least, most) = np.nanpercentile(z, (0.5, 99.5)), (np.nanmin(z), np.nanmax(z))
         reach = 0.4 * (high - low)  # to some four times Sq, were the heights normally distributed
         ends = {"vmin": max(least, low - reach), "vmax": min(most, high + reach)}
-        extend = {(1, 1): "both", (1, 0): "min", (0, 1): "max"}.get(
-            (least < ends["vmin"], most > ends["vmax"]), "neither"
-        )
+        beyond = least < ends["vmin"], most > ends["vmax"]
+        extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get(beyond, "neither")
         figures.field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
-        beyond = "" if extend == "neither" else f", lowest {least:.4g} nm, highest {most:.4g} nm"
-        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{beyond}")
+        ends_in_words = f", lowest {least:.4g} nm, highest {most:.4g} nm" if any(beyond) else ""
+        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{ends_in_words}")
         return axes
 
     def _facts(self) -> dict[str, str]:
@@ -128,8 +127,7 @@ class Surface(FrozenArrays, Shown):
         left = {"": self.sq}
         for form in prepare.FORMS:
             with suppress(InputError):
-                fitted, *_ = prepare.fitted_form(self.heights, self.mask, self.spacing, form)
-                left[form] = float((self.heights - fitted)[... if self.mask is None else self.mask].std())
+                left[form] = self.level(form).sq
         return left
 
     def fill(self) -> Surface:

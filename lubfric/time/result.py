@@ -111,10 +111,7 @@ class TransientResult(Shown):
 
     def plot(self, ax=None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
-        axes, (low, high) = figures.axes_or_new(ax), self.uncertainty.interval.T
-        if (high > low).any():
-            time = self.time * time_scale(self.time[-1])[0]
-            axes.fill_between(time, low, high, color=figures.BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
+        axes = figures.axes_or_new(ax)
         friction_over_time(axes, self.columns)
         return axes
 
@@ -178,13 +175,18 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
 
 
 def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
-    """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`. At rest there is none."""
+    """Friction over time with its parts and the band of its error by the finite surface, by the columns ``c`` of a
+    `lubfric.TransientResult`. At rest there is none."""
     sense = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
     sense = np.where(sense < 0, -1.0, 1.0)  # of the coefficient
     scale, unit = time_scale(c["time"][-1])
     film = (c["couette_force"] + c["rolling_force"]) * sense / c["load"]
     moving = (c["entrainment_speed"] != 0) | (c["sliding_speed"] != 0)
     parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film
+    half = 2 * c.get("sampling_error", np.zeros(1)) * np.abs(c["coefficient"])
+    if np.any(half > 0):
+        ends = c["coefficient"] - half, c["coefficient"] + half
+        axes.fill_between(c["time"] * scale, *ends, color=figures.BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
     figures.friction_lines(axes, c["time"] * scale, [np.where(moving, part, np.nan) for part in parts])
     if not moving.all():
         rest = {"where": ~moving, "transform": axes.get_xaxis_transform(), "label": "at rest: no f"}

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..deterministic import State
 from ..errors import InputError
-from ..scene import Scene, Transient, resolves_gap
+from ..scene import Scene, Transient
 from ..sharing import Prepared, Validity, refused, scene_of
 from ..studies import Store, classes_of, digest, fingerprint, opened
 from .begin import begin
@@ -66,7 +66,7 @@ def transient(
     - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
     """
     scene, times = _with_plan(scene, times)
-    solver, start, grid_error = (begin_one_gap if resolves_gap(scene_of(scene)) else begin)(scene)
+    solver, start, grid_error = (begin_one_gap if scene_of(scene).numerics.model == "deterministic" else begin)(scene)
     scene, plan = solver.scene, changes(solver.scene)
     tolerance = plan.tolerance or solver.time_error
     course = plan_of(times, plan.histories, solver.first_step, tolerance, solver.stops)
