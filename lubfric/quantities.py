@@ -188,11 +188,11 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     "stored": Quantity("m2/s", "growth of the film per unit width"),
     "cavity_growth": Quantity("m2/s", "growth of the cavities per unit width"),
 }
-KEYS = {"speed": _OF_POINT["speed"]} | {  # of a scene, as far as they are numbers: section.key
-    f"{section}.{key}": Quantity(**row)
-    for section, rows in tomllib.loads((files(__package__) / "keys.toml").read_text(encoding="utf-8")).items()
-    for key, row in rows.items()
-}
+_ROWS = tomllib.loads((files(__package__) / "keys.toml").read_text(encoding="utf-8")).items()
+_ROW = {f"{section}.{key}": row for section, rows in _ROWS for key, row in rows.items()}
+CHOICES = {key: row["one_of"] for key, row in _ROW.items() if "one_of" in row}  # keys of a scene that are words
+KEYS = {key: Quantity(**row) for key, row in _ROW.items() if key not in CHOICES}  # those that are numbers: section.key
+KEYS["speed"] = _OF_POINT["speed"]
 KEYS |= {
     key.replace("surface.", "counterface."): Quantity(q.unit, f"{q.label}, of the other body")
     for key, q in KEYS.items()

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..quantities import KEYS
+from ..quantities import CHOICES, KEYS
 from ..units import SANE
 
 LONGEST_SHOWN = 80  # characters of a value in a message
@@ -111,12 +111,15 @@ def nonnegative(name: str, value: Any, unit: str, *, maximum: float = math.inf) 
 
 
 def in_range(section: str, part: Any, prefix: str | None = None) -> None:
-    """Check the numbers among the fields of a ``section`` of a scene by what keys.toml says of them; None is let pass
-    where it is the default. ``prefix``: of their names in messages (None: the section)."""
+    """Check the numbers and the choices among the fields of a ``section`` of a scene by what keys.toml says of them;
+    None is let pass where it is the default. ``prefix``: of their names in messages (None: the section)."""
     for key, field in part.__dataclass_fields__.items():
-        q, value = KEYS.get(f"{section}.{key}"), getattr(part, key)
-        if q is not None and q.limited and (value is not None or field.default is not None):
-            of_key(f"{section}.{key}", value, None if prefix is None else prefix + key)
+        name, value = f"{section}.{key}", getattr(part, key)
+        called = name if prefix is None else prefix + key
+        if name in CHOICES:
+            choice(called, value, CHOICES[name])
+        elif name in KEYS and KEYS[name].limited and (value is not None or field.default is not None):
+            of_key(name, value, called)
 
 
 def of_key(name: str, value: Any, called: str | None = None) -> float:

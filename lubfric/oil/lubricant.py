@@ -21,8 +21,6 @@ DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the pole viscosity 6.31e-5 Pa s
 CARRIED_AT_REST, CARRIED = 5e6, 0.12  # Pa and per Pa: above every limiting stress measured in oils (0.03 to 0.1 of p)
 NO_LIQUID = 1e10  # Pa: no oil flows there
-VISCOSITY_LAWS = ("roelands", "barus", "constant")
-DENSITY_LAWS = ("constant", "dowson-higginson")
 
 
 @dataclass(frozen=True, repr=False)
@@ -78,8 +76,6 @@ class Lubricant(Brief):
 
     def __post_init__(self):
         validate.python_fields(self)
-        validate.choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
-        validate.choice("density_law", self.density_law, DENSITY_LAWS)
         validate.in_range("lubricant", self, prefix="")
         alpha, least = "pressure_viscosity_coefficient", math.exp(-ROELANDS_LOG_VISCOSITY)
         if self.viscosity_law == "roelands" and self.pressure_viscosity_coefficient == 0.0:

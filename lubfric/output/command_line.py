@@ -14,12 +14,8 @@ from .commands import INTERRUPTED, interruptible, put, say
 
 CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
 FOR = {"ratios": RATIOS, "animation": IN_TIME} | dict.fromkeys(("speeds", "fields", "workers", "vtk"), CURVE)
-KINDS: dict[str, dict[str, Any]] = {  # of arguments, for argparse
-    "path": {"type": Path},
-    "number": {"type": float},
-    "count": {"type": int},
-    "switch": {"action": "store_true"},
-}
+KINDS: dict[str, dict[str, Any]] = {"path": {"type": Path}, "number": {"type": float}, "count": {"type": int}}
+KINDS["switch"] = {"action": "store_true"}
 
 
 def main(argv=None) -> int:

@@ -11,23 +11,12 @@ from dataclasses import asdict
 
 import numpy as np
 
+from .. import studies
 from .._base import FolderLock, OwnFiles, figures, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
 from ..sharing import Prepared, Validity, lack_in_words, takes_strips
-from ..studies import (
-    AUTO,
-    MOST_WORKERS,
-    CurveResult,
-    csv_bytes,
-    fingerprint,
-    pool,
-    processors,
-    read_measured,
-    stribeck,
-    traction,
-)
 from ..units import number_of
 from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
 from .fields import fields_bytes, vtk_bytes
@@ -53,7 +42,7 @@ def run_sweep(scene: Scene, arguments) -> None:
     """
     begun, out, ended = time.perf_counter(), arguments.out, []
     speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
-    total, progress = "some" if speeds == AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
+    total, progress = "some" if speeds == studies.AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
     _check_outputs("stribeck", arguments, len(chosen))
 
     def on_point(*point):
@@ -61,16 +50,17 @@ def run_sweep(scene: Scene, arguments) -> None:
         progress(*point)
 
     if arguments.workers is not None:
-        workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=MOST_WORKERS)
+        workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
     else:  # the numbers do not depend on it
-        workers = 2 if speeds != AUTO and len(speeds) >= WORTH and takes_strips(scene) and processors() > 1 else 1
-    with pool(workers) as executor:
+        enough = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
+        workers = 2 if enough and studies.processors() > 1 else 1
+    with studies.pool(workers) as executor:
         prepared = ready(scene)
         kept = keeping(lambda: f"{len(ended)} of {total} points are kept in {out}")
-        with kept, run_folder(out, begun, fingerprint(prepared, speeds, chosen)) as folder:
+        with kept, run_folder(out, begun, studies.fingerprint(prepared, speeds, chosen)) as folder:
             threading.Thread(target=figures.make_ready, daemon=True).start()  # while the speeds are solved
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
-            curve = stribeck(prepared, speeds, None if speeds == AUTO else executor, **options)
+            curve = studies.stribeck(prepared, speeds, None if speeds == studies.AUTO else executor, **options)
             _write(folder, prepared, curve, arguments, chosen)
     _raise_if_failed(curve)
 
@@ -82,9 +72,9 @@ def run_traction(scene: Scene, arguments) -> None:
     ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
     _check_outputs("traction", arguments, 0)
     prepared = ready(scene)
-    with run_folder(arguments.out, begun, fingerprint(prepared, ratios, "traction")) as folder:
+    with run_folder(arguments.out, begun, studies.fingerprint(prepared, ratios, "traction")) as folder:
         progress = _progress("slide-roll ratio {:<9.4g}")
-        curve = traction(prepared, ratios, on_point=progress, raise_on_failure=False)
+        curve = studies.traction(prepared, ratios, on_point=progress, raise_on_failure=False)
         _write(folder, prepared, curve, arguments, [])
     _raise_if_failed(curve)
 
@@ -96,10 +86,10 @@ def _check_outputs(table: str, arguments, contacts: int) -> None:
     check_outputs(arguments, arguments.out, names, OUTPUTS)
 
 
-def _write(folder: RunFolder, prepared: Prepared, curve: CurveResult, arguments, chosen: list[float]) -> None:
+def _write(folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, arguments, chosen: list[float]) -> None:
     """The table, the fields of the ``chosen`` speeds, their pictures, the record; and what was asked for beside."""
     name, contents = "traction" if curve.SWEPT[0] == "ratio" else "stribeck", folder.contents
-    contents[f"{name}.csv"] = csv_bytes(curve)
+    contents[f"{name}.csv"] = studies.csv_bytes(curve)
     units = {number: COLUMNS[number] for number in (*NUMBERS, curve.SWEPT[0])}
     record = folder.record(prepared, curve, units, points=[_point(curve, i) for i in range(len(curve.points))])
     columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
@@ -125,7 +115,7 @@ def _drawable(columns) -> np.ndarray:
     return np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
 
 
-def _point(curve: CurveResult, index: int) -> dict:
+def _point(curve: studies.CurveResult, index: int) -> dict:
     """The record of a point: its numbers, the error of f in words too, and the errors of the other numbers; or why
     there are none."""
     name, point = curve.SWEPT[0], curve.points[index]
@@ -152,7 +142,7 @@ def plot_again(arguments) -> None:
     if arguments.measured is not None:
         if arguments.speed is None or arguments.coefficient is None:
             raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
-        measured = read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)
+        measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)
     points, count = record.get("points", []), columns["coefficient"].size
     if len(points) != count:
         raise InputError(f"{source} has {count} rows and result.json {len(points)} points; run 'lubfric run' again")
@@ -181,7 +171,7 @@ def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured)
 
 
-def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
+def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     """The errors of f in words: at how many points, and in full for the least sure of them; at how many points too few
     spots carry the load; and that results were accepted."""
     name, _, unit, plural = curve.SWEPT
@@ -201,7 +191,7 @@ def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
     return said
 
 
-def _raise_if_failed(curve: CurveResult) -> None:
+def _raise_if_failed(curve: studies.CurveResult) -> None:
     """Say how many points failed and how many were refused, and the first of them."""
     if not curve.errors:
         return
@@ -217,8 +207,8 @@ def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
     """The speeds [m/s] of a command, or "auto", and those of them whose fields are wanted: these are added where they
     are missing, in order if the others are in order."""
     chosen = parse_speeds("--fields", fields) or [scene.motion.entrainment_speed]
-    if speeds == AUTO:
-        return AUTO, [abs(u) for u in chosen if u != 0]
+    if speeds == studies.AUTO:
+        return studies.AUTO, [abs(u) for u in chosen if u != 0]
     asked = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     own, rising = [], asked == sorted(asked)
     for speed in chosen:

@@ -15,10 +15,6 @@ from ..quantities import KEYS
 from ..units import without_unit
 
 FASTEST, LARGEST_RATIO = KEYS["motion.entrainment_speed"].most, KEYS["motion.slide_roll_ratio"].most  # m/s, -
-GEOMETRIES = ("cylinder", "flat")
-REGIONS = ("hertz", "box")
-CONTACT_MODELS = ("half-space", "summits", "patches")
-ASPERITY_SEPARATIONS = ("volume", "mean-plane")
 FRICTION = "bodies.boundary_friction_coefficient"
 FRICTION_OVER = {"sliding_speed": "m/s", "temperature": "K"}  # what a table of it may be over
 LARGEST = 2**26  # cells of a contact grid
@@ -207,13 +203,7 @@ class ContactDomain(Brief):
 
     def __post_init__(self):
         validate.python_fields(self)
-        for name, options in (
-            ("model", CONTACT_MODELS),
-            ("asperity_separation", ASPERITY_SEPARATIONS),
-            ("geometry", GEOMETRIES),
-            ("region", REGIONS),
-        ):
-            validate.choice(f"contact.{name}", getattr(self, name), options)
+        validate.in_range("contact", self)
         if self.geometry == "flat" and self.region != "hertz":
             said = f" = {self.region!r} does nothing with geometry = 'flat', whose patch stands for the Hertz strip"
             raise InputError(said, "contact.region", "'hertz', or geometry = 'cylinder'")

@@ -10,14 +10,6 @@ from ..errors import InputError
 from . import budget
 
 MOST_THREADS = 1024
-OPTIONS = {
-    "model": ("auto", "load-sharing", "deterministic"),
-    "film_deflection": ("scaled", "hydrodynamic"),
-    "grid": ("auto", "given"),
-    "sampling": ("strips", "patch"),
-    "heat": ("auto", "on", "off"),
-    "cavitated_shear": ("none", "striated"),
-}
 
 
 @dataclass(frozen=True)
@@ -76,8 +68,6 @@ class Numerics(Brief):
 
     def __post_init__(self):
         validate.python_fields(self)
-        for name, options in OPTIONS.items():
-            validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.in_range("numerics", self)
         validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)
         validate.boolean("numerics.accept", self.accept)

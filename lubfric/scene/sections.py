@@ -18,17 +18,9 @@ from .roughness import NEEDED, Roughness, as_given, named
 from .short_forms import resolve, short_keys
 from .transient import Transient
 
-SECTIONS: dict[str, Any] = {
-    "bodies": Bodies,
-    "lubricant": Lubricant,
-    "motion": Motion,
-    "surface": Roughness,
-    "counterface": Roughness,
-    "contact": ContactDomain,
-    "numerics": Numerics,
-    "transient": Transient,
-}
 ROUGH = ("surface", "counterface")
+SECTIONS: dict[str, Any] = {"bodies": Bodies, "lubricant": Lubricant, "motion": Motion}
+SECTIONS |= dict.fromkeys(ROUGH, Roughness) | {"contact": ContactDomain, "numerics": Numerics, "transient": Transient}
 NEEDED_SECTIONS = ("bodies", "lubricant", "motion", "surface")
 
 

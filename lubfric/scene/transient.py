@@ -68,7 +68,6 @@ class Transient:
         validate.python_fields(self)
         validate.in_range("transient", self)
         validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)
-        validate.choice("transient.initial", self.initial, ("auto", "steady", "rest"))
         if self.initial_film is not None and self.initial != "auto":
             said = f" = {self.initial!r} does nothing beside initial_film, from which the run starts"
             raise InputError(said, "transient.initial", "one of the two")
