@@ -4,8 +4,6 @@ Each row of units.toml holds the units of one kind of quantity, as factors to th
 converted in decimals, so that "68 mm2/s" is 6.8e-05 m2/s to the last bit.
 """
 
-from __future__ import annotations
-
 import math
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """Checks of input values; each failure names quantity, value, allowed range and unit."""
 
-from __future__ import annotations
-
 import difflib
 import math
 import os

@@ -4,8 +4,6 @@ Pressures are gauge pressures in Pa. A pressure below ambient (it occurs only in
 converged film has p >= 0) continues each law by its tangent at p = 0.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Ways to an `Oil`: two viscosities, an ISO VG grade and a viscosity index, a table, a name; and an oil in words."""
 
-from __future__ import annotations
-
 import re
 
 from .._base import packaged, validate

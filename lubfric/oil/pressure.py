@@ -9,8 +9,6 @@ The coefficient is the slope d ln(eta)/dp at ambient pressure. Published fits of
 GPa, which is lower.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Kinematic viscosity: over temperature (ASTM D341, and a table), and the viscosity index (ASTM D2270, ISO 2909)."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from importlib import resources

@@ -1,8 +1,6 @@
 """The ``lubfric`` command: a function for each of the commands in commands.toml. What it needs is imported when it
 runs."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

@@ -1,8 +1,6 @@
 """What the commands share: messages, interrupts, and the folder that they write, in which only files of ours are ever
 replaced. A broken stream or an interrupt never costs what was computed."""
 
-from __future__ import annotations
-
 import json
 import os
 import platform

@@ -1,7 +1,5 @@
 """A scene in words: its inputs with their units, regime numbers, and what will be solved."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from contextlib import suppress

@@ -1,8 +1,6 @@
 """report.html of a run: one page for who was not there, with question, answer, pictures, doubts, inputs and sources. It
 needs no other file, and prints."""
 
-from __future__ import annotations
-
 import base64
 from html import escape
 from importlib.resources import files

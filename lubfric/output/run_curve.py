@@ -1,7 +1,5 @@
 """``lubfric run`` on a steady scene: its Stribeck curve, or (``--ratios``) its traction curve, written to a folder."""
 
-from __future__ import annotations
-
 import math
 import re
 import threading

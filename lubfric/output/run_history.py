@@ -1,7 +1,5 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
-from __future__ import annotations
-
 import time
 
 from .._base import figures, read_table, table_bytes

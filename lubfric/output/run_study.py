@@ -1,8 +1,6 @@
 """``lubfric study`` and ``lubfric fit``: carry out a study file, or find numbers of a scene from a measured curve.
 Both write to a folder."""
 
-from __future__ import annotations
-
 import json
 import sys
 import time

@@ -1,7 +1,5 @@
 """The film by differential deflection, the method on which the load-sharing model was first built."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -24,8 +24,6 @@ Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hug
 IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle, Proc. IMechE J 215 (2001) 319-337.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

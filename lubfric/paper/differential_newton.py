@@ -5,8 +5,6 @@ ends. GMRES around it adds the weights of far pressures. So not only the answer 
 integral. Without GMRES (KRYLOV_LIMIT = 0) the far deflection lags one step behind, as in the original method.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

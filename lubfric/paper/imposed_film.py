@@ -5,8 +5,6 @@ problem: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7), (8), doi
 signs of this library the gap is ``g = h - epsilon - z + K p``.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """The line contact: two bodies, how they move, and the part of their contact that is resolved."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

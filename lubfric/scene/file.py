@@ -1,7 +1,5 @@
 """Scenes as TOML: strict reading; a commented one to begin with."""
 
-from __future__ import annotations
-
 import os
 import tomllib
 from difflib import get_close_matches

@@ -1,7 +1,5 @@
 """How exactly a scene is solved, and by which methods."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 

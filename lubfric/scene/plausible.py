@@ -4,8 +4,6 @@ A value outside the usual range (keys.toml) is no error: it gets a sentence that
 usual.
 """
 
-from __future__ import annotations
-
 from contextlib import contextmanager
 from functools import cache
 

@@ -1,7 +1,5 @@
 """The roughness of one body: a measured map and how it is prepared, or a generated one."""
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Callable, Iterator

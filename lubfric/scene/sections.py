@@ -1,7 +1,5 @@
 """The sections of a scene: which there are, made from the keys given for them, or changed by them."""
 
-from __future__ import annotations
-
 from dataclasses import MISSING, fields, replace
 from typing import Any
 

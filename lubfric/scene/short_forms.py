@@ -3,8 +3,6 @@
 Scene files and `Scene.with_` share them. A field may be given, or one of the short forms that stand for it, not two.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any

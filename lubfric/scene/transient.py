@@ -1,7 +1,5 @@
 """`Transient`: what changes in time in a scene, and for how long; histories from what a user gives."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 from pathlib import Path
 

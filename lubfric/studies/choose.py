@@ -1,7 +1,5 @@
 """The speeds that a Stribeck curve chooses, so that few points determine it everywhere."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any

@@ -1,7 +1,5 @@
 """Work on any executor, and the processes of a command. What a lost worker had is done again."""
 
-from __future__ import annotations
-
 import multiprocessing
 import os
 import signal

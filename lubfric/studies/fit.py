@@ -1,7 +1,5 @@
 """`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 from functools import partial

@@ -1,7 +1,5 @@
 """What a fit is given: a measured curve of friction with its units, and the numbers of a scene that are sought."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

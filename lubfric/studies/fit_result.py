@@ -1,7 +1,5 @@
 """The result of a fit, and how sure it is."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from functools import cached_property
 

@@ -1,8 +1,6 @@
 """A curve or a study as a formula f(U, T, p) for system simulations, fitted, with its error and range: as text, JSON
 and C."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass

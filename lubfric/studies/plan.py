@@ -1,8 +1,6 @@
 """All points of a study, laid out before the first is solved: from arguments, or from a study file, which is read
 strictly."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace

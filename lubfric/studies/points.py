@@ -2,8 +2,6 @@
 numbers. A point is a function of its scene and speed alone, so one process or many, in any order, in one call or
 several, give the same bits."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from typing import Any

@@ -1,8 +1,6 @@
 """The store: records in a folder, each in a file of its own by the hash of all that it depends on. Points of curves,
 studies and runs of the command line, and states of runs in time, are kept in it."""
 
-from __future__ import annotations
-
 import hashlib
 import os
 import warnings

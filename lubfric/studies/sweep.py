@@ -1,7 +1,5 @@
 """Stribeck curves, friction over the speed; and traction curves, friction over the slide-roll ratio at one speed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 

@@ -1,7 +1,5 @@
 """Studies as tables for other tools, each imported only when its table is asked for; curves and studies drawn."""
 
-from __future__ import annotations
-
 import io
 import math
 from importlib import import_module

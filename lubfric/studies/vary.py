@@ -1,7 +1,5 @@
 """What a study varies: lists of values, lists that go together, and ranges from which samples are drawn."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass

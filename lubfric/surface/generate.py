@@ -1,7 +1,5 @@
 """Gaussian random surfaces with a prescribed autocorrelation, by FFT filtering of white noise."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

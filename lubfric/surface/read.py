@@ -1,8 +1,6 @@
 """Height maps from files: .npy, text matrix, .xyz points and X3P; some 40 formats of instruments through the optional
 package SurfaceTopography."""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 from pathlib import Path

@@ -3,8 +3,6 @@
 Functions of a `lubfric.Surface` return a new one.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

@@ -4,8 +4,6 @@ Heights are taken about their mean, of the measured points only (names and signs
 Slopes and correlation lengths of rough surfaces depend on the spacing of the points.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -5,8 +5,6 @@ before anything is read, checksums after, and XML with a document type is refuse
 checksums as in the openGPS reference (https://sourceforge.net/p/open-gps/mwiki/X3p/).
 """
 
-from __future__ import annotations
-
 import hashlib
 import math
 import zipfile

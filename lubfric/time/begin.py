@@ -1,8 +1,6 @@
 """The begin of a run in time: its strip of rough surface, from the needs of steady friction; its histories; its grid;
 and its state at t = 0, which is steady, at rest with all load on the contact, or a film without pressure."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import partial

@@ -1,7 +1,5 @@
 """`solve_transient_ehl`: the smooth line contact in time, where the film carries the whole load."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

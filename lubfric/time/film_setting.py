@@ -1,7 +1,5 @@
 """A line contact in time: its histories, its units and grid, Newton's method for one step, and its steady start."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """What a run gives: `TransientResult`, with its report, and friction over time and over the speed drawn."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """Friction in time: `transient`, and its state on disk after every step, so that a kill loses nothing."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
