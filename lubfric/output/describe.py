@@ -49,6 +49,9 @@ def describe_scene(scene: Scene) -> str:
     at = expected(scene, surface if first is None else first, sorted(set(speeds)))  # None: of bodies and map
     known = [entry.text for speed, entry in at if speed is None]
     known += gathered([(speed, (entry,)) for speed, entry in at if speed is not None])
+    own = scene.motion.entrainment_speed
+    left_out = [f"  {lack_in_words(lack)}" for lack in lacking(scene, surface.sq, own)]
+    left_out = left_out and [f"likely changes of f at {own:g} m/s, by closed forms:", *left_out]
     return "\n".join(
         [
             f"scene {scene.name}",
@@ -58,7 +61,7 @@ def describe_scene(scene: Scene) -> str:
             *_map_rows(scene, surface),
             *_section("contact", [f"{_plan(scene, surface)}; {over}"]),
             *_section("model", _model(scene, strips, surface, speeds)),
-            *_section("left out", _left_out(scene, surface)),
+            *_section("left out", left_out or ["nothing that would change f by its tolerance"]),
             *_section("validity", known or ["no assumption of the model fails by what is known before the solve"]),
             *_speed_rows(scene, strips, surface, speeds),
         ]
@@ -90,12 +93,12 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
     found = [forecast(scene, strips, surface, speed) for speed in some]
     resolved = [one.speed for one in found if one.resolved]
     unknown = "its error is not known, and not in the interval"
-    if scene.transient is not None:
+    if asked == "deterministic":
+        rows = ["one gap and one pressure (the deterministic model), as asked"]
+    elif scene.transient is not None:
         rows = [f"load sharing, Eq. (8), at all times; {unknown}"]
     elif asked == "load-sharing":
         rows = [f"load sharing, Eq. (8), as asked: the fast way; {unknown if why else 'its interval is wide'}"]
-    elif asked == "deterministic":
-        rows = ["one gap and one pressure (the deterministic model), as asked"]
     elif why:
         rows = [f"load sharing, Eq. (8), alone; {unknown}:", f"  {why}"]
     elif not resolved and max((one.moving for one in found), default=0.0) > MOST_WORK:
@@ -119,14 +122,6 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
         count = counted(len(moving), "speeds")
         rows.append(f"cost: about {seconds} of processor time for {count} (an order of magnitude)")
     return rows
-
-
-def _left_out(scene: Scene, surface: Surface) -> list[str]:
-    """What the scene leaves out, and how much that would likely change f at its own speed."""
-    speed = scene.motion.entrainment_speed
-    found = [lack_in_words(lack) for lack in lacking(scene, surface.sq, speed)]
-    head = f"likely changes of f at {speed:g} m/s, by closed forms:"
-    return [head, *(f"  {row}" for row in found)] if found else ["nothing that would change f by its tolerance"]
 
 
 def _histories(scene: Scene) -> list[str]:

@@ -159,11 +159,9 @@ class StudyResult(Shown):
     def lift_off(self) -> np.ndarray:
         """The speed [m/s], over the axes and in the direction of the curves, at which the film lifts the surfaces off
         each other; NaN if a curve does not reach it."""
-        found = np.full(self.status.shape[:-1], np.nan)
-        for index in np.ndindex(*found.shape):
-            curve = self.curve(index)
-            found[index] = np.nan if curve is None else curve.lifted
-        return found
+        shape = self.status.shape[:-1]
+        found = [np.nan if (curve := self.curve(i)) is None else curve.lifted for i in np.ndindex(*shape)]
+        return np.array(found).reshape(shape)
 
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
         """The curve at one position along the axes, or None if fewer than three of its points are solved, if they run

@@ -53,7 +53,12 @@ class Surface(FrozenArrays, Shown):
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "mask", mask)
         object.__setattr__(self, "spacing", validate.spacing("spacing", self.spacing))
-        object.__setattr__(self, "periodic_axes", _two_booleans("periodic_axes", self.periodic_axes))
+        axes, said = self.periodic_axes, f" = {validate.shown(self.periodic_axes)}"
+        several = isinstance(axes, (tuple, list)) or isinstance(axes, np.ndarray) and axes.ndim == 1
+        if not several or len(axes) != 2:
+            raise InputError(said, "periodic_axes", "a pair of true and false, for x and y")
+        along = tuple(validate.boolean(f"periodic_axes[{i}]", closed) for i, closed in enumerate(axes))
+        object.__setattr__(self, "periodic_axes", along)
         object.__setattr__(self, "notes", tuple(self.notes))
         self.freeze()
 
@@ -280,11 +285,3 @@ def _mask(given: Any, heights: Any, shape: tuple[int, ...]) -> np.ndarray | None
     if found.size and not found.any():
         raise InputError(f"mask has 0 measured points of {found.size}; allowed: at least 1")
     return None if found.all() else found
-
-
-def _two_booleans(name: str, value: Any) -> tuple[bool, bool]:
-    """A pair of true and false, for x and y."""
-    several = isinstance(value, (tuple, list)) or isinstance(value, np.ndarray) and value.ndim == 1
-    if not several or len(value) != 2:
-        raise InputError(f" = {validate.shown(value)}", name, "a pair of true and false, for x and y")
-    return validate.boolean(f"{name}[0]", value[0]), validate.boolean(f"{name}[1]", value[1])
