@@ -73,7 +73,7 @@ class Lubricant(Brief):
     carreau: tuple[float, float] | None = None
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "lubricant")
         validate.in_range("lubricant", self, prefix="")
         alpha, least = "pressure_viscosity_coefficient", math.exp(-ROELANDS_LOG_VISCOSITY)
         if self.viscosity_law == "roelands" and self.pressure_viscosity_coefficient == 0.0:

@@ -51,9 +51,10 @@ class Oil(Brief):
             ("conductivity", self.conductivity, "W/(m K)", 0.02, 2),
         ):
             if value is not None:
-                validate.number(name, value, unit, minimum=least, maximum=most)
+                object.__setattr__(self, name, validate.number(name, value, unit, minimum=least, maximum=most))
         if self.alpha is not None:
-            validate.positive("pressure_viscosity_coefficient", self.alpha, "1/Pa", maximum=1e-6)
+            alpha = validate.positive("pressure_viscosity_coefficient", self.alpha, "1/Pa", maximum=1e-6)
+            object.__setattr__(self, "alpha", alpha)
         if self.estimate is not None:
             validate.choice("estimate", self.estimate, ESTIMATES)
         if self.estimate == "so-klaus" and self.base != "mineral":
@@ -79,7 +80,7 @@ class Oil(Brief):
 
     @property
     def thermal_conductivity(self) -> float:
-        """k [W/(m K)]: given, or typical of the base oil at ambient pressure (within 15 %; about twice as much at 1
+        """k [W/(m K)]: given, or typical of the base oil at ambient pressure (within 25 %; about twice as much at 1
         GPa)."""
         return BASES[self.base]["conductivity"] if self.conductivity is None else self.conductivity
 
@@ -89,6 +90,7 @@ class Oil(Brief):
 
     def temperature_coefficient(self, temperature: float) -> float:
         """-d ln(eta)/dT [1/K] at ``temperature`` [K], from its law by a central difference."""
+        temperature = checked_temperature(temperature)
         low, high = temperature - STEP, temperature + STEP
         if isinstance(self.viscosity_law, ViscosityTable):
             low, high = max(low, self.viscosity_law.temperatures[0]), min(high, self.viscosity_law.temperatures[-1])

@@ -25,7 +25,7 @@ from ..scene import (
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
 from ..studies import in_words
 from ..surface import Surface, correlation_length, rms_slope
-from ..time import TIME_SHARE, speeds_of_run
+from ..time import TIME_SHARE, speeds_of_run, work_of_run
 from ..units import converted, worded
 
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
@@ -35,8 +35,7 @@ SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a cont
 
 
 def describe_scene(scene: Scene) -> str:
-    """Inputs, regime numbers (Hertz, Moes M and L, lambda at the scene's speeds) and the plan, as text. Nothing is
-    solved."""
+    """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved."""
     with told_doubts(scene):
         strips = strips_of(scene) if takes_strips(scene) else None
         first = None if strips is None else strips.stack(strips.first)
@@ -150,10 +149,8 @@ def _laps(history: History, duration: float) -> float:
 
 
 def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float) -> str:
-    """Steps and time of a run: an order of magnitude, by what runs of the paper's scene took (begin 2 s on its strips,
-    then 8 to 17 ms a step on a patch of 200 x 200 cells and 43 to 56 ms on its strips)."""
-    plan = scene.transient
-    assert plan is not None
+    """Steps and time of a run, by what runs of the paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
+    assert (plan := scene.transient) is not None
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
     swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
     steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
@@ -162,6 +159,8 @@ def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float)
     if strips is not None and not strips.whole:
         cells = round(strips.cells.count * one.length / strips.cells.coarse[1])
     seconds = one.seconds + steps * (FILM_STEP + CELL_STEP * cells)
+    if scene.numerics.model == "deterministic":
+        steps, seconds = work_of_run(scene)
     top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
     course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs"
     return f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)"

@@ -102,7 +102,7 @@ class Bodies(Brief):
     boundary_friction_table: FrictionTable | None = None
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "bodies")
         validate.in_range("bodies", self)
         if self.boundary_friction_table is not None:
             table = "a FrictionTable, by boundary_friction_coefficient = { sliding_speed = [...], values = [...] }"
@@ -164,7 +164,7 @@ class Motion(Brief):
     speeds: tuple[float, ...] = ()
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "motion")
         validate.in_range("motion", self)
         for name in ("entrainment_speed", "slide_roll_ratio"):
             object.__setattr__(self, name, float(getattr(self, name)) + 0.0)  # -0.0 is no direction
@@ -200,7 +200,7 @@ class ContactDomain(Brief):
     asperity_separation: str = "volume"
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "contact")
         validate.in_range("contact", self)
         if self.geometry == "flat" and self.region != "hertz":
             said = f" = {self.region!r} does nothing with geometry = 'flat', whose patch stands for the Hertz strip"

@@ -65,7 +65,7 @@ class Numerics(Brief):
         return super().__new__(cls)
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "numerics")
         validate.in_range("numerics", self)
         validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)
         validate.boolean("numerics.accept", self.accept)

@@ -63,7 +63,7 @@ class Transient:
         return tuple(h for h in (getattr(self, name) for name in UNITS) if h is not None)
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "transient")
         validate.in_range("transient", self)
         validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)
         if self.initial_film is not None and self.initial != "auto":

@@ -14,7 +14,9 @@ import numpy as np
 
 from ..deterministic import (
     BOUNDARY_FILM,
+    KRYLOV,
     RUPTURED,
+    STEPS,
     TOUCHING,
     Iterate,
     Problem,
@@ -29,6 +31,7 @@ from ..deterministic import (
     residuals,
     shifted,
     solve_point,
+    work_of_steps,
 )
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
 from ..quantities import OF_MOMENT
@@ -45,6 +48,7 @@ MOST = 25  # Newton steps in a step
 REST = 1e-6  # of the fastest speed: slower entrainment counts as that
 LEAST_FLOW = 1e-3  # of the film of the fastest speed times that: what residuals are relative to, at least
 FIRST = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
+START = 20  # steps after the start, about
 MOST_CELLS = 100_000  # by which the roughness may move in a run
 LOOKS = 20_001  # times at which the speeds are looked up to find the steps
 SIDES = {"surface": -0.5, "counterface": 0.5}  # of a body's section: its speed is U plus that times u2 - u1
@@ -184,8 +188,21 @@ def _speeds(scene: Scene, times: np.ndarray) -> list[np.ndarray]:
 
 
 def begin_one_gap(scene: Scene | Prepared) -> tuple[OneGap, Step, float]:
-    """Make a scene ready for a run: the solver on the first strip that a steady point takes, on the same cells; the
-    state at t = 0; NaN, since the error of the cells is not known. Raises `InputError` and `ConvergenceError`."""
+    """The solver of a scene; its state at t = 0; NaN: the error of the cells is not known. Raises `InputError` and
+    `ConvergenceError`."""
+    solver = one_gap(scene)
+    return solver, solver.start(), math.nan
+
+
+def work_of_run(scene: Scene) -> tuple[int, float]:
+    """About how many steps a run takes, and its counted work [s of a usual core]."""
+    solver, plan = one_gap(scene), changes(scene)
+    steps = max(len(solver.stops), plan.outputs) + START
+    return steps, steps * work_of_steps(solver.base.heights.size, STEPS, KRYLOV)
+
+
+def one_gap(scene: Scene | Prepared) -> OneGap:
+    """The solver, on the first strip that a steady point takes, and on the same cells. Raises `InputError`."""
     prepared = scene if isinstance(scene, Prepared) else prepare(scene)
     scene, plan, strips = prepared.scene, changes(prepared.scene), prepared.strips
     if strips is None:
@@ -213,8 +230,7 @@ def begin_one_gap(scene: Scene | Prepared) -> tuple[OneGap, Step, float]:
     base = replace(base, least_flow=LEAST_FLOW * line.entrainment_speed * line.moes_film)
     of_strip = replace(prepared, surface=surface)
     heights = {name: shifted(base, one) for name, one in maps.items()}
-    solver = OneGap(of_strip, base, heights, strips.lengths[1])
-    return solver, solver.start(), math.nan
+    return OneGap(of_strip, base, heights, strips.lengths[1])
 
 
 def moment_of_gap(solver: OneGap, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
