@@ -91,8 +91,7 @@ def summary(found: list) -> Iterator[list[str]]:
     film = FILMS.index(BOUNDARY_FILM)
     for contact, acf, ratio in dict.fromkeys(case[:3] for case, _ in found):
         at = {case[3]: row for case, row in found if case[:3] == (contact, acf, ratio)}
-        sets = ([one["fast"]["share"] for one in at.values()], [one["rest"]["shares"][film] for one in at.values()])
-        sets = (*sets, [one["shares"][film] for one in at.values()])
+        sets = zip(*((one["fast"]["share"], one["rest"]["shares"][film], one["shares"][film]) for one in at.values()))
         cells = [f"{min(one):.2f}–{max(one):.2f}" for one in sets]
         over = [f"{at[slip]['f'] / at[slip]['fast']['f']:.2f}" if slip in at else "-" for slip in SLIPS]
         yield [contact if acf == "gaussian" else f"{contact}, {acf}", f"{ratio:g}", *cells, *over]
