@@ -11,7 +11,7 @@ import numpy as np
 import lubfric
 from lubfric.deterministic import RoughBody, moments, solve_strip, travelling
 
-from ..references import density
+from ..fem.fluid import Fluid
 
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 SWEEP = 2.5  # half-widths that the film travels before anything counts
@@ -95,5 +95,5 @@ def balances(problem, result, passing: Sequence, step: float) -> dict[str, float
 
 def held(line, result, gap) -> np.ndarray:
     """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure, mean over y (nx,)."""
-    law = density(result.pressure) if line.lubricant.density_law == "dowson-higginson" else 1.0
-    return (result.fill * law * gap).mean(axis=1)
+    law = Fluid(1.0, density_law=line.lubricant.density_law.replace("-", "_")).rho
+    return (result.fill * law(result.pressure) * gap).mean(axis=1)
