@@ -90,22 +90,25 @@ def summary(found: list) -> Iterator[list[str]]:
     """A row for every film."""
     film = FILMS.index(BOUNDARY_FILM)
     for ratio in RATIOS:
-        at = [row for case, row in found if case[2] == ratio]
-        columns = [[row["f"] / other["f"] for row in at for other in [row[key]]] for key in ("fast", "rest")]
-        columns += zip(*((row["fast"]["share"], row["rest"]["shares"][film], row["shares"][film]) for row in at))
-        if at:
-            yield [f"{ratio:g}", *(f"{min(one):.2f}–{max(one):.2f}" for one in columns)]
+        rows = np.array(
+            [
+                (at["f"] / at["fast"]["f"], at["f"] / at["rest"]["f"])
+                + (at["fast"]["share"], at["rest"]["shares"][film], at["shares"][film])
+                for case, at in found
+                if case[2] == ratio
+            ]
+        )
+        if rows.size:
+            yield [f"{ratio:g}", *(f"{low:.2f}–{high:.2f}" for low, high in zip(rows.min(axis=0), rows.max(axis=0)))]
 
 
 def shares(found: list) -> Iterator[Check]:
     """How far the share of the load on gaps below each of `FILMS` is from the band of four laws, at most."""
     ratios = np.array([case[2] for case, _ in found])
     low, high = (side[:, None] for side in load_share_band(ratios))
-    for name, at in (
-        ("moving", [row["shares"] for _, row in found]),
-        ("rest", [row["rest"]["shares"] for _, row in found]),
-    ):
-        off = np.maximum(np.maximum(np.array(at) - high, low - np.array(at)), 0).max(axis=0)
+    for name, rows in (("moving", [row for _, row in found]), ("rest", [row["rest"] for _, row in found])):
+        at = np.array([row["shares"] for row in rows])
+        off = np.maximum(np.maximum(at - high, low - at), 0).max(axis=0)
         for film, distance in zip(FILMS, off):
             what = f"{name}, h < {film * 1e9:g} nm: largest distance of the share from the band"
             yield Check(what, distance, 0.0, 1.0, "four laws", TOLD)
