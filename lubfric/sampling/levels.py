@@ -1,12 +1,12 @@
 """Friction of an endless line by the deterministic model, as a sum over levels of cost.
 
-    f = [f of Eq. (8) on the long line of the sample]               many strips
-      + mean over strips (f deterministic - f of Eq. (8))           a few of the same strips
-      + mean over pieces (f on cells half as long - f)              fewer still, half as long
+    f = mean over strips (f deterministic - difference of that strip from a line of Eq. (8))      a few strips
+      + mean over pieces (f on cells half as long - f)                                            fewer, half as long
 
-The second level needs few strips where both models scatter alike, as they do about lift-off on most surfaces. Where
-they do not, the first level is left out, and the second is the deterministic f alone. Which of the two needs fewer
-strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
+The line is the first level: its many strips tell what is chance of the few (`lubfric.sampling.line`). These are few
+where both models scatter alike, as they do about lift-off on most surfaces. Where they do not, the line is left out.
+Which of the two needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617,
+doi:10.1287/opre.1070.0496).
 """
 
 from __future__ import annotations
@@ -20,11 +20,12 @@ import numpy as np
 from ..contact import Strips
 from ..deterministic import MovingStrip, Strip, change_by_flow, changes_of, estimate
 from ..scene import Numerics, moves
-from ..sharing import Prepared, quantities
+from ..sharing import Prepared
+from .line import Line, line_of
 from .pair import Pair, cells_of, numbers_of, solve_finer, solve_pair
 from .sample import Found, enlarged
 from .scatter import BlockError, add_errors, block_error
-from .uncertainty import ORDER, student
+from .uncertainty import student
 
 DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
@@ -35,10 +36,6 @@ SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 GROWTH, SPARE = (4.0, 2.0), (1.1, 1.2)  # of the number of strips, which are dear: see `enlarged`
 MOST_WORK = 120.0  # s, counted: of the strips of one point
 FEWEST = 3  # strips whose scatter tells an error
-LINEAR = (  # numbers of Eq. (8) that a difference is added to
-    *("coefficient", "contact_load", "film_load", "shear_force", "couette_force", "rolling_force", "boundary_force"),
-    "mean_gap",
-)
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 
@@ -126,11 +123,11 @@ def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tupl
     first = pairs[0].resolved
     most = max(1, min(strips.available, int(MOST_WORK / first.work)))
     same = found is not None and found.strips is not None and found.strips.cells == strips.cells
-    lines = [0]
+    line = None
     if found is not None and same and not strips.whole and math.isfinite(found.sampling):
-        lines = [found.count, 0]
+        line = line_of(prepared, found)
     while True:
-        sums = [_sum(prepared, pairs, found, line) for line in lines]
+        sums = [_sum(prepared, pairs, one) for one in (line, None) if one is None or len(pairs) <= one.count]
         sums = [one for one in sums if not one.line or 0 <= one.numbers["contact_load"] <= load]
         counts = [one.wanted(numerics, len(pairs), most) for one in sums]
         best = next(k for k, one in enumerate(sums) if not one.line or counts[k] <= min(counts[-1], one.line))
@@ -140,22 +137,19 @@ def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tupl
     return pairs, sums[best]
 
 
-def _sum(prepared: Prepared, pairs: Sequence[Pair], found: Found | None, line: int) -> Sum:
-    """The first two levels; ``line``: strips of the first (0: without it)."""
+def _sum(prepared: Prepared, pairs: Sequence[Pair], line: Line | None) -> Sum:
+    """The first two levels; ``line``: the first (None: without it)."""
     assert prepared.strips is not None
-    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
+    rows, count = [numbers_of(prepared, pair.resolved.result) for pair in pairs], len(pairs)
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
-    if not line or found is None:
-        return Sum(0, numbers, _scatter(pairs, prepared.strips, 0.0), BlockError(0.0, 1))
-    solved, freedom = found.solved, ORDER if found.response is None else found.friction_error.freedom
-    loads = solved.film_load, solved.contact_load
-    of_line = quantities(solved.forces, solved.film, loads, solved.contact.mean_film)
-    for name in LINEAR:
-        numbers[name] += of_line[name] - mean(pair.shared[name] for pair in pairs)
-    rest = max(1 - len(pairs) / line, 0.0)
-    others = BlockError(math.sqrt(rest) * found.sampling * abs(numbers["coefficient"]), freedom)
-    whole = add_errors(_scatter(pairs, prepared.strips, rest), others)
-    return Sum(line, numbers, whole, _scatter(pairs, prepared.strips, 1.0))
+    if line is None:
+        return Sum(0, numbers, _scatter(pairs, prepared.strips), BlockError(0.0, 1))
+    for name, differences in line.numbers.items():
+        numbers[name] -= mean(differences[:count])
+    rest = 1 - count / line.count
+    others = replace(line.sampling, error=math.sqrt(rest) * line.sampling.error * abs(numbers["coefficient"]))
+    whole = add_errors(_scatter(pairs, prepared.strips, line, rest), others)
+    return Sum(line.count, numbers, whole, _scatter(pairs, prepared.strips, line, 1.0))
 
 
 def mean(values) -> float:
@@ -172,21 +166,24 @@ def _errors(prepared: Prepared, pairs: Sequence[Pair], numbers: dict[str, float]
     return {name: errors[name] / abs(value) for name, value in numbers.items() if value}
 
 
-def _scatter(pairs: Sequence[Pair], strips: Strips, share: float) -> BlockError:
-    """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times that by Eq. (8).
-    (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 - n/N: Eq. (8) on the pairs is part
-    of the line.)
+def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, share: float = 0.0) -> BlockError:
+    """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the differences of
+    these strips from the ``line``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
+    n/N: Eq. (8) on the pairs is part of the line.)
 
     Strips tell their scatter themselves, but few of them badly. Blocks within them tell it at once, but off by up to a
     factor of two. So the variances of both are pooled, that of blocks with the weight of `PRIOR` strips. If windows of
     a measured map scatter more, their own scatter counts.
     """
-    count = len(pairs)
-    within = _block_error([p.resolved.deviations - share * p.shared_deviations for p in pairs], strips, pairs[0])
-    by_blocks = count * (within.error * (1.0 if share else ALONE)) ** 2
+    count, places = len(pairs), [pair.resolved.deviations for pair in pairs]
+    f = np.array([pair.resolved.result.coefficient for pair in pairs])
+    if line is not None:
+        places = [one - share * line.deviations(k, one.size) for k, one in enumerate(places)]
+        f -= share * line.numbers["coefficient"][:count]
+    within = _block_error(places, strips, pairs[0])
+    by_blocks = count * (within.error * (1.0 if line else ALONE)) ** 2
     if count == 1:
         return BlockError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
-    f = [p.resolved.result.coefficient - share * p.shared.get("coefficient", 0.0) for p in pairs]
     by_strips = float(np.var(f, ddof=1))
     pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
     if strips.windows and count >= FEWEST and by_strips > pooled:
