@@ -1,10 +1,9 @@
 """Checks of input values; each failure names quantity, value, allowed range and unit."""
 
-from __future__ import annotations
-
 import difflib
 import math
 import os
+import re
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from decimal import Decimal
@@ -15,23 +14,12 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..quantities import CHOICES, KEYS
+from ..units import SANE, UNITS, spelled, without_unit
 
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
 LEAST, LARGEST = 1e-100, 1e100  # of any number: beyond it powers of it overflow
-SANE = {  # unit: least and largest magnitude of a quantity given; far beyond what exists, so that nothing overflows
-    "m": (1e-30, 1e6),
-    "m/s": (1e-30, 1e30),
-    "N": (1e-30, 1e15),
-    "N/m": (1e-30, 1e15),
-    "Pa": (1e-12, 1e18),
-    "Pa s": (1e-12, 1e12),
-    "1/Pa": (1e-30, 1e6),
-    "s": (1e-18, 1e12),
-    "Hz": (1e-12, 1e18),
-    "1/K": (1e-30, 1e6),
-    "(-)": (1e-60, 1e60),
-}
 NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates
 
 
@@ -58,11 +46,20 @@ def python_value(value: Any, depth: int = DEEPEST) -> Any:
     return value
 
 
-def python_fields(part: Any) -> None:
-    """Make the fields of a frozen dataclass `python_value` (call it first in ``__post_init__``). A pair in an array is
-    a pair, a scene prints and is written as numbers, and nothing is computed in single precision."""
+def python_fields(part: Any, section: str) -> None:
+    """Make the fields of a frozen dataclass, which is this ``section`` of a scene, `python_value` (call it first in
+    ``__post_init__``), and text with a unit a number. A pair in an array is a pair, a scene prints and is written as
+    numbers, and nothing is computed in single precision."""
     for name, value in list(vars(part).items()):
-        object.__setattr__(part, name, python_value(value))
+        key, plain = f"{section}.{name}", python_value(value)
+        object.__setattr__(part, name, without_unit(key, plain, KEYS[key].unit) if key in KEYS else plain)
+
+
+def in_plain(name: str, value: Any, unit: str) -> Any:
+    """``value`` with text such as "12 mm" as numbers in ``unit``, as far as that is one ("Pa (inf: rigid)" is). Raises
+    `InputError`, as `without_unit` does."""
+    unit = "-" if unit in ("", "(-)") else spelled(re.sub(r" \(.*", "", unit))
+    return without_unit(name, python_value(value), unit) if any(unit in row for row in UNITS.values()) else value
 
 
 def _real(value: Any) -> float:
@@ -103,6 +100,7 @@ def _within(name, value, unit, above, minimum, maximum, least) -> float:
     minimum, maximum = max(minimum, -largest), min(maximum, largest)
     low = f"({above:g}" if above >= minimum else f"[{minimum:g}"
     allowed = f"a finite number in {low}, {maximum:g}] {unit}"
+    value = in_plain(name, value, unit) if isinstance(value, str) else value
     try:
         x = _real(value)
     except OverflowError:
@@ -119,6 +117,27 @@ def _within(name, value, unit, above, minimum, maximum, least) -> float:
 def nonnegative(name: str, value: Any, unit: str, *, maximum: float = math.inf) -> float:
     """A finite number >= 0."""
     return number(name, value, unit, minimum=0.0, maximum=maximum)
+
+
+def in_range(section: str, part: Any, prefix: str | None = None) -> None:
+    """Check the numbers and the choices among the fields of a ``section`` of a scene by what keys.toml says of them;
+    None is let pass where it is the default. ``prefix``: of their names in messages (None: the section)."""
+    for key, field in part.__dataclass_fields__.items():
+        name, value = f"{section}.{key}", getattr(part, key)
+        called = name if prefix is None else prefix + key
+        if name in CHOICES:
+            choice(called, value, CHOICES[name])
+        elif name in KEYS and KEYS[name].limited and (value is not None or field.default is not None):
+            of_key(name, value, called)
+
+
+def of_key(name: str, value: Any, called: str | None = None) -> float:
+    """A number that the key ``name`` of a scene can have, by keys.toml; ``called``: its name in messages."""
+    q = KEYS[name]
+    unit = "(-)" if q.unit == "-" else q.unit
+    if q.above == 0:
+        return positive(called or name, value, unit, maximum=q.most)
+    return number(called or name, value, unit, minimum=q.least, maximum=q.most)
 
 
 def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) -> int:
@@ -200,8 +219,12 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
     odd = _odd_entry(value, DEEPEST)
     try:
         found = np.empty(0) if odd else np.asarray(value)
+        if found.dtype.kind == "U":
+            found = np.asarray(in_plain(name, value, unit))
         if found.dtype.kind == "O":
             found = np.array([_real(x) for x in found.ravel()], dtype=float).reshape(found.shape)
+    except InputError:
+        raise
     except (TypeError, ValueError, OverflowError, RecursionError):
         instead = f"its .heights [{unit}]" if hasattr(value, "heights") else ""
         told = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"

@@ -28,7 +28,7 @@ from ..scene import Scene
 from ..surface import Surface
 from .newton import Found, Work, newton
 from .point import Strip, solve_strip, work_of_steps
-from .problem import Problem
+from .problem import Problem, shifted
 from .result import DeterministicResult, LoadSplit, assemble
 from .solve import solve_point
 from .state import RUPTURED, Iterate, State, evaluated, residuals
@@ -157,10 +157,8 @@ class RoughBody(NamedTuple):
 def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float], Problem]:
     """Of a time [s], ``problem`` with the heights of ``bodies`` then.
 
-    A map is laid out as by `lay_out`, on cells of ``problem`` that are its own or several times as long. It is shifted
-    by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
-    """
-    shifts = [_shifted(problem, body.surface) for body in bodies]
+    A map is laid out as by `lay_out`, and `shifted`."""
+    shifts = [shifted(problem, body.surface) for body in bodies]
 
     def at(time: float) -> Problem:
         heights = [shift(body.speed * time) for shift, body in zip(shifts, bodies)]
@@ -168,18 +166,6 @@ def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float
         return replace(problem, heights=np.sum(heights, axis=0), upper=upper[0] if upper else None)
 
     return at
-
-
-def _shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:
-    (nx, ny), dx = surface.shape, surface.spacing[0]
-    fy = ny // problem.heights.shape[1]
-    heights = surface.heights[:, fy // 2 :: fy] - surface.heights.mean()
-    if not surface.periodic_axes[0]:
-        heights = np.concatenate([heights, heights[::-1]])
-    period = heights.shape[0]
-    place = np.rint(problem.x / dx + (nx - 1) / 2).astype(int) % period
-    waves, k = np.fft.rfft(heights, axis=0), 2 * np.pi * np.fft.rfftfreq(period, dx)
-    return lambda s: np.fft.irfft(waves * np.exp(-1j * k * s)[:, None], n=period, axis=0)[place]
 
 
 @dataclass(frozen=True)
@@ -217,7 +203,8 @@ def solve_moving_strip(
     """
     whole = replace(bodies[0].surface, heights=np.sum([body.surface.heights for body in bodies], axis=0), mask=None)
     near = start.rest if isinstance(start, MovingStrip) else start
-    rest = solve_strip(scene, whole, speed, factors=factors, start=near, slope=slope)
+    upper = next((body.surface for body in bodies if body.upper), None)
+    rest = solve_strip(scene, whole, speed, factors=factors, start=near, slope=slope, upper=upper)
     if speed < 0:
         bodies = [body._replace(surface=replace(body.surface, heights=body.surface.heights[::-1])) for body in bodies]
     fastest = max(bodies, key=lambda body: abs(body.speed))

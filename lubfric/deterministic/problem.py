@@ -15,6 +15,7 @@ On a grid of cells (nx, ny), x along the motion, periodic along y:
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -47,6 +48,8 @@ class Problem(OfLineContact):
     against U, if nothing slides): its shear stress, and the pressure on the flanks of its own roughness. ``upper`` z2
     [m] (nx, ny): that roughness, part of z (None: surface 2 is smooth). The force on surface 1 is the opposite, but for
     the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
+
+    least_flow [m²/s]: what the residuals of the mass are relative to, where less flows in (in time, where U may be 0).
     """
 
     contact: LineContact
@@ -60,6 +63,7 @@ class Problem(OfLineContact):
     floor: float = FLOOR
     sense: float = 1.0
     upper: np.ndarray | None = None
+    least_flow: float = 0.0
 
     @property
     def spacing(self) -> tuple[float, float]:
@@ -161,3 +165,20 @@ def lay_out(
     x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
     return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film)
+
+
+def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:
+    """Of a distance [m] along x by which ``surface`` has moved, its heights [m] on the cells of ``problem``, which are
+    its own or several times as long.
+
+    It is shifted by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
+    """
+    (nx, ny), dx = surface.shape, surface.spacing[0]
+    fy = ny // problem.heights.shape[1]
+    heights = surface.heights[:, fy // 2 :: fy] - surface.heights.mean()
+    if not surface.periodic_axes[0]:
+        heights = np.concatenate([heights, heights[::-1]])
+    period = heights.shape[0]
+    place = np.rint(problem.x / dx + (nx - 1) / 2).astype(int) % period
+    waves, k = np.fft.rfft(heights, axis=0), 2 * np.pi * np.fft.rfftfreq(period, dx)
+    return lambda s: np.fft.irfft(waves * np.exp(-1j * k * s)[:, None], n=period, axis=0)[place]

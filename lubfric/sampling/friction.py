@@ -27,7 +27,6 @@ def friction(
     scene: Scene | Prepared,
     speed: float | None = None,
     *,
-    start: object = None,
     tolerance: float | None = None,
     model: str | None = None,
     fields: bool = False,
@@ -64,10 +63,6 @@ def friction(
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     prepared = at_speed(prepared, speed)
-    if start is not None:
-        raise InputError(
-            "start is not taken any more: every point is solved from its scene and speed alone; leave it out"
-        )
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):

@@ -1,12 +1,13 @@
 """Friction of an endless line by the deterministic model, as a sum over levels of cost.
 
-    f = [f of Eq. (8) on the long line of the sample]               many strips
-      + mean over strips (f deterministic - f of Eq. (8))           a few of the same strips
-      + mean over pieces (f on cells half as long - f)              fewer still, half as long
+    f = mean over strips (f deterministic - difference of that strip from a line of Eq. (8))      a few strips
+      + mean over pieces (f on cells half as long - f)                                            fewer, half as long
+      + the same once more, from these cells on                                           one, a sixth as long
 
-The second level needs few strips where both models scatter alike, as they do about lift-off on most surfaces. Where
-they do not, the first level is left out, and the second is the deterministic f alone. Which of the two needs fewer
-strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617, doi:10.1287/opre.1070.0496).
+The line is the first level: its many strips tell what is chance of the few (`lubfric.sampling.line`). These are few
+where both models scatter alike, as they do about lift-off on most surfaces. Where they do not, the line is left out.
+Which of the two needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617,
+doi:10.1287/opre.1070.0496).
 """
 
 from __future__ import annotations
@@ -20,25 +21,24 @@ import numpy as np
 from ..contact import Strips
 from ..deterministic import MovingStrip, Strip, change_by_flow, changes_of, estimate
 from ..scene import Numerics, moves
-from ..sharing import Prepared, quantities
-from .pair import Pair, cells_of, numbers_of, solve_finer, solve_pair
+from ..sharing import Prepared
+from .line import Line, line_of
+from .pair import PIECE, Pair, cells_of, numbers_of, solve_finer, solve_pair
 from .sample import Found, enlarged
 from .scatter import BlockError, add_errors, block_error
-from .uncertainty import ORDER, student
+from .uncertainty import student
 
 DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
 ALONE = 1.3  # scatter of the deterministic f between strips over that of blocks along them
 PRIOR, FREEDOM = 3, 5  # strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
 MOST_PIECES = 4
+SHORTEST = 14.0  # correlation lengths: the piece of the last level
+OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 GROWTH, SPARE = (4.0, 2.0), (1.1, 1.2)  # of the number of strips, which are dear: see `enlarged`
 MOST_WORK = 120.0  # s, counted: of the strips of one point
 FEWEST = 3  # strips whose scatter tells an error
-LINEAR = (  # numbers of Eq. (8) that a difference is added to
-    *("coefficient", "contact_load", "film_load", "shear_force", "couette_force", "rolling_force", "boundary_force"),
-    "mean_gap",
-)
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 
@@ -49,7 +49,7 @@ class Levels:
     - ``numbers``: of the deterministic model on an endless line, by name; ``errors``: their relative standard errors.
       ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of the flow.
     - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second;
-      ``pieces``: of the third, each on shorter and shorter cells.
+      ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
       the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips.
     """
@@ -61,6 +61,7 @@ class Levels:
     line: int
     pairs: tuple[Pair, ...]
     pieces: tuple[tuple[Strip, ...], ...]
+    shortest: tuple[Strip, ...]
     sampling: BlockError
     difference: BlockError
     numerical: float
@@ -98,11 +99,12 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     """
     assert prepared.strips is not None
     pairs, both = _first_levels(prepared, speed, found)
-    pieces, by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
+    pieces, shortest, by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
     numbers = both.numbers
-    for piece in pieces:
-        before, after = numbers_of(prepared, piece[1].result), numbers_of(prepared, piece[-1].result)
-        numbers = {name: value + (after[name] - before[name]) / len(pieces) for name, value in numbers.items()}
+    changes = [(piece[1], piece[-1], len(pieces)) for piece in pieces] + [(*one[-2:], 1) for one in [shortest] if one]
+    for coarse, fine, count in changes:
+        before, after = numbers_of(prepared, coarse.result), numbers_of(prepared, fine.result)
+        numbers = {name: value + (after[name] - before[name]) / count for name, value in numbers.items()}
     f = abs(numbers["coefficient"])
     of_strips = add_errors(both.whole, by_cells)
     difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
@@ -114,7 +116,7 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     length, first = prepared.strips.length * max(both.line, len(pairs)), pairs[0].resolved
     flow = change_by_flow(first.rest if isinstance(first, MovingStrip) else first)
     return Levels(
-        numbers, errors, films, flow, both.line, tuple(pairs), pieces, sampling, difference, numerical, length
+        numbers, errors, films, flow, both.line, tuple(pairs), pieces, shortest, sampling, difference, numerical, length
     )
 
 
@@ -126,11 +128,11 @@ def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tupl
     first = pairs[0].resolved
     most = max(1, min(strips.available, int(MOST_WORK / first.work)))
     same = found is not None and found.strips is not None and found.strips.cells == strips.cells
-    lines = [0]
+    line = None
     if found is not None and same and not strips.whole and math.isfinite(found.sampling):
-        lines = [found.count, 0]
+        line = line_of(prepared, found)
     while True:
-        sums = [_sum(prepared, pairs, found, line) for line in lines]
+        sums = [_sum(prepared, pairs, one) for one in (line, None) if one is None or len(pairs) <= one.count]
         sums = [one for one in sums if not one.line or 0 <= one.numbers["contact_load"] <= load]
         counts = [one.wanted(numerics, len(pairs), most) for one in sums]
         best = next(k for k, one in enumerate(sums) if not one.line or counts[k] <= min(counts[-1], one.line))
@@ -140,22 +142,19 @@ def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tupl
     return pairs, sums[best]
 
 
-def _sum(prepared: Prepared, pairs: Sequence[Pair], found: Found | None, line: int) -> Sum:
-    """The first two levels; ``line``: strips of the first (0: without it)."""
+def _sum(prepared: Prepared, pairs: Sequence[Pair], line: Line | None) -> Sum:
+    """The first two levels; ``line``: the first (None: without it)."""
     assert prepared.strips is not None
-    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
+    rows, count = [numbers_of(prepared, pair.resolved.result) for pair in pairs], len(pairs)
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
-    if not line or found is None:
-        return Sum(0, numbers, _scatter(pairs, prepared.strips, 0.0), BlockError(0.0, 1))
-    solved, freedom = found.solved, ORDER if found.response is None else found.friction_error.freedom
-    loads = solved.film_load, solved.contact_load
-    of_line = quantities(solved.forces, solved.film, loads, solved.contact.mean_film)
-    for name in LINEAR:
-        numbers[name] += of_line[name] - mean(pair.shared[name] for pair in pairs)
-    rest = max(1 - len(pairs) / line, 0.0)
-    others = BlockError(math.sqrt(rest) * found.sampling * abs(numbers["coefficient"]), freedom)
-    whole = add_errors(_scatter(pairs, prepared.strips, rest), others)
-    return Sum(line, numbers, whole, _scatter(pairs, prepared.strips, 1.0))
+    if line is None:
+        return Sum(0, numbers, _scatter(pairs, prepared.strips), BlockError(0.0, 1))
+    for name, differences in line.numbers.items():
+        numbers[name] -= mean(differences[:count])
+    rest = 1 - count / line.count
+    others = replace(line.sampling, error=math.sqrt(rest) * line.sampling.error * abs(numbers["coefficient"]))
+    whole = add_errors(_scatter(pairs, prepared.strips, line, rest), others)
+    return Sum(line.count, numbers, whole, _scatter(pairs, prepared.strips, line, 1.0))
 
 
 def mean(values) -> float:
@@ -172,21 +171,24 @@ def _errors(prepared: Prepared, pairs: Sequence[Pair], numbers: dict[str, float]
     return {name: errors[name] / abs(value) for name, value in numbers.items() if value}
 
 
-def _scatter(pairs: Sequence[Pair], strips: Strips, share: float) -> BlockError:
-    """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times that by Eq. (8).
-    (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 - n/N: Eq. (8) on the pairs is part
-    of the line.)
+def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, share: float = 0.0) -> BlockError:
+    """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the differences of
+    these strips from the ``line``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
+    n/N: Eq. (8) on the pairs is part of the line.)
 
     Strips tell their scatter themselves, but few of them badly. Blocks within them tell it at once, but off by up to a
     factor of two. So the variances of both are pooled, that of blocks with the weight of `PRIOR` strips. If windows of
     a measured map scatter more, their own scatter counts.
     """
-    count = len(pairs)
-    within = _block_error([p.resolved.deviations - share * p.shared_deviations for p in pairs], strips, pairs[0])
-    by_blocks = count * (within.error * (1.0 if share else ALONE)) ** 2
+    count, places = len(pairs), [pair.resolved.deviations for pair in pairs]
+    f = np.array([pair.resolved.result.coefficient for pair in pairs])
+    if line is not None:
+        places = [one - share * line.deviations(k, one.size) for k, one in enumerate(places)]
+        f -= share * line.numbers["coefficient"][:count]
+    within = _block_error(places, strips, pairs[0])
+    by_blocks = count * (within.error * (1.0 if line else ALONE)) ** 2
     if count == 1:
         return BlockError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
-    f = [p.resolved.result.coefficient - share * p.shared.get("coefficient", 0.0) for p in pairs]
     by_strips = float(np.var(f, ddof=1))
     pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
     if strips.windows and count >= FEWEST and by_strips > pooled:
@@ -196,17 +198,23 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, share: float) -> BlockError:
 
 def _on_finer_cells(
     prepared: Prepared, speed: float, pairs: Sequence[Pair]
-) -> tuple[tuple[tuple[Strip, ...], ...], BlockError, float]:
-    """Solve the third level, if it is needed and the roughness rests: its pieces, the standard error of their mean
-    change of f, and the relative error that the last cells leave."""
+) -> tuple[tuple[tuple[Strip, ...], ...], tuple[Strip, ...], BlockError, float]:
+    """Solve the third and fourth level, as far as needed, if the roughness rests: the pieces of both, the standard
+    error of the mean change of f on those of the third, and the relative error that the last cells leave.
+
+    There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK` allows it. What it
+    tells from one short piece may be off by half.
+    """
     scene, strips, first = prepared.scene, prepared.strips, pairs[0]
     assert strips is not None
     by_longer = mean(changes_of((pair.longer, pair.resolved))[0] for pair in pairs)
+    factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.factors)
+    halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED)
     enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
     own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
     if enough or own or moves(scene):
-        return (), BlockError(0.0, 1), left
+        return (), (), BlockError(0.0, 1), left
     asked = CELLS * scene.numerics.sampling_tolerance * abs(first.resolved.result.coefficient)
     pieces: list[tuple[Strip, ...]] = []
     error = BlockError(math.inf, 0)
@@ -214,9 +222,19 @@ def _on_finer_cells(
         pieces.append(solve_finer(prepared, speed, len(pieces), first))
         error = BlockError(0.0, 1) if strips.whole else _block_error([_change(one) for one in pieces], strips, first)
     if strips.whole:
-        return tuple(pieces), error, max(estimate(changes_of(pieces[0])), SOLVED)
-    change = mean(one[-1].result.coefficient / one[1].result.coefficient - 1 for one in pieces)  # its error is told
-    return tuple(pieces), error, max(estimate((by_longer, abs(change))), SOLVED)
+        return tuple(pieces), (), error, max(estimate(changes_of(pieces[0])), SOLVED)
+    change = abs(
+        mean(one[-1].result.coefficient / one[1].result.coefficient - 1 for one in pieces)
+    )  # its error is told
+    left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
+    spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
+    dear = spent + 4 * SHORTEST / PIECE * pieces[0][-1].work > MOST_WORK
+    if left <= scene.numerics.tolerance or halvings < 2 or dear:
+        return tuple(pieces), (), error, left
+    shortest = solve_finer(prepared, speed, 0, first, times=4, length=SHORTEST)
+    further = changes_of(shortest[-2:])[0]
+    left = max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED)
+    return tuple(pieces), shortest, error, left
 
 
 def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:

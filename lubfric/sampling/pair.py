@@ -1,22 +1,21 @@
-"""One strip of the surface, solved by both models: the deterministic one, and Eq. (8)."""
+"""One strip of the surface, or a piece of it, by the deterministic model on longer and shorter cells."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from ..contact import Strips
 from ..deterministic import DeterministicResult, Strip, changes_of, estimate, solve_strip
 from ..quantities import NUMBERS
 from ..scene import moves
-from ..sharing import Prepared, on_piece, on_strip, quantities, solve_balance
+from ..sharing import Prepared, on_piece
 from ..surface import Surface
 from .moving import map_of, solved_strip, strip_surface
-from .scatter import friction_influence, mirrored
+from .scatter import mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
+PIECE = 42.0  # correlation lengths
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 
 
@@ -24,16 +23,12 @@ SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 class Pair:
     """One strip of the sample.
 
-    - ``resolved``: by the deterministic model; ``longer``: on cells twice as long, from which it started. ``shared``:
-      its numbers by Eq. (8) (of a patch, which is all that there is, none).
-    - ``shared_deviations``: of f by Eq. (8) from place to place along y (ny,), with a mean of 0, as
-      `Strip.deviations`. ``mirrored``: whether the second half along y is the mirror image of the first.
+    ``resolved``: by the deterministic model; ``longer``: on cells twice as long, from which it started; ``mirrored``:
+    whether the second half along y is the mirror image of the first.
     """
 
     resolved: Strip
     longer: Strip
-    shared: dict[str, float]
-    shared_deviations: np.ndarray
     mirrored: bool = False
 
 
@@ -65,41 +60,33 @@ def longer_than(surface: Surface, factors: tuple[int, int]) -> tuple[int, int]:
 def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> Pair:
     """Strip ``index`` at ``speed`` [m/s], not 0. The deterministic model begins on cells twice as long. ``slope``:
     of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`."""
-    scene, strips = prepared.scene, prepared.strips
-    assert strips is not None
+    assert prepared.strips is not None
     surface, factors = strip_of(prepared, index)
     first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors))
     strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
-    if strips.whole:
-        return Pair(strip, first, {}, np.zeros(strip.result.load_at.size), mirrored(surface.heights))
-    contact = on_strip(prepared, strips, index)
-    balance = solve_balance(scene, speed, contact, prepared.surface.sq)
-    loads = balance.film_load, balance.contact_load
-    mean = balance.contact.mean_gap if balance.contact_load else balance.contact.mean_film
-    numbers = quantities(balance.forces, balance.film, loads, mean)
-    by_place = friction_influence(scene, contact, balance) * balance.forces.coefficient
-    rows = by_place[: by_place.size // factors[1] * factors[1]].reshape(-1, factors[1]).mean(axis=1)
-    return Pair(strip, first, numbers, rows)
+    return Pair(strip, first, prepared.strips.whole and mirrored(surface.heights))
 
 
-def solve_finer(prepared: Prepared, speed: float, index: int, first: Pair) -> tuple[Strip, ...]:
-    """A piece of the surface (or a strip, if that is as `SHORT`) on cells twice as long as those of ``first``, on the
-    same, and on cells half as long. Of a patch: all of it, on shorter and shorter cells until the estimated error is
-    within ``numerics.tolerance``, at last (with ``numerics.grid = "given"`` always) on the map's own. Raises
-    `ConvergenceError`."""
+def solve_finer(
+    prepared: Prepared, speed: float, index: int, first: Pair, *, times: int = 2, length: float = PIECE
+) -> tuple[Strip, ...]:
+    """A piece of the surface of this ``length`` in correlation lengths (or a strip, if that is as `SHORT`) on cells
+    twice as long as those of ``first``, on the same, and on shorter and shorter ones, at last so many ``times`` as
+    short. Of a patch: all of it, until the estimated error is within ``numerics.tolerance``, at last (with
+    ``numerics.grid = "given"`` always) on the map's own. Raises `ConvergenceError`."""
     scene, strips = prepared.scene, prepared.strips
     assert strips is not None
     surface, factors = strip_of(prepared, index)
-    enough = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
-    short = index == 0 and strips.length < SHORT * strips.lengths[1] and factors != (1, 1)
+    enough = scene.numerics.tolerance if strips.whole and scene.numerics.grid != "given" else 0.0
+    short = times == 2 and index == 0 and strips.length < SHORT * strips.lengths[1] and factors != (1, 1)
     if strips.whole or short:
         ladder = [first.longer, first.resolved]
     else:
         cells = tuple(f * n for f, n in zip(factors, strips.cells.factors))
-        last = max(1, cells[0] // 2), max(1, cells[1] // 2)
+        last = max(1, cells[0] // times), max(1, cells[1] // times)
         factors = cells[0] // last[0], cells[1] // last[1]
-        surface = map_of(prepared, on_piece(prepared, strips, index, last))
+        surface = map_of(prepared, on_piece(prepared, strips, index, last, length=length))
         ladder = [solve_strip(scene, surface, speed, factors=longer_than(surface, factors))]
         ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[0]))
     while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
