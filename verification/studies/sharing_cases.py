@@ -138,7 +138,9 @@ def ground(across: float) -> np.ndarray:
     rng = np.random.default_rng(5)
     y, x = np.arange(CELLS)[:, None] * across, np.arange(CELLS) * LENGTH / CELLS
     waves = sum(
-        rng.standard_normal() * np.cos(2 * np.pi * (m * x / LENGTH + n * y / (CELLS * across)) + rng.uniform(0, 6.3)) / m
+        rng.standard_normal()
+        * np.cos(2 * np.pi * (m * x / LENGTH + n * y / (CELLS * across)) + rng.uniform(0, 6.3))
+        / m
         for m in range(2, 8)
         for n in (0, 1)
     )
