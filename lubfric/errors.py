@@ -1,7 +1,5 @@
 """What a solver says about its own work, and every exception that the library raises on purpose."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, field
 
 

@@ -1,7 +1,5 @@
 """Pictures: what they share, and results drawn on given axes or on new ones of pyplot."""
 
-from __future__ import annotations
-
 import io
 from typing import Any
 

@@ -111,6 +111,6 @@ def _enough(prepared: Prepared, found: Found) -> str:
     heat = balance.forces.heat
     if heat.heated is not None or 1 - heat.film_factor > scene.numerics.tolerance:
         return "Eq. (8) alone: heat matters, and the deterministic model is isothermal"
-    if found.response is None and model_error(scene, found)[0] <= scene.numerics.model_tolerance:
+    if found.response is None and max(model_error(scene, found)[0]) <= scene.numerics.model_tolerance:
         return "Eq. (8) alone: the film is so thick that the roughness hardly matters"
     return ""

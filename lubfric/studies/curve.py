@@ -1,8 +1,6 @@
 """Solved points over one number, each of which may have failed: what Stribeck and traction curves have in common, and
 their tables."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import ClassVar, TypeVar
 

@@ -11,8 +11,6 @@ from lubfric.film import formulas as film
 from lubfric.film import hertz
 from lubfric.film import rigid_cylinder as rigid
 
-OIL = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9}
-
 
 def test_composite_modulus_convention():
     assert hertz.composite_modulus(210e9, 0.3, 210e9, 0.3) == pytest.approx(210e9 / 0.91)

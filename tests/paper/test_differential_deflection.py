@@ -12,6 +12,9 @@ from lubfric.paper import solve_differential_deflection
 from lubfric.paper.differential import cold_start
 from lubfric.paper.differential_equations import convolve, evaluate, make_mesh, measure
 from lubfric.paper.differential_newton import newton
+from verification.parts import ALPHA, VISCOSITY, case_of
+from verification.parts import E_PRIME as E
+from verification.parts import RADIUS as R
 
 PAPER = {
     "load_per_width": 5.5 / 6e-3,
@@ -20,21 +23,10 @@ PAPER = {
     "viscosity": 0.36,
     "pressure_viscosity_coefficient": 25e-9,
 }
-ALPHA, R, E = 2.2e-8, 0.01, 2.2e11
-ETA = math.exp(ALPHA * 1.96e8 / 0.68 - 9.67)  # Roelands z = 0.68
 
 
 def moes(M, L, **options):
-    u = (L / (ALPHA * E)) ** 4  # eta U/(E' R), twice
-    speed = u * E * R / (2 * ETA)
-    return {
-        "load_per_width": M * math.sqrt(u) * E * R,
-        "radius": R,
-        "e_prime": E,
-        "entrainment_speed": speed,
-        "viscosity": ETA,
-        "pressure_viscosity_coefficient": ALPHA,
-    } | options
+    return case_of(M, L) | options
 
 
 def numbers(result):
@@ -140,7 +132,7 @@ def test_reversed_motion_mirrors(heavy):
 )
 def test_residuals_find_a_wrong_answer(name, spoil):
     kw = moes(5, 5)
-    problem = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(ETA, ALPHA)))
+    problem = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(VISCOSITY, ALPHA)))
     mesh = make_mesh(-20.0, 6.0, 401, 8, True)
     s = newton(mesh, problem, *cold_start(mesh, problem), 1e-8, 60)
     assert max(s.residuals.values()) <= 1e-8
