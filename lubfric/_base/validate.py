@@ -217,11 +217,14 @@ def folder(name: str, value: Any) -> Path:
 def real_array(name: str, value: Any, unit: str) -> np.ndarray:
     """``value`` as an array of floats of any shape, in which NaN and infinity may stand. A mask is dropped."""
     odd = _odd_entry(value, DEEPEST)
-    value = in_plain(name, value, unit) if not odd and _has_text(value, DEEPEST) else value
     try:
         found = np.empty(0) if odd else np.asarray(value)
+        if found.dtype.kind == "U":
+            found = np.asarray(in_plain(name, value, unit))
         if found.dtype.kind == "O":
             found = np.array([_real(x) for x in found.ravel()], dtype=float).reshape(found.shape)
+    except InputError:
+        raise
     except (TypeError, ValueError, OverflowError, RecursionError):
         instead = f"its .heights [{unit}]" if hasattr(value, "heights") else ""
         told = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"
@@ -239,13 +242,6 @@ def _odd_entry(value: Any, depth: int) -> str:
     if isinstance(value, (bool, np.bool_)):
         return "truth values"
     return "masked values" if value is np.ma.masked else ""
-
-
-def _has_text(value: Any, depth: int) -> bool:
-    """Whether a list holds text."""
-    if isinstance(value, (list, tuple)) and depth > 0:
-        return any(_has_text(v, depth - 1) for v in value)
-    return isinstance(value, str) or isinstance(value, np.ndarray) and value.dtype.kind == "U"
 
 
 def choice(name: str, value: Any, options: Iterable) -> Any:

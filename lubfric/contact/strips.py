@@ -78,9 +78,9 @@ class Strips:
         """Strip number ``index`` alone, its last rows passing into its first."""
         return self.joined([index])
 
-    def piece(self, index: int) -> Surface:
-        """A piece on the scene's own cells, some 42 correlation lengths long: number ``index`` of ``pieces``. Every
-        n-th of its cells, in each direction, gives the coarse cells to compare it with."""
+    def piece(self, index: int, length: float = PIECE) -> Surface:
+        """A piece on the scene's own cells, some ``length`` correlation lengths long: number ``index`` of ``pieces``.
+        Every n-th of its cells, in each direction, gives the coarse cells to compare it with."""
         raise NotImplementedError
 
     def halved(self) -> Strips:
@@ -100,9 +100,9 @@ class GeneratedStrips(FieldsOnly, Strips):
         known.update((i, s) for i, s in zip(indices, strips) if i < KEPT_CELLS // math.prod(shape))
         return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
 
-    def piece(self, index: int) -> Surface:
+    def piece(self, index: int, length: float = PIECE) -> Surface:
         fx, fy = self.cells.factors
-        rows = self.cells.rows(PIECE * self.lengths[1]) * fy
+        rows = self.cells.rows(length * self.lengths[1]) * fy
         return self._generator(PIECES, self.cells.spacing, (self.cells.count * fx, rows))(index)
 
     @cached_property
@@ -150,9 +150,9 @@ class MeasuredStrips(Strips):
         note = f"{len(pieces)} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
 
-    def piece(self, index: int) -> Surface:
+    def piece(self, index: int, length: float = PIECE) -> Surface:
         whole, blend, unit = self._columns(self.starts[index]), self._blend, 4 * self.cells.factors[1]
-        wanted = round(PIECE * self.lengths[1] / self.surface.spacing[1])
+        wanted = round(length * self.lengths[1] / self.surface.spacing[1])
         rows = min(whole.shape[1] - blend, wanted) // unit * unit
         first = (whole.shape[1] - rows - blend) // 2
         piece = stacked([whole[:, first : first + rows + blend]], blend)[:, :rows]
@@ -183,7 +183,7 @@ class OnePatch(Strips):
         heights = self.cells.thinned(self.surface.heights, self.cells.factors)
         return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
 
-    def piece(self, index: int) -> Surface:
+    def piece(self, index: int, length: float = PIECE) -> Surface:
         return self.surface
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import ConvergenceError
 from ..scene import Scene, check_resolved_gap, moving_bodies
 from ..surface import Surface
-from .problem import BOUNDARY_FILM, Problem, lay_out
+from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble
 from .solve import refined_start, solve_point
 from .state import evaluated
@@ -133,9 +133,9 @@ def problem_of(
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if film is None else film,
         factors=factors,
-        upper=None if upper is None else turned(upper),
     )
-    return replace(found, sense=-1.0 if ratio < 0 else 1.0)
+    heights = None if upper is None else shifted(found, turned(upper))(0.0)
+    return replace(found, sense=-1.0 if ratio < 0 else 1.0, upper=found.heights if upper is surface else heights)
 
 
 @dataclass(frozen=True)
@@ -151,17 +151,18 @@ class Refined:
         return self.results[-1]
 
 
-def estimate(changes: Sequence[float]) -> float:
+def estimate(changes: Sequence[float], left: float = math.inf) -> float:
     """Relative error of f on the last of several grids, each twice as fine as the one before, by its ``changes`` from
     grid to grid (`change_of`).
 
     It is the geometric series of the last change, with the ratio q of the last two kept within 1/4 and 3/4 (0.6 from
-    one change).
+    one change). ``left``: how often the cells can be halved until they are those that the answer is for; the series
+    ends there.
     """
     ratio = UNKNOWN_RATIO
     if len(changes) > 1 and changes[-2] > 0:
         ratio = min(max(changes[-1] / changes[-2], RATIO[0]), RATIO[1])
-    return changes[-1] * ratio / (1 - ratio)
+    return changes[-1] * ratio * (1 - ratio**left) / (1 - ratio)
 
 
 def changes_of(strips: Sequence[Strip]) -> list[float]:

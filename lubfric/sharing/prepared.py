@@ -172,17 +172,17 @@ def on_strip(prepared: Prepared, strips: Strips, index: int) -> HalfSpaceContact
     return prepared.remembered(("strip", strips.cells.factors, index), make, lambda made: made.heights.size)
 
 
-def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int]) -> HalfSpaceContact:
-    """The contact on every ``factors``-th cell of a piece of ``strips``."""
+def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int], **length) -> HalfSpaceContact:
+    """The contact on every ``factors``-th cell of a piece of ``strips`` (`Strips.piece`)."""
+    own = "piece", strips.cells.factors, index, *length.values()
 
     def make() -> HalfSpaceContact:
-        surface = prepared.remembered(("piece", strips.cells.factors, index), lambda: strips.piece(index))
+        surface = prepared.remembered(own, lambda: strips.piece(index, **length))
         heights = strips.cells.thinned(surface.heights, factors)
         spacing = surface.spacing[0] * factors[0], surface.spacing[1] * factors[1]
         return _contact(prepared, heights, spacing, strips.cells.axis(factors))
 
-    key = "piece", strips.cells.factors, index, factors
-    return prepared.remembered(key, make, lambda made: made.heights.size)
+    return prepared.remembered((*own, factors), make, lambda made: made.heights.size)
 
 
 def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) -> HalfSpaceContact:

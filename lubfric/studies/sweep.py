@@ -96,7 +96,6 @@ def stribeck(
     model: str | None = None,
     fields=False,
     store=None,
-    start=None,
     on_point=None,
     raise_on_failure: bool = True,
 ) -> StribeckResult:
@@ -115,14 +114,11 @@ def stribeck(
     executor : any `concurrent.futures.Executor`
     tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept
     store : a folder that receives every point as it ends. The same call, or one with other speeds, goes on from there
-    start : no longer taken
     on_point : called as on_point(done, total, speed, outcome), with a result or an exception, as points end
     raise_on_failure : False returns a curve with failed points
 
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
-    if start is not None:
-        raise InputError("start: every point is solved from the scene alone; leave start out")
     validate.instance("scene", scene, (Scene, Prepared), "what lubfric.load_scene or lubfric.prepare returned")
     asked, kept = _asked(speeds, fields, scene.scene if isinstance(scene, Prepared) else scene)
     executor, prepared = checked_executor(executor), made_ready(scene, tolerance, model)

@@ -1,7 +1,6 @@
 """Studies as tables for other tools, each imported only when its table is asked for; curves and studies drawn."""
 
 import io
-import math
 from importlib import import_module
 from pathlib import Path
 
@@ -106,10 +105,9 @@ def plot(result, ax=None, **style):
         )
     axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION)
     figures.plain_ticks(axes.xaxis)
-    some, named = f": {picked.size} of {len(indices)} curves" * (picked.size < len(indices)), few and picked.size > 1
-    axes.set_title(figures.plain_words(result.plan["name"]) + some, pad=6 + 13 * named * math.ceil(picked.size / 2))
-    if named:
-        figures.key_above(axes, 2)
+    some = "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves"
+    rows = figures.key_above(axes, 2) if few and picked.size > 1 else 0
+    axes.set_title(figures.plain_words(result.plan["name"]) + some, pad=6 + 13 * rows)
     return axes
 
 

@@ -100,7 +100,7 @@ class Surface(FrozenArrays, Shown):
     def plot(self, ax=None):
         """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
         which the title then tells."""
-        axes = figures.axes_or_new(ax)
+        axes = figures.axes_or_new(ax, "compressed")
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
         z = (self.heights - np.nanmean(self.heights)) * 1e9
         (low, high), (least, most) = np.nanpercentile(z, (0.5, 99.5)), (np.nanmin(z), np.nanmax(z))
@@ -109,7 +109,7 @@ class Surface(FrozenArrays, Shown):
         beyond = least < ends["vmin"], most > ends["vmax"]
         extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get(beyond, "neither")
         figures.field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
-        ends_in_words = f", lowest {least:.4g} nm, highest {most:.4g} nm" if any(beyond) else ""
+        ends_in_words = f"\nlowest {least:.4g}, highest {most:.4g} nm" if any(beyond) else ""
         axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{ends_in_words}")
         return axes
 

@@ -35,7 +35,7 @@ from ..deterministic import (
 )
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
 from ..quantities import OF_MOMENT
-from ..sampling import block_error, maps_of, strip_of
+from ..sampling import block_error, maps_of, numbers_of, strip_of
 from ..scene import Constant, Scene
 from ..sharing import Prepared, Validity, of_motion, of_thickness, prepare
 from .film_setting import WET
@@ -236,44 +236,30 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
 def moment_of_gap(solver: OneGap, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then. As of `OF_MOMENT`, of the
     rough gap; NaN where this model has no such number."""
-    time, at, scene = now.time, now.solution.terms, scene_at(solver.scene, now.time)
+    at, scene = now.solution.terms, scene_at(solver.scene, now.time)
     left = residuals(at)
     result = assemble(at, Report("film under moving roughness", CONVERGED, 1, max(left.values()), EXACT, left))
-    speed, sliding, width = scene.motion.entrainment_speed, sliding_at(solver.scene, time), scene.bodies.width
+    numbers = numbers_of(replace(solver.prepared, scene=scene), result)
+    speed, sliding, total = scene.motion.entrainment_speed, sliding_at(solver.scene, now.time), scene.bodies.load
     f, sense = result.coefficient, float(np.sign(sliding) or np.sign(speed) or 1.0)
-    places = result.friction_at - f * result.load_at
-    scatter = block_error(places / result.load, solver.base.spacing[1], solver.correlation_length).error
+    places = (result.friction_at - f * result.load_at) / result.load
+    scatter = block_error(places, solver.base.spacing[1], solver.correlation_length).error
     wet = solver.x[now.solution.payload.pressure.mean(axis=1) > 0]
-    total, contact = scene.bodies.load, result.split.spots * width
-    row = dict.fromkeys(OF_MOMENT, math.nan) | {
-        "time": time,
+    row = {name: numbers.get(name, math.nan) for name in OF_MOMENT} | {
+        **{name: sense * numbers[name] for name in ("boundary_force", "couette_force", "rolling_force")},
+        "time": now.time,
         "entrainment_speed": speed,
         "sliding_speed": sliding,
         "load": total,
-        "contact_load": contact,
-        "film_load": total - contact,
         "friction_force": sense * f * total,
-        "boundary_force": sense * result.boundary * width,
-        "couette_force": sense * result.couette * width,
-        "rolling_force": sense * result.rolling * width,
-        "coefficient": f,
         "sampling_error": scatter / abs(f) if f and math.isfinite(scatter) else math.nan,
         "shear_error": 0.0,
         "time_error": now.error,
-        "inlet_film_factor": 1.0,
         "heat_change": 0.0,
-        "flash_temperature_rise": 0.0,
-        "film_temperature_rise": 0.0,
-        "real_contact_area_fraction": result.spot_fraction,
-        "plastic_area_fraction": result.plastic_fraction,
-        "load_residual": left["load"],
         "volume_residual": 0.0,
         "mass_residual": left["mass"] if now.steps else 0.0,
         "steps": now.steps,
-        "min_film": result.min_gap,
-        "central_film": result.central_gap,
         "mean_film": result.mean_gap,
-        "mean_gap": result.mean_gap,
         "wet_from": wet[0] if wet.size else math.nan,
         "wet_to": wet[-1] if wet.size else math.nan,
         "max_pressure": float(result.pressure.max()),
