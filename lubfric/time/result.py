@@ -166,7 +166,7 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
         "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / solver.tolerance,
     }
     if not math.isnan(grid_error):
-        worst["grid"] = grid_error / solver.scene.numerics.tolerances.film
+        worst["grid"] = grid_error / solver.scene.numerics.tolerance_of("film")
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
     prepared, renewal = solver.prepared, math.nan
