@@ -3,6 +3,7 @@
 import ast
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ ROOT = Path(__file__).parents[1]
 HEAVY = ("skfem", "pyamg", "meshio", "verification")
 
 
+@cache
 def imported(path: Path) -> set[str]:
     """Names of all a file imports, at any depth, also by importlib.import_module("...")."""
     package = path.relative_to(ROOT).parts[:-1]

@@ -151,17 +151,18 @@ class Refined:
         return self.results[-1]
 
 
-def estimate(changes: Sequence[float]) -> float:
+def estimate(changes: Sequence[float], left: float = math.inf) -> float:
     """Relative error of f on the last of several grids, each twice as fine as the one before, by its ``changes`` from
     grid to grid (`change_of`).
 
     It is the geometric series of the last change, with the ratio q of the last two kept within 1/4 and 3/4 (0.6 from
-    one change).
+    one change). ``left``: how often the cells can be halved until they are those that the answer is for; the series
+    ends there.
     """
     ratio = UNKNOWN_RATIO
     if len(changes) > 1 and changes[-2] > 0:
         ratio = min(max(changes[-1] / changes[-2], RATIO[0]), RATIO[1])
-    return changes[-1] * ratio / (1 - ratio)
+    return changes[-1] * ratio * (1 - ratio**left) / (1 - ratio)
 
 
 def changes_of(strips: Sequence[Strip]) -> list[float]:

@@ -5,8 +5,6 @@ error of the film reaches f by a factor (`lubfric.sharing.Response.per_film`), b
 film is divided.
 """
 
-from __future__ import annotations
-
 # shares of the tolerance on f
 FILM_GRID = 0.3  # grid of the film
 FILM_ALONE = 0.6  # the same where there is no contact

@@ -5,8 +5,6 @@ It is a solver of `march`, whose y is the mass rho θ h of the cells. A step end
 moved by one cell. The fields are kept with x along the scene's; where U < 0, the film is solved in the mirror.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -1,8 +1,6 @@
 """A run in time at one moment: its scene, in which the values of the histories replace the constants; its warm
 inlet; and how a film that remembers its past and the rough contact share the load."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
