@@ -130,7 +130,7 @@ class OneGap:
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: State) -> Step:
         """The step that ends at ``time`` [s]; the payload is its state."""
-        back = self._back(time)
+        back = self.back(time)
         past = memory.film[::back], 1.0 / memory.rate
         start = _turned(replace(payload, approach=float(z[0])), back)
         found = newton(self.problem_at(time), start, Work(MOST), tolerance=EXACT, most=MOST, past=past)
@@ -146,7 +146,7 @@ class OneGap:
     def start(self) -> Step:
         """The state at t = 0: steady, as if the roughness rested; at rest, with all load on the dry contact; or without
         pressure at a flying height. In the last two the gap is full."""
-        plan, problem, back = changes(self.scene), self.problem_at(0.0), self._back(0.0)
+        plan, problem, back = changes(self.scene), self.problem_at(0.0), self.back(0.0)
         still = (plan.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
         if plan.initial_film is None and not (plan.initial == "rest" or plan.initial == "auto" and still):
             if still:
@@ -167,7 +167,8 @@ class OneGap:
             )
         return self._step(evaluated(problem, state), back)
 
-    def _back(self, time: float) -> int:
+    def back(self, time: float) -> int:
+        """-1 where the film is solved in the mirror, else 1."""
         return -1 if scene_at(self.scene, time).motion.entrainment_speed < 0 else 1
 
     def _step(self, at: Iterate, back: int, status: str = CONVERGED) -> Step:

@@ -115,8 +115,7 @@ def _output(solver: Solver, now: Progress) -> Output:
     """Numbers and fields after the last step."""
     terms = now.solution.terms
     if isinstance(solver, OneGap):
-        back = 1 if terms.problem.x[0] == solver.x[0] else -1
-        fields = (field.mean(axis=1)[::back] for field in (terms.state.pressure, terms.balance.film))
+        fields = (f.mean(axis=1)[:: solver.back(now.time)] for f in (terms.state.pressure, terms.balance.film))
         return (*moment_of_gap(solver, now), *fields)
     p = solver.setting.problem
     return (*moment(solver, now), terms.P * p.pressure_unit, terms.H * p.film_unit)

@@ -73,6 +73,9 @@ def test_motion_backwards_is_the_mirror_image():
     back = lubfric.transient(lubfric.prepare(SCENE.with_(transient=plan), turned), [0.0, 1e-4, 2e-4])
     np.testing.assert_allclose(back.coefficient, there.coefficient, rtol=1e-3)
     np.testing.assert_allclose(back.friction_force, -there.friction_force, rtol=1e-3)
+    mirrored = np.interp(-there.x, back.x, back.pressure[-1])
+    np.testing.assert_allclose(mirrored, there.pressure[-1], atol=2e-3 * there.max_pressure[-1])
+    assert np.abs(mirrored - mirrored[::-1]).max() > 0.1 * mirrored.max()
 
 
 def test_each_surface_is_displaced_by_the_integral_of_its_own_speed():
