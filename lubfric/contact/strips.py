@@ -14,8 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base import FieldsOnly
-from .._base import spacing as checked_spacing
+from .._base import FieldsOnly, validate
 from ..errors import InputError
 from ..scene import Roughness, Scene
 from ..surface import Surface, surface_generator
@@ -202,7 +201,7 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     patch, bodies = scene.contact, [rough for rough, _ in rough_bodies(scene)]
     if patch.shape is None or patch.spacing is None:
         raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
-    spacing, half_width = checked_spacing("contact.spacing", patch.spacing), scene.bodies.half_width
+    spacing, half_width = validate.spacing("contact.spacing", patch.spacing), scene.bodies.half_width
     along_x, along_y = zip(*(correlation_lengths(rough) for rough in bodies if rough.sq))
     shortest, lengths = (min(along_x), min(along_y)), (max(along_x), max(along_y))
     if patch.region == "box":

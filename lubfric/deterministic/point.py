@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import ConvergenceError
 from ..scene import Scene, check_resolved_gap, moving_bodies
 from ..surface import Surface
-from .problem import BOUNDARY_FILM, Problem, lay_out
+from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble
 from .solve import refined_start, solve_point
 from .state import evaluated
@@ -134,9 +134,9 @@ def problem_of(
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if film is None else film,
         factors=factors,
-        upper=None if upper is None else turned(upper),
     )
-    return replace(found, sense=-1.0 if ratio < 0 else 1.0)
+    heights = None if upper is None else shifted(found, turned(upper))(0.0)
+    return replace(found, sense=-1.0 if ratio < 0 else 1.0, upper=found.heights if upper is surface else heights)
 
 
 @dataclass(frozen=True)

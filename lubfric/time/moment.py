@@ -1,7 +1,5 @@
 """The numbers of one moment: film, contact, friction with both parts and its heat, mass balance, validity."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace

@@ -34,8 +34,7 @@ def found(prepared):
 
 
 def half(result):
-    low, high = result.uncertainty.interval
-    return 0.5 * (high - low) / result.coefficient
+    return result.uncertainty.interval[1] / result.coefficient - 1
 
 
 def test_parts_add_up_and_the_model_is_told(found):
