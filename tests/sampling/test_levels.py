@@ -77,6 +77,29 @@ def test_the_effect_of_shorter_cells_is_that_on_other_strips():
     assert found.numerical < FINE.numerics.tolerance
 
 
+def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
+    """f = .05 (1 + (dx/18 µm)^p) on every strip and piece, on cells from 7.2 to 0.9 µm; the scene's own are .45 µm."""
+    prepared = lubfric.prepare(FINE)
+    solved = solve_strip(FINE, prepared.strips.strip(0), 0.1, factors=(4, 4))
+    pair = Pair(solved, solved, None)
+    for order, most in ((2.0, 0.01), (1.0, 0.03), (0.5, 0.07)):
+
+        def on(dx, order=order):
+            f = 0.05 * (1 + (dx / 18) ** order)
+            return replace(solved, result=replace(solved.result, coefficient=f, spacing=(1e-6 * dx,) * 2))
+
+        def ladder(*_, times=2, **length):
+            assert times == 2 or length["length"] < 42
+            return tuple(on(7.2 / 2**k) for k in range(2 + round(math.log2(times))))
+
+        monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(7.2)))
+        monkeypatch.setattr(levels, "solve_finer", ladder)
+        found = levels.levels_of(prepared, 0.1, None)
+        truth = on(0.45).result.coefficient
+        assert bool(found.shortest) == (order < 2)
+        assert abs(found.numbers["coefficient"] / truth - 1) <= 1.1 * found.numerical <= 1.1 * most
+
+
 def test_eq_8_alone_states_its_error(prepared, found):
     shared = lubfric.friction(prepared, 0.01, model="load-sharing")
     assert shared.decision.model == "load sharing"
