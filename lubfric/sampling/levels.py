@@ -10,8 +10,6 @@ Which of the two needs fewer strips is read off those that are solved (M. B. Gil
 doi:10.1287/opre.1070.0496).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
