@@ -1,16 +1,7 @@
 """What every room uses: checks of input (`validate`), records, text tables, files, pictures (`figures`), a bracketed
 root."""
 
-from .files import (
-    FolderLock,
-    OwnFiles,
-    clear_checked,
-    clear_parts,
-    read_checked,
-    whole_file,
-    write_checked,
-    write_whole,
-)
+from .files import FolderLock, OwnFiles, clear_checked, clear_parts, read_checked, write_checked, write_whole
 from .records import Brief, FieldsOnly, FrozenArrays, Shown, changed, table
 from .roots import Root, increasing_root
 from .tables import packaged, plain, read_columns, read_json, read_table, table_bytes

@@ -202,7 +202,7 @@ def _passed(scene: Scene, surface: Surface, heights, centres: Iterable[int], ope
         "mean_pressure": bodies.load / (bodies.width * count * surface.spacing[0]),
         "hardness": bodies.hardness,
         "boundary": BOUNDARY,
-        "tolerance": min(SHARP, scene.numerics.tolerances.contact),
+        "tolerance": min(SHARP, scene.numerics.tolerance_of("contact")),
         "operator": operator,
     }
     left, deepest, pressure, last = heights.copy(), 0.0, None, 0

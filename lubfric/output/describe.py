@@ -151,7 +151,7 @@ def _laps(history: History, duration: float) -> float:
 def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float) -> str:
     """Steps and time of a run, by what runs of the paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
     assert (plan := scene.transient) is not None
-    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
+    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
     swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
     steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
     one = forecast(scene, strips, surface, fastest)

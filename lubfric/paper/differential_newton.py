@@ -11,16 +11,8 @@ import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ..film import Problem, step_length
-from .differential_equations import (
-    Mesh,
-    Terms,
-    convolve,
-    evaluate,
-    inlet_ratio,
-    load_row,
-    measure,
-    tilt_row,
-)
+from . import differential_equations as equations
+from .differential_equations import Mesh, Terms
 
 KRYLOV_LIMIT = 40  # GMRES vectors in one Newton step
 FORCING = 1e-2  # share of the far deflection that a Newton step may leave to the next one
@@ -64,7 +56,7 @@ def near_solver(mesh: Mesh, problem: Problem, t: Terms):
     border = np.zeros((2 * n, 2), order="F")
     border[1, 0] = border[-1, 1] = 1.0
     border, _ = dgbtrs(lu, lower, upper, border, pivots, overwrite_b=1)
-    rows = np.stack([tilt_row(mesh), load_row(mesh, problem)])
+    rows = np.stack([equations.tilt_row(mesh), equations.load_row(mesh, problem)])
     closing = rows @ border[0::2] + [[1.0, -1.0], [0.0, 0.0]]
 
     def solve(balance, bend, ends):
@@ -77,7 +69,7 @@ def near_solver(mesh: Mesh, problem: Problem, t: Terms):
 
 def _put_reynolds(mesh: Mesh, t: Terms, put) -> None:
     put(0, 0, 1.0)
-    put(0, 2, -inlet_ratio(mesh))
+    put(0, 2, -equations.inlet_ratio(mesh))
     dry = np.arange(t.last + 1, mesh.size)
     put(2 * dry, 2 * dry, 1.0)
     i = np.arange(1, t.last + 1)
@@ -112,7 +104,7 @@ def newton_step(mesh: Mesh, t: Terms, near) -> tuple[np.ndarray, int]:
     from scipy.sparse.linalg import LinearOperator, gmres
 
     def far(z):
-        f = convolve(mesh.far_transform, z[0::2])
+        f = equations.convolve(mesh.far_transform, z[0::2])
         f[[0, -1]] = 0.0
         return f
 
@@ -138,8 +130,8 @@ def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance
     the grid."""
     history, solves, status = [], 0, ITERATION_LIMIT
     for step in range(max_steps + 1):
-        t = evaluate(mesh, problem, P, H)
-        residuals = measure(t, P, H)
+        t = equations.evaluate(mesh, problem, P, H)
+        residuals = equations.measure(t, P, H)
         history.append(max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else np.inf)
         ruptured = t.last < mesh.size - 2 and P[t.last] > 0.0 and not np.any(P[t.last + 1 :])
         if history[-1] <= tolerance and ruptured:

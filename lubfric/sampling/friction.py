@@ -37,9 +37,9 @@ def friction(
     Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of Eq.
     (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries the whole load.
     When the film clears the summits, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of means
-    over A, is <= ``numerics.tolerances.balance`` divided by the share of the film in f. Where the error of that model
-    may be more than ``numerics.model_tolerance``, strips of the surface with one gap and one pressure correct it or
-    answer in its place (docs/uncertainty.md).
+    over A, is <= its tolerance (`Numerics.tolerance_of`) divided by the share of the film in f. Where the error of that
+    model may be more than ``numerics.model_tolerance``, strips of the surface with one gap and one pressure correct it
+    or answer in its place (docs/uncertainty.md).
 
     Parameters
     ----------
@@ -111,6 +111,6 @@ def _enough(prepared: Prepared, found: Found) -> str:
     heat = balance.forces.heat
     if heat.heated is not None or 1 - heat.film_factor > scene.numerics.tolerance:
         return "Eq. (8) alone: heat matters, and the deterministic model is isothermal"
-    if found.response is None and model_error(scene, found)[0] <= scene.numerics.model_tolerance:
+    if found.response is None and max(model_error(scene, found)[0]) <= scene.numerics.model_tolerance:
         return "Eq. (8) alone: the film is so thick that the roughness hardly matters"
     return ""

@@ -10,16 +10,6 @@ from . import budget
 MOST_THREADS = 1024
 
 
-@dataclass(frozen=True)
-class Tolerances:
-    """Relative tolerances: of the EHL film (its error enters F_H, and so f, about one to one), of the contact solve,
-    and of the closing of load and volume."""
-
-    film: float
-    contact: float
-    balance: float
-
-
 @dataclass(frozen=True, repr=False)
 class Numerics(Brief):
     """How exactly a scene is solved, and what is modelled. Tolerances are relative.
@@ -27,7 +17,7 @@ class Numerics(Brief):
     Attributes
     ----------
     tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it if they are left
-        out (`tolerances`)
+        out (`tolerance_of`)
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
     sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance``
         needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
@@ -70,15 +60,12 @@ class Numerics(Brief):
         validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)
         validate.boolean("numerics.accept", self.accept)
 
-    @property
-    def tolerances(self) -> Tolerances:
-        """The tolerances of the parts, as given or as they follow from ``tolerance``."""
-        asked = self.tolerance
-        return Tolerances(
-            film=self.film_tolerance or min(budget.FILM_GRID * asked, budget.FIRST_FILM),
-            contact=self.contact_tolerance or min(budget.CONTACT * asked, budget.FIRST_CONTACT),
-            balance=self.balance_tolerance or min(budget.BALANCE * asked, budget.FIRST_VOLUME),
-        )
+    def tolerance_of(self, part: str) -> float:
+        """Relative tolerance of a part, as given or as it follows from ``tolerance``: of the EHL "film" (its error
+        enters F_H, and so f, about one to one), of the "contact" solve, and of the "balance", the closing of load and
+        volume."""
+        share, most = budget.OF_PARTS[part]
+        return getattr(self, f"{part}_tolerance") or min(share * self.tolerance, most)
 
 
 def refuse_dropped(given: dict[str, Any]) -> None:

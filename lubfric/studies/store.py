@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FolderLock, __version__, clear_checked, clear_parts, read_checked, validate, write_checked
-from .._base.files import saying
+from .._base import FolderLock, __version__, clear_checked, clear_parts, files, read_checked, validate, write_checked
 from ..errors import ConvergenceError, InputError, LubfricError, OutputError, Report, ValidityError
 from ..film import EHLResult
 from ..sampling import FrictionResult
@@ -145,6 +144,6 @@ def _counted(part, name: str):
     if (kind, name) in LABELS:
         return None
     if (kind, name) == ("Roughness", "file") and value is not None:
-        with saying(f"surface.file = {value} was not read"), open(value, "rb") as file:
+        with files.saying(f"surface.file = {value} was not read"), open(value, "rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     return value

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base import figures, table_bytes, whole_file, write_whole
+from .._base import figures, files, table_bytes, write_whole
 from ..errors import InputError
 from ..quantities import KEYS, Quantity, axis_label, described, heading
 from ..units import worded
@@ -47,7 +47,7 @@ def to_netcdf(result, path) -> None:
     """The Dataset of `to_xarray` as a NetCDF file, which appears whole. Needs the ``study`` extra."""
     data = to_xarray(result)
     _tool("netCDF4")
-    with whole_file(path) as part:
+    with files.whole_file(path) as part:
         data.to_netcdf(part, engine="netcdf4")
 
 

@@ -46,7 +46,7 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, Step, float]:
         ways = "transient.initial_film > 0 m, or an entrainment speed before t = 0"
         raise InputError(f"smooth surfaces at rest have no film to start from; give {ways}")
     reach = float(np.max(np.abs(prepared.contact.x))) if sq > 0.0 else 0.0
-    allowed = base.numerics.tolerances.film
+    allowed = base.numerics.tolerance_of("film")
     for finer in FINER:
         setting = make_setting(contact, allowed, sq=max(sq, 0.0), reach=reach, finer=finer)
         sharing = make_sharing(prepared, setting, *of_strip)

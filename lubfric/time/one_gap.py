@@ -45,8 +45,8 @@ from .sharing import changes, looks, scene_at, sliding_at
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
 EXACT = 1e-3  # residuals of a step
 MOST = 25  # Newton steps in a step
-REST = 1e-6  # of the fastest speed: slower entrainment counts as that
-LEAST_FLOW = 1e-3  # of the film of the fastest speed times that: what residuals are relative to, at least
+REST = 1e-6  # of the fastest entrainment (without any, of b over the duration): slower one counts as that
+LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what residuals are relative to, at least
 FIRST = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
 START = 20  # steps after the start, about
 MOST_CELLS = 100_000  # by which the roughness may move in a run
@@ -116,7 +116,7 @@ class OneGap:
         apart = motion.slide_roll_ratio * along if plan.sliding is None else plan.sliding.integral(time)
         back = -1 if speed < 0 else 1
         rough = {name: at(along + SIDES[name] * apart)[::back] for name, at in self.heights.items()}
-        pace = max(abs(speed), REST * self.fastest, 1e-300)
+        pace = max(abs(speed), REST * self.base.speed)
         return replace(
             self.base,
             contact=replace(now.line_contact(pace), sliding=abs(sliding)),
@@ -130,7 +130,7 @@ class OneGap:
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: State) -> Step:
         """The step that ends at ``time`` [s]; the payload is its state."""
-        back = self._back(time)
+        back = self.back(time)
         past = memory.film[::back], 1.0 / memory.rate
         start = _turned(replace(payload, approach=float(z[0])), back)
         found = newton(self.problem_at(time), start, Work(MOST), tolerance=EXACT, most=MOST, past=past)
@@ -144,9 +144,9 @@ class OneGap:
         return float(np.sqrt(np.mean(lost[wet] ** 2)) / film[wet].mean()) if wet.any() else 0.0
 
     def start(self) -> Step:
-        """The state at t = 0: steady; at rest, with all load on the dry contact and the gap full; or without pressure
-        at a flying height."""
-        plan, problem, back = changes(self.scene), self.problem_at(0.0), self._back(0.0)
+        """The state at t = 0: steady, as if the roughness rested; at rest, with all load on the dry contact; or without
+        pressure at a flying height. In the last two the gap is full."""
+        plan, problem, back = changes(self.scene), self.problem_at(0.0), self.back(0.0)
         still = (plan.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
         if plan.initial_film is None and not (plan.initial == "rest" or plan.initial == "auto" and still):
             if still:
@@ -167,7 +167,8 @@ class OneGap:
             )
         return self._step(evaluated(problem, state), back)
 
-    def _back(self, time: float) -> int:
+    def back(self, time: float) -> int:
+        """-1 where the film is solved in the mirror, else 1."""
         return -1 if scene_at(self.scene, time).motion.entrainment_speed < 0 else 1
 
     def _step(self, at: Iterate, back: int, status: str = CONVERGED) -> Step:
@@ -215,7 +216,7 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
         surface, factors = replace(surface, heights=surface.heights[:, :1], mask=None), (factors[0], 1)
     speed = plan.speed or Constant(scene.motion.entrainment_speed)
     low, high = speed.range(plan.duration)
-    line = scene.line_contact(max(abs(low), abs(high)) or REST)
+    line = scene.line_contact(max(abs(low), abs(high)) or scene.bodies.half_width / plan.duration)
     upstream, downstream = reach(line, surface.sq)
     base = lay_out(
         replace(surface, heights=0.0 * surface.heights, mask=None),
@@ -224,7 +225,7 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
         boundary_friction=0.0,
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if scene.bodies.boundary_film is None else scene.bodies.boundary_film,
-        ends=(upstream, upstream if low < 0.0 else downstream),
+        ends=(upstream, upstream if low <= 0.0 else downstream),
         factors=factors,
     )
     base = replace(base, least_flow=LEAST_FLOW * line.entrainment_speed * line.moes_film)

@@ -61,7 +61,7 @@ class TransientResult(Shown):
         estimated relative error of f by the sum of the film's shear stress; edge_load [-], the share of the contact's
         load on the edge columns of its patch
     x : (nx,) [m]
-    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]
+    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]; with one gap, means over y
     report : how the run ended
     entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
     inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)
@@ -166,7 +166,7 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
         "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / solver.tolerance,
     }
     if not math.isnan(grid_error):
-        worst["grid"] = grid_error / solver.scene.numerics.tolerances.film
+        worst["grid"] = grid_error / solver.scene.numerics.tolerance_of("film")
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
     prepared, renewal = solver.prepared, math.nan

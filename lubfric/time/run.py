@@ -28,7 +28,8 @@ def transient(
     The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_equations`: Swift-Stieber complementarity, either
     side may rupture, no entrainment needed). It is integrated in time by variable-step BDF2 with error control
     (`lubfric.time`). At every step film and rough contact share the load of that moment, and close the volume of Eq.
-    (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
+    (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). With
+    ``numerics.model = "deterministic"`` there is one rough gap instead, whose surfaces move (`lubfric.time.one_gap`).
 
     Parameters
     ----------
@@ -114,8 +115,7 @@ def _output(solver: Solver, now: Progress) -> Output:
     """Numbers and fields after the last step."""
     terms = now.solution.terms
     if isinstance(solver, OneGap):
-        back = 1 if terms.problem.x[0] == solver.x[0] else -1
-        fields = (field.mean(axis=1)[::back] for field in (terms.state.pressure, terms.balance.film))
+        fields = (f.mean(axis=1)[:: solver.back(now.time)] for f in (terms.state.pressure, terms.balance.film))
         return (*moment_of_gap(solver, now), *fields)
     p = solver.setting.problem
     return (*moment(solver, now), terms.P * p.pressure_unit, terms.H * p.film_unit)

@@ -36,13 +36,6 @@ def test_the_words_of_a_result_keep_their_meaning(point):
     assert point.decision.model == "deterministic" and "one pressure" in point.report.notes[0]
 
 
-def test_it_is_not_far_from_load_sharing_and_not_the_same(point):
-    """Within the error that load sharing states of itself."""
-    shared = lubfric.friction(SCENE.with_(numerics={"model": "load-sharing", "grid": "auto"}), 0.01)
-    off = abs(shared.coefficient / point.coefficient - 1)
-    assert 1e-4 < off < shared.uncertainty.model and abs(point.mean_gap / shared.mean_gap - 1) > 1e-3
-
-
 def test_no_entrainment_and_the_other_way_round(point):
     still = lubfric.friction(MODEL, 0.0)
     assert still.coefficient == pytest.approx(0.09) and still.film_load == 0
