@@ -10,7 +10,7 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from .._base import increasing_root, instance
+from .._base import increasing_root, validate
 from ..errors import InputError
 from ..oil import Lubricant
 from .assemble import assemble
@@ -98,7 +98,7 @@ def solve_line_contact(
     """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits; ``imposed``: as ``imposed_pressure`` there, or
     a `LinePressure`."""
     if start is not None:
-        instance("start", start, EHLResult, "an EHLResult or None")
+        validate.instance("start", start, EHLResult, "an EHLResult or None")
     problem = make_problem(contact, line_pressure(imposed))
     state = None if start is None else start.state
     arriving = contact.lubricant.inlet_film

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import array
+from .._base import validate
 from ..errors import InputError
 
 FAR_INLET = 30.0  # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
@@ -165,8 +165,8 @@ def line_pressure(value) -> LinePressure | None:
         value = value.x, value.pressure
     if not isinstance(value, (tuple, list)) or len(value) != 2:
         raise InputError(f"imposed_pressure = {type(value).__name__}; allowed: None or a pair (x [m], pressure [Pa])")
-    x = array("imposed_pressure[0]", value[0], "m", ndim=1)
-    pressure = array("imposed_pressure[1]", value[1], "Pa", ndim=1)
+    x = validate.array("imposed_pressure[0]", value[0], "m", ndim=1)
+    pressure = validate.array("imposed_pressure[1]", value[1], "Pa", ndim=1)
     if x.size != pressure.size or x.size < 2 or not np.all(np.diff(x) > 0.0):
         raise InputError(
             f"imposed_pressure has {x.size} positions and {pressure.size} pressures; allowed: as many of "

@@ -2,6 +2,7 @@
 
     f = mean over strips (f deterministic - difference of that strip from a line of Eq. (8))      a few strips
       + mean over pieces (f on cells half as long - f)                                            fewer, half as long
+      + the same once more, from these cells on                                           one, a sixth as long
 
 The line is the first level: its many strips tell what is chance of the few (`lubfric.sampling.line`). These are few
 where both models scatter alike, as they do about lift-off on most surfaces. Where they do not, the line is left out.
@@ -22,7 +23,7 @@ from ..deterministic import MovingStrip, Strip, change_by_flow, changes_of, esti
 from ..scene import Numerics, moves
 from ..sharing import Prepared
 from .line import Line, line_of
-from .pair import Pair, cells_of, numbers_of, solve_finer, solve_pair
+from .pair import PIECE, Pair, cells_of, numbers_of, solve_finer, solve_pair
 from .sample import Found, enlarged
 from .scatter import BlockError, add_errors, block_error
 from .uncertainty import student
@@ -32,6 +33,8 @@ CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of
 ALONE = 1.3  # scatter of the deterministic f between strips over that of blocks along them
 PRIOR, FREEDOM = 3, 5  # strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
 MOST_PIECES = 4
+SHORTEST = 14.0  # correlation lengths: the piece of the last level
+OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 GROWTH, SPARE = (4.0, 2.0), (1.1, 1.2)  # of the number of strips, which are dear: see `enlarged`
 MOST_WORK = 120.0  # s, counted: of the strips of one point
@@ -46,7 +49,7 @@ class Levels:
     - ``numbers``: of the deterministic model on an endless line, by name; ``errors``: their relative standard errors.
       ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of the flow.
     - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second;
-      ``pieces``: of the third, each on shorter and shorter cells.
+      ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
       the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips.
     """
@@ -58,6 +61,7 @@ class Levels:
     line: int
     pairs: tuple[Pair, ...]
     pieces: tuple[tuple[Strip, ...], ...]
+    shortest: tuple[Strip, ...]
     sampling: BlockError
     difference: BlockError
     numerical: float
@@ -95,11 +99,12 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     """
     assert prepared.strips is not None
     pairs, both = _first_levels(prepared, speed, found)
-    pieces, by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
+    pieces, shortest, by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
     numbers = both.numbers
-    for piece in pieces:
-        before, after = numbers_of(prepared, piece[1].result), numbers_of(prepared, piece[-1].result)
-        numbers = {name: value + (after[name] - before[name]) / len(pieces) for name, value in numbers.items()}
+    changes = [(piece[1], piece[-1], len(pieces)) for piece in pieces] + [(*one[-2:], 1) for one in [shortest] if one]
+    for coarse, fine, count in changes:
+        before, after = numbers_of(prepared, coarse.result), numbers_of(prepared, fine.result)
+        numbers = {name: value + (after[name] - before[name]) / count for name, value in numbers.items()}
     f = abs(numbers["coefficient"])
     of_strips = add_errors(both.whole, by_cells)
     difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
@@ -111,7 +116,7 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     length, first = prepared.strips.length * max(both.line, len(pairs)), pairs[0].resolved
     flow = change_by_flow(first.rest if isinstance(first, MovingStrip) else first)
     return Levels(
-        numbers, errors, films, flow, both.line, tuple(pairs), pieces, sampling, difference, numerical, length
+        numbers, errors, films, flow, both.line, tuple(pairs), pieces, shortest, sampling, difference, numerical, length
     )
 
 
@@ -193,17 +198,23 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, sh
 
 def _on_finer_cells(
     prepared: Prepared, speed: float, pairs: Sequence[Pair]
-) -> tuple[tuple[tuple[Strip, ...], ...], BlockError, float]:
-    """Solve the third level, if it is needed and the roughness rests: its pieces, the standard error of their mean
-    change of f, and the relative error that the last cells leave."""
+) -> tuple[tuple[tuple[Strip, ...], ...], tuple[Strip, ...], BlockError, float]:
+    """Solve the third and fourth level, as far as needed, if the roughness rests: the pieces of both, the standard
+    error of the mean change of f on those of the third, and the relative error that the last cells leave.
+
+    There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK` allows it. What it
+    tells from one short piece may be off by half.
+    """
     scene, strips, first = prepared.scene, prepared.strips, pairs[0]
     assert strips is not None
     by_longer = mean(changes_of((pair.longer, pair.resolved))[0] for pair in pairs)
+    factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.factors)
+    halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED)
     enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
     own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
     if enough or own or moves(scene):
-        return (), BlockError(0.0, 1), left
+        return (), (), BlockError(0.0, 1), left
     asked = CELLS * scene.numerics.sampling_tolerance * abs(first.resolved.result.coefficient)
     pieces: list[tuple[Strip, ...]] = []
     error = BlockError(math.inf, 0)
@@ -211,9 +222,19 @@ def _on_finer_cells(
         pieces.append(solve_finer(prepared, speed, len(pieces), first))
         error = BlockError(0.0, 1) if strips.whole else _block_error([_change(one) for one in pieces], strips, first)
     if strips.whole:
-        return tuple(pieces), error, max(estimate(changes_of(pieces[0])), SOLVED)
-    change = mean(one[-1].result.coefficient / one[1].result.coefficient - 1 for one in pieces)  # its error is told
-    return tuple(pieces), error, max(estimate((by_longer, abs(change))), SOLVED)
+        return tuple(pieces), (), error, max(estimate(changes_of(pieces[0])), SOLVED)
+    change = abs(
+        mean(one[-1].result.coefficient / one[1].result.coefficient - 1 for one in pieces)
+    )  # its error is told
+    left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
+    spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
+    dear = spent + 4 * SHORTEST / PIECE * pieces[0][-1].work > MOST_WORK
+    if left <= scene.numerics.tolerance or halvings < 2 or dear:
+        return tuple(pieces), (), error, left
+    shortest = solve_finer(prepared, speed, 0, first, times=4, length=SHORTEST)
+    further = changes_of(shortest[-2:])[0]
+    left = max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED)
+    return tuple(pieces), shortest, error, left
 
 
 def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:

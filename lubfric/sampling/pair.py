@@ -15,6 +15,7 @@ from .moving import map_of, solved_strip, strip_surface
 from .scatter import mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
+PIECE = 42.0  # correlation lengths
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 
 
@@ -67,23 +68,25 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
     return Pair(strip, first, prepared.strips.whole and mirrored(surface.heights))
 
 
-def solve_finer(prepared: Prepared, speed: float, index: int, first: Pair) -> tuple[Strip, ...]:
-    """A piece of the surface (or a strip, if that is as `SHORT`) on cells twice as long as those of ``first``, on the
-    same, and on cells half as long. Of a patch: all of it, on shorter and shorter cells until the estimated error is
-    within ``numerics.tolerance``, at last (with ``numerics.grid = "given"`` always) on the map's own. Raises
-    `ConvergenceError`."""
+def solve_finer(
+    prepared: Prepared, speed: float, index: int, first: Pair, *, times: int = 2, length: float = PIECE
+) -> tuple[Strip, ...]:
+    """A piece of the surface of this ``length`` in correlation lengths (or a strip, if that is as `SHORT`) on cells
+    twice as long as those of ``first``, on the same, and on shorter and shorter ones, at last so many ``times`` as
+    short. Of a patch: all of it, until the estimated error is within ``numerics.tolerance``, at last (with
+    ``numerics.grid = "given"`` always) on the map's own. Raises `ConvergenceError`."""
     scene, strips = prepared.scene, prepared.strips
     assert strips is not None
     surface, factors = strip_of(prepared, index)
-    enough = 0.0 if scene.numerics.grid == "given" else scene.numerics.tolerance
-    short = index == 0 and strips.length < SHORT * strips.lengths[1] and factors != (1, 1)
+    enough = scene.numerics.tolerance if strips.whole and scene.numerics.grid != "given" else 0.0
+    short = times == 2 and index == 0 and strips.length < SHORT * strips.lengths[1] and factors != (1, 1)
     if strips.whole or short:
         ladder = [first.longer, first.resolved]
     else:
         cells = tuple(f * n for f, n in zip(factors, strips.cells.factors))
-        last = max(1, cells[0] // 2), max(1, cells[1] // 2)
+        last = max(1, cells[0] // times), max(1, cells[1] // times)
         factors = cells[0] // last[0], cells[1] // last[1]
-        surface = map_of(prepared, on_piece(prepared, strips, index, last))
+        surface = map_of(prepared, on_piece(prepared, strips, index, last, length=length))
         ladder = [solve_strip(scene, surface, speed, factors=longer_than(surface, factors))]
         ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[0]))
     while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
