@@ -133,7 +133,7 @@ class Report:
     def message(self) -> str:
         """One line: what happened, how far it got, and what to do about it."""
         text = (
-            f"{self.solver}: {self.status} after {self.iterations} iterations, "
+            f"{self.solver}: {self.status} after {self.iterations} iteration{'s' * (self.iterations != 1)}, "
             f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
         )
         advice = "" if self.converged else self.advice or ADVICE[self.status]

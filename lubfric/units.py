@@ -133,6 +133,8 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         return type(value)(without_unit(name, part, one, named, depth - 1) for part, one in zip(value, several))
     if not isinstance(value, str) or value in named or ", " in unit:  # one word for a list: not for this to refuse
         return value
+    if value.strip().lower() == "inf":
+        return math.inf
     found = NUMBER.fullmatch(value.replace("\N{MINUS SIGN}", "-"))
     row = UNITS[kind_of(unit)]
     shown = value if len(value) < 40 else f"{value[:40]} ..."

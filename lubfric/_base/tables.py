@@ -23,6 +23,7 @@ from .validate import nearest, shown
 
 IN_WORDS = ("validity", "uncertainty")  # columns of a result
 MOST_BYTES = 2**27
+TITLES = 40  # lines among which the headings are looked for
 HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
 
 
@@ -96,26 +97,25 @@ def read_table(path: Path, content: bytes | None = None) -> Columns:
 def read_columns(
     path: Path, names: Sequence[str], units: Sequence[str | None], must_say: Sequence[str] = ()
 ) -> list[list[float]]:
-    """Columns in SI units, found in the first row by the ``names``, which are headings with or without their units.
+    """Columns in SI units, found by the ``names``, which are headings with or without their units, in the first row
+    that has most of them: titles may stand above.
 
-    A heading may carry its unit in brackets: ``time [ms]``, ``load (kN)``. Without one it is SI, unless its unit is
-    among those that a heading ``must_say``; one that ends with another unit without brackets is refused. ``units``: the
-    SI unit to which each column must be convertible (None: any of `UNITS`). Comma, semicolon or tab separate; with one
-    of the latter two, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
-    Windows-1252.
+    A heading may carry its unit in brackets: ``time [ms]``, ``load (kN)``, and so may the name of one that does not.
+    Without one it is SI, unless its unit is among those that ``must_say`` it; one that ends with another unit without
+    brackets is refused. ``units``: the SI unit to which each column must be convertible (None: any of `UNITS`). Comma,
+    semicolon or tab separate; with one of the latter two, a comma is the decimal mark. UTF-8 (with or without a
+    byte-order mark), UTF-16 with one, or Windows-1252.
 
     Raises `InputError` naming file and line for anything else.
     """
-    rows = _rows(path)
+    rows = _rows(path, names)
     headings = [text.strip() for text in rows[0][1]]
     for line, row in rows[1:]:
         if any(field.strip() for field in row[len(headings) :]):
             raise InputError(f"file {path.name}, line {line}: {len(row)} values for {len(headings)} headings")
     columns, known = [], [*(name_and_unit(text)[0] for text in headings), *headings]
     for name, unit in zip(names, units):
-        places = [i for i, text in enumerate(headings) if name == text] or [
-            i for i, text in enumerate(headings) if name == name_and_unit(text)[0]
-        ]
+        places = _places(headings, name)
         if len(places) != 1:
             found = f"{len(places)} columns" if places else "no column"
             raise InputError(
@@ -123,15 +123,23 @@ def read_columns(
                 f"it has: {', '.join(headings)}"
             )
         heading = headings[places[0]]
-        given = name_and_unit(heading)[1]
+        given = name_and_unit(heading)[1] or name_and_unit(name)[1]
         if given is None and unit in must_say:
-            raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}]")
+            raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}], or ask for that")
         if given is None:
             _refuse_bare_unit(path, heading, unit)
         word = _unit(path, name, given or "", unit)
         numbers = [_number(path, line, row, places[0]) for line, row in rows[1:]]
         columns.append([converted(number, word, kind_of(word)) for number in numbers] if word else numbers)
     return columns
+
+
+def _places(headings: Sequence[str], name: str) -> list[int]:
+    """Where the column ``name`` stands: that has this heading, this heading less its unit, or this one less that of
+    ``name``."""
+    ways = (lambda text: text == name, lambda text: name_and_unit(text)[0] == name, name_and_unit(name)[0].__eq__)
+    found = ([i for i, text in enumerate(headings) if way(text)] for way in ways)
+    return next(filter(None, found), [])
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:
@@ -168,21 +176,30 @@ def _unit(path: Path, name: str, given: str, expected: str | None) -> str:
     )
 
 
-def _rows(path: Path) -> list[tuple[int, list[str]]]:
-    """(line number, fields) of the rows that are neither empty nor comments; decimal marks made points."""
+def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
+    """(line number, fields) of the rows that are neither empty nor comments, from that on which has most of the
+    ``names``; decimal marks made points."""
     lines = [
         (n, line) for n, line in enumerate(_text(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
     ]
     if len(lines) < 2:
         raise InputError(f"file {path.name} has {len(lines)} rows; it needs a heading and rows of numbers")
-    separator = next((mark for mark in ";\t" if mark in lines[0][1]), ",")
     try:
-        rows = [(n, next(csv.reader([line], delimiter=separator))) for n, line in lines]
+        heads = [[text.strip() for text in _fields(line)] for _, line in lines[:-1][:TITLES]]
+        known = [sum(map(bool, (_places(head, name) for name in names))) for head in heads]
+        lines = lines[known.index(max(known)) :]
+        separator = next((mark for mark in ";\t" if mark in lines[0][1]), ",")
+        rows = [(n, _fields(line, separator)) for n, line in lines]
     except csv.Error as problem:
         raise InputError(f"file {path.name} is no table ({problem}); give a CSV file") from None
     if separator == ",":
         return rows
     return rows[:1] + [(n, [_decimal_point(path, n, field) for field in row]) for n, row in rows[1:]]
+
+
+def _fields(line: str, separator: str = "") -> list[str]:
+    """Those between the ``separator``; "": a semicolon or tab that the line has, else commas."""
+    return next(csv.reader([line], delimiter=separator or next((mark for mark in ";\t" if mark in line), ",")))
 
 
 def _decimal_point(path: Path, line: int, field: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 import os
+import re
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from decimal import Decimal
@@ -15,6 +16,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
+from ..quantities import KEYS
+from ..units import UNITS, spelled, without_unit
 
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
@@ -58,11 +61,20 @@ def python_value(value: Any, depth: int = DEEPEST) -> Any:
     return value
 
 
-def python_fields(part: Any) -> None:
-    """Make the fields of a frozen dataclass `python_value` (call it first in ``__post_init__``). A pair in an array is
-    a pair, a scene prints and is written as numbers, and nothing is computed in single precision."""
+def python_fields(part: Any, section: str) -> None:
+    """Make the fields of a frozen dataclass, which is this ``section`` of a scene, `python_value` (call it first in
+    ``__post_init__``), and text with a unit a number. A pair in an array is a pair, a scene prints and is written as
+    numbers, and nothing is computed in single precision."""
     for name, value in list(vars(part).items()):
-        object.__setattr__(part, name, python_value(value))
+        key, plain = f"{section}.{name}", python_value(value)
+        object.__setattr__(part, name, without_unit(key, plain, KEYS[key].unit) if key in KEYS else plain)
+
+
+def in_plain(name: str, value: Any, unit: str) -> Any:
+    """``value`` with text such as "12 mm" as numbers in ``unit``, as far as that is one ("Pa (inf: rigid)" is). Raises
+    `InputError`, as `without_unit` does."""
+    unit = "-" if unit in ("", "(-)") else spelled(re.sub(r" \(.*", "", unit))
+    return without_unit(name, python_value(value), unit) if any(unit in row for row in UNITS.values()) else value
 
 
 def _real(value: Any) -> float:
@@ -103,6 +115,7 @@ def _within(name, value, unit, above, minimum, maximum, least) -> float:
     minimum, maximum = max(minimum, -largest), min(maximum, largest)
     low = f"({above:g}" if above >= minimum else f"[{minimum:g}"
     allowed = f"a finite number in {low}, {maximum:g}] {unit}"
+    value = in_plain(name, value, unit) if isinstance(value, str) else value
     try:
         x = _real(value)
     except OverflowError:
@@ -198,6 +211,7 @@ def folder(name: str, value: Any) -> Path:
 def real_array(name: str, value: Any, unit: str) -> np.ndarray:
     """``value`` as an array of floats of any shape, in which NaN and infinity may stand. A mask is dropped."""
     odd = _odd_entry(value, DEEPEST)
+    value = in_plain(name, value, unit) if not odd and _has_text(value, DEEPEST) else value
     try:
         found = np.empty(0) if odd else np.asarray(value)
         if found.dtype.kind == "O":
@@ -219,6 +233,13 @@ def _odd_entry(value: Any, depth: int) -> str:
     if isinstance(value, (bool, np.bool_)):
         return "truth values"
     return "masked values" if value is np.ma.masked else ""
+
+
+def _has_text(value: Any, depth: int) -> bool:
+    """Whether a list holds text."""
+    if isinstance(value, (list, tuple)) and depth > 0:
+        return any(_has_text(v, depth - 1) for v in value)
+    return isinstance(value, str) or isinstance(value, np.ndarray) and value.dtype.kind == "U"
 
 
 def choice(name: str, value: Any, options: Iterable) -> Any:

@@ -55,10 +55,10 @@ def find_asperities(
     """The function that gives the contact of a height map at a separation, a number or (nx, ny); arguments as in
     `asperity_contact`. Summits are looked for only once."""
     heights = validate.array("heights", heights, "m", ndim=2)
-    validate.positive("e_prime", e_prime, "Pa")
+    e_prime = validate.positive("e_prime", e_prime, "Pa")
     validate.choice("definition", definition, DEFINITIONS)
     if hardness is not None:
-        validate.positive("hardness", hardness, "Pa")
+        hardness = validate.positive("hardness", hardness, "Pa")
     pair = (periodic, periodic) if isinstance(periodic, (bool, np.bool_)) else periodic
     if not isinstance(pair, (list, tuple)) or len(pair) != 2:
         raise InputError(f" = {validate.shown(periodic)}", "periodic", "True, False, or one of them for each axis")
@@ -122,7 +122,7 @@ def asperity_contact(
     A Hertz pressure of peak p0 that is cut off at P_u leaves ``F = P_u pi a² (1 - s²/3)``, ``s = P_u/p0 < 1``.
     """
     found = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
-    shape = np.shape(heights)
+    shape, separation = np.shape(heights), validate.in_plain("separation", separation, "m")
     try:
         flat = np.broadcast_to(np.asarray(separation, dtype=float), shape)
     except (TypeError, ValueError):
@@ -167,7 +167,7 @@ def separation_for_load(
     """
     found = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
     target = validate.positive("mean_pressure", mean_pressure, "Pa")
-    validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
+    tolerance = validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
     if np.ptp(heights) == 0:
         raise InputError("heights are all equal: no asperities; give a rough surface in m")
     best, scanned, history = _closest(found, float(np.max(heights)), float(np.ptp(heights)), target, tolerance)

@@ -62,15 +62,15 @@ def solve_contact(
     ConvergenceError : the tolerance was not met; carries report and result
     """
     problem = make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
-    _check_control(problem, mean_pressure, mean_gap)
+    mean_pressure, mean_gap = _checked_control(problem, mean_pressure, mean_gap)
     start = starting_pressure(problem, start)
     touching = float(problem.gap0.mean())
     if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching):
-        found = _separated(problem, touching if mean_gap is None else float(mean_gap))
+        found = _separated(problem, touching if mean_gap is None else mean_gap)
     elif mean_gap is None:
-        found = _solved(problem, start, float(mean_pressure), mean_pressure=float(mean_pressure))
+        found = _solved(problem, start, mean_pressure, mean_pressure=mean_pressure)
     else:
-        found = _gap_controlled(problem, float(mean_gap), start)
+        found = _gap_controlled(problem, mean_gap, start)
     result = concluded(problem, found, _control(found.state, mean_pressure, mean_gap), ITERATION_LIMIT)
     if raise_on_failure:
         result.report.raise_if_failed(result)
@@ -84,20 +84,20 @@ def _control(state: State, mean_pressure, mean_gap) -> dict[str, float]:
     return {"volume": abs(state.mean_gap - mean_gap) / min(state.scale, mean_gap)}
 
 
-def _check_control(problem: Problem, mean_pressure, mean_gap) -> None:
-    """Check that exactly one of load and mean gap is given, in a range that has a solution."""
+def _checked_control(problem: Problem, mean_pressure, mean_gap) -> tuple[float | None, float | None]:
+    """Load and mean gap, of which exactly one has to be given, in a range that has a solution."""
     if (mean_pressure is None) == (mean_gap is None):
         given = "both are given" if mean_gap is not None else "neither is given"
         raise InputError(f"mean_pressure [Pa] and mean_gap [m]: {given}; give exactly one of them")
     if mean_gap is not None:
-        validate.positive("mean_gap", mean_gap, "m")
-        return
-    validate.nonnegative("mean_pressure", mean_pressure, "Pa")
+        return None, validate.positive("mean_gap", mean_gap, "m")
+    mean_pressure = validate.nonnegative("mean_pressure", mean_pressure, "Pa")
     if mean_pressure > problem.hardness:
         raise InputError(
             f"mean_pressure = {mean_pressure:g} Pa cannot be carried; allowed: at most the hardness "
             f"{problem.hardness:g} Pa, at which the whole area yields"
         )
+    return mean_pressure, None
 
 
 def _solved(problem: Problem, start, uniform: float, *, mean_pressure=None, approach=None) -> Found:

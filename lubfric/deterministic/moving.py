@@ -157,10 +157,8 @@ class RoughBody(NamedTuple):
 def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float], Problem]:
     """Of a time [s], ``problem`` with the heights of ``bodies`` then.
 
-    A map is laid out as by `lay_out`, on cells of ``problem`` that are its own or several times as long. It is shifted
-    by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
-    """
-    shifts = [_shifted(problem, body.surface) for body in bodies]
+    A map is laid out as by `lay_out`, and `shifted`."""
+    shifts = [shifted(problem, body.surface) for body in bodies]
 
     def at(time: float) -> Problem:
         heights = [shift(body.speed * time) for shift, body in zip(shifts, bodies)]
@@ -170,7 +168,12 @@ def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float
     return at
 
 
-def _shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:
+def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:
+    """Of a distance [m] along x by which ``surface`` has moved, its heights [m] on the cells of ``problem``, which are
+    its own or several times as long.
+
+    It is shifted by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
+    """
     (nx, ny), dx = surface.shape, surface.spacing[0]
     fy = ny // problem.heights.shape[1]
     heights = surface.heights[:, fy // 2 :: fy] - surface.heights.mean()
@@ -217,7 +220,8 @@ def solve_moving_strip(
     """
     whole = replace(bodies[0].surface, heights=np.sum([body.surface.heights for body in bodies], axis=0), mask=None)
     near = start.rest if isinstance(start, MovingStrip) else start
-    rest = solve_strip(scene, whole, speed, factors=factors, start=near, slope=slope)
+    upper = next((body.surface for body in bodies if body.upper), None)
+    rest = solve_strip(scene, whole, speed, factors=factors, start=near, slope=slope, upper=upper)
     if speed < 0:
         bodies = [body._replace(surface=replace(body.surface, heights=body.surface.heights[::-1])) for body in bodies]
     fastest = max(bodies, key=lambda body: abs(body.speed))

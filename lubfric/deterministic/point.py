@@ -58,6 +58,7 @@ def solve_strip(
     start: Strip | None = None,
     slope: bool = False,
     tolerance: float = ENOUGH,
+    upper: Surface | None = None,
 ) -> Strip:
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
 
@@ -65,16 +66,17 @@ def solve_strip(
     it stands, so that strips of different factors are the same strip. ``start``: the same strip at another speed, on
     these cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from
     cells twice as long. ``slope``: solve it a second
-    time, for `Strip.slope`. ``tolerance``: of the residuals (`lubfric.deterministic.state.residuals`).
+    time, for `Strip.slope`. ``tolerance``: of the residuals (`lubfric.deterministic.state.residuals`). ``upper``: the
+    part of ``surface`` that is surface 2, where both bodies are rough.
 
     Raises `InputError` and `ConvergenceError`.
     """
     check_resolved_gap(scene)
-    problem = problem_of(scene, surface, speed, factors)
+    problem = problem_of(scene, surface, speed, factors, upper)
     work, rise, longer = 0.0, math.nan, (2 * factors[0], 2 * factors[1])
     if start is None and problem.heights.size > FIRST and surface.shape[1] % longer[1] == 0:
         with suppress(ConvergenceError):
-            start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE)
+            start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE, upper=upper)
             work = start.work
     near = None if start is None else refined_start(start.problem, problem, start.result)
     result = solve_point(problem, start=near, tolerance=tolerance)
@@ -110,21 +112,30 @@ def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
     return cells * (steps * (STEP + FACTORISATION * math.log2(cells)) + krylov * KRYLOV)
 
 
-def problem_of(scene: Scene, surface: Surface, speed: float, factors: tuple[int, int] = (1, 1)) -> Problem:
+def problem_of(
+    scene: Scene, surface: Surface, speed: float, factors: tuple[int, int] = (1, 1), upper: Surface | None = None
+) -> Problem:
     """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
-    times as long (`lay_out`). For a negative speed the map is turned."""
+    times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of it that is surface 2
+    (all of it where only the counterface is rough)."""
     film, ratio = scene.bodies.boundary_film, scene.motion.slide_roll_ratio
+    if [name for name, _ in moving_bodies(scene)] == ["counterface"]:
+        upper = surface
+
+    def turned(one: Surface) -> Surface:
+        return replace(one, heights=one.heights[::-1], mask=None) if speed < 0 else one
+
     found = lay_out(
-        replace(surface, heights=surface.heights[::-1], mask=None) if speed < 0 else surface,
+        turned(surface),
         scene.line_contact(abs(speed)),
         sliding=abs(ratio * speed),
         boundary_friction=scene.bodies.boundary_friction_coefficient,
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if film is None else film,
         factors=factors,
+        upper=None if upper is None else turned(upper),
     )
-    alone = [name for name, _ in moving_bodies(scene)] == ["counterface"]
-    return replace(found, sense=-1.0 if ratio < 0 else 1.0, upper=found.heights if alone else None)
+    return replace(found, sense=-1.0 if ratio < 0 else 1.0)
 
 
 @dataclass(frozen=True)

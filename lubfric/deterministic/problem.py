@@ -47,6 +47,8 @@ class Problem(OfLineContact):
     against U, if nothing slides): its shear stress, and the pressure on the flanks of its own roughness. ``upper`` z2
     [m] (nx, ny): that roughness, part of z (None: surface 2 is smooth). The force on surface 1 is the opposite, but for
     the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
+
+    least_flow [m²/s]: what the residuals of the mass are relative to, where less flows in (in time, where U may be 0).
     """
 
     contact: LineContact
@@ -60,6 +62,7 @@ class Problem(OfLineContact):
     floor: float = FLOOR
     sense: float = 1.0
     upper: np.ndarray | None = None
+    least_flow: float = 0.0
 
     @property
     def spacing(self) -> tuple[float, float]:
@@ -127,13 +130,14 @@ def lay_out(
     boundary_film: float = BOUNDARY_FILM,
     ends: tuple[float, float] | None = None,
     factors: tuple[int, int] = (1, 1),
+    upper: Surface | None = None,
 ) -> Problem:
     """The `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells ``factors`` (fx,
     fy) times as long, which take every fx-th and fy-th of its heights where they stand.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
-    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`, and for factors
-    that do not divide the map.
+    lengths up and down stream (default: `reach`). ``upper``: the part of ``surface`` that is surface 2, on the same
+    cells. Raises `InputError` for more cells than `LARGEST`, and for factors that do not divide the map.
     """
     (nx, ny), (fx, fy) = surface.shape, factors
     dx, dy = surface.spacing[0] * fx, surface.spacing[1] * fy
@@ -156,8 +160,12 @@ def lay_out(
     period = nx if surface.periodic_axes[0] else 2 * nx
     place = index % period
     place = np.where(place < nx, place, period - 1 - place)
-    heights = surface.heights[place, fy // 2 :: fy] - surface.heights.mean()
+
+    def laid(one: Surface) -> np.ndarray:
+        return one.heights[place, fy // 2 :: fy] - one.heights.mean()
+
+    heights, of_upper = laid(surface), None if upper is None else laid(upper)
     operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
     x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
-    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film)
+    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film, upper=of_upper)

@@ -48,8 +48,8 @@ class Iterate:
 
     @property
     def mean_flow(self) -> float:
-        """Mean size of the flow into the grid [m²/s]."""
-        return float(np.mean(np.abs(self.balance.inlet.flow)))
+        """Mean size of the flow into the grid [m²/s], or `Problem.least_flow` if that is more."""
+        return max(float(np.mean(np.abs(self.balance.inlet.flow))), self.problem.least_flow)
 
     @property
     def load_error(self) -> float:

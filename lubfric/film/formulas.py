@@ -1,16 +1,8 @@
-"""Closed forms of the smooth line contact: fitted films, Grubin's inlet, and the shear of a film that heats itself.
+"""Closed forms of the smooth line contact: fitted films, starved inlets, and the shear of a film that heats itself.
 
 Film formulas are in Moes' numbers M and L, and films in his unit (`lubfric.film.hertz`), unless said otherwise.
 They are fits to isothermal, Newtonian, fully flooded solutions. Sources: H. Moes, Lubrication and Beyond, Univ. Twente
-2000, and G. Nijenbanning, C. H. Venner, H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3;
-D. Dowson, G. R. Higginson, Elasto-Hydrodynamic Lubrication, Pergamon 1966;
-D. Dowson, S. Toyoda, Proc. 5th Leeds-Lyon Symposium on Tribology (1978) 60-65.
-
-Grubin's inlet (A. M. Ertel 1939 / A. N. Grubin, TsNIITMASh 30 (1949); C. J. Hooke 1977 for the regime numbers):
-upstream of the Hertz contact the surfaces keep their dry shape, moved apart by the film h*. The reduced pressure
-(1 - exp(-alpha p))/alpha must reach 1/alpha at the edge (Barus). With ``X = -x/b = cosh t``,
-``G(X) = (X sqrt(X^2-1) - ln(X + sqrt(X^2-1)))/2`` and ``F = h* R/b^2``: ``6 L (8 M/pi)^(-3/2) J(F) = 1``,
-``J = integral of G/(F + G)^3 dX over X > 1``. Valid for alpha p_h >> 1 and F << 1.
+2000, and G. Nijenbanning, C. H. Venner, H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3.
 
 Nahme's shear is exact for ``eta = eta_w exp(-beta (T - T_w))`` across a film of thickness h and conductivity k between
 isothermal walls that slide at dU: with the Nahme (or Brinkman) number ``Na = beta eta_w dU²/k`` the stress is constant
@@ -26,8 +18,6 @@ import numpy as np
 from .._base import validate
 
 ELASTIC_PIEZOVISCOUS = 1.311  # of M^(-1/8) L^(3/4), Grubin's film
-SERIES_BELOW = 0.05
-LARGEST_ANGLE = 25.0
 
 
 def load_and_speed(m, l, *, radius, e_prime, viscosity, pressure_viscosity_coefficient) -> tuple[float, float]:
@@ -98,69 +88,9 @@ def _narrowness(length, half_width) -> float:
     return 1.0 / (1.0 + 1.54 * half_width / (half_width + length))
 
 
-def dowson_higginson_min_film(u, g, w) -> float:
-    """*Minimum* film h_min/R = 2.65 U^0.70 G^0.54 W^-0.13, with U = eta0 U/(E' R), G = alpha E', W = w/(E' R).
-
-    Fitted in the piezoviscous-elastic regime (about U 1e-13..1e-11, W 1e-5..3e-4, G 2500..7500).
-    """
-    return 2.65 * u**0.70 * g**0.54 * w**-0.13
-
-
-def dowson_toyoda_central_film(u, g, w) -> float:
-    """*Central* film of a compressible lubricant, h_c/R = 3.06 U^0.69 G^0.56 W^-0.10, numbers as in
-    `dowson_higginson_min_film`. Up to 13 % from converged solutions at M 5..100, L 5..10."""
-    return 3.06 * u**0.69 * g**0.56 * w**-0.10
-
-
-def inlet_integral(film_over_contact: float) -> float:
-    """J(F) of Grubin's inlet; the trapezoidal rule in ln t converges exponentially (both ends decay like powers)."""
-    t = np.cbrt(film_over_contact) * np.exp(np.arange(-8.0, 60.0, 0.02))
-    t = t[t < LARGEST_ANGLE]
-    series = t**3 / 3 * (1 + t**2 / 5 + 2 * t**4 / 105 + t**6 / 945)
-    gap = np.where(t < SERIES_BELOW, series, 0.25 * np.sinh(2 * t) - 0.5 * t)
-    return 0.02 * float(np.sum(gap / (film_over_contact + gap) ** 3 * np.sinh(t) * t))
-
-
-def grubin_constant(film_over_contact: float) -> float:
-    """c in ``H = c M^(-1/8) L^(3/4)`` for F = h* R/b^2 > 0; tends to 1.311 for F -> 0."""
-    film = validate.positive("film_over_contact", film_over_contact, "(-)")
-    return film * (8 / math.pi) ** (-1 / 8) * (6 * inlet_integral(film)) ** 0.75
-
-
-def grubin_film(m: float, l: float) -> float:
-    """H, the film where dp/dx = 0, from Grubin's inlet equation at M > 0, L > 0."""
-    from scipy.optimize import brentq
-
-    validate.positive("m", m, "(-)")
-    validate.positive("l", l, "(-)")
-    scale = 8 * m / math.pi
-
-    def excess(log_film):
-        return math.log(6 * l * inlet_integral(math.exp(log_film)) / scale**1.5)
-
-    start = math.log(ELASTIC_PIEZOVISCOUS * m**-0.125 * l**0.75 / scale)
-    low, high = start - 1.0, start + 1.0
-    while excess(high) > 0:
-        high += 1.0
-    while excess(low) < 0:
-        low -= 1.0
-    return scale * math.exp(brentq(excess, low, high, xtol=1e-12))
-
-
-def nahme_number(viscosity, sliding, temperature_coefficient, conductivity):
-    """Na [-] = beta eta dU²/k from eta at the walls [Pa s], dU [m/s], beta [1/K], k [W/(m K)]."""
-    return temperature_coefficient * viscosity * np.square(sliding) / conductivity
-
-
 def nahme_stress(nahme):
     """tau over the isothermal stress [-]: ``asinh(√(Na/8))/√((Na/8)(1 + Na/8))``, 1 - Na/12 at first."""
     a = np.asarray(nahme, dtype=float) / 8
     with np.errstate(divide="ignore", invalid="ignore"):
         exact = np.arcsinh(np.sqrt(a)) / np.sqrt(a * (1 + a))
     return np.where(a < 1e-8, 1 - 2 * a / 3, exact)
-
-
-def nahme_rise(across, nahme, temperature_coefficient):
-    """Rise [K] of the temperature at ``across`` (0 to 1 from wall to wall); ln(1 + Na/8)/beta in the middle."""
-    s = math.asinh(math.sqrt(nahme / 8))
-    return (math.log1p(nahme / 8) - 2 * np.log(np.cosh(s * (2 * np.asarray(across) - 1)))) / temperature_coefficient

@@ -1,4 +1,4 @@
-"""The lubricated line contact as one value, and the frictionless elastic contact of smooth bodies, line and point
+"""The lubricated line contact as one value, and the frictionless elastic contact of smooth cylinders
 (Hertz 1882).
 
 Everywhere ``2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2`` and ``1/R = 1/R1 + 1/R2``. Valid while the
@@ -62,37 +62,6 @@ def line_gap(x, load_per_width, radius, e_prime):
     b = line_half_width(load_per_width, radius, e_prime)
     big = np.maximum(np.abs(np.asarray(x)) / b, 1.0)
     return b**2 / (2 * radius) * (big * np.sqrt(big**2 - 1) - np.arccosh(big))
-
-
-def point_radius(load, radius, e_prime):
-    """a [m] = (3 F R / (2 E'))^(1/3); F [N], R [m], E' [Pa]."""
-    return np.cbrt(1.5 * load * radius / e_prime)
-
-
-def point_peak_pressure(load, radius, e_prime):
-    """p_0 [Pa] = 3 F / (2 pi a^2)."""
-    return 1.5 * load / (np.pi * point_radius(load, radius, e_prime) ** 2)
-
-
-def point_mean_pressure(load, radius, e_prime):
-    """F / (pi a^2) [Pa], two thirds of the peak."""
-    return load / (np.pi * point_radius(load, radius, e_prime) ** 2)
-
-
-def point_approach(load, radius, e_prime):
-    """delta [m] = a^2/R, the approach of distant points."""
-    return point_radius(load, radius, e_prime) ** 2 / radius
-
-
-def point_load(approach, radius, e_prime):
-    """F [N] = (2/3) E' sqrt(R) delta^1.5 for delta >= 0 [m]; 0 for a gap (delta < 0)."""
-    return 2 / 3 * e_prime * np.sqrt(radius) * np.maximum(approach, 0.0) ** 1.5
-
-
-def point_pressure(r, load, radius, e_prime):
-    """p(r) [Pa] = p_0 sqrt(1 - r^2/a^2) inside, 0 outside; r [m] from the centre."""
-    ratio = np.asarray(r) / point_radius(load, radius, e_prime)
-    return point_peak_pressure(load, radius, e_prime) * np.sqrt(np.maximum(1 - ratio**2, 0))
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,7 @@ With ``x = sqrt(2 R h0) tan(theta)`` Reynolds' equation integrates in closed for
 rupture angle, the root of one scalar equation (p = dp/dx = 0 there: Swift-Stieber). Valid for
 h0 << R, a Newtonian lubricant and rigid surfaces. A viscosity that rises with pressure leaves the
 equation as it is, with the reduced pressure ``q = ∫ dp eta0/eta(p)`` in place of p.
-Sources: H. M. Martin, Engineering 102 (1916) 119; P. L. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747;
-H. Blok, Proc. Int. Symp. Lubrication and Wear, Houston 1963 (piezoviscous limit).
+Sources: H. M. Martin, Engineering 102 (1916) 119; P. L. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747.
 """
 
 from __future__ import annotations
@@ -40,7 +39,6 @@ def rigid_constants() -> SimpleNamespace:
     couette : force per width = couette * eta (u2 - u1) sqrt(R/h0), up to rupture
     rolling : force per width, half the integral of h dp, = rolling * eta u_s sqrt(R/h0)
     min_film, flow_film : H M in Moes units
-    piezoviscous_min_film, piezoviscous_flow_film : H / L^(2/3) in Moes units (Barus, heavy load)
     """
     from scipy.optimize import brentq
 
@@ -49,8 +47,6 @@ def rigid_constants() -> SimpleNamespace:
     swept = angle + math.pi / 2
     load = 6 / ratio
     rolling = 3 * math.sqrt(2) * (swept - ratio * (swept / 2 + math.sin(2 * angle) / 4))
-    peak = float(_reduced(-angle, angle))
-    blok = (6 * math.sqrt(2) * peak) ** (2 / 3)
     return SimpleNamespace(
         rupture=math.tan(angle),
         load=load,
@@ -59,8 +55,6 @@ def rigid_constants() -> SimpleNamespace:
         rolling=rolling,
         min_film=load / 2,
         flow_film=load * ratio / 2,
-        piezoviscous_min_film=blok,
-        piezoviscous_flow_film=blok * ratio,
     )
 
 
@@ -79,13 +73,6 @@ def isoviscous_min_film(*, load_per_width, radius, entrainment_speed, viscosity)
     return rigid_constants().load * viscosity * entrainment_speed * radius / load_per_width
 
 
-def piezoviscous_min_film(*, radius, entrainment_speed, viscosity, pressure_viscosity_coefficient):
-    """h0 [m] below which a rigid Barus film (alpha in 1/Pa) carries any load (Blok's limit):
-    the reduced pressure (1 - exp(-alpha p))/alpha reaches 1/alpha. Independent of the load."""
-    scale = pressure_viscosity_coefficient * viscosity * 2 * entrainment_speed / radius
-    return radius * rigid_constants().piezoviscous_min_film * scale ** (2 / 3)
-
-
 def couette_friction(min_film, *, radius, speed_difference, viscosity):
     """Force per width [N/m] of shearing the unbroken film at u2 - u1 = speed_difference [m/s]."""
     return rigid_constants().couette * viscosity * speed_difference * np.sqrt(radius / min_film)
@@ -94,17 +81,6 @@ def couette_friction(min_film, *, radius, speed_difference, viscosity):
 def rolling_friction(min_film, *, radius, entrainment_speed, viscosity):
     """Force per width [N/m], half the integral of h dp over the film; on either surface."""
     return rigid_constants().rolling * viscosity * 2 * entrainment_speed * np.sqrt(radius / min_film)
-
-
-def squeeze_load(min_film, *, radius, approach_speed, viscosity):
-    """w [N/m] = 3 sqrt(2) pi eta V (R/h0)^1.5: pure normal approach at V > 0 [m/s], no entrainment, full film."""
-    return 3 * math.sqrt(2) * math.pi * viscosity * approach_speed * (radius / min_film) ** 1.5
-
-
-def squeeze_film(time, initial_film, *, load_per_width, radius, viscosity):
-    """h0(t) [m] sinking under a constant load [N/m]: ``h0^(-1/2) = h0(0)^(-1/2) + w t / (6 sqrt(2) pi eta R^1.5)``."""
-    rate = load_per_width / (6 * math.sqrt(2) * math.pi * viscosity * radius**1.5)
-    return (initial_film**-0.5 + rate * np.asarray(time)) ** -2
 
 
 @lru_cache(maxsize=16)

@@ -77,7 +77,7 @@ class Lubricant(Brief):
     carreau: tuple[float, float] | None = None
 
     def __post_init__(self):
-        python_fields(self)
+        python_fields(self, "lubricant")
         choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
         choice("density_law", self.density_law, DENSITY_LAWS)
         positive("viscosity", self.viscosity, "Pa s")

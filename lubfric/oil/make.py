@@ -61,7 +61,8 @@ def _through(nu40: float, nu100: float, said: dict, properties: dict) -> Oil:
 
 def from_table(temperatures, viscosities, **properties) -> Oil:
     """An `Oil` from pairs of temperature [K], rising, and kinematic viscosity [m²/s]; D341 between neighbours."""
-    table = ViscosityTable(tuple(map(float, temperatures)), tuple(_viscosity("viscosities", v) for v in viscosities))
+    rising = validate.array("temperatures", temperatures, "K", ndim=1).tolist()
+    table = ViscosityTable(tuple(rising), tuple(_viscosity("viscosities", v) for v in viscosities))
     return Oil(table, **properties)
 
 

@@ -17,7 +17,7 @@ from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, vi
 AT_15 = 15 + CELSIUS  # K
 DENSITY = {"mineral": 880.0, "pao": 840.0, "ester": 950.0, "polyglycol": 1030.0}  # kg/m³ at 15 °C, typical
 DENSITY_SLOPE = {"mineral": 0.64, "pao": 0.62, "ester": 0.72, "polyglycol": 0.78}  # kg/(m³ K), typical within 10 %
-CONDUCTIVITY = {"mineral": 0.13, "pao": 0.15, "ester": 0.15, "polyglycol": 0.17}  # W/(m K), typical within 15 %
+CONDUCTIVITY = {"mineral": 0.13, "pao": 0.15, "ester": 0.15, "polyglycol": 0.17}  # W/(m K), typical within 25 %
 ESTIMATES = ("so-klaus", "gold")
 STEP = 0.05  # K, of a central difference
 
@@ -54,9 +54,10 @@ class Oil(Brief):
             ("conductivity", self.conductivity, "W/(m K)", 0.02, 2),
         ):
             if value is not None:
-                validate.number(name, value, unit, minimum=least, maximum=most)
+                object.__setattr__(self, name, validate.number(name, value, unit, minimum=least, maximum=most))
         if self.alpha is not None:
-            validate.positive("pressure_viscosity_coefficient", self.alpha, "1/Pa", maximum=1e-6)
+            alpha = validate.positive("pressure_viscosity_coefficient", self.alpha, "1/Pa", maximum=1e-6)
+            object.__setattr__(self, "alpha", alpha)
         if self.estimate is not None:
             validate.choice("estimate", self.estimate, ESTIMATES)
         if self.estimate == "so-klaus" and self.base != "mineral":
@@ -82,7 +83,7 @@ class Oil(Brief):
 
     @property
     def thermal_conductivity(self) -> float:
-        """k [W/(m K)]: given, or typical of the base oil at ambient pressure (within 15 %; about twice as much at 1
+        """k [W/(m K)]: given, or typical of the base oil at ambient pressure (within 25 %; about twice as much at 1
         GPa)."""
         return CONDUCTIVITY[self.base] if self.conductivity is None else self.conductivity
 
@@ -92,6 +93,7 @@ class Oil(Brief):
 
     def temperature_coefficient(self, temperature: float) -> float:
         """-d ln(eta)/dT [1/K] at ``temperature`` [K], from its law by a central difference."""
+        temperature = checked_temperature(temperature)
         low, high = temperature - STEP, temperature + STEP
         if isinstance(self.viscosity_law, ViscosityTable):
             low, high = max(low, self.viscosity_law.temperatures[0]), min(high, self.viscosity_law.temperatures[-1])

@@ -109,7 +109,8 @@ class ViscosityTable:
     def piece(self, temperature: float) -> Walther:
         """The D341 law between the neighbours of ``temperature`` [K]."""
         low, high = self.temperatures[0], self.temperatures[-1]
-        validate.number("temperature", temperature, "K (the viscosity table's)", minimum=low, maximum=high)
+        unit = "K (the viscosity table's)"
+        temperature = validate.number("temperature", temperature, unit, minimum=low, maximum=high)
         return self._law_up_to(max(next(i for i, t in enumerate(self.temperatures) if t >= temperature), 1))
 
     def __call__(self, temperature: float) -> float:

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import io
+import json
+from collections.abc import Iterable
+from pathlib import Path
 
 import numpy as np
 
+from .._base import validate, write_whole
+from ..deterministic import Moment
 from ..sampling import FrictionResult
 from ..sharing import Prepared
 
@@ -62,6 +67,20 @@ def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
         for name, values in (("film_thickness", film.film_at(x)), ("film_pressure", pressure)):
             fields[name] = np.repeat(values[:, None], y.size, axis=1)
     return grid_bytes(x, y, fields, f"U = {point.speed:g} m/s")
+
+
+def write_moments(folder: Path | str, moments: Iterable[Moment]) -> None:
+    """Gap [m], pressure [Pa], height [m] and filled part of moments (`lubfric.deterministic.moments`) as
+    moment_0000.vtk ... in ``folder``; and moments.vtk.series with their times [s], which ParaView plays."""
+    home, files = validate.folder("folder", folder), []
+    home.mkdir(parents=True, exist_ok=True)
+    for number, moment in enumerate(moments):
+        problem, state, name = moment.at.problem, moment.at.state, f"moment_{number:04d}.vtk"
+        y = np.arange(moment.at.gap.shape[1]) * problem.spacing[1]
+        fields = {"gap": moment.at.balance.film, "pressure": state.pressure, "height": problem.heights}
+        write_whole(home / name, grid_bytes(problem.x, y, fields | {"fill": state.fill}, f"t = {moment.time:g} s"))
+        files.append({"name": name, "time": moment.time})
+    write_whole(home / "moments.vtk.series", json.dumps({"file-series-version": "1.0", "files": files}).encode())
 
 
 def grid_bytes(x: np.ndarray, y: np.ndarray, fields: dict[str, np.ndarray], title: str) -> bytes:

@@ -6,9 +6,10 @@ interval. `friction` is the entry; `answer` and `answer_deterministic` are the t
 """
 
 from .friction import friction
-from .moving import MOST_WORK
+from .moving import MOST_WORK, maps_of
 from .outlook import forecast
+from .pair import strip_of
 from .result import FrictionResult, together
 from .sample import sampled
-from .scatter import moment_error
-from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, percent, student
+from .scatter import block_error, moment_error
+from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, load_sharing_error, percent, student

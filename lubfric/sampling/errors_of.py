@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ..quantities import depending_on
-from ..scene import Scene, budget, gap_not_resolved, moves
+from ..scene import Scene, budget, gap_not_resolved
 from ..sharing import Balance, Forces
 from .sample import Found
 from .scatter import BlockError, Scatter
@@ -178,10 +178,7 @@ def model_error(scene: Scene, found: Found) -> tuple[float, tuple[str, ...]]:
         return (0.0, ()) if scene.lubricant.inlet_film is None else (math.nan, (EMPTY,))
     if found.strips is None:
         return math.nan, (NOT_STUDIED,)
-    why = gap_not_resolved(scene)
-    if moves(scene) and found.response is not None:
-        why = why or "it was measured with roughness at rest, and here it moves"
-    if why:
+    if why := gap_not_resolved(scene):
         return math.nan, (MODEL_UNKNOWN.format(why),)
     sq, film = float(found.contact.heights.std()), balance.film.central_film  # type: ignore[attr-defined]
     share = balance.contact_load / scene.bodies.load

@@ -36,14 +36,20 @@ def map_of(prepared: Prepared, contact: HalfSpaceContact) -> Surface:
 
 def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
     """The rough bodies of strip ``index``. In pure rolling two are one: surface 1."""
-    found, strips = moving_bodies(prepared.scene), prepared.strips
+    found = moving_bodies(prepared.scene)
+    if len({ratio for _, ratio in found}) == 1:
+        return [RoughBody(strip_surface(prepared, index), abs(speed) * found[0][1], found[0][0] == "counterface")]
+    maps = maps_of(prepared, index)
+    return [RoughBody(maps[name], abs(speed) * ratio, name == "counterface") for name, ratio in found]
+
+
+def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
+    """Of strip ``index`` the map of each rough body, by its section."""
+    found, strips = [name for name, _ in moving_bodies(prepared.scene)], prepared.strips
     assert strips is not None
-    if len(found) == 1 or found[0][1] == found[1][1]:
-        name, ratio = found[0]
-        return [RoughBody(strip_surface(prepared, index), abs(speed) * ratio, name == "counterface")]
-    return [
-        RoughBody(_alone(strips, name).strip(index), abs(speed) * ratio, name == "counterface") for name, ratio in found
-    ]
+    if len(found) < 2:
+        return dict.fromkeys(found, strip_surface(prepared, index))
+    return {name: _alone(strips, name).strip(index) for name in found}
 
 
 def _alone(strips: Strips, name: str) -> Strips:

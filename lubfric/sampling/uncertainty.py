@@ -14,6 +14,7 @@ OF_SHARE, IN_CONTACT = 0.7, 0.25  # error of the share by load sharing over sqrt
 OF_FILM, MOST_OF_FILM = 3.2, 0.3  # error of the film's shear by load sharing: times (film/Sq)², and at most
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 FEW = 10.0  # participation below which an interval covers less often than it says
+EVEN = 0.1  # of half an interval: f farther off its middle is told with both ends
 MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
 
 
@@ -50,21 +51,23 @@ class Uncertainty(UncertaintyQuantities[float]):
         if not math.isfinite(self.sampling):
             return "; ".join((f"f: numerical {percent(self.numerical)}, surface not known", *self.notes))
         surface = f"surface {percent(self.sampling)} of a line of {1e3 * self.length:.3g} mm"
-        return "; ".join((f"{first}, {surface}, model {percent(self.model)}{self._of_inputs}", *self.notes))
+        return "; ".join((f"{first}, {surface}, {self._others}", *self.notes))
 
     @property
-    def _of_inputs(self) -> str:
-        return f", inputs {percent(self.inputs)}" if self.inputs > 0 else ""
+    def _others(self) -> str:
+        inputs = f", inputs {percent(self.inputs)}" if self.inputs != 0 else ""
+        return f"model {percent(self.model)}{' and not in it' * math.isnan(self.model)}{inputs}"
 
     def short(self, coefficient: float) -> str:
-        """f = value ± half of the interval, and the parts of the error."""
-        parts = f"numerical {percent(self.numerical)}, surface {percent(self.sampling)}, model {percent(self.model)}"
-        parts += self._of_inputs
+        """f = value, its interval (± half of it where both sides are alike), and the parts of the error."""
+        parts = f"numerical {percent(self.numerical)}, surface {percent(self.sampling)}, {self._others}"
         if not math.isfinite(self.sampling):
             return f"f = {coefficient:.4g} ({parts})"
-        half = 0.5 * (self.interval[1] - self.interval[0])
-        digits = max(0, 1 - math.floor(math.log10(half))) if 0 < half < math.inf else 4
-        return f"f = {coefficient:.{min(digits, 7)}f} ± {half:.1g} at 95 % ({parts})"
+        low, high, half = *self.interval, 0.5 * (self.interval[1] - self.interval[0])
+        digits = min(max(0, 1 - math.floor(math.log10(half))), 7) if 0 < half < math.inf else 4
+        even = abs(low + high - 2 * coefficient) <= EVEN * half
+        within = f" ± {half:.1g}" if even else f", {low:.{digits}f} to {high:.{digits}f}"
+        return f"f = {coefficient:.{digits}f}{within} at 95 % ({parts})"
 
 
 def too_few(participation: float, reached: float, asked: float) -> bool:

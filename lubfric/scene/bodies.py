@@ -109,7 +109,7 @@ class Bodies(Brief):
     boundary_friction_table: FrictionTable | None = None
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "bodies")
         for name, unit, least, most in (
             ("radius", "m", 1e-9, 1e3),
             ("width", "m", 1e-9, 1e3),
@@ -182,7 +182,7 @@ class Motion(Brief):
     speeds: tuple[float, ...] = ()
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "motion")
         for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", LARGEST_RATIO)):
             value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
             object.__setattr__(self, name, value + 0.0)  # -0.0 is no direction
@@ -218,7 +218,7 @@ class ContactDomain(Brief):
     asperity_separation: str = "volume"
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "contact")
         for name, options in (
             ("model", CONTACT_MODELS),
             ("asperity_separation", ASPERITY_SEPARATIONS),

@@ -43,6 +43,10 @@ class History:
         """Smallest and largest value from 0 to ``duration`` [s]."""
         raise NotImplementedError
 
+    def integral(self, time: float) -> float:
+        """Over the time from 0 to ``time`` [s]."""
+        raise NotImplementedError
+
     def _check_numbers(self, **units: str) -> None:
         """Make the named fields floats, checked to be finite."""
         for name, unit in units.items():
@@ -63,6 +67,9 @@ class Constant(History):
 
     def range(self, duration: float) -> tuple[float, float]:
         return self.value, self.value
+
+    def integral(self, time: float) -> float:
+        return self.value * time
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,6 +94,10 @@ class Harmonic(History):
         turns = (np.pi * (np.arange(-2, 6) + 0.5) - self.phase % (2 * np.pi)) / (2 * np.pi * self.frequency)
         values = [self.at(t) for t in (0.0, duration, *turns[(turns > 0.0) & (turns < duration)])]
         return min(values), max(values)
+
+    def integral(self, time: float) -> float:
+        turn = 2.0 * math.pi * self.frequency
+        return self.mean * time + self.amplitude / turn * (math.cos(self.phase) - math.cos(turn * time + self.phase))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -173,6 +184,17 @@ class Table(History):
         values = [*inside, self.at(0.0), self.before(duration)]
         return min(values), max(values)
 
+    def integral(self, time: float) -> float:
+        laps = math.floor(time / self.times[-1]) if self.repeat else 0
+        return laps * self._area(self.times[-1]) + self._area(time - laps * self.times[-1])
+
+    def _area(self, time: float) -> float:
+        """Under the lines from 0 to ``time``, in the first period."""
+        t, v = np.array(self.times), np.array(self.values)
+        inside = (t > 0.0) & (t < time)
+        values = np.array([self.at(0.0), *v[inside], self.before(time)])
+        return float(np.sum(0.5 * (values[1:] + values[:-1]) * np.diff(np.array([0.0, *t[inside], time]))))
+
 
 @dataclass(frozen=True, kw_only=True)
 class Ramp(History):
@@ -191,6 +213,11 @@ class Ramp(History):
     def at(self, time: float) -> float:
         share = min(max((time - self.begin) / (self.until - self.begin), 0.0), 1.0)
         return self.start + share * (self.end - self.start)
+
+    def integral(self, time: float) -> float:
+        passed, ramp = min(max(time - self.begin, 0.0), self.until - self.begin), self.until - self.begin
+        risen = 0.5 * passed**2 / ramp + max(time - self.until, 0.0)
+        return self.start * time + (self.end - self.start) * risen
 
     def stops(self, duration: float) -> tuple[float, ...]:
         """The two corners."""

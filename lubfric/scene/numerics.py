@@ -87,7 +87,7 @@ class Numerics(Brief):
         return super().__new__(cls)
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "numerics")
         for name, options in OPTIONS.items():
             validate.choice(f"numerics.{name}", getattr(self, name), options)
         validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)

@@ -72,7 +72,7 @@ class Roughness(Brief):
     extension: str = "none"
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "surface")
         if self.file is None and (self.sq is None or self.correlation_length is None):
             raise InputError(f" needs {NEEDED}", "surface")
         if isinstance(self.file, os.PathLike):

@@ -57,7 +57,7 @@ class Transient:
         return tuple(h for h in (getattr(self, name) for name in UNITS) if h is not None)
 
     def __post_init__(self):
-        validate.python_fields(self)
+        validate.python_fields(self, "transient")
         validate.positive("transient.duration", self.duration, "s", minimum=1e-12, maximum=1e9)
         validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)
         validate.choice("transient.initial", self.initial, ("auto", "steady", "rest"))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
@@ -18,6 +19,8 @@ NODES = 201  # across the Hertz strip
 
 WIDE, WIDEST = 0.1, 0.5  # half-width of the Hertz strip over R: half-space
 STEEP, STEEPEST = 0.5, 1.5  # rms slope
+NOISE = 0.8  # cells in a correlation length (white noise: 0.63)
+FILTERED = "lines in the right order, or surface.s_filter"
 FEW = 10  # correlation lengths that a patch should be wide
 YIELDED = 4.5e9  # Pa, peak Hertz pressure that hard steel does not carry elastically
 
@@ -28,19 +31,19 @@ def beforehand(scene, surface) -> tuple[Validity, ...]:
         Validity(name, value, limit, unit, "unusual", meant or "check the value and its unit")
         for name, value, limit, unit, meant in doubts(scene)
     ]
-    return (*unusual, *of_bodies(scene.bodies), *of_map(rms_slope(surface)[2], _lengths_across(surface)))
+    cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
+    return (*unusual, *of_bodies(scene.bodies), *of_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells))
 
 
-def _lengths_across(surface) -> float | None:
-    """Width of the map over its correlation length across the motion. None if it has no such length: a lay along the
-    motion, or a flat map."""
-    ny = surface.shape[1]
-    if ny < 8 or surface.sq == 0:
-        return None
+def _cells_of_length(surface, axis: int) -> float:
+    """Correlation length of the map along ``axis`` over its cells; NaN if it has no such length: a lay along that axis,
+    a flat map, or one of a few cells."""
+    if surface.shape[axis] < 8 or surface.sq == 0:
+        return math.nan
     try:
-        return ny * surface.spacing[1] / correlation_length(surface, 1)
+        return correlation_length(surface, axis) / surface.spacing[axis]
     except InputError:
-        return None
+        return math.nan
 
 
 def of_bodies(bodies) -> Iterator[Validity]:
@@ -77,9 +80,9 @@ def of_bodies(bodies) -> Iterator[Validity]:
         )
 
 
-def of_map(slope: float, lengths: float | None) -> Iterator[Validity]:
-    """Entries for the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across
-    the motion (None: not known)."""
+def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Validity]:
+    """Entries for the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across the
+    motion; ``cells``: in its correlation length along x and y. NaN: not known."""
     if slope > STEEP:
         yield Validity(
             "rms slope of the map",
@@ -90,7 +93,7 @@ def of_map(slope: float, lengths: float | None) -> Iterator[Validity]:
             "check the units of heights and spacing; filter the map at the scale that matters",
             slope > STEEPEST,
         )
-    if lengths is not None and lengths < FEW:
+    if lengths < FEW:
         yield Validity(
             "width of the map over its correlation length",
             lengths,
@@ -99,6 +102,10 @@ def of_map(slope: float, lengths: float | None) -> Iterator[Validity]:
             "few asperities: another patch of the same surface would give another f",
             "a larger map",
         )
+    for axis, count in zip("xy", cells):
+        if count < NOISE:
+            what, remedy = f"cells in a correlation length along {axis}", f"a shorter step along {axis}, {FILTERED}"
+            yield Validity(what, count, NOISE, "", "neighbouring heights are as good as noise", remedy, severe=True)
 
 
 def expected(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...]:

@@ -61,6 +61,11 @@ class Prepared(FieldsOnly, Shown):
     strips: Strips | None = None
     given: bool = False
 
+    @property
+    def own(self) -> bool:
+        """Whether the rough contact is one of lubfric's own."""
+        return isinstance(self.contact, OWN)
+
     @cached_property
     def memo(self) -> dict[Any, Any]:
         """What was `remembered`; neither compared nor pickled."""
@@ -122,7 +127,7 @@ def prepare(
             made.memo.update(kept)
             return made
         surface = like.surface if like.given else None
-        contact = None if isinstance(like.contact, OWN) else like.contact
+        contact = None if like.own else like.contact
     given = surface is not None or contact is not None
     with told_doubts(scene):
         if not given and takes_strips(scene):

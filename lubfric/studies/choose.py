@@ -14,6 +14,7 @@ from ..sampling import FrictionResult
 from ..scene import FASTEST as LARGEST_SPEED
 from ..scene import Scene
 from ..sharing import Prepared
+from ..units import without_unit
 from .curve import columns_of
 from .interpolate import FEWEST, Interpolant, through
 
@@ -36,11 +37,10 @@ GRID = 400
 def asked_speeds(scene: Scene, speeds) -> list[float]:
     """The speeds [m/s] that were asked for, one or many; those of the scene for None, and none for "auto"."""
     if isinstance(speeds, str):
-        if speeds != AUTO:
-            raise InputError(
-                f"speeds = {speeds!r}; allowed: speeds in m/s, or 'auto', where each curve chooses its own"
-            )
-        return []
+        if speeds == AUTO:
+            return []
+        said = f"speeds in m/s, or {AUTO!r}, where each curve chooses its own"
+        speeds = without_unit(f"speeds ({said})", speeds, "m/s")
     if speeds is None:
         speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
     return validate.numbers("speeds", speeds, "m/s", LARGEST_SPEED).tolist()

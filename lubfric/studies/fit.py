@@ -19,7 +19,7 @@ from .executor import checked_executor, spread
 from .explain import curve_seconds, in_words
 from .fit_input import SLIP, SPEED, Measured, parameters_of, values_at
 from .fit_result import FitResult
-from .vary import Between
+from .vary import Between, unit_of
 
 STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
 CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
@@ -134,7 +134,7 @@ def _begin(scene: Scene, found: dict[str, Between], start: dict) -> np.ndarray:
         section, _, name = key.partition(".")
         own = vars(getattr(scene, section)).get(name)  # a short form has none there
         if key in start:
-            own = number(f"start[{key!r}]", start[key], "(of the key)", minimum=bounds.low, maximum=bounds.high)
+            own = number(f"start[{key!r}]", start[key], unit_of(key), minimum=bounds.low, maximum=bounds.high)
         elif not isinstance(own, (int, float)) or not bounds.low < own < bounds.high:
             continue
         unit[i] = bounds.share(own)

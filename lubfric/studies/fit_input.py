@@ -9,7 +9,7 @@ import numpy as np
 from .._base import read_columns, validate
 from ..errors import InputError
 from ..scene import Scene
-from .vary import Between, check_temperature
+from .vary import Between, check_temperature, unit_of
 
 SPEED, SLIP = "speed", "slide_roll_ratio"
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
@@ -125,8 +125,8 @@ def parameters_of(scene: Scene, bounds) -> dict[str, Between]:
     for key, pair in bounds.items():
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
             raise InputError(f"parameters[{key!r}] = {pair!r}; allowed: a pair (lowest, highest)")
-        low = validate.number(f"parameters[{key!r}] lowest", pair[0], "(of the key)")
-        high = validate.number(f"parameters[{key!r}] highest", pair[1], "(of the key)", above=low)
+        low = validate.number(f"parameters[{key!r}] lowest", pair[0], unit_of(key))
+        high = validate.number(f"parameters[{key!r}] highest", pair[1], unit_of(key), above=low)
         section, _, name = str(key).partition(".")
         if section not in ("bodies", "lubricant", "motion", "surface") or not name:
             raise InputError(f"parameters: {key!r}; allowed: a number of [bodies], [lubricant], [motion] or [surface]")

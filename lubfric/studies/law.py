@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import Shown, plain
+from .._base import Shown, plain, validate
 from ..errors import InputError
 from ..scene import Scene
 from .codec import fits
@@ -82,7 +82,7 @@ class Law(Shown):
         for name, (low, high) in self.ranges.items():
             if given[name] is None:
                 given[name] = 0.5 * (low + high)
-            values = given[name] = np.asarray(given[name], dtype=float)
+            values = given[name] = validate.real_array(name, given[name], SYMBOLS[name][1])
             if name == "speed":
                 low, values = 0.0, np.abs(values)
             outside = values[(values < low * (1 - ROUNDED)) | (values > high * (1 + ROUNDED))]

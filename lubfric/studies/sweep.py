@@ -59,7 +59,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         curve, at = self._curve, validate.array("speed", validate.listed(speed), "m/s", ndim=1)
         if not curve.within(at).all():
             low, high = curve.range
-            raise InputError(f"speed = {speed!r} m/s; allowed: {low:g} to {high:g} m/s, where the curve is known")
+            raise InputError(f"speed = {at} m/s; allowed: {low:g} to {high:g} m/s, where the curve is known")
         at = curve.sense * at
         return curve.boundary(at).reshape(np.shape(speed)), curve.film(at).reshape(np.shape(speed))
 
@@ -260,7 +260,7 @@ def traction(
     ConvergenceError : at the end, if a point failed; the whole curve is its ``result``
     ValidityError : the same, if all points that failed were refused as invalid
     """
-    ratios = validate.numbers("ratios", ratios, "(slide-roll ratio)", LARGEST_RATIO)
+    ratios = validate.numbers("ratios", ratios, "(-)", LARGEST_RATIO)
     if speed is not None:
         speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     base = made_ready(scene, tolerance, model)

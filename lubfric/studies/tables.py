@@ -163,8 +163,8 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
     low, high = (at(columns.get(f"interval_{end}", unknown) / f - 1) for end in ("low", "high"))
     if not np.isfinite(low).any():
         return
-    known = np.isfinite(columns.get("model_error", unknown)).any()
-    band = BAND if known else f"{BAND} (not known)"
+    known = np.isfinite(columns.get("model_error", unknown))
+    band = BAND + ("" if known.all() else " (where known)" if known.any() else " (not known)")
     ax.fill_between(x, y * (1 + low), y * (1 + high), color=BLUE, alpha=0.2, lw=0, label=band)
     for name, times, dashes in OF_INTERVAL:
         error = at(times * columns.get(name, unknown))

@@ -11,7 +11,9 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from ..scene import SOURCES, Roughness, Scene, short_keys
+from ..quantities import KEYS
+from ..scene import SOURCES, Roughness, Scene, short_keys, typical
+from ..units import without_unit
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
@@ -178,10 +180,16 @@ def _listed(name: str, keys: tuple[str, ...], values) -> Axis:
     for row in rows:
         if not isinstance(row, (tuple, list)) or len(row) != len(keys):
             raise InputError(f"vary: {', '.join(keys)} go together; give {len(keys)} values each time, not {row!r}")
-    return Axis(name, keys, tuple(tuple(_value(value) for value in row) for row in rows))
+    return Axis(name, keys, tuple(tuple(map(_value, keys, row)) for row in rows))
 
 
-def _value(value: Any) -> Any:
-    """In Python's types, a list as a tuple."""
+def unit_of(key: str) -> str:
+    """The unit of a ``key`` of a scene, for messages too."""
+    return KEYS[key].unit if key in KEYS else "(of the key)"
+
+
+def _value(key: str, value: Any) -> Any:
+    """In Python's types and in the unit of the ``key``, a list as a tuple."""
     value = validate.python_value(value)
-    return tuple(_value(part) for part in value) if isinstance(value, list) else value
+    value = without_unit(f"vary: {key}", value, KEYS[key].unit, typical(key)) if key in KEYS else value
+    return tuple(_value(key, part) for part in value) if isinstance(value, list) else value

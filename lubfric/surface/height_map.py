@@ -164,9 +164,10 @@ class Surface(FrozenArrays, Shown):
         or longer than the map, and for s >= l.
         """
         limits = {"minimum": LEAST_CELLS * max(self.spacing), "maximum": min(self.size)}
-        for name, index in (("s_filter", s), ("l_filter", l)):
-            if index is not None:
-                validate.number(name, index, "m", **limits)
+        s, l = (
+            None if index is None else validate.number(name, index, "m", **limits)
+            for name, index in (("s_filter", s), ("l_filter", l))
+        )
         if s is not None and l is not None and s >= l:
             said = f"s_filter = {s:g} m and l_filter = {l:g} m leave no wave"
             raise InputError(said, way_out="give an s_filter below l_filter")
@@ -256,7 +257,8 @@ class Surface(FrozenArrays, Shown):
     def continued(self, length: float) -> Surface:
         """The map, made at least ``length`` [m] long along x. A shorter one is followed by its mirror image, and so on,
         and is periodic along x then."""
-        if self.size[0] * (1 + 1e-9) >= validate.positive("length", length, "m"):
+        length = validate.positive("length", length, "m")
+        if self.size[0] * (1 + 1e-9) >= length:
             return self
         new = self.periodic(axes=(True, False))
         count = new.shape[0] * math.ceil(length / new.size[0] * (1 - 1e-9))

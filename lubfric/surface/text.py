@@ -9,6 +9,7 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
+from ..quantities import counted
 from ..units import UNITS as KINDS
 from ..units import spelled
 
@@ -19,6 +20,8 @@ DECIMALS = (".", ",")
 UNITS = {name: KINDS["m"][spelled(name)] for name in ("m", "mm", "um", "µm", "μm", "nm")}  # both signs of micro
 UNIT_WORDS = {"mm": "mm", "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "nm": "nm"}
 MISSING_WORDS = {"na", "n/a", "null", "none", "bad", "missing"}
+
+UNCLEAR = "is neither numbers nor a title; allowed: 'nan' where unmeasured, '#' before a line to be skipped"
 
 _NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
@@ -150,7 +153,7 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
         cells = [(number, [cell.strip() for cell in text.split(separator)]) for number, text in lines]
         if empty := sum(row.count("") for _, row in cells):
             lines = [(number, separator.join(cell or "nan" for cell in row)) for number, row in cells]
-            notes += (f"{empty} empty cells taken for unmeasured",)
+            notes += (f"{counted(empty, 'empty cells')} taken for unmeasured",)
     try:
         table = np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None)
     except ValueError as problem:
@@ -175,17 +178,23 @@ def _wrong(path, number, text, words) -> InputError:
 
 
 def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
-    """Leading lines without any number, or with a name and one number (`_HEADING`), are titles; any other leading line
-    with words and numbers is an error."""
+    """Leading lines without any number, with a name and one number (`_HEADING`), or that begin with a word and have
+    less than half as many numbers as the first line of numbers alone, are titles; any other leading line with words
+    and numbers is an error."""
+    doubtful: list[tuple[int, str, int]] = []
     for index, (number, text) in enumerate(lines):
         words = [w for w in re.split(r"[\s;,]+", text) if w]
         numbers = sum(_NUMBER.fullmatch(w) is not None for w in words)
         if numbers == len(words):
+            for line, title, count in doubtful:
+                if 2 * count >= numbers:
+                    raise _wrong(path, line, title, UNCLEAR)
             return lines[:index], lines[index:]
         unmeasured = any(w.lower() in MISSING_WORDS for w in words)
-        if unmeasured or not any(c.isalpha() for c in text) or numbers and not _HEADING.fullmatch(text):
-            allowed = "allowed: 'nan' where unmeasured, '#' before a line to be skipped"
-            raise _wrong(path, number, text, f"is neither numbers nor a title without numbers; {allowed}")
+        if unmeasured or not any(c.isalpha() for c in text) or numbers and _NUMBER.fullmatch(words[0]):
+            raise _wrong(path, number, text, UNCLEAR)
+        if numbers and not _HEADING.fullmatch(text):
+            doubtful.append((number, text, numbers))
     raise InputError(f"path = {str(path)!r} holds no numbers")
 
 

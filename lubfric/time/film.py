@@ -11,10 +11,8 @@ from ..errors import CONVERGED, ConvergenceError, InputError, Report
 from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
-from .film_setting import FINER, ContactHistory, Setting, discretisation, make_setting, steady_start
+from .film_setting import FINER, TIME_SHARE, ContactHistory, Setting, discretisation, make_setting, steady_start
 from .march import Plan, Step, begun, checked_times, plan_of, report_of, steps
-
-TIME_SHARE = 0.01  # of the tolerance: default for the local error of a step
 
 
 @dataclass(frozen=True)

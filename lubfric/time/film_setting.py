@@ -21,6 +21,7 @@ RESOLUTION = 1.1  # nodes per unit of the grid's index at a tolerance of 3e-3
 SLOWEST = 0.03  # of the largest speed: slower passages are not resolved finer, squeeze rules there
 WET = 1e-3  # of the largest pressure: where the error of the film counts
 FIRST_STEP = 1e-3  # of the time in which the surfaces pass the contact, after a start or a jump
+TIME_SHARE = 0.01  # of the film tolerance: largest local error of a step, unless it is said
 LIGHTEST = 0.3  # share of the load that the film is taken to carry at least, when it shares it
 SMALLEST_STAGE = 0.01  # of the logarithm of a change of the load
 

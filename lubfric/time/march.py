@@ -13,6 +13,7 @@ difference of films, which is compared with the tolerance of a step. The last un
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
@@ -27,6 +28,7 @@ SAFETY, SHRINK, GROWTH = 0.85, 0.2, 2.0  # of the step; BDF2 is stable for growt
 FAILED = 0.25  # step after a solve that failed
 LEAST_LEFT = 0.2  # of an unknown that is positive: what extrapolation leaves of it
 SHORTEST = 1e-11  # of the duration: below it a step has failed for good
+CLOSE = 0.01  # of the time between two stops: another one is not wanted
 ROUNDING = 1e-13  # relative: times that are closer are one time; below that of `lubfric.scene.history`
 
 
@@ -104,13 +106,19 @@ def checked_times(times) -> np.ndarray:
     return times
 
 
-def plan_of(times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float) -> Plan:
-    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change. Times that differ only by
-    rounding become one, because no step is as short as that."""
+def plan_of(
+    times: np.ndarray, histories: Iterable[History], first_step: float, tolerance: float, more: Iterable[float] = ()
+) -> Plan:
+    """The plan of a run up to the last of ``times`` [s] in which ``histories`` change. Steps end at ``more`` [s] too,
+    which rise, unless a stop is close. Times that differ only by rounding become one, because no step is as short as
+    that."""
     histories, end = tuple(histories), float(times[-1])
     jumps = _onto(times, [t for h in histories for t in h.jumps(end)])
     stops = np.union1d(times, jumps)
     stops = np.union1d(stops, _onto(stops, [t for h in histories for t in h.stops(end)]))
+    others = np.array([*more], float)
+    apart = np.min(np.abs(others[:, None] - stops), axis=1, initial=math.inf)
+    stops = np.union1d(stops, others[(apart > CLOSE * np.diff(others, prepend=0.0)) & (others < end)])
     return Plan(times, tuple(stops.tolist()), frozenset(jumps.tolist()), first_step, tolerance)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,13 +11,19 @@ from .._base import BLUE, FRICTION, GREY, Shown, axes_or_new, friction_lines, ke
 from ..errors import Report
 from ..quantities import OF_MOMENT, axis_label
 from ..sampling import UncertaintyCurve, percent, student
+from ..scene import FRICTION as FRICTION_KEY
+from ..scene import value_of
 from ..sharing import Validity, gathered
 from .march import Plan, Progress, report_of
+from .one_gap import OneGap
 from .sharing import Sharing
 
-# at an output time: numbers by name, assumptions that do not hold, pressures and films in the units of the setting
+Solver = Sharing | OneGap
+# at an output time: numbers by name, assumptions that do not hold, pressures [Pa] and films [m] over x
 Output = tuple[dict[str, float], tuple[Validity, ...], np.ndarray, np.ndarray]
 MANY = 30  # blocks less one: of a strip
+NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
+TINY = 1e-30  # no f is divided by less
 MASS = 1e-3  # largest residual of a step's mass
 
 
@@ -60,6 +66,8 @@ class TransientResult(Shown):
     pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]
     report : how the run ended
     entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
+    inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)
+    not_in : inputs, in words, whose ranges are not in ``uncertainty``: a run is solved with their values alone
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
         surface moves until other spots carry the load (the Hertz strip and a correlation length) [m]; NaN if not known
     """
@@ -70,6 +78,8 @@ class TransientResult(Shown):
     film_thickness: np.ndarray
     report: Report
     entries: tuple[tuple[Validity, ...], ...] = ()
+    inputs: np.ndarray | float = 0.0
+    not_in: tuple[str, ...] = ()
     line_length: float = math.nan
     width: float = math.nan
     renewal: float = math.nan
@@ -92,19 +102,21 @@ class TransientResult(Shown):
 
     @property
     def uncertainty(self) -> UncertaintyCurve:
-        """Standard error and 95 % interval of f at every time, from the finite surface alone."""
+        """Standard error and 95 % interval of f at every time, from the finite surface and the range of f_b alone."""
         f, error = self.coefficient, self.sampling_error
         half, unknown = student(MANY) * error * np.abs(f), np.full(f.size, math.nan)
+        down, up = np.broadcast_to(self.inputs, (2, f.size))
         return UncertaintyCurve(
             numerical=unknown,
             sampling=error,
-            interval=np.stack([f - half, f + half], axis=1),
+            interval=np.stack([f - np.hypot(half, down), f + np.hypot(half, up)], axis=1),
             line_scatter=error * math.sqrt(self.line_length / self.width),
             participation=unknown,
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
             model=unknown,
-            text=tuple(f"surface {percent(each)}" for each in error),
+            inputs=unknown if self.not_in else np.maximum(down, up) / np.maximum(np.abs(f), TINY),
+            text=tuple("; ".join((f"surface {percent(each)}", *self.not_in)) for each in error),
         )
 
     def plot(self, ax=None):
@@ -112,7 +124,8 @@ class TransientResult(Shown):
         axes, (low, high) = axes_or_new(ax), self.uncertainty.interval.T
         if (high > low).any():
             time = self.time * time_scale(self.time[-1])[0]
-            axes.fill_between(time, low, high, color=BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
+            label = f"95 %: finite surface{', range of f_b' * bool(np.any(self.inputs))}"
+            axes.fill_between(time, low, high, color=BLUE, alpha=0.2, lw=0, label=label)
         friction_over_time(axes, self.columns)
         return axes
 
@@ -145,29 +158,35 @@ class TransientResult(Shown):
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
-def collect(sharing: Sharing, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
+def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
     """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
-    p, x = sharing.setting.problem, sharing.setting.grid.x
     columns = {name: np.array([row[name] for row, *_ in outputs], float) for name in OF_MOMENT}
-    P, H = (np.array([output[k] for output in outputs]).reshape(-1, x.size) for k in (2, 3))
+    P, H = (np.array([output[k] for output in outputs]).reshape(-1, solver.x.size) for k in (2, 3))
     worst = {
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / MASS,
-        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / sharing.tolerance,
+        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / solver.tolerance,
     }
     if not math.isnan(grid_error):
-        worst["grid"] = grid_error / sharing.scene.numerics.tolerances.film
+        worst["grid"] = grid_error / solver.scene.numerics.tolerances.film
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
-    prepared, renewal = sharing.prepared, math.nan
+    prepared, renewal = solver.prepared, math.nan
+    ends = {name: [end - value_of(prepared.scene, name) for end in both] for name, *both in prepared.scene.ranges}
+    by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
+    low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
+    not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
+    report = report_of("transient, BDF2", plan, now, f"{solver.cells}; surface: {surface}", worst)
     if prepared.strips is not None and not prepared.strips.whole:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
     return TransientResult(
         columns=columns,
-        x=x * p.length_unit,
-        pressure=P * p.pressure_unit,
-        film_thickness=H * p.film_unit,
-        report=report_of("transient, BDF2", plan, now, f"{x.size - 1} cells; surface: {surface}", worst),
+        x=solver.x,
+        pressure=P,
+        film_thickness=H,
+        report=replace(report, notes=(*report.notes, *not_in)),
         entries=tuple(entries for _, entries, _, _ in outputs),
+        inputs=np.outer((-low, high), by_load),
+        not_in=not_in,
         line_length=prepared.surface.size[1],
         width=prepared.scene.bodies.width,
         renewal=renewal,

@@ -9,19 +9,20 @@ from typing import Any
 import numpy as np
 
 from .._base import clear_checked, read_checked, validate, write_checked
+from ..deterministic import State
 from ..errors import InputError
-from ..scene import Scene, Transient
+from ..scene import Scene, Transient, resolves_gap
 from ..sharing import Prepared, Validity, refused, scene_of
 from ..studies import classes_of, decode, encode, fingerprint
 from .begin import begin
-from .film import TIME_SHARE
 from .march import Plan, Progress, Step, begun, checked_times, plan_of, steps
 from .moment import moment
-from .result import Output, TransientResult, collect
-from .sharing import Contact, Sharing, changes
+from .one_gap import OneGap, begin_one_gap, moment_of_gap
+from .result import Output, Solver, TransientResult, collect
+from .sharing import Contact, changes
 
 STATE, OUTPUTS = "state.bin", "output_*.bin"  # of a checkpoint
-CLASSES = classes_of(Progress, Contact, Validity)  # that a state or an output may hold
+CLASSES = classes_of(Progress, Contact, Validity, State)  # that a state or an output may hold
 
 
 def transient(
@@ -69,13 +70,13 @@ def transient(
     """
     scene, times = _with_plan(scene, times)
     folder = None if checkpoint is None else _folder(checkpoint)
-    sharing, start, grid_error = begin(scene)
-    scene, plan = sharing.scene, changes(sharing.scene)
-    store = None if folder is None else Checkpoint(folder, sharing.prepared, plan, times)
-    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
-    course = plan_of(times, plan.histories, sharing.setting.first_step, tolerance)
-    now, outputs = _marched(sharing, start, course, store, on_step)
-    result = collect(sharing, grid_error, course, now, outputs)
+    solver, start, grid_error = (begin_one_gap if resolves_gap(scene_of(scene)) else begin)(scene)
+    scene, plan = solver.scene, changes(solver.scene)
+    store = None if folder is None else Checkpoint(folder, solver.prepared, plan, times)
+    tolerance = plan.tolerance or solver.time_error
+    course = plan_of(times, plan.histories, solver.first_step, tolerance, solver.stops)
+    now, outputs = _marched(solver, start, course, store, on_step)
+    result = collect(solver, grid_error, course, now, outputs)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         severe = sorted((e for entries in result.entries for e in entries if e.severe), key=lambda e: e.value)
@@ -87,18 +88,17 @@ def transient(
 
 
 def _marched(
-    sharing: Sharing, start: Step, plan: Plan, store: Checkpoint | None, on_step
+    solver: Solver, start: Step, plan: Plan, store: Checkpoint | None, on_step
 ) -> tuple[Progress, list[Output]]:
     def put_out(now: Progress) -> None:
-        terms = now.solution.terms
-        outputs.append((*moment(sharing, now), terms.P, terms.H))
+        outputs.append(_output(solver, now))
         if store is not None:
             store.append(outputs[-1])
 
     now, outputs = (store and store.load()) or (begun(start, plan), [])
     if not outputs and plan.times[0] == 0.0:
         put_out(now)
-    for now in steps(sharing, plan, now):
+    for now in steps(solver, plan, now):
         if now.at_output:
             put_out(now)
         if store is not None:
@@ -108,9 +108,22 @@ def _marched(
     return now, outputs
 
 
+def _output(solver: Solver, now: Progress) -> Output:
+    """Numbers and fields after the last step."""
+    terms = now.solution.terms
+    if isinstance(solver, OneGap):
+        back = 1 if terms.problem.x[0] == solver.x[0] else -1
+        fields = (field.mean(axis=1)[::back] for field in (terms.state.pressure, terms.balance.film))
+        return (*moment_of_gap(solver, now), *fields)
+    p = solver.setting.problem
+    return (*moment(solver, now), terms.P * p.pressure_unit, terms.H * p.film_unit)
+
+
 def _state(now: Progress) -> Progress:
     """All that a resumed run needs to give the same bits: ``now``, of the contact the pressure, from which the next one
     is solved, and not what the next step computes again."""
+    if isinstance(now.payload, State):
+        return replace(now, solution=None)
     state = now.payload.state
     fields = state.fields and replace(state.fields, gap=np.empty(0), displacement=np.empty(0))
     return replace(now, payload=replace(now.payload, state=replace(state, fields=fields, y=None)), solution=None)

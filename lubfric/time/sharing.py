@@ -15,7 +15,7 @@ from ..film import cubic
 from ..scene import Constant, History, Scene, Transient
 from ..sharing import Prepared, film_lubricant, inlet_at
 from .film_equations import Spring
-from .film_setting import Setting
+from .film_setting import TIME_SHARE, Setting
 from .march import Memory, Step
 
 FASTER = 1e6  # slide-roll ratio beyond which a moment counts as one of sliding alone
@@ -143,6 +143,27 @@ class Sharing:
     correlation_length: float
     area: float = 1.0
     plastic: float = 1.0
+    stops = ()
+
+    @property
+    def first_step(self) -> float:
+        """After a start or a jump [s]."""
+        return self.setting.first_step
+
+    @property
+    def time_error(self) -> float:
+        """Largest local error of a step, unless it is said."""
+        return TIME_SHARE * self.scene.numerics.tolerances.film
+
+    @property
+    def x(self) -> np.ndarray:
+        """Of the nodes [m]."""
+        return self.setting.grid.x * self.setting.problem.length_unit
+
+    @property
+    def cells(self) -> str:
+        """Of the grid, in words."""
+        return f"{self.setting.grid.n} cells"
 
     @property
     def scene(self) -> Scene:

@@ -1,10 +1,10 @@
-"""Dry contact against Hertz, Westergaard, and Johnson, Greenwood and Higginson."""
+"""Dry contact against Hertz, and Johnson, Greenwood and Higginson; the study `contact_grid` has spheres and waves of
+one direction."""
 
 import numpy as np
 import pytest
 
 from lubfric import solve_contact
-from lubfric.contact import westergaard
 from lubfric.film import hertz
 
 E_PRIME = 231e9
@@ -38,35 +38,6 @@ def test_hertz_line():
     assert result.gap[outside, 0] == pytest.approx(exact, rel=0.02)
 
 
-def test_hertz_line_order():
-    """Pressure L2 error falls with the cell size at the order 1 to 2 of an edge like a square root."""
-    errors = []
-    for cells in (25, 50, 100, 200):
-        x, result = cylinder(cells, columns=2)
-        exact = hertz.line_pressure(x, 917.0, 2e-3, E_PRIME)
-        errors.append(np.linalg.norm(result.pressure[:, 0] - exact) / np.linalg.norm(exact))
-    order = np.log2(errors[0] / errors[-1]) / 3
-    assert errors[-1] < 2e-3
-    assert 0.9 < order < 2.1
-
-
-def test_hertz_point():
-    """Pressure, radius and approach of a sphere on a free patch."""
-    load, radius = 0.05, 1e-3
-    a = hertz.point_radius(load, radius, E_PRIME)
-    n, dx = 120, 3 * a / 120
-    x = (np.arange(n) - 0.5 * (n - 1)) * dx
-    r = np.hypot(x[:, None], x)
-    result = solve_contact(
-        r**2 / (2 * radius), dx, E_PRIME, mean_pressure=load / (n * dx) ** 2, boundary="free", tolerance=1e-8
-    )
-    exact = hertz.point_pressure(r, load, radius, E_PRIME)
-    assert np.linalg.norm(result.pressure - exact) < 0.01 * np.linalg.norm(exact)
-    assert result.pressure.max() == pytest.approx(hertz.point_peak_pressure(load, radius, E_PRIME), rel=5e-3)
-    assert result.approach == pytest.approx(hertz.point_approach(load, radius, E_PRIME), rel=2e-3)
-    assert np.sqrt(result.contact_area_fraction / np.pi) * n * dx == pytest.approx(a, rel=1e-2)
-
-
 def test_touching_sphere_indents_like_one_cell():
     """So light that one cell carries all: the contact is that cell's, gap positive elsewhere."""
     n, dx = 21, 1e-6
@@ -75,21 +46,6 @@ def test_touching_sphere_indents_like_one_cell():
     result = solve_contact(gap0, dx, E_PRIME, mean_pressure=1.0, boundary="free")
     assert np.count_nonzero(result.pressure) == 1 and result.pressure[10, 10] == pytest.approx(n * n)
     assert result.gap.min() >= 0 and result.gap[10, 10] == 0
-
-
-@pytest.mark.parametrize("share", [0.02, 0.5, 0.97])
-def test_westergaard(share):
-    n, length, height = 400, 1e-4, 1e-7
-    x = (np.arange(n) + 0.5) * length / n
-    gap0 = height * (1 - np.cos(2 * np.pi * x / length))[:, None]
-    full = westergaard.line_full_contact_pressure(height, length, E_PRIME)
-    result = solve_contact(gap0, length / n, E_PRIME, mean_pressure=share * full, tolerance=1e-9)
-    exact = westergaard.line_pressure(x, length, share * full, full)
-    assert np.linalg.norm(result.pressure[:, 0] - exact) < 0.02 * np.linalg.norm(exact)
-    assert result.contact_area_fraction == pytest.approx(
-        westergaard.line_contact_fraction(share * full, full), abs=2.1 / n
-    )
-    assert result.mean_gap == pytest.approx(westergaard.line_mean_gap(height, share * full, full), abs=2e-3 * height)
 
 
 JGH = {
@@ -108,7 +64,7 @@ def test_square_waviness(share):
     n, length, height = 256, 1e-4, 1e-7
     x = 2 * np.pi * np.arange(n) / n
     gap0 = -height * np.cos(x)[:, None] * np.cos(x)
-    full = westergaard.square_full_contact_pressure(height, length, E_PRIME)
+    full = np.pi * E_PRIME * height / (np.sqrt(2) * length)  # closes the waves
     result = solve_contact(gap0, length / n, E_PRIME, mean_pressure=share * full, tolerance=1e-8)
     area, gap = JGH[share]
     assert result.contact_area_fraction == pytest.approx(area, rel=0.02)

@@ -136,36 +136,6 @@ def test_semiperiodic_of_uniform_pressure_is_the_line_kernel():
     assert u == pytest.approx(np.repeat(expected[:, None], ny, axis=1), rel=1e-12)
 
 
-def test_semiperiodic_is_the_limit_of_a_long_periodic_box():
-    """For a smooth pressure without y-mean (its deflection decays); the difference is the second-order error
-    of constant cells along x, which the periodic operator has not."""
-    errors = []
-    for n in (40, 80, 160):
-        dx = 8.0 / n
-        x, y = (np.arange(n) - 0.5 * (n - 1)) * dx, np.arange(12) / 12
-        p = np.exp(-(x[:, None] ** 2)) * np.cos(2 * np.pi * y)
-        semi = half_space((n, 12), (dx, 0.5), 2.0, ("free", "periodic")).apply(p)
-        long = np.zeros((16 * n, 12))
-        long[:n] = p
-        periodic = half_space(long.shape, (dx, 0.5), 2.0).apply(long)[:n]
-        errors.append(np.abs(semi - periodic).max() / np.abs(semi).max())
-    assert errors[-1] < 3e-4
-    assert np.log2(errors[0] / errors[1]) > 1.8 and np.log2(errors[1] / errors[2]) > 1.9
-
-
-def test_free_tends_to_semiperiodic_for_many_periods():
-    """Love's cells repeated along y, away from the ends: the part that varies along y."""
-    nx, ny, periods, dx = 24, 16, 15, 0.1
-    p = np.random.default_rng(2).random((nx, ny)) * np.hanning(nx)[:, None]
-    p -= p.mean(axis=1, keepdims=True)
-    p = (p + np.roll(p, 1, axis=1)) / 2
-    smooth = np.fft.irfft(np.fft.rfft(p, axis=1) * (np.arange(ny // 2 + 1) < 4), n=ny, axis=1)
-    u = half_space((nx, ny), (dx, dx), 2.0, ("free", "periodic")).apply(smooth)
-    v = half_space((nx, ny * periods), (dx, dx), 2.0, "free").apply(np.tile(smooth, (1, periods)))
-    middle = v[:, ny * (periods // 2) : ny * (periods // 2 + 1)]
-    assert np.abs(u - middle).max() < 0.04 * np.abs(u).max()
-
-
 def test_single_precision():
     p = np.random.default_rng(3).random((30, 20))
     for boundary in BOUNDARIES:

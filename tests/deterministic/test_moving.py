@@ -1,5 +1,6 @@
 """Roughness that moves through the film: limits in which the answer is known without it."""
 
+import json
 from dataclasses import replace
 from itertools import islice
 
@@ -21,6 +22,7 @@ from lubfric.deterministic import (
 )
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
+from lubfric.output import write_moments
 from lubfric.surface import Surface, generate_surface
 
 OIL = Lubricant(0.05, 15e-9, eyring_stress=5e6)
@@ -64,6 +66,19 @@ def test_two_rough_bodies_at_one_speed_are_one():
     together = after(problem, [RoughBody(whole, 0.3)], 6)
     assert np.allclose(apart.at.gap, together.at.gap, rtol=1e-6)
     assert np.allclose(apart.at.state.pressure, together.at.state.pressure, rtol=1e-5, atol=1e3)
+
+
+def test_at_rest_too_the_pressure_presses_on_the_flanks_of_the_upper_body():
+    scene = scene_of(slide_roll_ratio=0.5)
+    lower, upper = rough(1, 0.05e-6, (24, 12)), rough(2, 0.1e-6, (24, 12))
+    rest = solve_moving_strip(scene, [RoughBody(lower, 0.225), RoughBody(upper, 0.375, upper=True)], 0.3).rest
+    whole = replace(lower, heights=lower.heights + upper.heights)
+    alone = solve_strip(scene, whole, 0.3).result
+    x, p = rest.problem.x, rest.result.pressure
+    place = np.rint(x / CELL + 23 / 2).astype(int) % 24
+    flanks = -(0.5 * (p[1:] + p[:-1]) * np.diff(upper.heights[place], axis=0)).sum(axis=0).mean()
+    assert abs(flanks) > 1e-3 * alone.rolling
+    assert rest.result.rolling == pytest.approx(alone.rolling + flanks, rel=1e-9)
 
 
 def test_turning_the_contact_upside_down_leaves_the_force_on_each_body():
@@ -153,6 +168,17 @@ def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
     animate_moments(tmp_path / "moving.gif", shown)
     assert (tmp_path / "moving.gif").read_bytes()[:4] == b"GIF8"
     assert min(p.stat().st_size for p in tmp_path.iterdir()) > 10_000
+
+
+def test_moments_are_read_back_by_another_reader(tmp_path):
+    meshio, surface = pytest.importorskip("meshio"), rough(5)
+    shown = list(islice(moments(travelling(laid(surface), [RoughBody(surface, 0.15)]), CELL / 0.15), 3))
+    write_moments(tmp_path / "vtk", shown)
+    series = json.loads((tmp_path / "vtk" / "moments.vtk.series").read_text())["files"]
+    assert [one["time"] for one in series] == [moment.time for moment in shown]
+    mesh, at = meshio.read(tmp_path / "vtk" / series[2]["name"]), shown[2].at
+    for name, values in (("gap", at.gap), ("pressure", at.state.pressure), ("height", at.problem.heights)):
+        np.testing.assert_array_equal(mesh.point_data[name].reshape(12, -1), values.T)
 
 
 def test_amplitudes_are_reduced_as_published():

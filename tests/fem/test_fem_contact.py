@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.optimize import nnls
 from skfem import MeshTri
 
-from verification.fem.compliance import Elastic, layer_compliance
+from verification.fem.compliance import Elastic
 from verification.fem.contact import solve_contact
 from verification.fem.layer import graded_mesh, make_layer
 from verification.fem.layer3d import Layer3D, graded_levels
@@ -32,45 +32,6 @@ def press(layer, load=LOAD, **options):
     return solve_contact(lambda f: compliance @ f, layer.weights, layer.x**2 / 2, load, **options)
 
 
-def distance(layer, p, q):
-    return np.sqrt(layer.weights @ (p - q) ** 2 / (layer.weights @ q**2))
-
-
-@pytest.fixture(scope="module")
-def period():
-    """One wavelength of a layer two wavelengths thick."""
-    return make_layer(MeshTri.init_tensor(np.linspace(-0.5, 0.5, 65), -2 * np.linspace(1, 0, 33) ** 2), BODY)
-
-
-@pytest.mark.parametrize("share", [0.05, 0.3, 0.7, 0.95])
-def test_westergaard_wave(period, share):
-    """Contact of a wave at a share of the pressure that flattens it."""
-    height, layer = 0.01, period
-    flat = np.pi * BODY.e_prime / 2 * height
-    compliance = layer.compliance
-    gap0 = height * (1 - np.cos(2 * np.pi * layer.x))
-    found = solve_contact(lambda f: compliance @ f, layer.weights, gap0, share * flat)
-    a = np.arcsin(np.sqrt(share)) / np.pi
-    edge, at = np.sin(np.pi * a) ** 2, np.where(np.abs(layer.x) < a, np.pi * layer.x, np.pi * a)
-    exact = 2 * share * flat * np.cos(at) / edge * np.sqrt(np.maximum(edge - np.sin(at) ** 2, 0.0))
-    assert distance(layer, found.pressure, exact) < 0.02
-    assert layer.weights @ found.touching == pytest.approx(2 * a, abs=1.5 / 64)
-
-
-def test_full_contact_is_the_inverse_of_the_exact_compliance():
-    grid = Layer3D(BODY, (1.0, 1.0), graded_levels(0.5, 16, 3.0), (32, 32), 2)
-    wave, height = np.cos(2 * np.pi * (grid.x[0] + grid.x[1])), 1e-3
-    amplitude = height / layer_compliance(2 * np.pi * np.sqrt(2), 0.5, BODY)
-    found = solve_contact(
-        fourier_compliance(grid).displacement, grid.weights.ravel(), -height * wave.ravel(), 2 * amplitude
-    )
-    assert found.touching.all()
-    weights = grid.weights.ravel()
-    projected = np.sum(weights * (found.pressure - 2 * amplitude) * wave.ravel()) / np.sum(weights * wave.ravel() ** 2)
-    assert projected == pytest.approx(amplitude, rel=2e-3)
-    assert found.gap == pytest.approx(0, abs=1e-9 * height)
-
-
 @settings(max_examples=20)
 @given(st.integers(0, 10_000), st.floats(0.02, 2.0))
 def test_another_algorithm_finds_the_same_pressure(seed, load):
@@ -81,23 +42,6 @@ def test_another_algorithm_finds_the_same_pressure(seed, load):
     factor = np.linalg.cholesky(compliance)
     force, _ = nnls(factor.T, -np.linalg.solve(factor, gap0 - found.approach))
     assert found.pressure * layer.weights == pytest.approx(force, abs=1e-7 * load)
-
-
-@settings(max_examples=15)
-@given(st.floats(1e-9, 1e6), st.floats(-1e3, 1e3), st.sampled_from([None, 0.35]))
-def test_heights_and_load_scale_together_and_a_raised_body_changes_nothing(coarse, factor, lift, limit):
-    compliance, gap0 = coarse.compliance, coarse.x**2 / 2
-    base = press(coarse, limit=limit)
-    other = solve_contact(
-        lambda f: compliance @ f,
-        coarse.weights,
-        factor * (gap0 + lift),
-        factor * LOAD,
-        limit=None if limit is None else factor * limit,
-        tolerance=1e-7,
-    )
-    assert other.pressure == pytest.approx(factor * base.pressure, abs=1e-4 * factor * base.pressure.max())
-    assert np.mean(other.touching != base.touching) < 0.05
 
 
 @settings(max_examples=25)

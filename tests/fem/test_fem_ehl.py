@@ -1,6 +1,5 @@
 """Full-system finite-element EHL against closed forms, its own rates, and numbers from elsewhere."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -11,8 +10,6 @@ from hypothesis import strategies as st
 pytest.importorskip("skfem")
 
 import lubfric
-from verification.convergence import fitted_order
-from verification.exact import antiderivative
 from verification.fem.ehl import LineContact, Solution, solve_ehl
 from verification.fem.ehl_body import Layout, graded_mesh, make_body
 from verification.fem.ehl_film import Film, assemble
@@ -46,26 +43,6 @@ def test_tangent_is_the_derivative(seed, upwind, density):
     flow = assemble(film, P, H)
     change = (ahead - behind) / (2 * step)
     assert np.abs(flow.by_P @ dP + flow.by_H @ dH - change).max() < 1e-4 * np.abs(change).max()
-
-
-def test_flow_form_has_the_order_of_its_element():
-    """Under a rigid parabola with Barus' law the pressure is -ln(1 - alpha q)/alpha, q isoviscous: the weak
-    residual of its interpolant, stabilisation included, falls as that of a slope's third order."""
-    root, end = math.sqrt(2), 0.4751299
-    sizes, errors = [], []
-    mesh, layout = graded_mesh(Layout(60.0, -4.0, 0.5, (-1.0, 0.5), 0.5, 0.8))
-    for n in range(4):
-        line = make_body(mesh.refined(n) if n else mesh, layout).line
-        x = line.doflocs[0]
-        isoviscous = root * (antiderivative(x / root, end) - antiderivative(end, end))  # goes on beyond the rupture
-        strength = 0.5 / isoviscous.max()
-        film = Film(line, Fluid(1.0, "barus", strength), 1.0, 1.0)
-        P = -np.log(1 - strength * isoviscous) / strength
-        flow = assemble(film, P, 1 + x**2 / 2)
-        inner = (x > x.min()) & (x < x.max())
-        sizes.append(0.5**n)
-        errors.append(np.abs(flow.residual[inner]).max())
-    assert fitted_order(sizes[1:], errors[1:]) > 2.7
 
 
 def test_rigid_isoviscous_limit():

@@ -9,7 +9,6 @@ from verification.fem.fluid import STEP, Fluid, slope
 from verification.fem.report import SolveError
 from verification.fem.reynolds import Problem, solve_refined, solve_reynolds
 from verification.studies.reynolds import parabola_mesh
-from verification.studies.reynolds_surface import LENGTH, box
 
 OIL = Fluid(0.1)
 SLIDER = exact.Slider(0.1, 1.0, 0.01, 2e-6, 1e-6)
@@ -57,24 +56,6 @@ def test_rupture_under_a_parabola(degree):
     p, lost = s.pressure[inside] / PARABOLA.pressure_scale, s.reaction[inside] / PARABOLA.flow
     assert p.min() >= 0 and lost.min() > -1e-8 and np.max(p * lost) < 1e-8
     assert lost.max() > 1e-4
-
-
-def test_the_start_does_not_change_the_rupture_point():
-    problem = Problem(parabola_mesh(80, -10.0), PARABOLA.film, OIL, 1.0, cavitation=True)
-    cold = solve_reynolds(problem)
-    noise = np.random.default_rng(3).normal(scale=cold.pressure.max(), size=cold.basis.N)
-    warm = solve_reynolds(problem, start=noise)
-    assert np.allclose(warm.pressure, cold.pressure, atol=1e-7 * cold.pressure.max())
-
-
-def test_a_film_mirrored_in_the_direction_of_motion_changes_the_sign_of_the_pressure():
-    """Without rupture the pressure is odd in U, and a mirrored film is the same film run backwards."""
-    mesh = box("triangle", 6)
-    up = solve_reynolds(Problem(mesh, lambda x: 1e-6 * (2 - x[0] / LENGTH), OIL, 1.0))
-    down = solve_reynolds(
-        Problem(mesh.mirrored((1.0, 0.0), (LENGTH / 2, 0.0)), lambda x: 1e-6 * (1 + x[0] / LENGTH), OIL, 1.0)
-    )
-    assert np.isclose(up.load, -down.load, rtol=1e-10)
 
 
 def test_slopes_are_derivatives():

@@ -12,7 +12,6 @@ from scipy.optimize import brentq
 
 from lubfric import ConvergenceError, InputError, solve_ehl
 from lubfric.film import LineContact, grid, hat_kernel, problem, reynolds, start
-from lubfric.film import formulas as film
 from lubfric.film import nested as solve
 from lubfric.film import rigid_cylinder as rigid
 from lubfric.film.grid import LinePressure
@@ -100,44 +99,24 @@ def test_rigid_piezoviscous(excess):
     assert moes_film(load, L, viscosity_law="barus", tolerance=3e-4)[0] == pytest.approx(h_min, rel=1e-3)
 
 
-@pytest.mark.parametrize("M, L", [(1e-12, 0.0), (1e-6, 100.0), (1e-3, 20.0), (0.01, 0.0)])
-def test_a_light_film_is_rigid_and_isoviscous_and_takes_few_steps(M, L):
-    h_min, _, h_flow, r = moes_film(M, L, tolerance=1e-2)
-    assert h_min * M == pytest.approx(2.447484, rel=5e-3) and h_flow * M == pytest.approx(3.0, rel=5e-3)
-    assert r.cells == 96 and r.report.iterations <= 16
-
-
-@pytest.mark.parametrize("M, L", [(0.05, 100.0), (0.01, 1e4)])
-def test_a_rigid_film_between_both_limits_is_that_of_the_reduced_pressure(M, L):
-    """Roelands, by the quadrature of `true_pressure`: what the bodies give at L so large and M so small is little."""
-    r = moes_film(M, L, tolerance=1e-2)[3]
-    x = math.sqrt(2 * r.radius * r.min_film) * np.tan(np.linspace(-math.pi / 2, math.atan(0.4751299), 100001)[1:])
-    reduced = rigid.pressure(
-        x, r.min_film, radius=r.radius, entrainment_speed=r.entrainment_speed, viscosity=ROELANDS_VISCOSITY
-    )
-    assert np.trapezoid(rigid.true_pressure(r.contact.lubricant)(reduced), x) == pytest.approx(r.load, rel=5e-3)
-    assert r.cells == 96 and r.report.iterations <= 50
-
-
 def test_isoviscous_elastic():
     assert moes_film(10, 0.0, tolerance=3e-4)[2] == pytest.approx(2.655 * 10**-0.2, rel=1e-3)
     assert moes_film(50, 0.0, tolerance=3e-4)[2] == pytest.approx(2.534 * 50**-0.2, rel=1e-3)
     assert moes_film(1000, 0.0, tolerance=1e-3)[0] == pytest.approx(1.985 * 1000**-0.2, rel=3e-3)
 
 
-def test_hertz_limit_of_a_heavy_contact():
-    *_, r = moes_film(1000, 0.0, tolerance=1e-3)
-    inside = np.abs(r.x) < 0.9 * r.half_width
-    hertz = r.hertz_pressure * np.sqrt(1 - (r.x[inside] / r.half_width) ** 2)
-    assert np.max(np.abs(r.pressure[inside] / hertz - 1)) < 2e-2
-    assert np.trapezoid(r.pressure, r.x) == pytest.approx(r.load, rel=1e-4)
+def grubin(M, L):
+    """Flow film of Grubin's inlet: 6 L (8 M/pi)^(-3/2) ∫ G/(F + G)³ dX = 1 over X = cosh t > 1, F = h R/b², where the
+    dry gap is G = (sinh 2t - 2t)/4."""
+    t = np.linspace(1e-6, 20, 400_001)
+    gap, scale = 0.25 * np.sinh(2 * t) - 0.5 * t, 8 * M / math.pi
+    integrand = gap * np.sinh(t)
+    return scale * brentq(lambda F: 6 * L * np.trapezoid(integrand / (F + gap) ** 3, t) / scale**1.5 - 1, 1e-6, 1.0)
 
 
 def test_grubin_inlet_is_approached_at_high_load():
-    ratios = [
-        moes_film(M, 15.0, viscosity_law="barus", tolerance=1e-3)[2] / film.grubin_film(M, 15.0) for M in (20, 80, 320)
-    ]
-    departures = np.abs(np.array(ratios) - 1)
+    films = {M: moes_film(M, 15.0, viscosity_law="barus", tolerance=1e-3)[2] for M in (20, 80, 320)}
+    departures = np.abs(np.array([found / grubin(M, 15.0) for M, found in films.items()]) - 1)
     assert np.all(np.diff(departures) < 0) and departures[-1] < 0.045
 
 
@@ -249,20 +228,6 @@ def test_error_estimate_is_honest_and_fields_are_physical(log_m, L, law, density
     assert 0 < h_min <= min(h_centre, h_flow) * (1 + 1e-9)
 
 
-SWEEP = [(M, L) for M in np.geomspace(1e-3, 1e3, 8) for L in (0.0, 1.0, 5.0, 12.0, 20.0)]
-
-
-@pytest.mark.parametrize("law, density", [("roelands", "constant"), ("barus", "dowson-higginson")])
-def test_converges_everywhere(law, density):
-    films = {}
-    for M, L in SWEEP:
-        films[M, L] = moes_film(M, L, viscosity_law=law, density_law=density)[2]
-        assert films[M, L] == pytest.approx(film.moes_film(M, L), rel=0.2)
-    for (M, L), value in films.items():  # a heavier load never thickens the film
-        heavier = [v for (m, k), v in films.items() if k == L and m > M]
-        assert all(v < value * 1.003 for v in heavier)
-
-
 # ------------------------------------------------------------------ metamorphic
 
 
@@ -283,11 +248,6 @@ def test_similarity_of_si_inputs():
         for radius, e in [(0.01, 2.2e11), (2e-3, 2.2e11), (0.5, 7e10), (1e-4, 5e9)]
     ]
     assert np.allclose(found, found[0], rtol=1e-9)
-
-
-def test_density_must_not_change_a_light_contact():
-    a = moes_film(1e-3, 2.0)[2]
-    assert moes_film(1e-3, 2.0, density_law="dowson-higginson")[2] == pytest.approx(a, rel=1e-4)
 
 
 def wedeven(contact, flooded, distance):
@@ -390,13 +350,6 @@ def test_warm_start_finds_the_same_film_in_fewer_steps():
         assert warm.report.iterations < cold.report.iterations and warm.report.converged
 
 
-@pytest.mark.parametrize("M, L", [(0.3, 20.0), (500.0, 20.0)])
-def test_a_distant_start_does_no_harm(M, L):
-    far = moes_film(1000.0, 20.0)[3] if M < 10 else moes_film(1e-3, 0.5)[3]
-    cold = moes_film(M, L)
-    assert moes_film(M, L, start=far)[0] == pytest.approx(cold[0], rel=3e-3)
-
-
 def test_a_spoiled_start_is_dropped_and_told():
     arguments, _ = contact(10, 8)
     good = solve_ehl(**arguments)
@@ -494,17 +447,6 @@ def test_a_warm_start_from_a_far_heavier_load_does_not_end_in_a_root_without_an_
     heavy = solve_ehl(**case | {"load_per_width": 208269.86734083356})
     cold, warm = (solve_ehl(**case | {"load_per_width": 3112.280250301359}, start=start) for start in (None, heavy))
     assert warm.min_film == pytest.approx(cold.min_film, rel=6e-3)
-
-
-def test_no_fewer_cells_than_asked():
-    """The film is the same within its tolerance, on the grid that was asked for, cold and warm."""
-    arguments, _ = contact(20, 5, tolerance=0.02)
-    loose = solve_ehl(**arguments)
-    fine = solve_ehl(**arguments, least_cells=300)
-    warm = solve_ehl(**arguments, least_cells=300, start=loose)
-    assert loose.state.pressure.size < 300 <= fine.state.pressure.size == warm.state.pressure.size
-    assert fine.flow_film == pytest.approx(loose.flow_film, rel=0.02)
-    assert fine.flow_film == pytest.approx(warm.flow_film, rel=1e-4)
 
 
 @pytest.mark.parametrize("M", [1e4, 3e4])

@@ -38,6 +38,8 @@ def test_stresses_and_viscosity_over_temperature(temperature):
     log_viscosity, slope = viscosity_at(OIL, p, temperature)
     np.testing.assert_allclose(log_viscosity, exponent - 9.67, rtol=1e-12)
     np.testing.assert_allclose(slope, exponent * s0 / (temperature - 138.0), rtol=1e-12)
+    barus = viscosity_at(Lubricant(ETA, ALPHA, "barus", **LAWS), p, temperature)[0]
+    np.testing.assert_allclose(barus, math.log(ETA) + ALPHA * p - BETA * (temperature - T0), rtol=1e-12)
 
 
 def test_a_film_that_hardly_heats_is_as_hot_in_the_mean_as_a_parabola():

@@ -7,19 +7,11 @@ import pytest
 
 from lubfric import InputError
 from lubfric.film import LineContact
-from lubfric.film import formulas as film
 from lubfric.film import rigid_cylinder as rigid
 from lubfric.oil import Lubricant
 
 OIL = Lubricant(0.04, 2.2e-8)
 STEEL = LineContact(1e5, 0.01, 2.2e11, 1.5, OIL)
-
-
-def test_moes_numbers_lead_back_to_load_and_speed():
-    load, speed = film.load_and_speed(
-        STEEL.M, STEEL.L, radius=0.01, e_prime=2.2e11, viscosity=0.04, pressure_viscosity_coefficient=2.2e-8
-    )
-    assert (load, speed) == pytest.approx((1e5, 1.5), rel=1e-12)
 
 
 def test_units_make_the_hertz_contact_dimensionless():

@@ -82,12 +82,6 @@ def test_streamers_add_shear_behind_the_rupture():
     assert 0.02 < wet.couette / dry.couette - 1 < 0.5 and wet.rolling == dry.rolling
 
 
-def test_shear_thinning_lowers_couette_only():
-    thin = Lubricant(ETA, 1e-13, "barus", eyring_stress=1e4)
-    a, b = force(film()), force(film(), lubricant=thin)
-    assert b.couette < 0.9 * a.couette and b.rolling == a.rolling
-
-
 @pytest.mark.parametrize("floor", [1e-6, -1e-5, 0.0, 1e-12])
 def test_upstream_integrals_against_quadrature(floor):
     distance, radius = 1e-3, 2e-3

@@ -4,8 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import lubfric
 from lubfric.film import LineContact, Problem, hat_kernel
@@ -88,15 +86,6 @@ def test_agrees_with_the_default_solver_to_five_digits():
     np.testing.assert_allclose(numbers(ours), numbers(lubfric.solve_ehl(**kw, tolerance=2e-5)), rtol=4e-5)
 
 
-def test_starved_inlet():
-    kw = moes(5, 5)
-    half_width = math.sqrt(8 * kw["load_per_width"] * R / (math.pi * E))
-    kw |= {"inlet_length": 2 * half_width, "tolerance": 1e-3}
-    ours, default = solve_differential_deflection(**kw), lubfric.solve_ehl(**kw)
-    np.testing.assert_allclose(numbers(ours), numbers(default), rtol=2e-3)
-    assert ours.flow_film < 0.9 * solve_differential_deflection(**moes(5, 5)).flow_film
-
-
 @pytest.mark.parametrize("speed", [1e-4, 1e-2, 1.0])
 def test_grid_of_the_paper(speed):
     """2000 points at 0.8 micrometres. At 1e-4 m/s six of them span a Hertz half-width: the film is within
@@ -108,24 +97,6 @@ def test_grid_of_the_paper(speed):
     error = np.abs(numbers(ours) / numbers(default) - 1)
     assert max(error) < 0.01 and error[2] < 1e-3
     assert ours.report.residuals["discretisation"] + 1e-3 > max(error)
-
-
-def test_second_order():
-    q = [
-        numbers(solve_differential_deflection(**moes(20, 5), nodes=n + 1, tolerance=0.1))[2]
-        for n in (400, 800, 1600, 3200)
-    ]
-    change = np.abs(np.diff(q))
-    assert 1.7 < math.log2(change[0] / change[2]) / 2 < 2.6
-
-
-@settings(max_examples=8, derandomize=True)
-@given(st.floats(-3, 2.5), st.floats(0.1, 15), st.sampled_from(["constant", "dowson-higginson"]))
-def test_converges_from_cold(log_M, L, density):
-    r = solve_differential_deflection(**moes(10**log_M, L, density_law=density), tolerance=5e-3)
-    assert r.report.converged and r.report.residual <= 5e-3
-    default = lubfric.solve_ehl(**moes(10**log_M, L, density_law=density), tolerance=1e-3)
-    np.testing.assert_allclose(numbers(r), numbers(default), rtol=6e-3)
 
 
 # What the result says of itself

@@ -113,13 +113,6 @@ def test_the_command_writes_picture_data_and_page(name, tmp_path):
     assert study["checks"] and study["passed"]
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ["fig5", "fig6", "fig8", "film"])
-def test_the_longer_figures_quickly(name, tmp_path):
-    assert main(["figures", "--only", name, "--quick", "--out", str(tmp_path)]) == 0
-    assert (tmp_path / f"{name}.png").stat().st_size > 5_000
-
-
 def test_an_unknown_figure_is_refused(tmp_path):
     with pytest.raises(SystemExit) as refused:
         main(["figures", "--only", "fig3", "--out", str(tmp_path)])

@@ -98,12 +98,12 @@ def test_without_entrainment_f_is_f_b(prepared):
 
 
 def test_rolling_roughness_moves_or_gets_eq_8_and_the_sentence(monkeypatch):
-    """By one gap where that is cheap; else by Eq. (8), which does not know its error, and says what the other takes."""
+    """By one gap where that is cheap; else by Eq. (8), which says what the other takes, and an error that holds."""
     small = SCENE.with_(motion=ROLLING, contact={"shape": (32, 32), "spacing": 90e-6 / 32})
     small = small.with_(numerics={"sampling": "patch"})
     moved, shared = (lubfric.friction(small, 0.01, model=model) for model in ("auto", "load-sharing"))
     assert moved.decision.model == "deterministic" and "moved at 0.0085 m/s" in moved.decision.text
-    assert math.isnan(shared.uncertainty.model) and "here it moves" in shared.uncertainty.text
+    assert abs(shared.coefficient / moved.coefficient - 1) < shared.uncertainty.model < 1.5
     monkeypatch.setattr("lubfric.sampling.moving.MOST_WORK", 0.1)
     costly = lubfric.friction(small, 0.01)
     assert costly.decision.model == "load sharing" and "s of processor time, more than 0.1 s" in costly.decision.text

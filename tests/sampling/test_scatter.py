@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lubfric.sampling.scatter import BlockError, add_errors, block_error, participation
-from lubfric.sampling.uncertainty import student
+from lubfric.sampling.scatter import BlockError, block_error, participation
 
 
 def correlated(rng, count, length):
@@ -15,17 +14,6 @@ def correlated(rng, count, length):
     of the correlation exp(-(y/l)²) with length = sqrt(pi) l."""
     noise = rng.standard_normal(count + length - 1)
     return np.convolve(noise, np.full(length, length**-0.5), "valid")
-
-
-def test_block_error_is_that_of_the_mean_of_correlated_values():
-    rng, count, length = np.random.default_rng(5), 3200, 10
-    draws = [correlated(rng, count, length) for _ in range(300)]
-    found = [block_error(d, 1.0, length / math.sqrt(math.pi)) for d in draws]
-    assert found[0].freedom == 31
-    observed = np.std([d.mean() for d in draws])
-    assert np.sqrt(np.mean([f.error**2 for f in found])) == pytest.approx(observed, rel=0.1)
-    covered = np.mean([abs(d.mean()) <= student(f.freedom) * f.error for d, f in zip(draws, found)])
-    assert 0.92 <= covered <= 0.98
 
 
 def test_neighbouring_blocks_are_alike_near_their_common_end():
@@ -69,14 +57,6 @@ def test_participation_counts_equal_loads(count):
     loads[: 4 * count : 4] = 3.0
     assert participation(loads, 1.0, 4 / 1.75) == pytest.approx(count)
     assert participation(np.zeros(4), 1.0, 1.0) == 0.0
-
-
-def test_independent_errors_add_and_freedom_follows_welch_and_satterthwaite():
-    both = add_errors(BlockError(3.0, 10), BlockError(4.0, 20))
-    assert both.error == pytest.approx(5.0)
-    assert both.freedom == int(25**2 / (9**2 / 10 + 16**2 / 20))
-    assert add_errors(BlockError(1.0, 8), BlockError(1.0, 8)).error == pytest.approx(math.sqrt(2.0))
-    assert add_errors().error == 0.0
 
 
 def test_there_are_no_more_blocks_than_places():

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scene_text import paper_scene
+from toys import Spring
 
 import lubfric
 from lubfric.output.describe import inputs
@@ -83,6 +84,39 @@ def test_a_range_widens_a_friction_below_zero_to_the_right_side():
     )
 
 
+def test_the_deterministic_answer_has_its_ranges_too():
+    """The change of f between two answers to scenes at the ends, each solved by itself on cells half as long."""
+    numerics = {"model": "deterministic", "grid": "given", "sampling": "patch"}
+    scene = SMALL.with_(contact={"shape": (48, 48), "spacing": 90e-6 / 48}, numerics=numerics)
+    known = f(scene.with_(lubricant={EYRING: [5e6, 1e6, 2e7]}), 0.03)
+    ends = [f(scene.with_(lubricant={EYRING: end}), 0.03).coefficient / known.coefficient - 1 for end in (1e6, 2e7)]
+    assert known.uncertainty.inputs == pytest.approx(max(map(abs, ends)), rel=0.1) and min(map(abs, ends)) > 0.01
+    assert f"{EYRING} in its range: f {100 * ends[0]:+.0f} to +1" in known.uncertainty.text
+    by_friction = f(scene.with_(bodies={FRICTION: [0.08, 0.1]}), 0.03)
+    share = 0.01 * by_friction.contact_load / scene.bodies.load / by_friction.coefficient
+    assert by_friction.uncertainty.inputs == pytest.approx(share)
+
+
+def test_a_friction_of_nothing_may_be_as_large_as_its_range():
+    """At rest in entrainment the contact carries all, and rubs with f_b: 0, or up to 0.1."""
+    known = f(SMALL.with_(bodies={FRICTION: [0.0, 0.0, 0.1]}), 0.0)
+    assert known.coefficient == 0 and known.uncertainty.interval == pytest.approx((0.0, 0.1))
+    assert known.uncertainty.inputs == math.inf and "f +0 to +0.1" in known.uncertainty.text
+
+
+def test_a_contact_of_the_users_own_is_kept_at_the_ends():
+    """Nobody here knows how its hardness acts; ranges of the oil are found with it, as without a range of hardness."""
+    spring = Spring(4e-7, 1e-7, 2.0)
+    oil = {EYRING: [5e6, 2e6, 1e7]}
+    plain, known = (
+        f(lubfric.prepare(SMALL.with_(lubricant=oil, bodies=bodies), contact=spring), 0.1)
+        for bodies in ({}, {HARDNESS: [6e9, 5e9, 7e9]})
+    )
+    assert plain.uncertainty.inputs > 0 and math.isnan(known.uncertainty.inputs)
+    assert known.uncertainty.interval == pytest.approx(plain.uncertainty.interval, nan_ok=True)
+    assert "hardness in its range: not in the interval, as the contact is not lubfric's own" in known.uncertainty.text
+
+
 def test_a_range_is_in_the_columns_of_a_curve():
     scene = SMALL.with_(bodies={FRICTION: [0.07, 0.11]})
     curve = lubfric.stribeck(scene, [0.003, 1.0])
@@ -138,6 +172,22 @@ def test_a_run_in_time_takes_f_b_at_its_own_sliding_speed():
     )
     run = lubfric.transient(scene.with_(transient=plan))
     assert run.coefficient[-1] == pytest.approx(0.1, rel=0.02)
+
+
+def test_a_run_in_time_has_the_range_of_f_b_and_tells_the_others():
+    """Each end by itself gives f there, as f_b moves no film; what is not solved at its ends is said not to be."""
+    plan = lubfric.Transient(1e-4, outputs=1, speed=0.01, sliding=0.5)
+    scene = SMALL.with_(numerics={"sampling": "patch"}, transient=plan)
+    run = lubfric.transient(scene.with_(bodies={FRICTION: [0.09, 0.08, 0.12]}))
+    ends = [lubfric.transient(scene.with_(bodies={FRICTION: end})).coefficient for end in (0.08, 0.12)]
+    assert run.coefficient - run.inputs[0] == pytest.approx(ends[0]) and run.inputs[1].min() > 0.01
+    assert run.coefficient + run.inputs[1] == pytest.approx(ends[1])
+    assert run.uncertainty.inputs == pytest.approx(run.inputs[1] / run.coefficient) and not run.not_in
+    both = lubfric.transient(scene.with_(bodies={FRICTION: [0.09, 0.08, 0.12], HARDNESS: [6e9, 5e9, 7e9]}))
+    assert np.isnan(both.uncertainty.inputs).all() and both.uncertainty.text[0].endswith(both.not_in[0])
+    assert (
+        both.not_in[0].startswith("hardness in its range: not in the interval") and both.not_in[0] in both.report.notes
+    )
 
 
 def test_a_run_in_time_takes_a_range_and_a_table_that_begins_above_zero():

@@ -2,7 +2,6 @@
 
 import math
 
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -20,23 +19,6 @@ def counted(f):
         return f(x), x
 
     return g, calls
-
-
-@pytest.mark.parametrize(
-    "f, root",
-    [
-        (lambda x: x**3 - 2, 2 ** (1 / 3)),
-        (lambda x: math.tanh(x - 3), 3.0),
-        (lambda x: 1 - math.exp(5 - x), 5.0),
-        (lambda x: math.atan(1e6 * (x + 7)), -7.0),
-    ],
-)
-def test_finds_known_roots(f, root):
-    g, calls = counted(f)
-    found = increasing_root(g, 0.0, step=0.5, bounds=BOUNDS, tolerance=1e-9)
-    assert found.status == CONVERGED and abs(found.value) <= 1e-9
-    assert found.x == pytest.approx(root, abs=1e-8)
-    assert found.payload == found.x and len(calls) == len(found.history)
 
 
 @settings(max_examples=60)

@@ -53,6 +53,19 @@ def test_bodies_and_maps_are_judged_before_anything_is_solved():
     assert [e.severe for e in of_bodies(wide.bodies) if "no half-space" in e.text] == [True]
     assert [[e.severe for e in of_map(slope, 20)] for slope in (0.3, 0.7, 2.0)] == [[], [False], [True]]
     assert "few asperities" in next(of_map(0.1, 3)).text
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_map_that_is_noise_along_an_axis_is_refused_with_what_to_do(axis):
+    """Lines of waves, each at a place of its own: neighbours along the other axis have nothing in common."""
+    shift = np.random.default_rng(1).uniform(0, 7, 128)
+    heights = 1e-7 * np.sin(0.2 * np.arange(128)[:, None] + shift)
+    surface = lubfric.Surface(heights if axis else heights.T, 1e-6, periodic_axes=(True, True))
+    scene = paper_scene(numerics={"sampling": "patch"})
+    with pytest.raises(lubfric.ValidityError, match=f"along {'xy'[axis]} is 0.[67].*noise; .*s_filter"):
+        lubfric.friction(lubfric.prepare(scene, surface), 0.1)
+    kept = lubfric.friction(lubfric.prepare(scene.with_(numerics={"accept": True}), surface), 0.1)
+    assert [e.what[-1] for e in kept.validity if "noise" in e.text] == ["xy"[axis]]
     steep = lubfric.prepare(PAPER.with_(surface={"sq": 3e-6}))
     assert any("rms slope" in entry.what for entry in steep.known)
 

@@ -221,6 +221,9 @@ def test_a_file_is_read_by_the_names_of_its_columns(tmp_path):
     np.testing.assert_allclose(found.x, [1e-3, 0.1])
     np.testing.assert_allclose(found.coefficient, [0.1, 0.05])
     np.testing.assert_allclose(found.deviation, [0.002, 0.001])
+    path.write_text("Rig 3; test of 2026-11-20\noil A, 70\nU;mu;T\n100;0,05;70\n1;0,1;70\n")
+    found = lubfric.read_measured(path, coefficient="mu", speed="U [mm/s]")  # titles above; the unit from the call
+    np.testing.assert_allclose([found.x, found.coefficient], [[1e-3, 0.1], [0.1, 0.05]])
     path.write_text("SRR [%];mu\n50;0,05\n10;0,02\n")
     found = lubfric.read_measured(path, coefficient="mu", slide_roll_ratio="SRR [%]")
     np.testing.assert_allclose(found.x, [0.1, 0.5])
@@ -231,7 +234,8 @@ def test_a_file_is_read_by_the_names_of_its_columns(tmp_path):
     "text, names, words",
     [
         ("U [m/s],mu\n1,0.1\n", {"speed": "V [m/s]", "coefficient": "mu"}, "no column 'V .m/s.' .did you mean"),
-        ("U,mu\n1,0.1\n", {"speed": "U", "coefficient": "mu"}, "names no unit"),
+        ("U,mu\n1,0.1\n", {"speed": "U", "coefficient": "mu"}, "names no unit; write U .m/s., or ask for that"),
+        ("a title\nU,mu\n1,0.1\n", {"speed": "V [m/s]", "coefficient": "mu"}, "no column 'V .m/s.'"),
         ("slip %,mu\n1,0.1\n", {"slide_roll_ratio": "slip %", "coefficient": "mu"}, "names % without brackets"),
         ("U [rpm],mu\n1,0.1\n", {"speed": "U [rpm]", "coefficient": "mu"}, "'rpm' is not known"),
         ("U [m/s],mu\n1,x\n", {"speed": "U [m/s]", "coefficient": "mu"}, "not a number"),

@@ -86,7 +86,8 @@ def full_disk(path, *_):
 
 def test_command_writes_the_curve(tmp_path, capsys, monkeypatch):
     (tmp_path / "map.npy").write_bytes(b"")
-    np.save(tmp_path / "map.npy", np.random.default_rng(1).normal(0, 2e-8, (128, 64)))
+    surface = lubfric.generate_surface((128, 64), 4e-6, sq=2e-8, correlation_length=12e-6, seed=1)
+    np.save(tmp_path / "map.npy", surface.heights)
     (tmp_path / "s.toml").write_text(
         '[bodies]\nradius = 0.01\nwidth = 0.01\nhertz_pressure = 1e9\nmaterial = "steel"\n'
         "boundary_friction_coefficient = 0.1\n[lubricant]\ngrade = 'ISO VG 68'\nviscosity_index = "

@@ -1,14 +1,11 @@
 """ISO 16610-61 Gaussian filters against their transmission, and what they must leave alone."""
 
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lubfric import InputError, Surface, generate_surface
-from lubfric.surface.prepare import ALPHA
 
 
 def wave(periods, shape=(240, 60), step=1e-6, axis=0):
@@ -19,21 +16,6 @@ def wave(periods, shape=(240, 60), step=1e-6, axis=0):
 
 def transmitted(before, after):
     return float(np.vdot(after, before) / np.vdot(before, before))
-
-
-@pytest.mark.parametrize("axis", [0, 1])
-@pytest.mark.parametrize("periods", [1, 2, 4, 8, 12])
-def test_transmission_of_a_wave_is_that_of_the_standard(periods, axis):
-    """exp(-pi (a L/wavelength)^2): one half at the nesting index; both filters of one index add up to the map."""
-    index, shape = 30e-6, (240, 240)
-    z = wave(periods, shape, axis=axis)
-    surface = Surface(z, 1e-6, periodic_axes=(True, True))
-    expected = math.exp(-math.pi * (ALPHA * index / (240e-6 / periods)) ** 2)
-    kept = surface.filtered(s=index).heights
-    assert transmitted(z, kept) == pytest.approx(expected, abs=1e-6)
-    if periods == 8:
-        assert expected == pytest.approx(0.5, abs=1e-12)
-    np.testing.assert_allclose(kept + surface.filtered(l=index).heights, z, atol=1e-20)
 
 
 def test_a_circular_wave_is_damped_as_a_straight_one():

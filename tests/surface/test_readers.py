@@ -125,24 +125,6 @@ def test_x3p_refuses_a_bomb_before_unpacking_it(tmp_path):
     tracemalloc.stop()
 
 
-def test_x3p_refuses_every_truncation_and_damage(tmp_path):
-    whole = write_x3p(tmp_path / "a.x3p", heights()).read_bytes()
-    broken = tmp_path / "b.x3p"
-    for length in range(0, len(whole), 37):
-        broken.write_bytes(whole[:length])
-        with pytest.raises(InputError):
-            read_surface(broken)
-    rng, good = np.random.default_rng(1), read_surface(tmp_path / "a.x3p").heights
-    for _ in range(200):
-        data = bytearray(whole)
-        data[rng.integers(len(data))] ^= 1 << rng.integers(8)
-        broken.write_bytes(data)
-        try:
-            assert np.array_equal(read_surface(broken).heights, good)  # a flipped date is harmless
-        except InputError:
-            pass
-
-
 # --- text, npy, xyz ---------------------------------------------------------------------------
 
 
@@ -275,6 +257,7 @@ def test_xyz_with_decimal_commas_and_titles(tmp_path):
         ("0,12 0,13\n1 2,5E-1\n", [[0.12, 0.13], [1, 0.25]]),
         ("1\t2,5\n3\t4\n", [[1, 2.5], [3, 4]]),
         ("height\n\n# none\n1 2\n# between\n3 5\n", [[1, 2], [3, 5]]),
+        ("Scan 17, roller A 2\nPixel 0.8 x 0.8\n1 2 3 4 5\n4 5 6 7 8\n", [[1, 2, 3, 4, 5], [4, 5, 6, 7, 8]]),
     ],
 )
 def test_text_that_can_be_read_in_one_way(tmp_path, text, found):
@@ -400,23 +383,6 @@ def test_reader_refuses(tmp_path, name, content, options):
         (tmp_path / name).write_bytes(content)
     with pytest.raises(InputError):
         read_surface(tmp_path / name, **options)
-
-
-def test_npy_with_a_damaged_header_is_refused_or_read(tmp_path):
-    """Bytes of the header overwritten at random: an answer of the right kind, never another exception."""
-    np.save(tmp_path / "good.npy", heights((6, 5)))
-    good = (tmp_path / "good.npy").read_bytes()
-    rng, refused = np.random.default_rng(5), 0
-    for _ in range(300):
-        bad = bytearray(good)
-        for place in rng.integers(0, 128, rng.integers(1, 4)):
-            bad[place] = rng.integers(256)
-        (tmp_path / "bad.npy").write_bytes(bad)
-        try:
-            read_surface(tmp_path / "bad.npy", spacing=1e-6, **RAW)
-        except InputError:
-            refused += 1
-    assert refused > 200
 
 
 # --- files of instruments ---------------------------------------------------------------------

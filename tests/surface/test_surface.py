@@ -66,21 +66,6 @@ def test_decay_level_conventions(acf, level, factor):
     assert np.allclose(same.heights, generated(acf=acf, correlation_length=16e-6).heights, atol=1e-12)
 
 
-def test_unequal_correlation_lengths():
-    surface = generated((512, 512), correlation_length=(10e-6, 30e-6), acf="gaussian", seed=1)
-    assert correlation_length(surface, 0) == pytest.approx(10e-6, rel=0.1)
-    assert correlation_length(surface, 1) == pytest.approx(30e-6, rel=0.15)
-    x, y, total = rms_slope(surface)
-    assert x / y == pytest.approx(3.0, rel=0.1) and total == pytest.approx(math.hypot(x, y))
-
-
-def test_gaussian_acf_slope_is_known():
-    """rms slope of a Gaussian ACF exp(-(r/b)^2) is sqrt(2) Sq/b along each axis."""
-    surface = generated((512, 512), 1e-6, acf="gaussian", correlation_length=16e-6, seed=2)
-    slopes = rms_slope(surface)
-    assert slopes[:2] == pytest.approx([math.sqrt(2) * 240e-9 / 16e-6] * 2, rel=0.03)
-
-
 def test_heights_are_gaussian():
     surface = generated((512, 512), correlation_length=8e-6, seed=5)
     assert surface.ssk == pytest.approx(0, abs=0.1)
@@ -158,19 +143,6 @@ def test_level_of_points_on_a_line_is_refused():
     with pytest.raises(InputError, match="line"):
         Surface(np.zeros((5, 5)), 1e-6, mask=mask).level()
     assert not Surface(np.arange(5.0)[:, None], 1e-6).level().heights.round(12).any()
-
-
-def test_fill_restores_a_harmonic_field_and_keeps_the_rest():
-    """x^2 - y^2 is discretely harmonic with spacings taken into account; holes are closed exactly."""
-    x, y = np.arange(30) * 1e-6, np.arange(20) * 2e-6
-    z = x[:, None] ** 2 - y[None, :] ** 2
-    mask = np.ones(z.shape, bool)
-    mask[5:12, 4:9] = mask[20, 10] = False
-    surface = Surface(np.where(mask, z, np.nan), (1e-6, 2e-6), mask=mask)
-    filled = surface.fill()
-    assert np.allclose(filled.heights, z, atol=1e-12 * np.abs(z).max())
-    assert np.array_equal(filled.mask, mask) and filled.missing_fraction == surface.missing_fraction
-    assert any("36 unmeasured" in note for note in filled.notes)
 
 
 def test_fill_never_overshoots_even_at_a_corner():

@@ -114,10 +114,3 @@ def test_methods_agree_and_errors_fall_with_the_tolerance():
     assert max(tight.values()) < 1e-3
     assert [p.at["setting"] for p in found if p.at["default"]] == ["tolerance 1e-06"]
     assert np.array_equal(contact.heights(128, "gaussian")[::2, ::2], contact.heights(64, "gaussian"))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("asked", ["charts", "model", "sampling --only coverage pieces", "stability"])
-def test_quick_campaigns(asked, tmp_path):
-    assert main([*asked.split(), "--quick", "--out", str(tmp_path)]) == 0
-    assert json.loads((tmp_path / "report.json").read_text())["passed"] and list(tmp_path.glob("*.png"))

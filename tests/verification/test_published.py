@@ -2,12 +2,14 @@
 
 import json
 
+import numpy as np
 import pytest
 
 from verification import references
 from verification.__main__ import main
 from verification.check import Check, beside
 from verification.published import PARTS, against
+from verification.published.cavitation import Pad
 from verification.run import quiet, run_one
 from verification.studies import STUDIES, Study
 
@@ -63,3 +65,19 @@ def test_every_source_says_how_it_was_got_and_how_good_it_is():
     for source in references.SOURCES.values():
         assert source.words and source.place and source.got and 0 <= source.error <= 0.1
     assert len(references.SOURCES) >= 12
+
+
+def test_a_film_that_ruptures_and_fills_again_is_that_of_the_closed_form():
+    """lubfric finds its gap under its load, and what it carries in front of the pocket flows behind it."""
+    pocket = references.BANDS[0]
+    load, refill, peak = references.refilled(pocket)
+    gap, (x, p) = Pad(pocket, (400, 1)).solved(load)
+    assert gap == pytest.approx(pocket.end, rel=3e-3) and p.max() * 1e6 == pytest.approx(peak, rel=0.08)
+    ruptured = pocket.inside(x * pocket.length) & (p == 0)
+    assert x[ruptured].max() * pocket.length == pytest.approx(refill, abs=5e-5)
+    carried = 2 * pocket.start * pocket.wedge(pocket.begins) / (pocket.start + pocket.wedge(pocket.begins))
+    rising = x > 0.7
+    slope = np.gradient(p[rising] * 1e6, x[rising] * pocket.length)
+    film = pocket.wedge(x[rising] * pocket.length)
+    flow = film - film**3 / (12 * pocket.viscosity * pocket.speed) * slope
+    assert flow[2:-2] == pytest.approx(carried, rel=2e-3)

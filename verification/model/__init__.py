@@ -10,6 +10,8 @@ PARTS: tuple[tuple[str, str, str, dict], ...] = (
     ("answers", "model.answers:answers", "The default answer on surfaces and contacts of many kinds", {}),
     ("seeds", "model.seeds:seeds", "The default answer on fresh surfaces: coverage, bias, cost", {}),
     ("boundary-film", "model.boundary_film:boundary_film", "How thick the boundary film should be", {}),
+    ("rolling", "model.rolling:rolling", "Eq. (8) beside roughness that moves", {}),
+    ("moving-points", "model.random_moving:random_moving", "Random contacts under moving roughness", {}),
     ("grids", "model.film:grids", "One gap, one pressure on ever smaller cells", {}),
 )
 

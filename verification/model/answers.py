@@ -86,6 +86,7 @@ class Case:
         if self.surface in GENERATED:
             acf, lengths = GENERATED[self.surface]
             rough = {"acf": acf, "correlation_length": tuple(times * one for one in lengths), "seed": seed}
+            rough["oversize"] = 1 if lengths[0] < 20e-6 else 3  # ridges along are longer than a light contact
             patch: dict = {"spacing": 0.45e-6 * times}
         else:
             path = Path(folder) / f"{self.surface}-{seed}.npy"

@@ -15,6 +15,7 @@ from ..studies import Study
 PARTS: tuple[tuple[str, str], ...] = (
     ("dry", "Dry contact: Hertz, waves, rough surfaces"),
     ("films", "Smooth films"),
+    ("cavitation", "Films that rupture and fill again"),
     ("friction", "Rolling and sliding friction of smooth films"),
     ("waves", "Waves of a surface in the film, at rest and moving"),
     ("heat", "Heat of a film"),

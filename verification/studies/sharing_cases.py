@@ -67,8 +67,8 @@ def sharing_cases(level: str):
     """What `load_sharing` does at one corner, at others: f, both loads, gap and shear force of `lubfric.friction`.
 
     They are Eyring's law with a limiting shear stress, a compressible oil, Barus' law, nearly pure rolling and the
-    other surface sliding, and a hardness at which cells do yield. Then comes a measured map that has to be turned,
-    scaled and mirrored, on cells that are not square. Last is the nominally flat contact, whose patch is pressed on an
+    other surface sliding, and a hardness at which cells do yield. Then comes a measured map that has to be turned
+    and scaled, on cells that are not square. Last is the nominally flat contact, whose patch is pressed on an
     elastic layer of bricks.
     """
     asked, refinements = TOLERANCE[level], REFINEMENTS[level]
@@ -128,18 +128,19 @@ def measured_map(allowed, refinements: int):
         model = averaged(prepare(s))
     heights = levelled(ground(across)).T
     heights *= 100e-9 / heights.std()
-    heights = np.concatenate([heights, heights[:, ::-1]], axis=1)
     found = share_load(cylinder(model, strip(across), heights - heights.mean(), case), refinements=refinements)
     main = lubfric.friction(model, case.speed)
     yield from compared(case.name, rows_of(main, found, allowed), SOURCE)
 
 
 def ground(across: float) -> np.ndarray:
-    """Heights (CELLS/2, CELLS) m, grooved and skewed, with worn tops and deep scratches, on a tilted plane."""
+    """Heights (CELLS, CELLS) m, grooved and skewed, with worn tops and deep scratches, on a tilted plane."""
     rng = np.random.default_rng(5)
-    y, x = np.arange(CELLS // 2)[:, None] * across, np.arange(CELLS) * LENGTH / CELLS
+    y, x = np.arange(CELLS)[:, None] * across, np.arange(CELLS) * LENGTH / CELLS
     waves = sum(
-        rng.standard_normal() * np.cos(2 * np.pi * (m * x / LENGTH + n * y / 40e-6) + rng.uniform(0, 6.3)) / m
+        rng.standard_normal()
+        * np.cos(2 * np.pi * (m * x / LENGTH + n * y / (CELLS * across)) + rng.uniform(0, 6.3))
+        / m
         for m in range(2, 8)
         for n in (0, 1)
     )

@@ -1,0 +1,284 @@
+"""A run in time with one gap and one pressure: the rough surfaces move through the film, each by the integral of its
+own speed, while load, speed, radius and viscosity change.
+
+It is a solver of `march`, whose y is the mass rho θ h of the cells. A step ends whenever the fastest rough body has
+moved by one cell. The fields are kept with x along the scene's; where U < 0, the film is solved in the mirror.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..deterministic import (
+    BOUNDARY_FILM,
+    KRYLOV,
+    RUPTURED,
+    STEPS,
+    TOUCHING,
+    Iterate,
+    Problem,
+    State,
+    Work,
+    assemble,
+    dry_contact,
+    evaluated,
+    lay_out,
+    newton,
+    reach,
+    residuals,
+    shifted,
+    solve_point,
+    work_of_steps,
+)
+from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
+from ..quantities import OF_MOMENT
+from ..sampling import block_error, maps_of, strip_of
+from ..scene import Constant, Scene
+from ..sharing import Prepared, Validity, of_motion, of_thickness, prepare
+from .film_setting import WET
+from .march import Memory, Progress, Step
+from .sharing import changes, looks, scene_at, sliding_at
+
+TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
+EXACT = 1e-3  # residuals of a step
+MOST = 25  # Newton steps in a step
+REST = 1e-6  # of the fastest speed: slower entrainment counts as that
+LEAST_FLOW = 1e-3  # of the film of the fastest speed times that: what residuals are relative to, at least
+FIRST = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
+START = 20  # steps after the start, about
+MOST_CELLS = 100_000  # by which the roughness may move in a run
+LOOKS = 20_001  # times at which the speeds are looked up to find the steps
+SIDES = {"surface": -0.5, "counterface": 0.5}  # of a body's section: its speed is U plus that times u2 - u1
+
+
+@dataclass(frozen=True)
+class OneGap:
+    """The solver: ``prepared``, with the strip of the run as its surface; ``base``, its cells; of each rough body, by
+    its section, the ``heights`` [m] on these cells, of the distance [m] that it has moved. ``correlation_length``: of
+    the heights along y [m]."""
+
+    prepared: Prepared
+    base: Problem
+    heights: dict[str, Callable[[float], np.ndarray]]
+    correlation_length: float
+    tolerance = EXACT
+    time_error = TIME_ERROR
+
+    @property
+    def scene(self) -> Scene:
+        """With all that changes in time."""
+        return self.prepared.scene
+
+    @property
+    def x(self) -> np.ndarray:
+        """Of the columns of cells [m]."""
+        return self.base.x
+
+    @property
+    def cells(self) -> str:
+        """Of the grid, in words."""
+        return "{} x {} cells".format(*self.base.heights.shape)
+
+    @cached_property
+    def fastest(self) -> float:
+        """The largest speed of a surface [m/s]."""
+        return max(map(max, _speeds(self.scene, np.array(looks(self.scene)))))
+
+    @property
+    def first_step(self) -> float:
+        """After a start or a jump [s]."""
+        return FIRST * self.base.spacing[0] / self.fastest if self.fastest else FIRST * changes(self.scene).duration
+
+    @cached_property
+    def stops(self) -> tuple[float, ...]:
+        """Times [s] at which the fastest rough body has moved by one more cell, about."""
+        duration, dx = changes(self.scene).duration, self.base.spacing[0]
+        times = np.linspace(0.0, duration, LOOKS)
+        speed = np.max([_speeds(self.scene, times)[list(SIDES).index(name)] for name in self.heights] or [0 * times], 0)
+        way = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(times)))
+        if way[-1] > MOST_CELLS * dx:
+            raise InputError(
+                f" = {duration:g} s: the roughness would move by {way[-1] / dx:.2g} cells, a step each",
+                "transient.duration",
+                f"up to {MOST_CELLS:g} cells",
+                "a shorter run, or numerics.model = 'load-sharing'",
+            )
+        return tuple(np.interp(dx * np.arange(1, math.floor(way[-1] / dx) + 1), way, times).tolist())
+
+    def problem_at(self, time: float) -> Problem:
+        """Just before ``time`` [s], in the mirror where U < 0."""
+        now, sliding = scene_at(self.scene, time), sliding_at(self.scene, time)
+        speed, plan, motion = now.motion.entrainment_speed, changes(self.scene), self.scene.motion
+        along = (plan.speed or Constant(motion.entrainment_speed)).integral(time)
+        apart = motion.slide_roll_ratio * along if plan.sliding is None else plan.sliding.integral(time)
+        back = -1 if speed < 0 else 1
+        rough = {name: at(along + SIDES[name] * apart)[::back] for name, at in self.heights.items()}
+        pace = max(abs(speed), REST * self.fastest, 1e-300)
+        return replace(
+            self.base,
+            contact=replace(now.line_contact(pace), sliding=abs(sliding)),
+            sliding=abs(sliding),
+            boundary_friction=now.bodies.boundary_friction_coefficient,
+            x=back * self.base.x[::back],
+            heights=np.sum([self.base.heights, *rough.values()], axis=0),
+            upper=rough.get("counterface"),
+            sense=-1.0 if sliding * back < 0 else 1.0,
+        )
+
+    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: State) -> Step:
+        """The step that ends at ``time`` [s]; the payload is its state."""
+        back = self._back(time)
+        past = memory.film[::back], 1.0 / memory.rate
+        start = _turned(replace(payload, approach=float(z[0])), back)
+        found = newton(self.problem_at(time), start, Work(MOST), tolerance=EXACT, most=MOST, past=past)
+        return self._step(found.at, back, CONVERGED if found.residual <= EXACT else ITERATION_LIMIT)
+
+    def error_of(self, step: Step, difference: np.ndarray) -> float:
+        """Root mean square, over the pressurised film, of the mean over y of a ``difference`` of masses, over the mean
+        there. (Roughness that passes is resolved by the steps of one cell.)"""
+        p, lost, film = (f.mean(axis=1) for f in (step.payload.pressure, difference, step.film))
+        wet = p > WET * p.max()
+        return float(np.sqrt(np.mean(lost[wet] ** 2)) / film[wet].mean()) if wet.any() else 0.0
+
+    def start(self) -> Step:
+        """The state at t = 0: steady; at rest, with all load on the dry contact and the gap full; or without pressure
+        at a flying height."""
+        plan, problem, back = changes(self.scene), self.problem_at(0.0), self._back(0.0)
+        still = (plan.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
+        if plan.initial_film is None and not (plan.initial == "rest" or plan.initial == "auto" and still):
+            if still:
+                raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
+            return self._step(evaluated(problem, solve_point(problem, tolerance=EXACT).state), back)
+        nothing, kind = np.zeros_like(problem.heights), np.full(problem.heights.shape, RUPTURED, np.int8)
+        state = State(nothing, nothing + 1.0, nothing, kind, nothing > 0, plan.initial_film or 0.0)
+        if plan.initial_film is None:
+            dry = dry_contact(problem)
+            p, yielded = dry.pressure, dry.pressure >= problem.hardness
+            dent = np.where(yielded, np.maximum(-dry.gap, 0.0), 0.0)
+            touching = np.where(p > 0, TOUCHING, RUPTURED).astype(np.int8)
+            state = State(p.copy(), nothing + 1.0, dent, touching, yielded, problem.floor - dry.approach)
+        elif np.min(problem.rigid_gap) + plan.initial_film < problem.floor:
+            least = problem.floor - float(np.min(problem.rigid_gap))
+            raise InputError(
+                f"transient.initial_film: the surfaces touch; give more than {least:g} m, or initial = 'rest'"
+            )
+        return self._step(evaluated(problem, state), back)
+
+    def _back(self, time: float) -> int:
+        return -1 if scene_at(self.scene, time).motion.entrainment_speed < 0 else 1
+
+    def _step(self, at: Iterate, back: int, status: str = CONVERGED) -> Step:
+        state = _turned(at.state, back)
+        return Step(film=at.mass[::back], z=np.array([state.approach]), status=status, payload=state, terms=at)
+
+
+def _turned(state: State, back: int) -> State:
+    parts = {name: getattr(state, name)[::back] for name in ("pressure", "fill", "dent", "kind", "yielded")}
+    return replace(state, **parts)
+
+
+def _speeds(scene: Scene, times: np.ndarray) -> list[np.ndarray]:
+    """|u| [m/s] of both surfaces at ``times`` [s]."""
+    speed = changes(scene).speed or Constant(scene.motion.entrainment_speed)
+    both = np.array([(speed.before(t), sliding_at(scene, t)) for t in times.tolist()]).T
+    return [np.abs(both[0] + side * both[1]) for side in SIDES.values()]
+
+
+def begin_one_gap(scene: Scene | Prepared) -> tuple[OneGap, Step, float]:
+    """The solver of a scene; its state at t = 0; NaN: the error of the cells is not known. Raises `InputError` and
+    `ConvergenceError`."""
+    solver = one_gap(scene)
+    return solver, solver.start(), math.nan
+
+
+def work_of_run(scene: Scene) -> tuple[int, float]:
+    """About how many steps a run takes, and its counted work [s of a usual core]."""
+    solver, plan = one_gap(scene), changes(scene)
+    steps = max(len(solver.stops), plan.outputs) + START
+    return steps, steps * work_of_steps(solver.base.heights.size, STEPS, KRYLOV)
+
+
+def one_gap(scene: Scene | Prepared) -> OneGap:
+    """The solver, on the first strip that a steady point takes, and on the same cells. Raises `InputError`."""
+    prepared = scene if isinstance(scene, Prepared) else prepare(scene)
+    scene, plan, strips = prepared.scene, changes(prepared.scene), prepared.strips
+    if strips is None:
+        raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
+    surface, factors = strip_of(prepared, 0)
+    maps = maps_of(prepared, 0)
+    if len(maps) > 1 and plan.sliding is not None and (strips.whole or strips.windows):
+        raise InputError(" moves two rough bodies apart", "transient.sliding", "two generated ones, by strips")
+    if not maps:  # smooth
+        surface, factors = replace(surface, heights=surface.heights[:, :1], mask=None), (factors[0], 1)
+    speed = plan.speed or Constant(scene.motion.entrainment_speed)
+    low, high = speed.range(plan.duration)
+    line = scene.line_contact(max(abs(low), abs(high)) or REST)
+    upstream, downstream = reach(line, surface.sq)
+    base = lay_out(
+        replace(surface, heights=0.0 * surface.heights, mask=None),
+        line,
+        sliding=0.0,
+        boundary_friction=0.0,
+        hardness=scene.bodies.hardness,
+        boundary_film=BOUNDARY_FILM if scene.bodies.boundary_film is None else scene.bodies.boundary_film,
+        ends=(upstream, upstream if low < 0.0 else downstream),
+        factors=factors,
+    )
+    base = replace(base, least_flow=LEAST_FLOW * line.entrainment_speed * line.moes_film)
+    of_strip = replace(prepared, surface=surface)
+    heights = {name: shifted(base, one) for name, one in maps.items()}
+    return OneGap(of_strip, base, heights, strips.lengths[1])
+
+
+def moment_of_gap(solver: OneGap, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
+    """The numbers after the last step, by name, and the assumptions that do not hold then. As of `OF_MOMENT`, of the
+    rough gap; NaN where this model has no such number."""
+    time, at, scene = now.time, now.solution.terms, scene_at(solver.scene, now.time)
+    left = residuals(at)
+    result = assemble(at, Report("film under moving roughness", CONVERGED, 1, max(left.values()), EXACT, left))
+    speed, sliding, width = scene.motion.entrainment_speed, sliding_at(solver.scene, time), scene.bodies.width
+    f, sense = result.coefficient, float(np.sign(sliding) or np.sign(speed) or 1.0)
+    places = result.friction_at - f * result.load_at
+    scatter = block_error(places / result.load, solver.base.spacing[1], solver.correlation_length).error
+    wet = solver.x[now.solution.payload.pressure.mean(axis=1) > 0]
+    total, contact = scene.bodies.load, result.split.spots * width
+    row = dict.fromkeys(OF_MOMENT, math.nan) | {
+        "time": time,
+        "entrainment_speed": speed,
+        "sliding_speed": sliding,
+        "load": total,
+        "contact_load": contact,
+        "film_load": total - contact,
+        "friction_force": sense * f * total,
+        "boundary_force": sense * result.boundary * width,
+        "couette_force": sense * result.couette * width,
+        "rolling_force": sense * result.rolling * width,
+        "coefficient": f,
+        "sampling_error": scatter / abs(f) if f and math.isfinite(scatter) else math.nan,
+        "shear_error": 0.0,
+        "time_error": now.error,
+        "inlet_film_factor": 1.0,
+        "heat_change": 0.0,
+        "flash_temperature_rise": 0.0,
+        "film_temperature_rise": 0.0,
+        "real_contact_area_fraction": result.spot_fraction,
+        "plastic_area_fraction": result.plastic_fraction,
+        "load_residual": left["load"],
+        "volume_residual": 0.0,
+        "mass_residual": left["mass"] if now.steps else 0.0,
+        "steps": now.steps,
+        "min_film": result.min_gap,
+        "central_film": result.central_gap,
+        "mean_film": result.mean_gap,
+        "mean_gap": result.mean_gap,
+        "wet_from": wet[0] if wet.size else math.nan,
+        "wet_to": wet[-1] if wet.size else math.nan,
+        "max_pressure": float(result.pressure.max()),
+    }
+    film = result.central_gap
+    return row, (*solver.prepared.known, *of_motion(scene, speed, film), *of_thickness(scene, film))

@@ -1,0 +1,154 @@
+"""Runs in time with one gap and one pressure: the steady limits, the smooth film, reversal, order, resume."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import lubfric
+from lubfric.deterministic import RoughBody, solve_moving_strip
+from lubfric.scene import Harmonic, Ramp, Table, Transient
+from lubfric.time import begin_one_gap
+from lubfric.time.march import Memory
+
+CELL = 4e-6
+SCENE = lubfric.load_scene("paper").with_(
+    bodies={"radius": 5e-3, "load": 20.0, "width": 1e-3, "e_prime": 2.2e11, "hardness": None},
+    lubricant={"viscosity": 0.05, "pressure_viscosity_coefficient": 15e-9, "eyring_stress": 5e6},
+    motion={"slide_roll_ratio": 0.5, "entrainment_speed": 0.3},
+    surface={"sq": 5e-8, "correlation_length": 12e-6, "seed": 3},
+    contact={"shape": (24, 12), "spacing": CELL},
+    numerics={"model": "deterministic", "sampling": "patch", "grid": "given", "accept": True},
+)
+OWN = 0.3 * 0.75  # m/s, of surface 1
+
+
+def run(plan, times=None, **sections):
+    return lubfric.transient(SCENE.with_(transient=plan, **sections), times)
+
+
+def test_at_constant_speed_it_is_the_steady_answer_of_moving_roughness():
+    surface = lubfric.prepare(SCENE).surface
+    steady = solve_moving_strip(SCENE, [RoughBody(surface, OWN)], 0.3)
+    found = run(Transient(1.0, tolerance=0.1), steady.times[steady.discarded - 1 :])
+    assert found.report.converged and found.mass_residual.max() <= 1e-3
+    f, gap = found.coefficient[1:], found.mean_gap[1:]
+    assert f.mean() == pytest.approx(steady.result.coefficient, rel=5e-3)
+    np.testing.assert_allclose(gap, steady.series["mean_gap"][steady.discarded :], rtol=0.02)
+
+
+def test_smooth_bodies_have_the_smooth_film_of_a_run():
+    """By another program: complementarity on a graded grid."""
+    plan, smooth = Transient(6e-4, load=Harmonic(mean=15.0, amplitude=5.0, frequency=5e3)), {"sq": 0.0}
+    fine = {"shape": (64, 32), "spacing": 1.5e-6}
+    found = run(plan, np.linspace(0, 6e-4, 13), surface=smooth, contact=fine)
+    film = run(plan, found.time, surface=smooth, numerics={"model": "load-sharing"})
+    np.testing.assert_allclose(found.central_film, film.central_film, rtol=0.015)
+    np.testing.assert_allclose(found.coefficient, film.coefficient, rtol=0.02)
+    assert np.ptp(film.central_film) > 0.05 * film.central_film.mean()
+
+
+def test_it_stops_squeezes_and_starts_again():
+    speed = Table(times=(0.0, 1e-4, 1.5e-4, 6e-4, 7e-4, 1e-3), values=(0.3, 0.3, 0.0, 0.0, 0.3, 0.3))
+    found = run(Transient(1e-3, speed=speed), [0.0, 1e-4, 1.5e-4, 6e-4, 1e-3], surface={"sq": 1.2e-7})
+    assert found.report.converged
+    assert found.contact_load[3] > 2 * found.contact_load[2]
+    assert found.central_film[3] < 0.9 * found.central_film[2]
+    assert found.entrainment_speed[3] == 0 and abs(found.coefficient[3]) < 1e-3
+    assert found.contact_load[-1] < 0.3 * found.contact_load[3]
+
+
+def test_motion_backwards_is_the_mirror_image():
+    plan, surface = Transient(2e-4, speed=Ramp(start=0.2, end=0.3, until=1e-4)), lubfric.prepare(SCENE).surface
+    there = lubfric.transient(lubfric.prepare(SCENE.with_(transient=plan), surface), [0.0, 1e-4, 2e-4])
+    turned, plan = (
+        replace(surface, heights=surface.heights[::-1]),
+        replace(plan, speed=Ramp(start=-0.2, end=-0.3, until=1e-4)),
+    )
+    back = lubfric.transient(lubfric.prepare(SCENE.with_(transient=plan), turned), [0.0, 1e-4, 2e-4])
+    np.testing.assert_allclose(back.coefficient, there.coefficient, rtol=1e-3)
+    np.testing.assert_allclose(back.friction_force, -there.friction_force, rtol=1e-3)
+
+
+def test_each_surface_is_displaced_by_the_integral_of_its_own_speed():
+    speed, sliding = Harmonic(amplitude=0.3, frequency=900.0), Ramp(start=0.0, end=0.4, until=1e-3)
+    rough = {"sq": 5e-8, "correlation_length": 12e-6, "acf": "gaussian"}
+    scene = SCENE.with_(
+        surface=rough, counterface=rough, numerics={"sampling": "strips"}, contact={"shape": (24, 24)},
+        transient=Transient(2e-3, speed=speed, sliding=sliding),
+    )  # fmt: skip
+    solver, *_ = begin_one_gap(scene)
+    for name, side in (("surface", -0.5), ("counterface", 0.5)):
+        way = quad(lambda t: speed.at(t) + side * sliding.at(t), 0, 1.7e-3, points=[1e-3], epsabs=1e-15)[0]
+        assert way == pytest.approx(speed.integral(1.7e-3) + side * sliding.integral(1.7e-3), rel=1e-9)
+        assert abs(way) > solver.base.spacing[0]
+    at = solver.problem_at(1.7e-3)
+    assert speed.at(1.7e-3) < 0 and np.allclose(at.upper, solver.heights["counterface"](way)[::-1])
+    assert np.allclose(at.heights - at.upper, solver.heights["surface"](way - sliding.integral(1.7e-3))[::-1])
+
+
+@pytest.mark.parametrize(
+    "history",
+    [
+        Table(times=(0.0, 1.0, 1.0, 3.0), values=(1.0, 2.0, -1.0, 0.5), repeat=True),
+        Table(times=(-1.0, 1.0, 9.0), values=(1.0, 2.0, -1.0)),
+        Ramp(start=1.0, end=-2.0, begin=1.0, until=4.0),
+        Harmonic(amplitude=2.0, mean=0.3, frequency=0.4, phase=0.7),
+    ],
+)
+def test_integrals_of_histories(history):
+    for time in (0.0, 0.5, 2.0, 7.4):
+        corners = [c for c in (1.0, 3.0, 4.0, 6.0, 7.0) if c < time]
+        expected = quad(history.at, 0, time, points=corners or None, limit=200)[0]
+        assert history.integral(time) == pytest.approx(expected, abs=1e-9)
+
+
+def test_steps_are_of_second_order(monkeypatch):
+    """A rough body under a load that swings: BDF2 from its own memory, in steps of a half and a quarter."""
+    monkeypatch.setattr("lubfric.time.one_gap.EXACT", 1e-9)
+    plan = Transient(1.0, load=Harmonic(mean=15.0, amplitude=4.0, frequency=4e3))
+    solver, start, _ = begin_one_gap(SCENE.with_(transient=plan, surface={"sq": 5e-9}))
+
+    def after(count):
+        step, films, now = 1e-4 / count, [start.film], start
+        for k in range(1, count + 1):
+            memory = Memory(1 / step, films[-1])
+            if k > 1:
+                memory = Memory(1.5 / step, (4 * films[-1] - films[-2]) / 3)
+            now = solver.solve(k * step, memory, now.z, now.payload)
+            assert now.status == "converged"
+            films.append(now.film)
+        return films[-1]
+
+    fine = after(64)
+    errors = [np.abs(after(n) - fine).mean() for n in (8, 16)]
+    assert math.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.4)
+
+
+def test_a_killed_run_goes_on_to_the_same_bits(tmp_path):
+    plan = Transient(1e-4, outputs=3, speed=Harmonic(mean=0.1, amplitude=0.3, frequency=8e3))
+    whole, seen = run(plan), []
+
+    def stop(*now):
+        seen.append(now)
+        if len(seen) == 7:
+            raise KeyboardInterrupt
+
+    scene = SCENE.with_(transient=plan)
+    with pytest.raises(KeyboardInterrupt):
+        lubfric.transient(scene, checkpoint=tmp_path / "kept", on_step=stop)
+    again = lubfric.transient(scene, checkpoint=tmp_path / "kept")
+    for name, values in whole.columns.items():
+        np.testing.assert_array_equal(again.columns[name], values)
+    assert np.array_equal(again.pressure, whole.pressure) and whole.report.iterations > 9
+
+
+def test_what_it_cannot_do_is_refused():
+    with pytest.raises(lubfric.InputError, match="would move by"):
+        run(Transient(1e3))
+    with pytest.raises(lubfric.InputError, match="initial_film.*more than"):
+        run(Transient(1e-4, initial_film=1e-9))
+    with pytest.raises(lubfric.InputError, match="geometry"):
+        run(Transient(1e-4), contact={"geometry": "flat"})

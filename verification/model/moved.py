@@ -1,0 +1,99 @@
+"""A rough surface moved through the film once, by the deterministic model: means over the pass, and the balances of its
+fields, by formulas of this program."""
+
+import math
+from collections.abc import Sequence
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+import lubfric
+from lubfric.deterministic import RoughBody, moments, solve_strip, travelling
+
+from ..references import density
+
+FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
+SWEEP = 2.5  # half-widths that the film travels before anything counts
+EXACT = 5e-4  # residual of a step, times the cells along x
+FLOOR = 1e-9  # m
+BALANCES = "mass", "load", "gap", "bounds"
+
+
+def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
+    """Means over one pass of the fastest of ``bodies`` (at rest: of the steady film): ``f``, ``central`` and ``mean``
+    gap [m], ``shares`` of the load on gaps below each of `FILMS`, and ``drawn``, the share of the lubricant that
+    touching cells are said to give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are
+    from 0."""
+    heights = np.sum([body.surface.heights for body in bodies], axis=0)
+    whole = lubfric.Surface(heights, bodies[0].surface.spacing, periodic_axes=(True, True))
+    upper = next((body.surface for body in bodies if body.upper), None)
+    rest = solve_strip(scene, whole, speed, upper=upper)
+    problem, first = rest.problem, row(rest.problem, rest.result)
+    fastest = max(abs(body.speed) for body in bodies)
+    if fastest == 0:
+        return first | {"rest": first, "off": balances(problem, rest.result, [], 0.0), "steps": 0}
+    line, dx = problem.contact, problem.spacing[0]
+    step, width = dx / fastest, max(line.half_width, math.sqrt(2 * line.radius * line.moes_film))
+    start, count = math.ceil(SWEEP * width / (line.entrainment_speed * step)), whole.shape[0]
+    moving = moments(
+        travelling(problem, bodies),
+        step,
+        start=rest.result.state,
+        tolerance=EXACT * problem.x.size,
+        carried=int(line.half_width > 8 * dx),
+    )
+    found = [moment.result for moment in islice(moving, start, start + count + 1)]
+    rows = [row(problem, result) for result in found[1:]]
+    mean: dict[str, Any] = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
+    at = travelling(problem, bodies)((start + count) * step)
+    return mean | {"rest": first, "off": balances(at, found[-1], found, step), "steps": start + count}
+
+
+def row(problem, result) -> dict[str, Any]:
+    """The numbers of one moment."""
+    p, h = result.pressure, result.gap
+    shares = [float(p[h < film].sum() / p.sum()) for film in FILMS]
+    numbers = {"f": result.coefficient, "central": result.central_gap, "mean": result.mean_gap, "drawn": result.drawn}
+    return numbers | {"shares": shares}
+
+
+def balances(problem, result, passing: Sequence, step: float) -> dict[str, float]:
+    """How far fields are from what they must obey.
+
+    - mass: what enters, less what leaves behind the rupture (U times what is there, at the end of the grid) and what is
+      gained, over the time of ``passing`` results that are ``step`` [s] apart, over what enters; of a steady film
+      (none) at once.
+    - load: ∫ p less the load, relative.
+    - gap: mean over y of the gap, less parabola, heights and -4/(pi E') ∫ p ln|x - s| ds, up to a constant, over the
+      mean gap between the ends of the contact.
+    - bounds: the largest violation of p >= 0, 0 <= fill <= 1, p (1 - fill) = 0, h >= 1 nm, relative.
+    """
+    line, dx, x = problem.contact, problem.spacing[0], result.x
+    results, U = passing or (result, result), line.entrainment_speed
+    lost = [U * (one.flow_film - held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1]) for one in results]
+    gained = (held(line, results[-1], results[-1].gap) - held(line, results[0], results[0].gap)).sum() * dx
+    lasted = len(results) - 1
+    missing = float(np.trapezoid(lost)) / lasted - (gained / (step * lasted) if passing else 0.0)
+    enters = U * float(np.mean([one.flow_film for one in results]))
+    p = result.pressure.mean(axis=1)
+    face = x[:, None] - x[None, :]
+    a, b = face + dx / 2, face - dx / 2
+    kernel = -4 / (math.pi * line.e_prime) * (a * np.log(np.abs(a)) - b * np.log(np.abs(b)) - dx)
+    shape = x**2 / (2 * line.radius) - problem.heights.mean(axis=1) + kernel @ p
+    inside = np.abs(x) < line.half_width
+    off = (result.gap - result.dent).mean(axis=1)[inside] - shape[inside]
+    fill, top = result.fill, result.pressure.max()
+    broken = -result.pressure.min() / top, -fill.min(), fill.max() - 1, (result.pressure * (1 - fill)).max() / top
+    return {
+        "mass": float(abs(missing / enters)),
+        "load": abs(float(p.sum() * dx + result.inlet_load) / problem.load - 1),
+        "gap": float(np.ptp(off)) / 2 / result.mean_gap,
+        "bounds": max(0.0, *map(float, broken), 1 - result.gap.min() / FLOOR),
+    }
+
+
+def held(line, result, gap) -> np.ndarray:
+    """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure, mean over y (nx,)."""
+    law = density(result.pressure) if line.lubricant.density_law == "dowson-higginson" else 1.0
+    return (result.fill * law * gap).mean(axis=1)
