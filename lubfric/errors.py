@@ -1,7 +1,5 @@
 """What a solver says about its own work, and every exception that the library raises on purpose."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, field
 
 
@@ -124,6 +122,10 @@ class Report:
     notes: tuple[str, ...] = ()
     advice: str = ""
 
+    def __post_init__(self):
+        if self.converged:  # nothing is to be done
+            object.__setattr__(self, "advice", "")
+
     @property
     def converged(self) -> bool:
         """True when the residual met the tolerance."""
@@ -136,7 +138,7 @@ class Report:
             f"{self.solver}: {self.status} after {self.iterations} iteration{'s' * (self.iterations != 1)}, "
             f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
         )
-        advice = "" if self.converged else self.advice or ADVICE[self.status]
+        advice = self.advice or ADVICE[self.status]
         return f"{text}; {advice}" if advice else text
 
     def raise_if_failed(self, result=None) -> None:

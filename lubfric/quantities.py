@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+import tomllib
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, fields
+from importlib.resources import files
 from inspect import cleandoc
 from typing import Any, Generic, NamedTuple, TypeVar
 
@@ -17,6 +19,9 @@ T = TypeVar("T")  # float, or an array over operating points
 class Quantity(NamedTuple):
     """``unit`` ("-" without one), ``label`` (long name), ``symbol``; ``error``: what its error depends on ("" where
     none is estimated); ``column``: its name in tables where that is not its own; ``note``: what a reader should know.
+
+    Of the key of a scene (keys.toml): the ``least`` and the ``most`` that it may be, or ``above`` which it has to be;
+    its ``usual`` range, whether 0 is usual too (``zero``), and the units that are mistaken for its own (``meant``).
     """
 
     unit: str
@@ -25,6 +30,17 @@ class Quantity(NamedTuple):
     error: str = ""
     column: str = ""
     note: str = ""
+    least: float = -math.inf
+    above: float = -math.inf
+    most: float = math.inf
+    usual: Sequence[float] = ()
+    zero: bool = False
+    meant: Sequence = ()
+
+    @property
+    def limited(self) -> bool:
+        """Whether there are numbers that it cannot be."""
+        return max(self.least, self.above) > -math.inf
 
 
 def quantity(unit: str, label: str, symbol: str = "", **more: Any) -> Any:
@@ -145,6 +161,7 @@ NUMBERS = ("speed", *(name for name in _OF_POINT if name != "speed"))  # of a re
 QUANTITIES = {name: _OF_POINT[name] for name in NUMBERS[1:]}
 ESTIMATED = tuple(quantities(Quantities))  # those with an error of their own
 OF_UNCERTAINTY = quantities(UncertaintyQuantities)
+NOT_IN_TIME = {"shear_force", "real_contact_area", "film_to_roughness_ratio", "clearance", "steepness", "seconds"}
 INTERVAL = {
     "interval_low": Quantity("-", "lower end of the 95 % interval of f"),
     "interval_high": Quantity("-", "upper end of the 95 % interval of f"),
@@ -154,97 +171,31 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     "entrainment_speed": _OF_POINT["speed"],
     "sliding_speed": Quantity("m/s", "sliding speed u2 - u1"),
     "load": Quantity("N", "total load", "F_T"),
-    "contact_load": QUANTITIES["contact_load"],
-    "film_load": QUANTITIES["film_load"],
     "friction_force": Quantity("N", "tangential force on the upper surface"),
-    "boundary_force": QUANTITIES["boundary_force"],
-    "couette_force": QUANTITIES["couette_force"],
-    "rolling_force": QUANTITIES["rolling_force"],
-    "coefficient": QUANTITIES["coefficient"],
+    **{name: q for name, q in QUANTITIES.items() if name not in NOT_IN_TIME},
     "sampling_error": OF_UNCERTAINTY["sampling"],
     "shear_error": Quantity("-", "estimated relative error of f by the sum of the film's shear stress"),
     "time_error": Quantity("-", "local error of the last step over its tolerance"),
-    "inlet_film_factor": QUANTITIES["inlet_film_factor"],
     "heat_change": Quantity("-", "relative change of f by the heat of film and surfaces"),
-    "real_contact_area_fraction": QUANTITIES["real_contact_area_fraction"],
-    "plastic_area_fraction": QUANTITIES["plastic_area_fraction"],
     "edge_load": Quantity("-", "share of the contact's load on the edge columns of its patch"),
-    "load_residual": _OF_POINT["load_residual"],
-    "volume_residual": _OF_POINT["volume_residual"],
     "mass_residual": Quantity("-", "what is missing in the balance of the lubricant over the flow"),
     "steps": Quantity("-", "steps taken so far"),
-    "min_film": QUANTITIES["min_film"],
-    "central_film": QUANTITIES["central_film"],
     "mean_film": Quantity("m", "mean film thickness over A"),
-    "mean_gap": QUANTITIES["mean_gap"],
     "wet_from": Quantity("m", "begin of the pressurised film"),
     "wet_to": Quantity("m", "end of the pressurised film"),
     "max_pressure": Quantity("Pa", "largest pressure of the film"),
-    "flash_temperature_rise": QUANTITIES["flash_temperature_rise"],
-    "film_temperature_rise": QUANTITIES["film_temperature_rise"],
     "net_inflow": Quantity("m2/s", "flow into the film per unit width"),
     "stored": Quantity("m2/s", "growth of the film per unit width"),
     "cavity_growth": Quantity("m2/s", "growth of the cavities per unit width"),
 }
-KEYS = {  # of a scene, as far as they are numbers
-    "speed": _OF_POINT["speed"],
-    "bodies.radius": Quantity("m", "reduced radius"),
-    "bodies.radii": Quantity("m", "radii of both bodies"),
-    "bodies.width": Quantity("m", "length of the line contact"),
-    "bodies.load": Quantity("N", "total load"),
-    "bodies.e_prime": Quantity("Pa", "composite modulus E'"),
-    "bodies.young_modulus": Quantity("Pa", "Young's modulus of both bodies"),
-    "bodies.poisson_ratio": Quantity("-", "Poisson ratio of both bodies"),
-    "bodies.hardness": Quantity("Pa", "plastic limit of the contact pressure"),
-    "bodies.boundary_film": Quantity("m", "gap below which the bodies rub with f_b"),
-    "bodies.boundary_friction_coefficient": Quantity("-", "boundary friction coefficient"),
-    "lubricant.viscosity": Quantity("Pa s", "viscosity at ambient pressure"),
-    "lubricant.pressure_viscosity_coefficient": Quantity("1/Pa", "pressure-viscosity coefficient"),
-    "lubricant.eyring_stress": Quantity("Pa", "Eyring stress"),
-    "lubricant.carreau": Quantity("Pa, -", "critical stress and exponent of Carreau's law"),
-    "lubricant.limiting_stress_coefficient": Quantity("-", "limiting shear stress per pressure"),
-    "lubricant.limiting_stress_offset": Quantity("Pa", "limiting shear stress at ambient pressure"),
-    "lubricant.inlet_length": Quantity("m", "distance upstream of the contact where the lubricant begins"),
-    "lubricant.inlet_film": Quantity("m", "lubricant that arrives, its thickness on both surfaces together"),
-    "lubricant.temperature_coefficient": Quantity("1/K", "fall of ln(viscosity) with the temperature"),
-    "lubricant.conductivity": Quantity("W/(m K)", "thermal conductivity of the film"),
-    "motion.entrainment_speed": Quantity("m/s", "entrainment speed"),
-    "motion.speeds": Quantity("m/s", "entrainment speeds"),
-    "motion.surface_speeds": Quantity("m/s", "speeds of both surfaces"),
-    "motion.speed_range": Quantity("m/s, m/s, -", "lowest and highest speed, and how many"),
-    "motion.slide_roll_ratio": Quantity("-", "slide-roll ratio"),
-    "motion.slip_percent": Quantity("%", "slide-roll ratio in percent"),
-    "bodies.conductivity": Quantity("W/(m K)", "thermal conductivity of both bodies"),
-    "bodies.volumetric_heat": Quantity("J/(m3 K)", "heat capacity of both bodies"),
-    "bodies.hertz_pressure": Quantity("Pa", "peak Hertz pressure"),
-    "bodies.hardness_hv": Quantity("HV", "Vickers hardness"),
-    "lubricant.temperature": Quantity("K", "temperature of the oil"),
-    "lubricant.temperature_celsius": Quantity("°C", "temperature of the oil"),
-    "lubricant.viscosity_index": Quantity("-", "viscosity index"),
-    "lubricant.nu40": Quantity("m2/s", "kinematic viscosity at 40 °C"),
-    "lubricant.nu100": Quantity("m2/s", "kinematic viscosity at 100 °C"),
-    "lubricant.viscosity_table": Quantity("K, m2/s", "temperatures and kinematic viscosities"),
-    "lubricant.density": Quantity("kg/m3", "density of the oil at 15 °C"),
-    "lubricant.density_slope": Quantity("kg/(m3 K)", "fall of the density with the temperature"),
-    "surface.sq": Quantity("m", "root mean square roughness"),
-    "surface.ra": Quantity("m", "mean absolute height"),
-    "surface.rz": Quantity("m", "height of a sampling length"),
-    "surface.correlation_length": Quantity("m", "correlation length"),
-    "surface.spacing": Quantity("m", "cell size of the map"),
-    "surface.s_filter": Quantity("m", "nesting index below which the map is smoothed"),
-    "surface.l_filter": Quantity("m", "nesting index above which the map is levelled"),
-    "contact.spacing": Quantity("m", "cell size"),
-    "transient.tolerance": Quantity("-", "largest local error of the film in a step"),
-    "transient.duration": Quantity("s", "duration"),
-    "transient.initial_film": Quantity("m", "film to start from"),
-}
+_ROWS = tomllib.loads((files(__package__) / "keys.toml").read_text(encoding="utf-8")).items()
+_ROW = {f"{section}.{key}": row for section, rows in _ROWS for key, row in rows.items()}
+CHOICES = {key: row["one_of"] for key, row in _ROW.items() if "one_of" in row}  # keys of a scene that are words
+KEYS = {key: Quantity(**row) for key, row in _ROW.items() if key not in CHOICES}  # those that are numbers: section.key
+KEYS["speed"] = _OF_POINT["speed"]
 KEYS |= {
-    f"numerics.{part}tolerance": Quantity("-", f"relative tolerance {of}")
-    for part, of in {"": "on f", "sampling_": "on f, by sampling", "model_": "on f, by the model"}.items()
-} | {f"numerics.{part}_tolerance": Quantity("-", f"of the {part}") for part in ("film", "contact", "balance")}
-KEYS |= {
-    key.replace("surface.", "counterface."): Quantity(unit, f"{label}, of the other body")
-    for key, (unit, label, *_) in KEYS.items()
+    key.replace("surface.", "counterface."): Quantity(q.unit, f"{q.label}, of the other body")
+    for key, q in KEYS.items()
     if key.startswith("surface.")
 }
 OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | {  # columns of the tables of studies
@@ -289,9 +240,3 @@ def in_words(values: Any, names: Iterable[str]) -> dict[str, str]:
 def counted(count: int, plural: str) -> str:
     """How many there are, in words: "1 speed", "2 speeds"."""
     return f"{count} {plural if count != 1 else plural.removesuffix('s')}"
-
-
-def key_unit(section: str, key: str) -> str:
-    """The unit of a key of a scene, for people; "" where it has none."""
-    unit = KEYS[f"{section}.{key}"].unit if f"{section}.{key}" in KEYS else "-"
-    return "" if unit == "-" else unit

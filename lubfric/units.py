@@ -1,54 +1,26 @@
 """Units as people write them, once: for scene files, the command line, headings of tables, and results on request.
 
-A row holds the units of one kind of quantity, each as a factor to the SI unit at its head. Numbers are converted in
-decimals, so that "68 mm2/s" is 6.8e-05 m2/s to the last bit.
+Each row of units.toml holds the units of one kind of quantity, as factors to the SI unit at its head. Numbers are
+converted in decimals, so that "68 mm2/s" is 6.8e-05 m2/s to the last bit.
 """
-
-from __future__ import annotations
 
 import math
 import re
+import tomllib
 from collections.abc import Iterable
 from decimal import Decimal
+from importlib.resources import files
 from statistics import median
 from typing import Any
 
 from .errors import InputError
 
-HV = 9.80665e6 / 0.9272  # Pa: kgf/mm² over the facets of the pyramid -> pressure over the projected area
 CELSIUS = Decimal("273.15")  # K
-UNITS: dict[str, dict[str, float]] = {
-    "s": {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
-    "m/s": {"m/s": 1.0, "mm/s": 1e-3, "um/s": 1e-6, "cm/s": 1e-2, "km/h": 1 / 3.6, "m/min": 1 / 60},
-    "N": {"N": 1.0, "mN": 1e-3, "kN": 1e3, "MN": 1e6, "kgf": 9.80665, "lbf": 4.4482216152605},
-    "N/m": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3, "kN/mm": 1e6},
-    "m": {"m": 1.0, "mm": 1e-3, "um": 1e-6, "cm": 1e-2, "nm": 1e-9, "in": 0.0254, "uin": 2.54e-8},
-    "m2": {"m2": 1.0, "mm2": 1e-6, "um2": 1e-12},
-    "-": {"": 1.0, "-": 1.0, "%": 0.01},
-    "Pa s": {"Pa s": 1.0, "mPa s": 1e-3, "cP": 1e-3, "P": 0.1},
-    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "N/mm2": 1e6, "psi": 6894.757293168, "HV": HV},
-    "1/Pa": {"1/Pa": 1.0, "1/MPa": 1e-6, "1/GPa": 1e-9, "mm2/N": 1e-6},
-    "m2/s": {"m2/s": 1.0, "mm2/s": 1e-6, "cSt": 1e-6, "St": 1e-4},
-    "K": {"K": 1.0, "°C": 1.0},
-    "1/K": {"1/K": 1.0, "%/K": 0.01, "1/°C": 1.0},
-    "kg/m3": {"kg/m3": 1.0, "g/cm3": 1e3, "g/ml": 1e3, "kg/l": 1e3},
-    "kg/(m3 K)": {"kg/(m3 K)": 1.0, "g/(cm3 K)": 1e3},
-    "W/(m K)": {"W/(m K)": 1.0, "mW/(m K)": 1e-3, "kW/(m K)": 1e3},
-    "J/(m3 K)": {"J/(m3 K)": 1.0, "kJ/(m3 K)": 1e3, "MJ/(m3 K)": 1e6},
-    "Hz": {"Hz": 1.0, "kHz": 1e3, "1/s": 1.0, "1/min": 1 / 60},
-    "rad": {"rad": 1.0, "°": 3.141592653589793 / 180},
-}
-PEOPLE = {  # the units, ascending, in which a number in SI is told
-    "m": ("nm", "um", "mm", "m"),
-    "N": ("N", "kN"),
-    "N/m": ("N/mm",),
-    "m2": ("um2", "mm2"),
-    "Pa": ("kPa", "MPa", "GPa"),
-    "Pa s": ("mPa s",),
-    "1/Pa": ("1/GPa",),
-    "m2/s": ("mm2/s",),
-    "J/(m3 K)": ("MJ/(m3 K)",),
-}
+_TABLE = tomllib.loads((files(__package__) / "units.toml").read_text(encoding="utf-8"))
+UNITS: dict[str, dict[str, float]] = _TABLE["units"]
+PEOPLE: dict[str, list[str]] = _TABLE["people"]
+SANE: dict[str, list[float]] = _TABLE["sane"]
+HV = UNITS["Pa"]["HV"]
 NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\d.,])\s*(.*?)\s*")
 MICRO = "\N{MICRO SIGN}\N{GREEK SMALL LETTER MU}"
 RAISED = str.maketrans("23", "²³")

@@ -1,4 +1,5 @@
-"""Numbers and laws of other people, each once, with its source. This is a leaf: it imports nothing of this project.
+"""Numbers and laws of other people, each once; their sources are in references.toml. This is a leaf: it imports nothing
+of this project.
 
 `lubfric` and the solvers of `verification` keep constants of their own, and do not import this. The checks of grade A
 (`verification.published`) hold both against it. All units are SI unless a name says otherwise.
@@ -11,17 +12,22 @@ their text could not be had, 5 % is taken for all alike (`UNSTATED`).
 from __future__ import annotations
 
 import math
+import tomllib
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from scipy.special import erf
 
 UNSTATED = 0.05
-PRINTED = "printed"
-LAW = "a law that many books print"
-TRANSCRIBED = "transcribed from the publication, not confirmed in a second place"
-QUOTED = "as another publication quotes it, not confirmed in a second place"
-DERIVED = "quadrature of the published equations"
+GOT = {
+    "printed": "printed",
+    "law": "a law that many books print",
+    "derived": "quadrature of the published equations",
+    "read": "read in the publication's text",
+    "transcribed": "transcribed from the publication, not confirmed in a second place",
+    "quoted": "as another publication quotes it, not confirmed in a second place",
+}
 
 
 @dataclass(frozen=True)
@@ -32,7 +38,7 @@ class Source:
     words: str
     place: str
     got: str
-    error: float
+    error: float = UNSTATED
     note: str = ""
 
     @property
@@ -41,139 +47,13 @@ class Source:
         return "; ".join(filter(None, (f"{self.words}, {self.place}", self.got, self.note)))
 
 
-SOURCES: dict[str, Source] = {
-    "hertz": Source("H. Hertz, J. reine angew. Math. 92 (1882) 156", "line contact", LAW, 0.0),
-    "westergaard": Source("H. M. Westergaard, J. Appl. Mech. 6 (1939) A49", "sinusoidal waves", LAW, 0.0),
-    "jgh": Source(
-        "K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383",
-        "asymptotes of the bisinusoid",
-        LAW,
-        UNSTATED,
-    ),
-    "bush": Source(
-        "A. W. Bush, R. D. Gibson, T. R. Thomas, Wear 35 (1975) 87; B. N. J. Persson, J. Chem. Phys. 115 (2001) 3840",
-        "area over load, two theories",
-        LAW,
-        0.0,
-        "sqrt(2 pi) and sqrt(8/pi) are taken as the ends of a band",
-    ),
-    "xu": Source(
-        "Y. Xu, L. Zhu, F. Xiao, Y. Zhou, Tribol. Lett. 72 (2024), doi:10.1007/s11249-024-01838-4",
-        "their data (github.com/xylcsi/PerssonModelFudgeFactor): self-affine surfaces, H = 0.8",
-        TRANSCRIBED,
-        UNSTATED,
-        "patch and cells are not told; two sets of areas differ by 2 to 5 %: their mean is taken",
-    ),
-    "challenge": Source(
-        "A. Wang, M. H. Müser, Tribol. Lett. 65 (2017) 103: surface of the contact-mechanics challenge, no adhesion",
-        "pressures of Fig. 2 at 0.01 of E* times slope, integrated",
-        "digitised by Y. Xu (as above), not confirmed in a second place",
-        0.05,
-        "the load read back from it is 3 % too high; the challenge's own numbers have adhesion, and were not had",
-    ),
-    "longuet": Source("M. S. Longuet-Higgins, Phil. Trans. A 249 (1957) 321", "density of maxima", LAW, 0.0),
-    "martin": Source("H. M. Martin, Engineering 102 (1916) 119", "rigid cylinder, constant viscosity", DERIVED, 2e-6),
-    "swift": Source("H. W. Swift, Proc. ICE 233 (1932) 267; W. Stieber 1933", "film rupture", DERIVED, 2e-6),
-    "blok": Source("H. Blok, Proc. Int. Symp. Lubrication and Wear, Houston 1963", "rigid, Barus", LAW, UNSTATED),
-    "moes": Source(
-        "G. Nijenbanning, C. H. Venner, H. Moes, Wear 176 (1994) 217; H. Moes, Lubrication and Beyond, 2000",
-        "film of line contacts",
-        LAW,
-        UNSTATED,
-    ),
-    "grubin": Source("A. N. Grubin, TsNIITMASh 30 (1949)", "film formula", LAW, UNSTATED),
-    "dowson66": Source(
-        "D. Dowson, G. R. Higginson, Elasto-Hydrodynamic Lubrication, 1966", "smallest film", LAW, UNSTATED
-    ),
-    "dowson78": Source(
-        "D. Dowson, S. Toyoda, 5th Leeds-Lyon Symp. (1978) 60",
-        "central film",
-        LAW,
-        UNSTATED,
-        "an oil of constant density is assumed: only so is theirs 1.3 to 1.4 times the smallest film of 1966",
-    ),
-    "fowell": Source(
-        "M. Fowell, A. V. Olver, A. D. Gosman, H. A. Spikes, I. Pegg, J. Tribol. 129 (2007) 336",
-        "pad with a band across it in which the film ruptures",
-        DERIVED,
-        1e-6,
-        "as in Study E4 of github.com/ErikHansenGit/EHL, without ambient pressure",
-    ),
-    "bertocchi": Source(
-        "L. Bertocchi, D. Dini, M. Giacopini, M. T. Fowell, A. Baldini, Tribol. Int. 67 (2013) 61",
-        "pressure behind a pocket, middle line",
-        "digitised by E. Hansen (github.com/ErikHansenGit/EHL, public domain), not confirmed in a second place",
-        0.02,
-    ),
-    "biboulet": Source(
-        "N. Biboulet, L. Houpert, Proc. IMechE J 224 (2010) 765, doi:10.1243/13506501JET790",
-        "eqs. 42 and 44: rolling force and its part in a starved inlet, M = 0.2 to 200, L = 4 to 16",
-        TRANSCRIBED,
-        UNSTATED,
-        "Barus, density of Dowson and Higginson; 'few per cents' that depend on M and L are left out",
-    ),
-    "biboulet-rigid": Source("N. Biboulet, L. Houpert 2010", "eq. 40, the rigid limit", TRANSCRIBED, 0.036),
-    "johnson": Source(
-        "K. L. Johnson, J. L. Tevaarwerk, Proc. R. Soc. A 356 (1977) 215; C. R. Evans, K. L. Johnson 1986",
-        "mean Eyring stress",
-        LAW,
-        UNSTATED,
-    ),
-    "nahme": Source("R. Nahme, Ing.-Arch. 11 (1940) 191, doi:10.1007/BF02086920", "sheared film", LAW, 1e-6),
-    "blok-flash": Source("H. Blok, General Discussion on Lubrication, IMechE 2 (1937) 222", "Hertz band", LAW, 5e-3),
-    "jaeger": Source("J. C. Jaeger, Proc. R. Soc. N.S.W. 76 (1942) 203", "uniform band, fast", LAW, 1e-4),
-    "gupta": Source("P. K. Gupta et al., Tribol. Trans. 35 (1992) 269", "inlet heat, factor", LAW, 1e-3),
-    "wilson": Source("A. V. Olver, H. A. Spikes, Proc. IMechE J 212 (1998) 321", "inlet heat, factor", LAW, 1e-3),
-    "d2270": Source("ASTM D2270 / ISO 2909", "by the package chemicals too", LAW, 5e-4, "two sources"),
-    "d341": Source("ASTM D341", "five oils by m and n", TRANSCRIBED, 1e-3),
-    "roelands": Source("C. J. A. Roelands, thesis, Delft 1966", "viscosity under pressure", LAW, 1e-3),
-    "density": Source("D. Dowson, G. R. Higginson 1966", "density under pressure", LAW, 1e-3),
-    "so-klaus": Source("B. Y. C. So, E. E. Klaus, ASLE Trans. 23 (1980) 409", "mineral VG 100, VI 95", QUOTED, 0.02),
-    "gold": Source("P. W. Gold et al., J. Synthetic Lubrication 18 (2001) 51", "alpha = s ν^t", TRANSCRIBED, 1e-3),
-    "arana": Source(
-        "A. Arana et al., Proc. IMechE J (2019)", "three oils of a twin-disc rig", TRANSCRIBED, 0.04, "their fits, 4 %"
-    ),
-    "stachowiak": Source(
-        "G. W. Stachowiak, A. W. Batchelor, Engineering Tribology", "Table 2.3", TRANSCRIBED, UNSTATED
-    ),
-    "venner": Source(
-        "C. H. Venner, F. Couhier, A. A. Lubrecht, J. A. Greenwood, Tribology Series 32 (1997) 103, "
-        "doi:10.1016/s0167-8922(08)70440-1",
-        "Table 1: amplitude reduction, line contact, pure rolling, M = 100, L = 11",
-        TRANSCRIBED,
-        UNSTATED,
-        "another project's copy of the table has the same 18 numbers",
-    ),
-    "venner-fit": Source(
-        "C. H. Venner, F. Couhier, A. A. Lubrecht, J. A. Greenwood 1997",
-        "eq. 5, which is made for A_d/A_i up to 0.5",
-        TRANSCRIBED,
-        0.1,
-    ),
-    "greenwood": Source(
-        "J. A. Greenwood, G. E. Morales-Espejel, Proc. IMechE J 208 (1994) 121",
-        "Tables 1 and 2, a case of Kweh: waves at rest",
-        TRANSCRIBED,
-        0.01,
-        "three digits, and linear in the height; their pressure is not told: at 1.016 GPa the density of Dowson and "
-        "Higginson is as stiff as in both of their rows",
-    ),
-    "hooke": Source(
-        "C. J. Hooke, Proc. IMechE J 220 (2006) 259, doi:10.1243/13506501JET146",
-        "eqs. 12 and 19: waves that move through an even film, Eyring",
-        TRANSCRIBED,
-        0.0,
-        "within 1 % of the roughness of his own solutions",
-    ),
-    "shares": Source(
-        "a twin disc (contact resistance), Zhou and Hoeprich (raceways), Aihara, Doleschel",
-        "load share of the asperities",
-        QUOTED,
-        0.0,
-        "the band that four laws span",
-    ),
-    "paper": Source("the paper that lubfric implements", "Tables 1 and 2, Sec. 3.2, Fig. 9", PRINTED, 0.0),
-}
+def _sources() -> dict[str, Source]:
+    """Those of references.toml, by key."""
+    rows = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
+    return {key: Source(**row | {"got": GOT.get(row["got"], row["got"])}) for key, row in rows.items()}
+
+
+SOURCES = _sources()
 
 # ---- dry contact
 
@@ -194,9 +74,6 @@ def bisinusoid_area(share: float) -> float:
     """Contact area fraction of ``amplitude cos cos`` near either end of the share p/p*; p* = sqrt(2) pi E*
     amplitude/wavelength."""
     return math.pi * (3 * share / (8 * math.pi)) ** (2 / 3) if share < 0.5 else 1 - 3 / (2 * math.pi) * (1 - share)
-
-
-AREA_OVER_LOAD = (math.sqrt(8 / math.pi), math.sqrt(2 * math.pi))  # of p/(E* rms slope): Persson; Bush et al.
 
 
 # self-affine, waves from 1 to 100, by load over E* times slope: mean gap over Sq, area by both sets, mean square
@@ -406,12 +283,12 @@ D341 = {  # m, n: at 40, 70 and 100 °C
     (6.5834, 2.4898): (218.78, 72.49, 31.906),
 }
 SO_KLAUS = {40: 28.0, 70: 21.0}  # mineral, VG 100, VI 95
-TWIN_DISC: dict[
-    str, tuple[float, float, str, float, float, dict[int, float]]
-] = {  # at 40 and 100 °C, base, density at 15.6 °C, limiting stress over pressure; alpha by temperature
-    "naphthenic": (97.9, 8.61, "mineral", 900, 0.053, {40: 27.3, 60: 22.9, 80: 19.8, 100: 17.4}),
-    "paraffinic (FVA 3)": (96.0, 10.6, "mineral", 882, 0.047, {40: 20.9, 60: 19.1, 80: 17.5, 100: 16.3}),
-    "PAO": (94.1, 14.0, "pao", 840, 0.035, {40: 15.4, 60: 13.8, 80: 12.4, 100: 11.3}),
+RIG_OILS: dict[str, tuple[str, float, float, str, float, dict[int, float]]] = {
+    # source; at 40 and 100 °C, base, density at 15.6 °C; alpha by temperature
+    "naphthenic": ("arana", 97.9, 8.61, "mineral", 900, {40: 27.3, 60: 22.9, 80: 19.8, 100: 17.4}),
+    "paraffinic (FVA 3)": ("arana", 96.0, 10.6, "mineral", 882, {40: 20.9, 60: 19.1, 80: 17.5, 100: 16.3}),
+    "PAO": ("arana", 94.1, 14.0, "pao", 840, {40: 15.4, 60: 13.8, 80: 12.4, 100: 11.3}),
+    "FVA 3A": ("manjunath", 90.02, 10.41, "mineral", 884.1, {25: 21.6, 80: 15.8}),
 }
 MACHINE_OILS: dict[str, dict[int, tuple[float, float]]] = {  # dynamic viscosity [mPa s], alpha at each temperature
     "heavy machine oil": {30: (153, 23.7), 60: (34, 20.5), 100: (9.1, 15.8)},
@@ -434,13 +311,13 @@ def density(pressure: float) -> float:
 
 # ---- mixed lubrication
 
-LOAD_SHARES = {  # of the asperities, over film/Sq
-    "1 - erf(Λ), twin disc": lambda ratio: 1 - erf(ratio),
-    "exp(-2.32 Λ^.97), raceways (Zhou & Hoeprich)": lambda ratio: np.exp(-2.32 * ratio**0.97),
-    "exp(-1.8 Λ^1.2) (Aihara)": lambda ratio: np.exp(-1.8 * ratio**1.2),
-    "(1 - Λ/2)² (Doleschel)": lambda ratio: np.maximum(1 - ratio / 2, 0) ** 2,
+LOAD_SHARES = {  # of the asperities, over film/Sq; Doleschel has the film over the mean Ra of two surfaces, here alike
+    "1 - erf(Λ) (Arana)": lambda ratio: 1 - erf(ratio),
+    "exp(-2.32 Λ^.97) (Zhou & Hoeprich)": lambda ratio: np.exp(-2.32 * ratio**0.97),
+    "exp(-1.8 Λ^1.2) (Patir & Cheng)": lambda ratio: np.exp(-1.8 * ratio**1.2),
+    "(1 - √π Λ/2)² (Doleschel)": lambda ratio: np.maximum(1 - math.sqrt(math.pi) * ratio / 2, 0) ** 2,
 }
-PAPER = {"mean Hertz pressure": 102e6, "half-width": 4.5e-6, "film load at 0.001 m/s": 0.225}  # Pa, m, N
+PAPER = {"mean Hertz pressure": 102e6, "half-width": 4.5e-6}  # Pa, m
 
 
 def load_share_band(ratios) -> tuple[np.ndarray, np.ndarray]:

@@ -1,7 +1,5 @@
 """Pictures: what they share, and results drawn on given axes or on new ones of pyplot."""
 
-from __future__ import annotations
-
 import io
 from typing import Any
 
@@ -11,6 +9,7 @@ from ..quantities import axis_label
 
 BLUE, RED, GREEN, GREY = "#1f5a94", "#b3392f", "#2f7d4f", "#6b6b6b"
 FRICTION = axis_label("coefficient")
+LETTER = 3.8  # pt: width of one in a key, about
 SLENDER = 4.0  # ratio of the sides beyond which a map is not drawn to scale
 
 
@@ -36,13 +35,13 @@ def plain_words(text: str) -> str:
     return text.replace("$", r"\$")
 
 
-def axes_or_new(ax):
+def axes_or_new(ax, layout="constrained"):
     """``ax``, or the axes of a new figure."""
     if ax is not None:
         return ax
     from matplotlib import pyplot
 
-    return pyplot.subplots(figsize=(7, 4.5), layout="constrained")[1]
+    return pyplot.subplots(figsize=(7, 4.5), layout=layout)[1]
 
 
 def friction_lines(axes, x, parts, **style) -> None:
@@ -86,10 +85,18 @@ def speed_label(speed: np.ndarray) -> str:
     return f"entrainment speed |U| (m/s), {'both directions' if (speed > 0).any() else 'backwards'}"
 
 
-def key_above(axes, columns: int = 3) -> None:
-    """The key of the lines above the axes, where it hides none."""
+def key_above(axes, columns: int = 3) -> int:
+    """The key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has room
+    for; returns the number of rows."""
+    labels, room = axes.get_legend_handles_labels()[1], 72 * 0.88 * axes.figure.get_figwidth() / LETTER
+    rows = -(-len(labels) // columns)
+    while (
+        rows < len(labels) and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, len(labels), rows)) > room
+    ):
+        rows += 1
     place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}
-    axes.legend(ncols=columns, frameon=False, fontsize=8, **place)
+    axes.legend(ncols=-(-len(labels) // max(rows, 1)) or 1, frameon=False, fontsize=8, **place)
+    return rows
 
 
 def field_image(axes, x, y, values, colours: str, label: str, extend: str = "neither", **options):

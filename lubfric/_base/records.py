@@ -1,8 +1,6 @@
 """How dataclasses of results and scenes behave: arrays stay read-only, derived values are not pickled, and they print
 as one line, as a table in notebooks, or as the call that makes them."""
 
-from __future__ import annotations
-
 from dataclasses import MISSING, Field, fields
 from html import escape
 from typing import Any

@@ -1,7 +1,5 @@
 """One bracketed root of an increasing function; it stops by the value of the function, not by the step."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

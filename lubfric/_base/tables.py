@@ -1,8 +1,6 @@
 """Tables as text: those of results, written and read back, and columns of numbers in files from elsewhere (headings
 with units, any usual separator and decimal mark). Results in JSON types."""
 
-from __future__ import annotations
-
 import csv
 import io
 import json

@@ -1,7 +1,5 @@
 """Checks of input values; each failure names quantity, value, allowed range and unit."""
 
-from __future__ import annotations
-
 import difflib
 import math
 import os
@@ -16,25 +14,12 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..quantities import KEYS
-from ..units import UNITS, spelled, without_unit
+from ..quantities import CHOICES, KEYS
+from ..units import SANE, UNITS, spelled, without_unit
 
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
 LEAST, LARGEST = 1e-100, 1e100  # of any number: beyond it powers of it overflow
-SANE = {  # unit: least and largest magnitude of a quantity given; far beyond what exists, so that nothing overflows
-    "m": (1e-30, 1e6),
-    "m/s": (1e-30, 1e30),
-    "N": (1e-30, 1e15),
-    "N/m": (1e-30, 1e15),
-    "Pa": (1e-12, 1e18),
-    "Pa s": (1e-12, 1e12),
-    "1/Pa": (1e-30, 1e6),
-    "s": (1e-18, 1e12),
-    "Hz": (1e-12, 1e18),
-    "1/K": (1e-30, 1e6),
-    "(-)": (1e-60, 1e60),
-}
 NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates
 
 
@@ -134,6 +119,27 @@ def nonnegative(name: str, value: Any, unit: str, *, maximum: float = math.inf) 
     return number(name, value, unit, minimum=0.0, maximum=maximum)
 
 
+def in_range(section: str, part: Any, prefix: str | None = None) -> None:
+    """Check the numbers and the choices among the fields of a ``section`` of a scene by what keys.toml says of them;
+    None is let pass where it is the default. ``prefix``: of their names in messages (None: the section)."""
+    for key, field in part.__dataclass_fields__.items():
+        name, value = f"{section}.{key}", getattr(part, key)
+        called = name if prefix is None else prefix + key
+        if name in CHOICES:
+            choice(called, value, CHOICES[name])
+        elif name in KEYS and KEYS[name].limited and (value is not None or field.default is not None):
+            of_key(name, value, called)
+
+
+def of_key(name: str, value: Any, called: str | None = None) -> float:
+    """A number that the key ``name`` of a scene can have, by keys.toml; ``called``: its name in messages."""
+    q = KEYS[name]
+    unit = "(-)" if q.unit == "-" else q.unit
+    if q.above == 0:
+        return positive(called or name, value, unit, maximum=q.most)
+    return number(called or name, value, unit, minimum=q.least, maximum=q.most)
+
+
 def integer(name: str, value: Any, *, minimum: int, maximum: int | None = None) -> int:
     """A whole number >= ``minimum`` and <= ``maximum``."""
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, (bool, np.timedelta64))
@@ -211,11 +217,14 @@ def folder(name: str, value: Any) -> Path:
 def real_array(name: str, value: Any, unit: str) -> np.ndarray:
     """``value`` as an array of floats of any shape, in which NaN and infinity may stand. A mask is dropped."""
     odd = _odd_entry(value, DEEPEST)
-    value = in_plain(name, value, unit) if not odd and _has_text(value, DEEPEST) else value
     try:
         found = np.empty(0) if odd else np.asarray(value)
+        if found.dtype.kind == "U":
+            found = np.asarray(in_plain(name, value, unit))
         if found.dtype.kind == "O":
             found = np.array([_real(x) for x in found.ravel()], dtype=float).reshape(found.shape)
+    except InputError:
+        raise
     except (TypeError, ValueError, OverflowError, RecursionError):
         instead = f"its .heights [{unit}]" if hasattr(value, "heights") else ""
         told = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"
@@ -233,13 +242,6 @@ def _odd_entry(value: Any, depth: int) -> str:
     if isinstance(value, (bool, np.bool_)):
         return "truth values"
     return "masked values" if value is np.ma.masked else ""
-
-
-def _has_text(value: Any, depth: int) -> bool:
-    """Whether a list holds text."""
-    if isinstance(value, (list, tuple)) and depth > 0:
-        return any(_has_text(v, depth - 1) for v in value)
-    return isinstance(value, str) or isinstance(value, np.ndarray) and value.dtype.kind == "U"
 
 
 def choice(name: str, value: Any, options: Iterable) -> Any:

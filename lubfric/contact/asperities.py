@@ -81,7 +81,7 @@ class AsperityContact(FieldsOnly, RoughContact):
                     f"{self.scene.contact.model} cannot carry {load:.4g} N on a width of {width:.3g} m: below the "
                     "deepest valley at the end of the search"
                 )
-        nearest = 0.1 * self.scene.numerics.tolerances.contact * max(weighted_mean(film, self.weight), 1e-3 * span)
+        nearest = 0.1 * self.scene.numerics.tolerance_of("contact") * max(weighted_mean(film, self.weight), 1e-3 * span)
         return brentq(lambda a: carried(a) / target - 1, last, approach, xtol=nearest, rtol=1e-12)
 
     @property

@@ -274,7 +274,7 @@ def flat_contact(scene: Scene, heights, spacing) -> FlatContact:
         curve = contact_curve(
             *given,
             **limits,
-            tolerance=numerics.tolerances.contact,
+            tolerance=numerics.tolerance_of("contact"),
             accuracy=budget.CURVE * numerics.tolerance,
             operator=half_space(heights.shape, spacing, bodies.e_prime, workers=numerics.workers),
         )

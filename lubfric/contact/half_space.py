@@ -141,5 +141,5 @@ def half_space_contact(
         operator=operator,
         width=bodies.width,
         hardness=bodies.hardness,
-        tolerance=numerics.tolerances.contact,
+        tolerance=numerics.tolerance_of("contact"),
     )

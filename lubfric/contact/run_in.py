@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import BLUE, GREY, FrozenArrays, Shown, axes_or_new, instance, validate
+from .._base import FrozenArrays, Shown, figures, validate
 from ..errors import InputError
 from ..scene import Scene
 from ..surface import Surface
@@ -66,8 +66,8 @@ class RunIn(FrozenArrays, Shown):
 
     def plot(self, ax=None):
         """The bearing curves before and after, on ``ax`` or new axes, which are returned."""
-        axes, (share, *heights) = axes_or_new(ax), self.bearing()
-        for z, colour, label in zip(heights, (GREY, BLUE), ("before", "run in")):
+        axes, (share, *heights) = figures.axes_or_new(ax), self.bearing()
+        for z, colour, label in zip(heights, (figures.GREY, figures.BLUE), ("before", "run in")):
             axes.plot(100 * share, z * NM, color=colour, label=label)
         axes.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
         axes.legend()
@@ -121,7 +121,7 @@ def run_in(
     InputError : a scene without hardness, or with two rough bodies and no ``surface``; a value out of range
     ConvergenceError : a contact that could not be solved
     """
-    instance("scene", scene, Scene, "what lubfric.load_scene returned")
+    validate.instance("scene", scene, Scene, "what lubfric.load_scene returned")
     passes = validate.integer("passes", passes, minimum=1, maximum=10_000)
     tolerance = validate.positive("tolerance", tolerance, "m", minimum=1e-15, maximum=1e-3)
     before = _whole(scene, surface)
@@ -202,7 +202,7 @@ def _passed(scene: Scene, surface: Surface, heights, centres: Iterable[int], ope
         "mean_pressure": bodies.load / (bodies.width * count * surface.spacing[0]),
         "hardness": bodies.hardness,
         "boundary": BOUNDARY,
-        "tolerance": min(SHARP, scene.numerics.tolerances.contact),
+        "tolerance": min(SHARP, scene.numerics.tolerance_of("contact")),
         "operator": operator,
     }
     left, deepest, pressure, last = heights.copy(), 0.0, None, 0

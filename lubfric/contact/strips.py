@@ -14,8 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from .._base import FieldsOnly
-from .._base import spacing as checked_spacing
+from .._base import FieldsOnly, validate
 from ..errors import InputError
 from ..scene import Roughness, Scene
 from ..surface import Surface, surface_generator
@@ -79,9 +78,9 @@ class Strips:
         """Strip number ``index`` alone, its last rows passing into its first."""
         return self.joined([index])
 
-    def piece(self, index: int) -> Surface:
-        """A piece on the scene's own cells, some 42 correlation lengths long: number ``index`` of ``pieces``. Every
-        n-th of its cells, in each direction, gives the coarse cells to compare it with."""
+    def piece(self, index: int, length: float = PIECE) -> Surface:
+        """A piece on the scene's own cells, some ``length`` correlation lengths long: number ``index`` of ``pieces``.
+        Every n-th of its cells, in each direction, gives the coarse cells to compare it with."""
         raise NotImplementedError
 
     def halved(self) -> Strips:
@@ -101,9 +100,9 @@ class GeneratedStrips(FieldsOnly, Strips):
         known.update((i, s) for i, s in zip(indices, strips) if i < KEPT_CELLS // math.prod(shape))
         return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
 
-    def piece(self, index: int) -> Surface:
+    def piece(self, index: int, length: float = PIECE) -> Surface:
         fx, fy = self.cells.factors
-        rows = self.cells.rows(PIECE * self.lengths[1]) * fy
+        rows = self.cells.rows(length * self.lengths[1]) * fy
         return self._generator(PIECES, self.cells.spacing, (self.cells.count * fx, rows))(index)
 
     @cached_property
@@ -151,9 +150,9 @@ class MeasuredStrips(Strips):
         note = f"{len(pieces)} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
 
-    def piece(self, index: int) -> Surface:
+    def piece(self, index: int, length: float = PIECE) -> Surface:
         whole, blend, unit = self._columns(self.starts[index]), self._blend, 4 * self.cells.factors[1]
-        wanted = round(PIECE * self.lengths[1] / self.surface.spacing[1])
+        wanted = round(length * self.lengths[1] / self.surface.spacing[1])
         rows = min(whole.shape[1] - blend, wanted) // unit * unit
         first = (whole.shape[1] - rows - blend) // 2
         piece = stacked([whole[:, first : first + rows + blend]], blend)[:, :rows]
@@ -184,7 +183,7 @@ class OnePatch(Strips):
         heights = self.cells.thinned(self.surface.heights, self.cells.factors)
         return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
 
-    def piece(self, index: int) -> Surface:
+    def piece(self, index: int, length: float = PIECE) -> Surface:
         return self.surface
 
 
@@ -202,7 +201,7 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     patch, bodies = scene.contact, [rough for rough, _ in rough_bodies(scene)]
     if patch.shape is None or patch.spacing is None:
         raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
-    spacing, half_width = checked_spacing("contact.spacing", patch.spacing), scene.bodies.half_width
+    spacing, half_width = validate.spacing("contact.spacing", patch.spacing), scene.bodies.half_width
     along_x, along_y = zip(*(correlation_lengths(rough) for rough in bodies if rough.sq))
     shortest, lengths = (min(along_x), min(along_y)), (max(along_x), max(along_y))
     if patch.region == "box":

@@ -8,14 +8,13 @@ from .moving import (
     RoughBody,
     moments,
     moving_work,
-    shifted,
     solve_moving_strip,
     travelling,
 )
 from .newton import Work, newton
 from .pictures import animate_moments, plot_moments, plot_passing
 from .point import Refined, Strip, change_by_flow, change_of, changes_of, estimate, solve_strip, work_of, work_of_steps
-from .problem import BOUNDARY_FILM, Problem, lay_out, reach
+from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, evaluated, residuals

@@ -92,7 +92,8 @@ def couette_flow(problem: Problem, mass, fill) -> CouetteFlow:
 class Balance:
     """Outflow minus inflow of each cell, ``residual`` [m/s] (nx, ny), and its parts.
 
-    film: the gap for the flow, at least the floor [m].
+    film: the gap for the flow, at least the floor [m]. ``end``: the pressure flow out of the last cells, beyond which
+    p = 0; they have ruptured, but for a film that is squeezed out.
     """
 
     residual: np.ndarray
@@ -100,6 +101,7 @@ class Balance:
     fluid: CellFluid
     along: PressureFlow
     across: PressureFlow
+    end: PressureFlow
     couette: CouetteFlow
     inlet: Inlet
 
@@ -110,16 +112,19 @@ def balance(problem: Problem, pressure, gap, fill=1.0) -> Balance:
     film = np.maximum(gap, problem.floor)
     fluid = cell_fluid(problem.lubricant, np.maximum(pressure, 0.0))
     along, across = (pressure_flow(problem, fluid, pressure, film, axis) for axis in (0, 1))
+    last = np.stack([np.maximum(pressure[-1], 0.0), np.zeros_like(pressure[-1])])
+    end = pressure_flow(problem, cell_fluid(problem.lubricant, last), last, np.stack([film[-1]] * 2), 0)
     couette = couette_flow(problem, fluid.density * film, fill)
     upstream = inlet(problem, pressure[0], film[0])
     residual = couette.flow.copy()
     residual[1:] -= couette.flow[:-1]
     residual[0] -= upstream.flow
+    residual[-1] += end.flow[0]
     residual[:-1] += along.flow
     residual[1:] -= along.flow
     residual /= dx
     residual += (across.flow - np.roll(across.flow, 1, axis=1)) / dy
-    return Balance(residual, film, fluid, along, across, couette, upstream)
+    return Balance(residual, film, fluid, along, across, end, couette, upstream)
 
 
 class Stencil:
@@ -167,6 +172,8 @@ def derivatives(problem: Problem, at: Balance, open_) -> tuple[np.ndarray, np.nd
         stencil.add("WW", -before[1:-1] * factor[:-2], here=slice(2, None))
     by_fill.add(0, at.couette.by_fill / dx)
     by_fill.add("W", -at.couette.by_fill[:-1] / dx, here=slice(1, None))
+    by_p.add(0, at.end.by_p[0] / dx, here=slice(-1, None))
+    by_h.add(0, (at.end.by_h[0] + at.end.by_h[1]) / dx, here=slice(-1, None))
     by_p.add(0, -at.inlet.by_pressure / dx, here=slice(0, 1))
     by_h.add(0, -at.inlet.by_film / dx, here=slice(0, 1))
     by_h.data *= np.asarray(open_, bool).ravel()[Stencil.neighbours(*at.film.shape)]

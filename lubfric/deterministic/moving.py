@@ -28,7 +28,7 @@ from ..scene import Scene
 from ..surface import Surface
 from .newton import Found, Work, newton
 from .point import Strip, solve_strip, work_of_steps
-from .problem import Problem
+from .problem import Problem, shifted
 from .result import DeterministicResult, LoadSplit, assemble
 from .solve import solve_point
 from .state import RUPTURED, Iterate, State, evaluated, residuals
@@ -166,23 +166,6 @@ def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float
         return replace(problem, heights=np.sum(heights, axis=0), upper=upper[0] if upper else None)
 
     return at
-
-
-def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:
-    """Of a distance [m] along x by which ``surface`` has moved, its heights [m] on the cells of ``problem``, which are
-    its own or several times as long.
-
-    It is shifted by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
-    """
-    (nx, ny), dx = surface.shape, surface.spacing[0]
-    fy = ny // problem.heights.shape[1]
-    heights = surface.heights[:, fy // 2 :: fy] - surface.heights.mean()
-    if not surface.periodic_axes[0]:
-        heights = np.concatenate([heights, heights[::-1]])
-    period = heights.shape[0]
-    place = np.rint(problem.x / dx + (nx - 1) / 2).astype(int) % period
-    waves, k = np.fft.rfft(heights, axis=0), 2 * np.pi * np.fft.rfftfreq(period, dx)
-    return lambda s: np.fft.irfft(waves * np.exp(-1j * k * s)[:, None], n=period, axis=0)[place]
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base import BLUE, GREEN, GREY, RED, field_image, key_above, new_figure
+from .._base import figures
 from .moving import Moment, MovingStrip, half_width
 
 MOST = 8  # moments side by side
@@ -17,7 +17,7 @@ TIME = "time since the roughness began to move (ms)"
 def plot_moments(path: Path | str, moments: Sequence[Moment]) -> None:
     """Gap and pressure at up to eight ``moments``, one column each."""
     shown = moments[:: -(-len(moments) // MOST)]
-    figure = new_figure(figsize=(2.4 * len(shown) + 1, 6))
+    figure = figures.new_figure(figsize=(2.4 * len(shown) + 1, 6))
     for column, moment in zip(figure.subplots(2, len(shown), squeeze=False, sharex=True, sharey="row").T, shown):
         _fields(column, moment, *_limits(shown))
     figure.savefig(path, dpi=130)
@@ -27,7 +27,7 @@ def animate_moments(path: Path | str, moments: Sequence[Moment], frames_per_seco
     """Gap and pressure as an animated GIF, one frame a moment."""
     from matplotlib.animation import FuncAnimation, PillowWriter
 
-    figure = new_figure(figsize=(5, 5.5))
+    figure = figures.new_figure(figsize=(5, 5.5))
     limits = _limits(moments)
 
     def draw(number: int):
@@ -41,25 +41,25 @@ def animate_moments(path: Path | str, moments: Sequence[Moment], frames_per_seco
 
 def plot_passing(path: Path | str, strip: MovingStrip) -> None:
     """Film, share of the load that rubs with f_b, and f over time; what does not count is grey."""
-    figure = new_figure(figsize=(7, 6.5))
+    figure = figures.new_figure(figsize=(7, 6.5))
     film, share, f = figure.subplots(3, 1, sharex=True)
     series, t = strip.series, 1e3 * strip.times
     for name, label, color in (
-        ("mean_gap", "mean gap", BLUE),
-        ("central_gap", "at x = 0", GREEN),
-        ("min_gap", "smallest", GREY),
+        ("mean_gap", "mean gap", figures.BLUE),
+        ("central_gap", "at x = 0", figures.GREEN),
+        ("min_gap", "smallest", figures.GREY),
     ):
         film.plot(t, 1e9 * series[name], color=color, label=label, lw=1)
-    share.plot(t, series["share"], color=RED, lw=1)
-    f.plot(t, series["coefficient"], color=BLUE, lw=1)
+    share.plot(t, series["share"], color=figures.RED, lw=1)
+    f.plot(t, series["coefficient"], color=figures.BLUE, lw=1)
     rest = strip.rest.result
-    share.axhline(rest.split.spots / rest.load, color=GREY, ls="--", lw=0.8, label="roughness at rest")
-    f.axhline(rest.coefficient, color=GREY, ls="--", lw=0.8)
+    share.axhline(rest.split.spots / rest.load, color=figures.GREY, ls="--", lw=0.8, label="roughness at rest")
+    f.axhline(rest.coefficient, color=figures.GREY, ls="--", lw=0.8)
     for axes, label in ((film, "gap (nm)"), (share, "share of the load\nthat rubs with f_b (-)"), (f, "f (-)")):
-        axes.axvspan(0, t[strip.discarded - 1], color=GREY, alpha=0.2, lw=0)
+        axes.axvspan(0, t[strip.discarded - 1], color=figures.GREY, alpha=0.2, lw=0)
         axes.set(ylabel=label, xlim=(0, t[-1]), ylim=(0, None))
-    key_above(film)
-    key_above(share)
+    figures.key_above(film)
+    figures.key_above(share)
     f.set_xlabel(TIME)
     figure.savefig(path, dpi=130)
 
@@ -80,9 +80,9 @@ def _fields(axes, moment: Moment, gap: float, pressure: float) -> None:
         (axes[1], 1e-9 * moment.at.state.pressure, pressure, "magma_r", "pressure (GPa)"),
     ):
         if y.size == 1:
-            one.plot(1e6 * problem.x, values[:, 0], color=BLUE, lw=1)
+            one.plot(1e6 * problem.x, values[:, 0], color=figures.BLUE, lw=1)
             one.set(ylim=(0, most), xlabel="x (µm)", ylabel=label)
         else:
-            field_image(one, problem.x, y, values, colours, label, vmin=0, vmax=most)
+            figures.field_image(one, problem.x, y, values, colours, label, vmin=0, vmax=most)
         one.label_outer()
     axes[0].set_title(f"{1e3 * moment.time:.3g} ms", fontsize=9)

@@ -15,6 +15,7 @@ On a grid of cells (nx, ny), x along the motion, periodic along y:
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -130,14 +131,13 @@ def lay_out(
     boundary_film: float = BOUNDARY_FILM,
     ends: tuple[float, float] | None = None,
     factors: tuple[int, int] = (1, 1),
-    upper: Surface | None = None,
 ) -> Problem:
     """The `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells ``factors`` (fx,
     fy) times as long, which take every fx-th and fy-th of its heights where they stand.
 
     If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
-    lengths up and down stream (default: `reach`). ``upper``: the part of ``surface`` that is surface 2, on the same
-    cells. Raises `InputError` for more cells than `LARGEST`, and for factors that do not divide the map.
+    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`, and for factors
+    that do not divide the map.
     """
     (nx, ny), (fx, fy) = surface.shape, factors
     dx, dy = surface.spacing[0] * fx, surface.spacing[1] * fy
@@ -160,12 +160,25 @@ def lay_out(
     period = nx if surface.periodic_axes[0] else 2 * nx
     place = index % period
     place = np.where(place < nx, place, period - 1 - place)
-
-    def laid(one: Surface) -> np.ndarray:
-        return one.heights[place, fy // 2 :: fy] - one.heights.mean()
-
-    heights, of_upper = laid(surface), None if upper is None else laid(upper)
+    heights = surface.heights[place, fy // 2 :: fy] - surface.heights.mean()
     operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
     x = (index - middle) * surface.spacing[0]
     limit = math.inf if hardness is None else hardness
-    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film, upper=of_upper)
+    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film)
+
+
+def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:
+    """Of a distance [m] along x by which ``surface`` has moved, its heights [m] on the cells of ``problem``, which are
+    its own or several times as long.
+
+    It is shifted by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
+    """
+    (nx, ny), dx = surface.shape, surface.spacing[0]
+    fy = ny // problem.heights.shape[1]
+    heights = surface.heights[:, fy // 2 :: fy] - surface.heights.mean()
+    if not surface.periodic_axes[0]:
+        heights = np.concatenate([heights, heights[::-1]])
+    period = heights.shape[0]
+    place = np.rint(problem.x / dx + (nx - 1) / 2).astype(int) % period
+    waves, k = np.fft.rfft(heights, axis=0), 2 * np.pi * np.fft.rfftfreq(period, dx)
+    return lambda s: np.fft.irfft(waves * np.exp(-1j * k * s)[:, None], n=period, axis=0)[place]

@@ -13,7 +13,7 @@ from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report
 from .newton import Found, Work, march, newton
 from .problem import Problem
 from .result import DeterministicResult, assemble
-from .state import FLUID, RUPTURED, State
+from .state import FLUID, RUPTURED, State, evaluated, residuals
 
 TOLERANCE = 1e-5
 NEAR, DIRECT, MARCHED = 40, 50, 500  # LU factorisations: from a state nearby, from the dry contact, in time
@@ -26,7 +26,7 @@ THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and a
 # a Newtonian
 DRY_TOLERANCE = 1e-4
 RUPTURE = 0.55  # of sqrt(2 R h): a little behind where a rigid film ruptures, 0.475
-SHARP = 0.02  # share of the load on spots from which on the dry contact is interpolated with the state
+SHARP, WORSE = 0.02, 2.0  # share of the load on spots from which on a finer grid starts from its dry contact
 
 
 def solve_point(problem: Problem, *, start: State | None = None, tolerance=TOLERANCE, most=MOST) -> DeterministicResult:
@@ -146,40 +146,41 @@ def _in_time(problem: Problem, state: State, tolerance, work: Work) -> Found:
     return newton(problem, settled, work, tolerance=tolerance, most=DIRECT)
 
 
-def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> State:
+def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> State | None:
     """The state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells.
 
-    Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the
-    difference from the dry contact is interpolated instead, and added to the dry contact of the finer grid. Beyond the
-    old grid p = 0, with fluid upstream and rupture downstream. h0 is corrected, because the half-space has
-    its zero, u = 0, at the length of the grid from a line load. The cells may also be those of ``coarse`` on a longer
-    or shorter grid.
+    Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the dry
+    contact of the finer grid is taken, with half of the pressure of the film between the spots. (With none of it
+    Newton's method takes a third more steps.) None if its residuals are `WORSE` times those of `dry_start` on that
+    grid, as under heavy loads. Beyond the old grid p = 0, with fluid upstream and rupture downstream.
+    h0 is corrected, because the half-space has its zero, u = 0, at the length of the grid from a line load. The cells
+    may also be those of ``coarse`` on a longer or shorter grid.
     """
     old, (nx, ny), (nx_old, ny_old) = result.state, problem.heights.shape, coarse.heights.shape
     along = (problem.x - coarse.x[0]) / coarse.spacing[0]
     across = (np.arange(ny) + 0.5) * (ny_old / ny) - 0.5
     nearest = old.kind[np.clip(np.rint(along).astype(int), 0, nx_old - 1)][:, np.rint(across).astype(int) % ny_old]
     kind = np.where((along < -0.5)[:, None], FLUID, np.where((along > nx_old - 0.5)[:, None], RUPTURED, nearest))
+    pressure, dent = (_interpolated(field, along, across) for field in (old.pressure, old.dent))
+    longer = nx * problem.spacing[0] / (nx_old * coarse.spacing[0])
+    approach = old.approach - 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)
+    new = None if problem.spacing == coarse.spacing else dry_contact(problem)
+    if new is not None and result.split.spots >= SHARP * result.load:
+        bare = dry_contact(coarse)
+        film = _interpolated(np.where(bare.pressure > 0, 0.0, old.pressure), along, across)
+        pressure = np.where(new.pressure > 0, new.pressure, 0.5 * film)
+        kind = np.where((kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID)
+        dent, approach = np.maximum(-new.gap, 0.0), old.approach + bare.approach - new.approach
     ruptured = kind == RUPTURED
+    pressure = np.where(ruptured, 0.0, np.minimum(pressure, problem.hardness))
     fill = np.where(ruptured, _interpolated(old.fill, np.clip(along, 0, nx_old - 1), across), 1.0)
-
-    def finer(pressure):
-        return np.where(ruptured, 0.0, _interpolated(pressure, along, across))
-
-    pressure = finer(old.pressure)
-    if result.split.spots < SHARP * result.load or problem.spacing == coarse.spacing:
-        longer = nx * problem.spacing[0] / (nx_old * coarse.spacing[0])
-        shift = 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)
-        yielded = (pressure >= problem.hardness) & ~ruptured
-        dent = np.where(yielded, _interpolated(old.dent, along, across), 0.0)
-        return State(pressure, fill, dent, kind.astype(np.int8), yielded, old.approach - shift)
-    bare, new = dry_contact(coarse), dry_contact(problem)
-    pressure = np.maximum(new.pressure + pressure - finer(bare.pressure), 0.0)
-    kind = np.where((pressure <= 0) & ruptured, RUPTURED, FLUID).astype(np.int8)
     yielded = pressure >= problem.hardness
-    dent = np.where(yielded, np.maximum(-new.gap, 0.0), 0.0)
-    approach = old.approach + bare.approach - new.approach
-    return State(np.minimum(pressure, problem.hardness), fill, dent, kind, yielded, approach)
+    found = State(pressure, fill, np.where(yielded, dent, 0.0), kind.astype(np.int8), yielded, approach)
+    if new is None:
+        return found
+    cold = dry_start(problem, new)
+    left, others = (max(residuals(evaluated(problem, state)).values()) for state in (found, cold))
+    return found if left <= WORSE * others else None
 
 
 def _interpolated(field, along, across) -> np.ndarray:

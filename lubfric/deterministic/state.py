@@ -139,7 +139,7 @@ def residuals(at: Iterate) -> dict[str, float]:
     return {
         "mass": float(np.abs(r[~touching]).sum()) / flow,
         "load": abs(at.load_error) / problem.load,
-        "gap": float(max(closed, pierced) / np.maximum(at.gap, 0).mean()),
+        "gap": float(max(closed, pierced) / max(np.maximum(at.gap, 0).mean(), problem.floor)),
         "suction": float(np.maximum(-r[touching] - _pull(problem), 0.0).sum()) / flow,
         "fill": float(max(-state.fill.min(), state.fill.max() - 1, 0.0)),
         "pressure": max(-float(state.pressure.min()), top - problem.hardness, 0.0) / max(top, 1.0),

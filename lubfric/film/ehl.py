@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from .._base import increasing_root, instance
+from .._base import increasing_root, validate
 from ..oil import Lubricant
 from .assemble import assemble
 from .ehl_result import EHLResult
@@ -90,7 +90,7 @@ def solve_line_contact(
 ) -> EHLResult:
     """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
     if start is not None:
-        instance("start", start, EHLResult, "an EHLResult or None")
+        validate.instance("start", start, EHLResult, "an EHLResult or None")
     problem = make_problem(contact)
     state = None if start is None else start.state
     arriving = contact.lubricant.inlet_film

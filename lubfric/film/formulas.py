@@ -20,18 +20,6 @@ from .._base import validate
 ELASTIC_PIEZOVISCOUS = 1.311  # of M^(-1/8) L^(3/4), Grubin's film
 
 
-def load_and_speed(m, l, *, radius, e_prime, viscosity, pressure_viscosity_coefficient) -> tuple[float, float]:
-    """(load_per_width [N/m], entrainment_speed [m/s]) that have the Moes numbers M > 0, L > 0.
-
-    L = 0 fixes no speed: raises `InputError`.
-    """
-    validate.positive("m", m, "(-)")
-    validate.positive("l", l, "(-)")
-    validate.positive("pressure_viscosity_coefficient", pressure_viscosity_coefficient, "1/Pa")
-    u1 = (l / (pressure_viscosity_coefficient * e_prime)) ** 4
-    return m * math.sqrt(u1) * e_prime * radius, u1 * e_prime * radius / (2 * viscosity)
-
-
 def moes_film(m, l) -> float:
     """H in Moes units where dp/dx = 0 (the *flow* film), incompressible lubricant; M > 0, L >= 0.
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._base import integer, number
+from .._base import validate
 from ..errors import CONVERGED
 from .assemble import grid_error
 from .formulas import flooded_inlet
@@ -36,9 +36,9 @@ class Effort:
     max_iterations: int = 60
 
     def __post_init__(self):
-        number("tolerance", self.tolerance, "", minimum=1e-5, maximum=0.1)
-        integer("least_cells", self.least_cells, minimum=0)
-        integer("max_iterations", self.max_iterations, minimum=1)
+        validate.number("tolerance", self.tolerance, "", minimum=1e-5, maximum=0.1)
+        validate.integer("least_cells", self.least_cells, minimum=0)
+        validate.integer("max_iterations", self.max_iterations, minimum=1)
 
 
 def solved(problem: Problem, effort: Effort, state: State | None) -> Solved:

@@ -1,8 +1,6 @@
 """The pressure of an oil from its reduced pressure ``q = ∫ dp eta0/eta(p)``, with which Reynolds' equation of any oil
 is that of a constant viscosity."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 

@@ -13,6 +13,7 @@ from .lubricant import (
     viscosity,
 )
 from .make import (
+    OILS,
     estimate_in_words,
     from_grade,
     from_index,
@@ -21,8 +22,6 @@ from .make import (
     grade_viscosity,
     list_oils,
     named_oil,
-    oil_names,
-    show_oil,
 )
 from .oil import Oil
 from .pressure import Estimate, gold, so_klaus

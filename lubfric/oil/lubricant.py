@@ -4,14 +4,12 @@ Pressures are gauge pressures in Pa. A pressure below ambient (it occurs only in
 converged film has p >= 0) continues each law by its tangent at p = 0.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import Brief, choice, nonnegative, number, positive, python_fields, shown
+from .._base import Brief, validate
 from ..errors import InputError
 from .oil import Oil
 from .viscosity import checked_temperature
@@ -21,8 +19,6 @@ DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the pole viscosity 6.31e-5 Pa s
 CARRIED_AT_REST, CARRIED = 5e6, 0.12  # Pa and per Pa: above every limiting stress measured in oils (0.03 to 0.1 of p)
 NO_LIQUID = 1e10  # Pa: no oil flows there
-VISCOSITY_LAWS = ("roelands", "barus", "constant")
-DENSITY_LAWS = ("constant", "dowson-higginson")
 
 
 @dataclass(frozen=True, repr=False)
@@ -77,44 +73,32 @@ class Lubricant(Brief):
     carreau: tuple[float, float] | None = None
 
     def __post_init__(self):
-        python_fields(self, "lubricant")
-        choice("viscosity_law", self.viscosity_law, VISCOSITY_LAWS)
-        choice("density_law", self.density_law, DENSITY_LAWS)
-        positive("viscosity", self.viscosity, "Pa s")
-        nonnegative("pressure_viscosity_coefficient", self.pressure_viscosity_coefficient, "1/Pa", maximum=1e-6)
-        if self.viscosity_law == "roelands":
-            self._check_roelands()
-        for name, unit in (("eyring_stress", "Pa"), ("limiting_stress_coefficient", "")):
-            if getattr(self, name) is not None:
-                positive(name, getattr(self, name), unit)
-        if self.carreau is not None:
-            self._check_carreau()
-        nonnegative("limiting_stress_offset", self.limiting_stress_offset, "Pa")
-        for name in ("inlet_length", "inlet_film"):
-            if getattr(self, name) is not None:
-                positive(name, getattr(self, name), "m")
-        if self.temperature is not None:
-            checked_temperature(self.temperature, "lubricant.temperature")
-        if self.temperature_coefficient is not None:
-            nonnegative("temperature_coefficient", self.temperature_coefficient, "1/K", maximum=0.5)
-        number("conductivity", self.conductivity, "W/(m K)", minimum=0.02, maximum=2.0)
-
-    def _check_roelands(self) -> None:
-        name, least = "pressure_viscosity_coefficient", math.exp(-ROELANDS_LOG_VISCOSITY)
-        if self.pressure_viscosity_coefficient == 0.0:
-            raise InputError(" = 0 1/Pa has no Roelands exponent", name, "> 0 1/Pa, or viscosity_law = 'constant'")
-        if self.viscosity <= least:
+        validate.python_fields(self, "lubricant")
+        validate.in_range("lubricant", self, prefix="")
+        alpha, least = "pressure_viscosity_coefficient", math.exp(-ROELANDS_LOG_VISCOSITY)
+        if self.viscosity_law == "roelands" and self.pressure_viscosity_coefficient == 0.0:
+            raise InputError(" = 0 1/Pa has no Roelands exponent", alpha, "> 0 1/Pa, or viscosity_law = 'constant'")
+        if self.viscosity_law == "roelands" and self.viscosity <= least:
             said = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
             raise InputError(said, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")
+        if self.carreau is not None:
+            self._check_carreau()
+        if self.temperature is not None:
+            checked_temperature(self.temperature, "lubricant.temperature")
 
     def _check_carreau(self) -> None:
         if not isinstance(self.carreau, (list, tuple)) or len(self.carreau) != 2:
-            raise InputError(f" = {shown(self.carreau)}", "carreau", "[G, n]: critical stress in Pa and exponent")
+            raise InputError(
+                f" = {validate.shown(self.carreau)}", "carreau", "[G, n]: critical stress in Pa and exponent"
+            )
         if self.eyring_stress is not None:
             raise InputError(" and eyring_stress are two laws of one flow", "carreau", way_out="give one of them")
         G, n = self.carreau
-        both = positive("carreau (G)", G, "Pa"), number("carreau (n)", n, "(-)", minimum=0.1, maximum=0.999)
-        object.__setattr__(self, "carreau", both)
+        G, n = (
+            validate.positive("carreau (G)", G, "Pa"),
+            validate.number("carreau (n)", n, "(-)", minimum=0.1, maximum=0.999),
+        )
+        object.__setattr__(self, "carreau", (G, n))
 
     @property
     def critical_stress(self) -> float | None:

@@ -1,13 +1,11 @@
 """Ways to an `Oil`: two viscosities, an ISO VG grade and a viscosity index, a table, a name; and an oil in words."""
 
-from __future__ import annotations
-
 import re
 
-from .._base import validate
+from .._base import packaged, validate
 from ..errors import InputError
 from .oil import Oil
-from .viscosity import CELSIUS, ViscosityTable, Walther, viscosity_at_100, walther
+from .viscosity import CELSIUS, ViscosityTable, viscosity_at_100, walther
 
 AT_40, AT_100 = 40 + CELSIUS, 100 + CELSIUS
 GRADES = {  # ISO 3448: grade -> mid-point kinematic viscosity at 40 °C [mm²/s], the grade holds +-10 % of it
@@ -15,16 +13,7 @@ GRADES = {  # ISO 3448: grade -> mid-point kinematic viscosity at 40 °C [mm²/s
     **{float(g): float(g) for g in (10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500, 2200, 3200)},
 }
 
-
-OILS = {  # name: kinematic viscosities [mm²/s] at 40 and 100 °C, base, words
-    "mineral-32": (31.81, 5.385, "mineral", "mineral oil, ISO VG 32, VI 102"),
-    "mineral-100": (99.14, 10.954, "mineral", "mineral oil, ISO VG 100, VI 94"),
-    "mineral-220": (217.98, 18.915, "mineral", "mineral oil, ISO VG 220, VI 97"),
-    "pao-220": (218.06, 25.577, "pao", "polyalphaolefin, ISO VG 220, VI 149"),
-    "polyglycol-220": (218.78, 31.906, "polyglycol", "polyglycol, ISO VG 220, VI 190"),
-}
-SOURCE = "generic oil of its grade, D341 through both points; coefficients estimated, density typical of the base oil"
-SHOWN = (20, 40, 60, 70, 80, 100, 120)  # °C
+OILS = packaged(__package__, "oils.toml")["oils"]
 FILM_EXPONENT = 0.56  # of alpha, in the central film of a full EHL contact (Dowson and Toyoda, 1978)
 
 
@@ -67,18 +56,13 @@ def from_table(temperatures, viscosities, **properties) -> Oil:
 
 
 def named_oil(name: str, **properties) -> Oil:
-    """One of the oils that `oil_names` lists. ``properties`` replace its fields."""
+    """One of the ``OILS``, by its name. ``properties`` replace its fields."""
     if str(name).lower() not in OILS:
         near = validate.nearest(str(name).lower(), OILS)
         raise InputError(f"oil {name!r} is not known{near}; allowed: {', '.join(OILS)}")
-    at_40, at_100, base, words = OILS[str(name).lower()]
-    law = walther((AT_40, at_40 * 1e-6), (AT_100, at_100 * 1e-6), oil=str(name).lower())
-    return Oil(law, **{"base": base, "name": words} | properties)
-
-
-def oil_names() -> tuple[str, ...]:
-    """Names that `named_oil` knows."""
-    return tuple(OILS)
+    row = OILS[str(name).lower()]
+    law = walther(*zip((AT_40, AT_100), (nu * 1e-6 for nu in row["nu"])), oil=str(name).lower())
+    return Oil(law, **{"base": row["base"], "name": row["name"]} | properties)
 
 
 def grade_viscosity(grade: str) -> float:
@@ -103,34 +87,9 @@ def _viscosity(name: str, value: float) -> float:
 
 def list_oils() -> str:
     """One line a named oil."""
-    lines = [f"{name:<16} {words}" for name, (*_, words) in OILS.items()]
+    lines = [f"{name:<16} {row['name']}" for name, row in OILS.items()]
     other = 'any other: grade = "ISO VG 68" with viscosity_index, or nu40 and nu100 in m²/s, in [lubricant]'
     return "\n".join([*lines, "", other])
-
-
-def show_oil(name: str) -> str:
-    """A table of the properties of a named oil over temperature, with their sources."""
-    oil = named_oil(name)
-    law = oil.viscosity_law
-    said = f"ASTM D341 (constant 0.7): m = {law.m:.4f}, n = {law.n:.4f}" if isinstance(law, Walther) else "a table"
-    lines = [
-        f"{name}: {oil.name}",
-        f"  {SOURCE}",
-        f"  {said}; viscosity index {oil.index:.1f} (ASTM D2270); density {oil.density_15:g} kg/m³ at 15 °C",
-        "",
-        "   °C   mm²/s    mPa s   kg/m³   alpha 1/GPa (measured oils from, to)   1/K",
-    ]
-    return "\n".join([*lines, *(_row(oil, t + CELSIUS) for t in SHOWN)])
-
-
-def _row(oil: Oil, temperature: float) -> str:
-    alpha = oil.pressure_viscosity_coefficient(temperature)
-    bounds = f"({alpha.low * 1e9:.3g}, {alpha.high * 1e9:.3g})"
-    return (
-        f"  {temperature - CELSIUS:3.0f}  {oil.kinematic_viscosity(temperature) * 1e6:6.4g}  "
-        f"{oil.viscosity(temperature) * 1e3:7.4g}  {oil.density_at(temperature):6.1f}   {alpha.value * 1e9:5.3g} "
-        f"{bounds:<28}  {oil.temperature_coefficient(temperature):.4f}"
-    )
 
 
 def estimate_in_words(oil: Oil, temperature: float) -> str:

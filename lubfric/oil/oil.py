@@ -15,9 +15,6 @@ from .pressure import BASES, Estimate, gold, so_klaus
 from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_index
 
 AT_15 = 15 + CELSIUS  # K
-DENSITY = {"mineral": 880.0, "pao": 840.0, "ester": 950.0, "polyglycol": 1030.0}  # kg/m³ at 15 °C, typical
-DENSITY_SLOPE = {"mineral": 0.64, "pao": 0.62, "ester": 0.72, "polyglycol": 0.78}  # kg/(m³ K), typical within 10 %
-CONDUCTIVITY = {"mineral": 0.13, "pao": 0.15, "ester": 0.15, "polyglycol": 0.17}  # W/(m K), typical within 25 %
 ESTIMATES = ("so-klaus", "gold")
 STEP = 0.05  # K, of a central difference
 
@@ -73,19 +70,19 @@ class Oil(Brief):
         It is the density at 15 °C, less ``density_slope`` times the distance from 15 °C. This straight line is good to
         some 0.5 % between 0 and 100 °C.
         """
-        slope = DENSITY_SLOPE[self.base] if self.density_slope is None else self.density_slope
+        slope = BASES[self.base]["density_slope"] if self.density_slope is None else self.density_slope
         return at_each(lambda t: self.density_15 - slope * (checked_temperature(t) - AT_15), temperature)
 
     @property
     def density_15(self) -> float:
         """Density at 15 °C [kg/m³]: given, or typical of the base oil (within 5 %)."""
-        return DENSITY[self.base] if self.density is None else self.density
+        return BASES[self.base]["density"] if self.density is None else self.density
 
     @property
     def thermal_conductivity(self) -> float:
         """k [W/(m K)]: given, or typical of the base oil at ambient pressure (within 25 %; about twice as much at 1
         GPa)."""
-        return CONDUCTIVITY[self.base] if self.conductivity is None else self.conductivity
+        return BASES[self.base]["conductivity"] if self.conductivity is None else self.conductivity
 
     def viscosity(self, temperature):
         """Dynamic viscosity eta = nu rho [Pa s] at ``temperature`` [K], one or an array of them."""

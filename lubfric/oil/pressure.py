@@ -9,22 +9,13 @@ The coefficient is the slope d ln(eta)/dp at ambient pressure. Published fits of
 GPa, which is lower.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
-from .._base import validate
+from .._base import packaged, validate
 
-GOLD = {  # s [1/GPa at 1 mm²/s], t [-]
-    "mineral": (9.904, 0.1390),
-    "pao": (7.382, 0.1335),
-    "ester": (6.605, 0.1360),
-    "polyglycol": (5.489, 0.1485),
-}
-GOLD_RANGE = {"mineral": (0.85, 1.65), "pao": (0.85, 1.65), "ester": (0.85, 2.1), "polyglycol": (0.85, 1.75)}
+BASES = packaged(__package__, "oils.toml")["bases"]
 SO_KLAUS_RANGE = (0.70, 1.15)
-BASES = tuple(GOLD)
 
 
 @dataclass(frozen=True)
@@ -57,9 +48,9 @@ def gold(nu: float, base: str) -> Estimate:
     1.75).
     """
     nu, base = validate.positive("nu", nu, "m²/s", maximum=1.0), validate.choice("base", base, BASES)
-    s, t = GOLD[base]
+    s, t = BASES[base]["gold"]
     value = s * (nu * 1e6) ** t * 1e-9
-    low, high = GOLD_RANGE[base]
+    low, high = BASES[base]["measured"]
     return Estimate(value, low * value, high * value, "Gold et al. (2001)", "gold")
 
 

@@ -1,7 +1,5 @@
 """Kinematic viscosity: over temperature (ASTM D341, and a table), and the viscosity index (ASTM D2270, ISO 2909)."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from importlib import resources
@@ -63,14 +61,10 @@ def walther(first: tuple[float, float], second: tuple[float, float], **said: flo
     if not thin < thick:
         fault = f" = {thick:g} m²/s at {cold:g} K and {thin:g} m²/s at {warm:g} K"
         raise InputError(fault, "kinematic viscosity", "one that falls as the temperature rises (swapped?)")
-    a, b = (math.log10(math.log10(_raised(nu * 1e6))) for nu in (thick, thin))
+    raised = [nu + CONSTANT + math.exp(-1.47 - 1.84 * nu - 0.51 * nu**2) for nu in (thick * 1e6, thin * 1e6)]  # Z
+    a, b = (math.log10(math.log10(z)) for z in raised)
     n = (a - b) / math.log10(warm / cold)
     return Walther(a + n * math.log10(cold), n, tuple(said.items()))
-
-
-def _raised(nu: float) -> float:
-    """Z of D341 at nu [mm²/s]."""
-    return nu + CONSTANT + math.exp(-1.47 - 1.84 * nu - 0.51 * nu**2)
 
 
 def _viscosity(raised: float) -> float:
@@ -146,17 +140,13 @@ def _millimetres(nu40: float, nu100: float) -> str:
 
 def _index(at_40: float, at_100: float) -> float:
     """The viscosity index, from viscosities in mm²/s."""
-    low, high = _low_high(at_100)
+    if at_100 > AT_100[-1]:  # L and H [mm²/s]: by the standard's formulas, or its table
+        low, high = (0.8353 * at_100 + 14.67) * at_100 - 216, (0.1684 * at_100 + 11.85) * at_100 - 97
+    else:
+        low, high = float(np.interp(at_100, AT_100, LOW)), float(np.interp(at_100, AT_100, HIGH))
     if at_40 >= high:
         return 100 * (low - at_40) / (low - high)
     return 100 + (10 ** (math.log(high / at_40) / math.log(at_100)) - 1) / SLOPE
-
-
-def _low_high(at_100: float) -> tuple[float, float]:
-    """L and H [mm²/s] at a kinematic viscosity [mm²/s] at 100 °C."""
-    if at_100 > AT_100[-1]:
-        return (0.8353 * at_100 + 14.67) * at_100 - 216, (0.1684 * at_100 + 11.85) * at_100 - 97
-    return float(np.interp(at_100, AT_100, LOW)), float(np.interp(at_100, AT_100, HIGH))
 
 
 def viscosity_at_100(nu40: float, index: float) -> float:

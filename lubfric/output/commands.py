@@ -1,8 +1,6 @@
 """What the commands share: messages, interrupts, and the folder that they write, in which only files of ours are ever
 replaced. A broken stream or an interrupt never costs what was computed."""
 
-from __future__ import annotations
-
 import json
 import os
 import platform
@@ -14,17 +12,18 @@ import time
 import tomllib
 from collections.abc import Callable, Iterable
 from contextlib import contextmanager, suppress
+from dataclasses import asdict
 from pathlib import Path
 from typing import get_type_hints
 
 import numpy as np
 
-from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, read_json, shown
+from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, read_json, validate
 from ..errors import InputError, OutputError
 from ..quantities import KEYS, Quantity
-from ..scene import Scene, scene_as_dict
+from ..scene import Scene
 from ..sharing import Prepared, Validity, prepare
-from ..studies import fits
+from ..studies import Store, fits
 from ..surface import rms_slope
 
 INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them
@@ -50,16 +49,10 @@ def put(stream, text: str) -> None:
         stream.write(text)
         stream.flush()
     except (OSError, ValueError, AttributeError):  # a closed pipe, a closed file, no stream at all
-        _silence(stream)
-
-
-def _silence(stream) -> None:
-    try:
-        nowhere = os.open(os.devnull, os.O_WRONLY)
-        os.dup2(nowhere, stream.fileno())
-        os.close(nowhere)
-    except (OSError, ValueError, AttributeError):
-        pass
+        with suppress(OSError, ValueError, AttributeError):
+            nowhere = os.open(os.devnull, os.O_WRONLY)
+            os.dup2(nowhere, stream.fileno())
+            os.close(nowhere)
 
 
 def paced() -> Callable[[bool], bool]:
@@ -95,15 +88,16 @@ def interruptible():
 
 
 @contextmanager
-def keeping(what):
-    """On an interrupt, say what is kept: the words come from ``what()``."""
+def keeping(what: Callable[[], str]):
+    """On an interrupt, say ``what()`` is kept, and that the same command goes on from there."""
     try:
         yield
     except KeyboardInterrupt as error:
-        raise Interrupted(what(), getattr(error, "code", INTERRUPTED)) from None
+        said = f"interrupted; {what()}: the same command goes on from there"
+        raise Interrupted(said, getattr(error, "code", INTERRUPTED)) from None
 
 
-RESULT, UNFINISHED, CHECKPOINT = "result.json", "unfinished", "checkpoint"
+RESULT, UNFINISHED = "result.json", "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
 INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
@@ -190,7 +184,7 @@ class RunFolder:
         try:
             self.contents[name] = made(name, plot, *arguments)
         except Exception as problem:  # of any kind: a picture must not cost the numbers
-            self.failures.append(f"{name} was not drawn ({type(problem).__name__}: {shown(str(problem))})")
+            self.failures.append(f"{name} was not drawn ({type(problem).__name__}: {validate.shown(str(problem))})")
 
     def record(self, prepared: Prepared, result, units: dict[str, Quantity], **numbers: object) -> dict:
         """The record of a run: date, resolved input, map, versions, timing, report, violated assumptions, ``numbers``;
@@ -203,7 +197,7 @@ class RunFolder:
         map_ = {"shape": surface.shape, "spacing": surface.spacing, "statistics": statistics, "notes": surface.notes}
         return {
             "date": time.strftime("%Y-%m-%d %H:%M:%S UTC", time.gmtime()),
-            "scene": scene_as_dict(prepared.scene),
+            "scene": asdict(prepared.scene),
             "units": {name: q.unit for name, q in (KEYS | units).items()},
             "surface": map_,
             "versions": versions | {"scipy": scipy.__version__, "python": platform.python_version()},
@@ -220,8 +214,8 @@ class RunFolder:
         whole = plain({"files": sorted([*self.contents, RESULT])} | record)
         self.contents[RESULT] = json.dumps(whole, indent=1, allow_nan=False).encode()
         self.put(OUTPUTS, (*record["validity"], *doubts))
-        for folder in (self.unfinished / "points", self.unfinished, self.unfinished.parent):
-            clear_checked(folder, "*.bin")
+        Store(self.unfinished).clear()
+        clear_checked(self.unfinished.parent)
 
     def put(self, patterns: Iterable[str] = (), said: Iterable[str] = ()) -> None:
         """Put ``contents`` in the folder, remove what else of ours matches ``patterns``, and say so."""

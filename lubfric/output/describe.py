@@ -1,9 +1,8 @@
 """A scene in words: its inputs with their units, regime numbers, and what will be solved."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
+from contextlib import suppress
 
 from ..contact import Strips, contact_map, measured, strips_of
 from ..errors import InputError
@@ -20,7 +19,6 @@ from ..scene import (
     Scene,
     Table,
     gap_not_resolved,
-    resolves_gap,
     told_doubts,
     typical,
 )
@@ -43,10 +41,16 @@ def describe_scene(scene: Scene) -> str:
         first = None if strips is None else strips.stack(strips.first)
         surface = contact_map(scene) if first is None or measured(scene) else first
     speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    told: list[str] = []
+    told, over = [], counted(len(speeds), "speeds")
     if scene.transient is not None:
-        speeds = tuple(speeds_of_run(scene)) or (0.0,)
+        speeds, over = tuple(speeds_of_run(scene)) or (0.0,), "a run in time"
         told = [*_histories(scene), _cost(scene, strips, surface, max(speeds))]
+    at = expected(scene, surface if first is None else first, sorted(set(speeds)))  # None: of bodies and map
+    known = [entry.text for speed, entry in at if speed is None]
+    known += gathered([(speed, (entry,)) for speed, entry in at if speed is not None])
+    own = scene.motion.entrainment_speed
+    left_out = [f"  {lack_in_words(lack)}" for lack in lacking(scene, surface.sq, own)]
+    left_out = left_out and [f"likely changes of f at {own:g} m/s, by closed forms:", *left_out]
     return "\n".join(
         [
             f"scene {scene.name}",
@@ -54,12 +58,10 @@ def describe_scene(scene: Scene) -> str:
             *_section("transient", told),
             *_section("surface", [surface.describe(), *(note for note in surface.notes if "nm as it is" in note)]),
             *_map_rows(scene, surface),
-            *_section(
-                "contact", [f"{_plan(scene, surface)}; {'a run in time' if told else counted(len(speeds), 'speeds')}"]
-            ),
+            *_section("contact", [f"{_plan(scene, surface)}; {over}"]),
             *_section("model", _model(scene, strips, surface, speeds)),
-            *_section("left out", _left_out(scene, surface)),
-            *_section("validity", _validity(scene, surface if first is None else first, sorted(set(speeds)))),
+            *_section("left out", left_out or ["nothing that would change f by its tolerance"]),
+            *_section("validity", known or ["no assumption of the model fails by what is known before the solve"]),
             *_speed_rows(scene, strips, surface, speeds),
         ]
     )
@@ -90,12 +92,12 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
     found = [forecast(scene, strips, surface, speed) for speed in some]
     resolved = [one.speed for one in found if one.resolved]
     unknown = "its error is not known, and not in the interval"
-    if scene.transient is not None and asked != "deterministic":
+    if asked == "deterministic":
+        rows = ["one gap and one pressure (the deterministic model), as asked"]
+    elif scene.transient is not None:
         rows = [f"load sharing, Eq. (8), at all times; {unknown}"]
     elif asked == "load-sharing":
         rows = [f"load sharing, Eq. (8), as asked: the fast way; {unknown if why else 'its interval is wide'}"]
-    elif asked == "deterministic":
-        rows = ["one gap and one pressure (the deterministic model), as asked"]
     elif why:
         rows = [f"load sharing, Eq. (8), alone; {unknown}:", f"  {why}"]
     elif not resolved and max((one.moving for one in found), default=0.0) > MOST_WORK:
@@ -110,23 +112,15 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
             "  (not where heat turns out to matter: these are isothermal)",
         ]
     if strip := max((one.moving for one in found), default=0.0):
-        rows.append(
+        rows += [
             f"the roughness moves: one strip with one gap and one pressure takes about {in_words(strip)}; beyond "
             f"{MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
-        )
+        ]
     if found and scene.transient is None:
         seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
         count = counted(len(moving), "speeds")
         rows.append(f"cost: about {seconds} of processor time for {count} (an order of magnitude)")
     return rows
-
-
-def _left_out(scene: Scene, surface: Surface) -> list[str]:
-    """What the scene leaves out, and how much that would likely change f at its own speed."""
-    speed = scene.motion.entrainment_speed
-    found = [lack_in_words(lack) for lack in lacking(scene, surface.sq, speed)]
-    head = f"likely changes of f at {speed:g} m/s, by closed forms:"
-    return [head, *(f"  {row}" for row in found)] if found else ["nothing that would change f by its tolerance"]
 
 
 def _histories(scene: Scene) -> list[str]:
@@ -157,7 +151,7 @@ def _laps(history: History, duration: float) -> float:
 def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float) -> str:
     """Steps and time of a run, by what runs of the paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
     assert (plan := scene.transient) is not None
-    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerances.film
+    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
     swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
     steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
     one = forecast(scene, strips, surface, fastest)
@@ -165,21 +159,11 @@ def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float)
     if strips is not None and not strips.whole:
         cells = round(strips.cells.count * one.length / strips.cells.coarse[1])
     seconds = one.seconds + steps * (FILM_STEP + CELL_STEP * cells)
-    if resolves_gap(scene):
+    if scene.numerics.model == "deterministic":
         steps, seconds = work_of_run(scene)
     top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
-    return (
-        f"{top}; {plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs; about {in_words(seconds)} "
-        "(orders of magnitude)"
-    )
-
-
-def _validity(scene: Scene, surface: Surface, speeds: list[float]) -> list[str]:
-    """What is known before the solve: of bodies and map, and of the speeds."""
-    known = expected(scene, surface, speeds)
-    of_speeds = gathered([(speed, (entry,)) for speed, entry in known if speed is not None])
-    found = [entry.text for speed, entry in known if speed is None] + [*of_speeds]
-    return found or ["no assumption of the model fails by what is known before the solve"]
+    course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs"
+    return f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)"
 
 
 def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
@@ -212,31 +196,23 @@ def _map_rows(scene: Scene, surface: Surface) -> list[str]:
     it."""
     (nx, ny), (dx, dy), b = surface.shape, surface.spacing, scene.bodies.half_width
     along_x, along_y, total = rms_slope(surface)
-    lengths = [(_correlation_length(surface, axis), step) for axis, step in enumerate((dx, dy))]
-    in_um = " x ".join("-" if c is None else f"{c * 1e6:.3g}" for c, _ in lengths)
-    in_cells = " x ".join("-" if c is None else f"{c / step:.3g}" for c, step in lengths)
+    in_um, in_cells = (
+        ["-", "-"],
+        ["-", "-"],
+    )  # of a map that has none: flat, one cell, or shorter than twice that length
+    for axis, step in enumerate((dx, dy)):
+        with suppress(InputError):
+            length = correlation_length(surface, axis)
+            in_um[axis], in_cells[axis] = f"{length * 1e6:.3g}", f"{length / step:.3g}"
+    lengths = f"{' x '.join(in_um)} µm = {' x '.join(in_cells)} cells  (along x and y, to 1/e)"
     memory = f"about {SOLVE_FIELDS * 8 * nx * ny / 2**20:.3g} MiB at a contact solve on all of them"
     slopes = f"{total:.3g}  ({along_x:.3g} along x, {along_y:.3g} along y)"
     rows = [
         ("Sq", f"{surface.sq * 1e9:.4g} nm", "rms slope", slopes),
-        (
-            "cells per b",
-            f"{b / dx:.3g}",
-            "correlation length",
-            f"{in_um} µm = {in_cells} cells  (along x and y, to 1/e)",
-        ),
+        ("cells per b", f"{b / dx:.3g}", "correlation length", lengths),
         ("length / 2b", f"{nx * dx / (2 * b):.3g}", "cells", f"{nx * ny}, {memory}"),
     ]
     return [f"    {left:<12} {value:<11} {right:<19} {text}" for left, value, right, text in rows]
-
-
-def _correlation_length(surface: Surface, axis: int) -> float | None:
-    """Correlation length [m] along an axis. None where a map has none: it is flat, has one cell, or is shorter than
-    twice that length."""
-    try:
-        return correlation_length(surface, axis)
-    except InputError:
-        return None
 
 
 def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:

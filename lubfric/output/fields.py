@@ -1,7 +1,5 @@
 """Fields of a run as files: fields.npz, and contact_0.vtk ... for ParaView."""
 
-from __future__ import annotations
-
 import io
 import json
 from collections.abc import Iterable

@@ -1,30 +1,13 @@
 """Pictures of a run: the curve, the contact of one speed (Akchurin et al. 2015, Figs. 8-10), and what changes in
 time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .._base import (
-    BLUE,
-    FRICTION,
-    GREEN,
-    GREY,
-    RED,
-    field_image,
-    friction_lines,
-    key_above,
-    load_shares,
-    log_if_wide,
-    new_figure,
-    plain_ticks,
-    plain_words,
-    speed_label,
-)
+from .._base import figures
 from ..studies import friction_over_speed, interval_band
 from ..time import friction_over_time, time_scale
 from ..units import worded
@@ -43,36 +26,38 @@ def plot_stribeck(
     for each row, the assumptions that are violated (`lubfric.Validity`). ``measured``: a `lubfric.Measured` over speed,
     drawn beside the curve.
     """
-    figure = new_figure(figsize=(7, 8))
+    figure = figures.new_figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
     order = friction_over_speed(top, columns)
     c = type(columns)((name, column[order]) for name, column in columns.items())
     speed, film = np.abs(c["speed"]), c["central_film"] * 1e9
     if measured is not None:
         error = None if measured.deviation is None else 1.96 * measured.deviation
-        points = {"fmt": "D", "ms": 4, "color": "k", "mfc": "none", "lw": 1, "label": plain_words(measured.source)}
+        points = {
+            "fmt": "D",
+            "ms": 4,
+            "color": "k",
+            "mfc": "none",
+            "lw": 1,
+            "label": figures.plain_words(measured.source),
+        }
         top.errorbar(np.abs(measured.x), measured.coefficient, error, **points)
         top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
     _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
     figure.suptitle(title)
     top.set(xlabel="")
-    load_shares(middle, speed, c["contact_load"] / (c["contact_load"] + c["film_load"]))
-    key_above(middle)
-    bottom.loglog(speed, film, "o-", color=GREEN, ms=4, label="central film")
-    _roughness(bottom, film, c["film_to_roughness_ratio"])
-    key_above(bottom)
-    bottom.set(ylabel="film thickness (nm)", xlabel=speed_label(c["speed"]))
+    figures.load_shares(middle, speed, c["contact_load"] / (c["contact_load"] + c["film_load"]))
+    figures.key_above(middle)
+    bottom.loglog(speed, film, "o-", color=figures.GREEN, ms=4, label="central film")
+    sq = film / c["film_to_roughness_ratio"]
+    if np.isfinite(sq).all() and (sq > 0).all():  # not of smooth surfaces
+        for times, dashes, name in ((1, "--", f"Sq = {sq[0]:.3g} nm"), (3, ":", "3 Sq: summits hardly touch")):
+            bottom.axhline(times * sq[0], color=figures.GREY, lw=0.8, ls=dashes, label=name)
+    figures.key_above(bottom)
+    bottom.set(ylabel="film thickness (nm)", xlabel=figures.speed_label(c["speed"]))
     for axis in (bottom.xaxis, bottom.yaxis):
-        plain_ticks(axis)
+        figures.plain_ticks(axis)
     figure.savefig(path, dpi=150)
-
-
-def _roughness(axes, film: np.ndarray, ratio: np.ndarray) -> None:
-    """Sq and three times Sq beside a ``film`` [nm], by its ``ratio`` to Sq; nothing of smooth surfaces."""
-    sq = film / ratio
-    for times, dashes in ((1, "--"), (3, ":")) if np.isfinite(sq).all() and (sq > 0).all() else ():
-        name = f"Sq = {sq[0]:.3g} nm" if times == 1 else f"{times} Sq: summits hardly touch"
-        axes.axhline(times * sq[0], color=GREY, lw=0.8, ls=dashes, label=name)
 
 
 def plot_traction(
@@ -85,23 +70,23 @@ def plot_traction(
     c = type(columns)((name, column[order]) for name, column in columns.items())
     ratio, load = c["ratio"], c["contact_load"] + c["film_load"]
     warm = bool((c["flash_temperature_rise"] > 0).any() or (c["film_temperature_rise"] > 0).any())
-    figure = new_figure(figsize=(7, 6.5 if warm else 4.5))
+    figure = figures.new_figure(figsize=(7, 6.5 if warm else 4.5))
     top, *others = figure.subplots(1 + warm, 1, sharex=True, squeeze=False, height_ratios=[3, 2][: 1 + warm]).flat
     interval_band(top, ratio, c)
     parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-    friction_lines(top, ratio, parts, marker="o", ms=4)
+    figures.friction_lines(top, ratio, parts, marker="o", ms=4)
     _mark(figure, top, ratio, c["coefficient"], [entries[i] for i in order])
     figure.suptitle(title)
-    top.set_ylabel(FRICTION)
+    top.set_ylabel(figures.FRICTION)
     for bottom in others:
-        bottom.plot(ratio, c["flash_temperature_rise"], "-", color=RED, label="surfaces (flash)")
-        bottom.plot(ratio, c["film_temperature_rise"], "-", color=GREEN, label="film above the surfaces")
+        bottom.plot(ratio, c["flash_temperature_rise"], "-", color=figures.RED, label="surfaces (flash)")
+        bottom.plot(ratio, c["film_temperature_rise"], "-", color=figures.GREEN, label="film above the surfaces")
         bottom.set(ylabel="largest temperature rise (K)")
-        key_above(bottom)
+        figures.key_above(bottom)
     last = others[-1] if others else top
     last.set_xlabel("slide-roll ratio (-)")
-    log_if_wide(last, "x", ratio)
-    plain_ticks(last.xaxis)
+    figures.log_if_wide(last, "x", ratio)
+    figures.plain_ticks(last.xaxis)
     figure.savefig(path, dpi=150)
 
 
@@ -112,15 +97,15 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
     minor = np.array([len(violated) > 0 for violated in entries], dtype=bool) & ~severe
     everywhere = minor.all()
     for chosen, marker, color, label in (
-        (minor & (not everywhere), "o", GREY, "with cautions"),
-        (severe, "x", RED, "no answer (accepted)"),
+        (minor & (not everywhere), "o", figures.GREY, "with cautions"),
+        (severe, "x", figures.RED, "no answer (accepted)"),
     ):
         if chosen.any():
             axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
     if names := dict.fromkeys(entry.what for violated in entries for entry in violated):
         head = "cautions, at all points: " if everywhere else "cautions: "
-        figure.supxlabel(head + "; ".join(names), fontsize=8, color=GREY, wrap=True)
-    key_above(axes)
+        figure.supxlabel(head + "; ".join(names), fontsize=8, color=figures.GREY, wrap=True)
+    figures.key_above(axes)
 
 
 def plot_contact(path: Path, prepared, point) -> None:
@@ -139,7 +124,7 @@ def _one_gap(result, speed: float, half_width: float):
     near = np.abs(result.x) <= NEAR * half_width
     x, y = result.x[near], np.arange(result.pressure.shape[1]) * result.spacing[1]
     part = _part(x, y, int(result.pressure[near].max(axis=0).argmax()))
-    figure = new_figure(figsize=(10, 5.5), layout="compressed")
+    figure = figures.new_figure(figsize=(10, 5.5), layout="compressed")
     for axes, (label, field, colours, norm) in zip(
         figure.subplots(1, 3, sharey=True),
         (
@@ -148,7 +133,7 @@ def _one_gap(result, speed: float, half_width: float):
             ("shear stress (MPa)", result.shear / 1e6, "cividis", None),
         ),
     ):
-        field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)
+        figures.field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)
         _hertz_strip(axes, half_width)
         axes.label_outer()
     figure.suptitle(f"U = {speed:g} m/s{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
@@ -183,18 +168,17 @@ def _two_pressures(prepared, point):
     row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
     in_section = film is not None and heights.shape[0] == x.size
     panels = [contact is not None or not in_section, in_section]
-    figure = new_figure(figsize=(5.5 * sum(panels), 5.0))
+    figure = figures.new_figure(figsize=(5.5 * sum(panels), 5.0))
     axes = list(figure.subplots(1, sum(panels), squeeze=False).flat)
-    loads = (
-        f"U = {point.speed:g} m/s, $F_C$ = {worded(point.contact_load, 'N')}, $F_H$ = {worded(point.film_load, 'N')}"
-    )
+    both = worded(point.contact_load, "N"), worded(point.film_load, "N")
+    loads = "U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
     if contact is not None:
         part = _part(x, point.y, row)
-        field_image(
+        figures.field_image(
             axes[0], x, point.y[part], point.pressure[:, part] / 1e9, "magma_r", "contact pressure (GPa)", vmin=0
         )
         _hertz_strip(axes[0], half_width)
-        axes[0].axhline(point.y[row] * 1e6, color=GREEN, lw=0.8, ls=":")
+        axes[0].axhline(point.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
         loads += _partly(point.y, part)
     elif panels[0]:
         said = {"ha": "center", "va": "center", "transform": axes[0].transAxes}
@@ -212,54 +196,54 @@ def _two_pressures(prepared, point):
 
 def _hertz_strip(axes, half_width: float) -> None:
     for edge in (-half_width, half_width):
-        axes.axvline(edge * 1e6, color=GREY, lw=0.8, ls="--")
+        axes.axvline(edge * 1e6, color=figures.GREY, lw=0.8, ls="--")
     axes.set_xlabel("x (µm), along the motion")
 
 
 def _section(axes, micro, surface, smooth, contact, row: int) -> None:
     """Heights above the mean of the rough surface, as high as the thinnest film and the summits need."""
     drawn = [surface]
-    axes.plot(micro, smooth * 1e9, color=GREEN, label="smooth film h")
-    axes.plot(micro, surface * 1e9, color=GREY, lw=0.8, ls="--", label="rough surface, not pressed")
+    axes.plot(micro, smooth * 1e9, color=figures.GREEN, label="smooth film h")
+    axes.plot(micro, surface * 1e9, color=figures.GREY, lw=0.8, ls="--", label="rough surface, not pressed")
     if contact is not None:
         deflection = contact.displacement[:, row]
         drawn.append(surface - deflection + deflection.mean())
-        axes.plot(micro, drawn[-1] * 1e9, color=GREY, lw=1, label="rough surface, pressed")
-        axes.plot(micro, (contact.gap[:, row] + drawn[-1]) * 1e9, color=RED, label="other surface")
+        axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, pressed")
+        axes.plot(micro, (contact.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="other surface")
     low, high = 1e9 * min(z.min() for z in drawn), 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
     room = 0.15 * (high - low)
     axes.set(ylim=(low - room, high + room), ylabel="height (nm)")
-    key_above(axes, 2)
+    figures.key_above(axes, 2)
 
 
 def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
     """Speed and load, film, shares of the load, and friction over time, from the columns of history.csv."""
     c = columns
     t = c["time"] * time_scale(c["time"][-1])[0]
-    figure = new_figure(figsize=(7.5, 9))
+    figure = figures.new_figure(figsize=(7.5, 9))
     first, second, third, fourth = figure.subplots(4, 1, sharex=True)
     first.plot(t, c["entrainment_speed"], color="k")
-    first.axhline(0.0, color=GREY, lw=0.6)
+    first.axhline(0.0, color=figures.GREY, lw=0.6)
     first.set_ylabel("entrainment speed U (m/s)")
     figure.suptitle(title)
     load = first.twinx()
-    load.plot(t, c["load"], color=GREY, lw=1.2, ls="--")
+    load.plot(t, c["load"], color=figures.GREY, lw=1.2, ls="--")
     load.set_ylim(0.0, 1.15 * c["load"].max())
-    load.set_ylabel("load $F_T$ (N), dashed", color=GREY)
+    load.set_ylabel("load $F_T$ (N), dashed", color=figures.GREY)
     for name, label, style in (
-        ("central_film", "central film", {"color": GREEN}),
-        ("min_film", "minimum film", {"color": GREEN, "lw": 1, "ls": "--"}),
-        ("mean_gap", "mean gap over A", {"color": GREY, "lw": 0.9, "ls": ":"}),
+        ("central_film", "central film", {"color": figures.GREEN}),
+        ("min_film", "minimum film", {"color": figures.GREEN, "lw": 1, "ls": "--"}),
+        ("mean_gap", "mean gap over A", {"color": figures.GREY, "lw": 0.9, "ls": ":"}),
     ):
         second.plot(t, c[name] * 1e9, label=label, **style)
     second.set(ylabel="film thickness (nm)", ylim=(0.0, None))
-    load_shares(third, t, c["contact_load"] / c["load"])
+    figures.load_shares(third, t, c["contact_load"] / c["load"])
     for axes in (second, third):
-        key_above(axes)
+        figures.key_above(axes)
     error = c.get("sampling_error", np.zeros(0))
     if np.any(error > 0):
         low, high = (c["coefficient"] * (1 + sign * 2 * error) for sign in (-1, 1))
-        fourth.fill_between(t, low, high, color=BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
+        fourth.fill_between(t, low, high, color=figures.BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
     friction_over_time(fourth, c)
     fourth.set_xlim(t[0], t[-1])
     figure.savefig(path, dpi=150)
@@ -274,15 +258,15 @@ def animate(path: Path, result, half_width: float) -> None:
     reach = 3.0 * max(half_width, float(np.sqrt(h.min(axis=1).max() * 2.0 * radius)))
     seen = np.abs(x) <= reach
     x, thick = x[seen] * 1e6, h[:, seen] * 1e9
-    figure = new_figure(figsize=(7, 4.5))
+    figure = figures.new_figure(figsize=(7, 4.5))
     top = figure.subplots()
     bottom = top.twinx()
-    (pressure,) = top.plot([], [], color=RED)
-    (film,) = bottom.plot([], [], color=BLUE)
+    (pressure,) = top.plot([], [], color=figures.RED)
+    (film,) = bottom.plot([], [], color=figures.BLUE)
     top.set(xlim=(x[0], x[-1]), ylim=(0.0, 1.1 * result.pressure.max() / 1e6), xlabel="x (µm)")
-    top.set_ylabel("film pressure (MPa)", color=RED)
+    top.set_ylabel("film pressure (MPa)", color=figures.RED)
     bottom.set_ylim(0.0, 1.5 * max(result.central_film.max() * 1e9, np.median(thick.min(axis=1)) * 2.0))
-    bottom.set_ylabel("film thickness (nm)", color=BLUE)
+    bottom.set_ylabel("film thickness (nm)", color=figures.BLUE)
     scale, unit = time_scale(result.time[-1])
 
     def draw(i):

@@ -1,10 +1,10 @@
 """report.html of a run: one page for who was not there, with question, answer, pictures, doubts, inputs and sources. It
 needs no other file, and prints."""
 
-from __future__ import annotations
-
 import base64
 from html import escape
+from importlib.resources import files
+from string import Template
 
 import numpy as np
 
@@ -16,25 +16,8 @@ from ..studies import CurveResult
 from ..units import converted, printed, unit_for, worded
 from .describe import FACTS, SECTIONS, inputs
 
-STYLE = """
-@page { size: A4; margin: 15mm; }
-body { font: 15px/1.5 system-ui, sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
-h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin-top: 2rem; border-bottom: 1px solid #ccc; }
-table { border-collapse: collapse; font-size: 0.75rem; margin-bottom: 1rem; }
-td, th { padding: 0.15rem 0.35rem; text-align: left; vertical-align: top; overflow-wrap: break-word; }
-td.key { overflow-wrap: anywhere; } th { font-weight: 600; } tbody tr:nth-child(odd) { background: #f4f4f4; }
-td.number { text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }
-.answer { font-size: 1.25rem; } .warning { color: #b3392f; } .small { font-size: 0.85rem; color: #555; }
-figure { margin: 1rem 0; } img { max-width: 100%; max-height: 24cm; }
-@media print {
-  body { margin: 0; padding: 0; max-width: none; font-size: 10pt; }
-  tr, img, figure, li { break-inside: avoid; } thead { display: table-header-group; } h2 { break-after: avoid; }
-}
-"""
-OF_POINT = (
-    *("coefficient", "contact_load", "film_load"),
-    *("central_film", "film_to_roughness_ratio", "real_contact_area_fraction"),
-)
+OF_POINT = ["coefficient", "contact_load", "film_load", "central_film", "film_to_roughness_ratio"]
+OF_POINT += ["real_contact_area_fraction"]
 UNKNOWN = "the error of the model is not known, and not in it"
 
 
@@ -42,32 +25,24 @@ def report_page(prepared: Prepared, result, record: dict, images: dict[str, byte
     """The page of ``result``, a curve or a run in time. ``record``: what result.json holds; ``images``: PNG files by
     their captions."""
     scene, curve = prepared.scene, result if isinstance(result, CurveResult) else None
-    answer = _of_run(result) if curve is None else _of_curve(scene, curve)
-    sources = "" if curve is None else curve.cite()
-    sections = [
-        f"<h1>{escape(scene.name)}: friction of a lubricated line contact</h1>",
-        f'<p class="small">{escape(record["date"])}, lubfric {escape(record["versions"]["lubfric"])}</p>',
-        "<h2>Question</h2>",
-        f"<p>{escape(_question(scene))}</p>",
-        "<h2>Answer</h2>",
-        f'<p class="answer">{escape(answer[0])}</p>',
-        *(f"<p>{escape(text)}</p>" for text in answer[1:]),
-        *(f"<figure>{_image(content, caption)}</figure>" for caption, content in images.items()),
-        "<h2>Cautions</h2>",
-        _list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
-        *([] if curve is None else _points(curve)),
-        "<h2>Inputs</h2>",
-        *(_inputs(scene, section) for section in SECTIONS),
-        f"<p>{escape(prepared.surface.describe())}</p>",
-        _list(prepared.surface.notes),
-        *(["<h2>Sources</h2>", _list(sources.splitlines())] if sources else []),
-        "<h2>Made by</h2>",
-        _table(
-            [*record["versions"].items(), ("seconds", f"{record['seconds']:.3g}"), ("solver", result.report.message)]
-        ),
-    ]
-    title = f'<meta charset="utf-8"><title>{escape(scene.name)}</title><style>{STYLE}</style>'
-    page = f'<!DOCTYPE html><html lang="en"><head>{title}</head><body>{"".join(sections)}</body></html>\n'
+    answer, *more = _of_run(result) if curve is None else _of_curve(scene, curve)
+    made = [*record["versions"].items(), ("seconds", f"{record['seconds']:.3g}"), ("solver", result.report.message)]
+    page = Template((files(__package__) / "report.html").read_text(encoding="utf-8")).substitute(
+        name=escape(scene.name),
+        date=escape(record["date"]),
+        version=escape(record["versions"]["lubfric"]),
+        question=escape(_question(scene)),
+        answer=escape(answer),
+        more="".join(f"<p>{escape(text)}</p>" for text in more),
+        pictures="".join(_picture(content, caption) for caption, content in images.items()),
+        cautions=_list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
+        results="" if curve is None else "".join(_points(curve)),
+        inputs="".join(_inputs(scene, section) for section in SECTIONS),
+        map=escape(prepared.surface.describe()),
+        notes=_list(prepared.surface.notes),
+        sources=_list([] if curve is None else curve.cite().splitlines(), head="<h2>Sources</h2>"),
+        made=_rows((), [f"<th>{escape(name)}</th><td>{escape(value)}</td>" for name, value in made]),
+    )
     return page.encode()
 
 
@@ -95,20 +70,16 @@ def _of_curve(scene: Scene, curve: CurveResult) -> list[str]:
         return [f"0 of {counted(f.size, plural)} have an answer."]
     own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
     nearest = solved[np.abs(swept[solved] - own).argmin()]
-    place, known = (
-        f"at {symbol} = {swept[nearest]:.4g} {unit}".replace(" (slide-roll ratio)", ""),
-        curve.points[nearest],
-    )
+    place = f"at {symbol} = {swept[nearest]:.4g} {unit}".removesuffix(" (slide-roll ratio)")
+    known = curve.points[nearest]
     low, high = known.uncertainty.interval
     model = f"; {UNKNOWN}" if np.isnan(known.uncertainty.model) else ", model included"
     within = f", between {low:.3g} and {high:.3g} (95 %{model})" if np.isfinite(low) else ", with an error not known"
     told = [f"f = {f[nearest]:.3g}{within}, {place}."]
     if f.size > 1:
         least = swept[solved[f[solved].argmin()]]
-        told.append(
-            f"{solved.size} of {f.size} {plural} have an answer. f is {f[solved].min():.4g} to {f[solved].max():.4g}, "
-            f"and least at {symbol} = {least:.4g}."
-        )
+        ends = f"{f[solved].min():.4g} to {f[solved].max():.4g}, and least at {symbol} = {least:.4g}"
+        told.append(f"{solved.size} of {f.size} {plural} have an answer. f is {ends}.")
     return told
 
 
@@ -175,27 +146,21 @@ def _rows(heads, rows: list[str]) -> str:
 
 def _inputs(scene: Scene, section: str) -> str:
     """The inputs of a section as a table, and what follows from them."""
-    cells = "".join(
-        f"<tr><td>{escape(label)}</td><td>{escape(text).replace(' ', '&nbsp;')}</td>"
-        f'<td class="key">{escape(key + note)}</td></tr>'
+    rows = [
+        f"<td>{escape(label)}</td><td>{escape(text).replace(' ', '&nbsp;')}</td>"
+        f'<td class="key">{escape(key + note)}</td>'
         for label, text, key, note in inputs(scene, section)
-    )
-    head = f'<thead><tr><th colspan="3">{section}</th></tr></thead>'
+    ]
     more = _list(FACTS[section](scene)) if section in FACTS else ""
-    return (f"<table>{head}<tbody>{cells}</tbody></table>" if cells else "") + more
+    return (_rows((section, "", ""), rows) if rows else "") + more
 
 
-def _image(content: bytes, caption: str) -> str:
-    data = base64.b64encode(content).decode()
-    return f'<img alt="{escape(caption)}" src="data:image/png;base64,{data}"><figcaption>{escape(caption)}</figcaption>'
+def _picture(content: bytes, caption: str) -> str:
+    data, said = base64.b64encode(content).decode(), escape(caption)
+    return f'<figure><img alt="{said}" src="data:image/png;base64,{data}"><figcaption>{said}</figcaption></figure>'
 
 
-def _table(rows) -> str:
-    cells = "".join(f"<tr><th>{escape(a)}</th><td>{escape(b)}</td></tr>" for a, b in rows)
-    return f"<table><tbody>{cells}</tbody></table>"
-
-
-def _list(lines, otherwise: str = "", kind: str = "") -> str:
+def _list(lines, otherwise: str = "", kind: str = "", head: str = "") -> str:
     if not lines:
         return f"<p>{escape(otherwise)}</p>" if otherwise else ""
-    return f'<ul class="{kind}">{"".join(f"<li>{escape(line)}</li>" for line in lines)}</ul>'
+    return f'{head}<ul class="{kind}">{"".join(f"<li>{escape(line)}</li>" for line in lines)}</ul>'

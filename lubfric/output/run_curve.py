@@ -1,7 +1,5 @@
 """``lubfric run`` on a steady scene: its Stribeck curve, or (``--ratios``) its traction curve, written to a folder."""
 
-from __future__ import annotations
-
 import math
 import re
 import threading
@@ -11,23 +9,12 @@ from dataclasses import asdict
 
 import numpy as np
 
-from .._base import FolderLock, OwnFiles, make_ready, plain_words, read_table, validate
+from .. import studies
+from .._base import FolderLock, OwnFiles, figures, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
 from ..sharing import Prepared, Validity, lack_in_words, takes_strips
-from ..studies import (
-    AUTO,
-    MOST_WORKERS,
-    CurveResult,
-    csv_bytes,
-    fingerprint,
-    pool,
-    processors,
-    read_measured,
-    stribeck,
-    traction,
-)
 from ..units import number_of
 from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
 from .fields import fields_bytes, vtk_bytes
@@ -51,25 +38,27 @@ def run_sweep(scene: Scene, arguments) -> None:
     one are there. Every point is on disk when it ends, so an interrupted run continues from there. A failed run writes
     what it has, then raises `ConvergenceError`.
     """
-    begun, out, done_so_far = time.perf_counter(), arguments.out, [0]
+    begun, out, ended = time.perf_counter(), arguments.out, []
     speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
-    total, progress = "some" if speeds == AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
+    total, progress = "some" if speeds == studies.AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
     _check_outputs("stribeck", arguments, len(chosen))
-    with pool(_workers(scene, speeds, arguments.workers)) as executor:
+
+    def on_point(*point):
+        ended.append(point)
+        progress(*point)
+
+    if arguments.workers is not None:
+        workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
+    else:  # the numbers do not depend on it
+        enough = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
+        workers = 2 if enough and studies.processors() > 1 else 1
+    with studies.pool(workers) as executor:
         prepared = ready(scene)
-
-        def on_point(done, *point):
-            done_so_far[0] = done
-            progress(done, *point)
-
-        def kept() -> str:
-            points = f"{done_so_far[0]} of {total} points"
-            return f"interrupted; {points} are kept in {out}: the same command goes on from there"
-
-        with keeping(kept), run_folder(out, begun, fingerprint(prepared, speeds, chosen)) as folder:
-            threading.Thread(target=make_ready, daemon=True).start()  # while the speeds are solved
+        kept = keeping(lambda: f"{len(ended)} of {total} points are kept in {out}")
+        with kept, run_folder(out, begun, studies.fingerprint(prepared, speeds, chosen)) as folder:
+            threading.Thread(target=figures.make_ready, daemon=True).start()  # while the speeds are solved
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
-            curve = stribeck(prepared, speeds, None if speeds == AUTO else executor, **options)
+            curve = studies.stribeck(prepared, speeds, None if speeds == studies.AUTO else executor, **options)
             _write(folder, prepared, curve, arguments, chosen)
     _raise_if_failed(curve)
 
@@ -81,19 +70,11 @@ def run_traction(scene: Scene, arguments) -> None:
     ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
     _check_outputs("traction", arguments, 0)
     prepared = ready(scene)
-    with run_folder(arguments.out, begun, fingerprint(prepared, ratios, "traction")) as folder:
+    with run_folder(arguments.out, begun, studies.fingerprint(prepared, ratios, "traction")) as folder:
         progress = _progress("slide-roll ratio {:<9.4g}")
-        curve = traction(prepared, ratios, on_point=progress, raise_on_failure=False)
+        curve = studies.traction(prepared, ratios, on_point=progress, raise_on_failure=False)
         _write(folder, prepared, curve, arguments, [])
     _raise_if_failed(curve)
-
-
-def _workers(scene: Scene, speeds, given: int | None) -> int:
-    """Processes that share the ``speeds``: as ``given``, else two if there are as many processors, enough speeds, and
-    each is solved on strips. The numbers do not depend on it."""
-    if given is not None:
-        return validate.integer("--workers", given, minimum=1, maximum=MOST_WORKERS)
-    return 2 if speeds != AUTO and len(speeds) >= WORTH and takes_strips(scene) and processors() > 1 else 1
 
 
 def _check_outputs(table: str, arguments, contacts: int) -> None:
@@ -103,10 +84,10 @@ def _check_outputs(table: str, arguments, contacts: int) -> None:
     check_outputs(arguments, arguments.out, names, OUTPUTS)
 
 
-def _write(folder: RunFolder, prepared: Prepared, curve: CurveResult, arguments, chosen: list[float]) -> None:
+def _write(folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, arguments, chosen: list[float]) -> None:
     """The table, the fields of the ``chosen`` speeds, their pictures, the record; and what was asked for beside."""
     name, contents = "traction" if curve.SWEPT[0] == "ratio" else "stribeck", folder.contents
-    contents[f"{name}.csv"] = csv_bytes(curve)
+    contents[f"{name}.csv"] = studies.csv_bytes(curve)
     units = {number: COLUMNS[number] for number in (*NUMBERS, curve.SWEPT[0])}
     record = folder.record(prepared, curve, units, points=[_point(curve, i) for i in range(len(curve.points))])
     columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
@@ -132,23 +113,20 @@ def _drawable(columns) -> np.ndarray:
     return np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
 
 
-def _point(curve: CurveResult, index: int) -> dict:
+def _point(curve: studies.CurveResult, index: int) -> dict:
     """The record of a point: its numbers, the error of f in words too, and the errors of the other numbers; or why
     there are none."""
     name, point = curve.SWEPT[0], curve.points[index]
     found = {name: getattr(curve, name)[index], "validity": [asdict(entry) for entry in curve.entries(index)]}
     if point is None:
         return found | {"error": str(curve.errors[index])}
-    return (
-        {number: getattr(point, number) for number in NUMBERS}
-        | found
-        | {
-            "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
-            "errors": asdict(point.errors),
-            "report": point.report.as_dict(),
-            "lacks": [lack_in_words(lack) for lack in point.lacks],
-        }
-    )
+    more = {
+        "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
+        "errors": asdict(point.errors),
+        "report": point.report.as_dict(),
+        "lacks": [lack_in_words(lack) for lack in point.lacks],
+    }
+    return {number: getattr(point, number) for number in NUMBERS} | found | more
 
 
 def plot_again(arguments) -> None:
@@ -162,7 +140,7 @@ def plot_again(arguments) -> None:
     if arguments.measured is not None:
         if arguments.speed is None or arguments.coefficient is None:
             raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
-        measured = read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)
+        measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)
     points, count = record.get("points", []), columns["coefficient"].size
     if len(points) != count:
         raise InputError(f"{source} has {count} rows and result.json {len(points)} points; run 'lubfric run' again")
@@ -182,43 +160,36 @@ def replot(arguments, name: str, plot: Callable, *given) -> None:
 
 def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
     """The picture of the table of a curve; ``points``: those of its record."""
-    entries = [[Validity(**entry | _known(entry)) for entry in point["validity"]] for point in points]
-    title = plain_words(title)
+    unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
+    known = [[{k: v for k, v in entry.items() if v is not None} for entry in point["validity"]] for point in points]
+    entries = [[Validity(**unknown | entry) for entry in each] for each in known]
+    title = figures.plain_words(title)
     if "ratio" in columns:
         title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
     (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured)
 
 
-def _known(entry: dict) -> dict[str, float]:
-    """The numbers of an entry of a record, in which those that are not finite are null."""
-    return {name: math.nan if entry[name] is None else entry[name] for name in ("value", "limit")}
-
-
-def _doubts(scene: Scene, curve: CurveResult) -> list[str]:
+def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     """The errors of f in words: at how many points, and in full for the least sure of them; at how many points too few
     spots carry the load; and that results were accepted."""
     name, _, unit, plural = curve.SWEPT
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
     noted, said = [point for point in points if point[1].notes], []
     few = [value for value, known in points if known.few_spots]
-
     if noted:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
-        others = (
-            f" (the largest; result.json has {counted(len(noted) - 1, f'more {plural}')})" if len(noted) > 1 else ""
-        )
-        said.append(f"error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{others}")
+        others = counted(len(noted) - 1, f"more {plural}")
+        more = f" (the largest; result.json has {others})" if len(noted) > 1 else ""
+        said.append(f"error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{more}")
         if few and few != [at]:
             where = ", ".join(f"{value:.4g}" for value in few)
             said.append(f"few spots carry the load at {where} {unit}: these intervals are too narrow")
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.entries(i)):
-        said.append(
-            "accepted although outside the range of the model: these coefficients are marked, and are no answers"
-        )
+        said.append("accepted although outside the range of the model: the coefficients marked are no answers")
     return said
 
 
-def _raise_if_failed(curve: CurveResult) -> None:
+def _raise_if_failed(curve: studies.CurveResult) -> None:
     """Say how many points failed and how many were refused, and the first of them."""
     if not curve.errors:
         return
@@ -234,8 +205,8 @@ def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
     """The speeds [m/s] of a command, or "auto", and those of them whose fields are wanted: these are added where they
     are missing, in order if the others are in order."""
     chosen = parse_speeds("--fields", fields) or [scene.motion.entrainment_speed]
-    if speeds == AUTO:
-        return AUTO, [abs(u) for u in chosen if u != 0]
+    if speeds == studies.AUTO:
+        return studies.AUTO, [abs(u) for u in chosen if u != 0]
     asked = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
     own, rising = [], asked == sorted(asked)
     for speed in chosen:
@@ -268,11 +239,9 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
         validate.number(option, speed, unit, minimum=-most, maximum=most)
     if not ranged:
         return numbers
-    if len(numbers) != 3 or not (
-        0 < numbers[0] < numbers[1] and 1 <= numbers[2] <= MOST_SPEEDS and numbers[2] % 1 == 0
-    ):
+    if len(numbers) != 3 or not 0 < numbers[0] < numbers[1] or numbers[2] not in range(1, MOST_SPEEDS + 1):
         raise refusal
-    return [float(u) for u in np.geomspace(numbers[0], numbers[1], int(numbers[2]))]
+    return np.geomspace(numbers[0], numbers[1], int(numbers[2])).tolist()
 
 
 def _progress(place: str) -> Callable:

@@ -1,29 +1,15 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
-from __future__ import annotations
-
 import time
 
-from .._base import plain_words, read_table, table_bytes
+from .._base import figures, read_table, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
 from ..sharing import in_a_cell
 from ..studies import fingerprint
-from ..time import STATE, TransientResult, transient
-from .commands import (
-    CHECKPOINT,
-    OUTPUTS,
-    RESULT,
-    RunFolder,
-    check_outputs,
-    keeping,
-    paced,
-    read_record,
-    ready,
-    run_folder,
-    say,
-)
+from ..time import TransientResult, transient
+from . import commands
 from .fields import npz_bytes
 from .pictures import animate, plot_history
 from .report import report_page
@@ -35,41 +21,33 @@ def run_history(scene: Scene, arguments) -> None:
     and, last, result.json to ``arguments.out``.
 
     The scene is checked and made ready before the folder is touched, and the results of an earlier run stay until those
-    of this one are there. An interrupted run continues from its folder checkpoint. A failed run writes what it has, and
-    then raises `ConvergenceError`.
+    of this one are there. An interrupted run continues from where it was. A failed run writes what it has, and then
+    raises `ConvergenceError`.
     """
-    begun, reached, due, out = time.perf_counter(), 0.0, paced(), arguments.out
+    begun, reached, due, out = time.perf_counter(), 0.0, commands.paced(), arguments.out
     failure: LubfricError | None = None
-    names = [
-        "history.csv",
-        "history.png",
-        "fields.npz",
-        "report.html",
-        RESULT,
-        *["animation.gif"] * arguments.animation,
-    ]
-    check_outputs(arguments, out, names, OUTPUTS)
-    prepared = ready(scene)
+    names = ["history.csv", "history.png", "fields.npz", "report.html", commands.RESULT]
+    commands.check_outputs(arguments, out, names + ["animation.gif"] * arguments.animation, commands.OUTPUTS)
+    prepared = commands.ready(scene)
 
     def on_step(now, duration, row):
         nonlocal reached
         reached = now
         if row is not None and due(now >= duration):
-            say(
+            commands.say(
                 f"t = {now:<8.5g} of {duration:g} s: U = {row['entrainment_speed']:<9.4g} m/s, f = "
                 f"{row['coefficient']:<8.5f}, F_C = {row['contact_load']:<9.4g} N, F_H = {row['film_load']:<9.4g} N, "
                 f"h_min = {row['min_film'] * 1e9:<6.4g} nm (step {row['steps']:.0f})"
             )
 
     def kept() -> str:
-        return f"interrupted; the state at t = {reached:.5g} s is kept in {out}: the same command goes on from there"
+        return f"the state at t = {reached:.5g} s is kept in {out}"
 
-    with keeping(kept), run_folder(out, begun, fingerprint(prepared)) as folder:
-        checkpoint = out / CHECKPOINT
-        if (checkpoint / STATE).is_file():
-            say(f"going on from {checkpoint}")
+    with commands.keeping(kept), commands.run_folder(out, begun, fingerprint(prepared)) as folder:
+        if folder.unfinished.is_dir():
+            commands.say(f"going on from {folder.unfinished}")
         try:
-            result = transient(prepared, checkpoint=checkpoint, on_step=on_step)
+            result = transient(prepared, checkpoint=folder.unfinished, on_step=on_step)
         except (ConvergenceError, ValidityError) as error:
             if error.result is None:
                 raise
@@ -83,7 +61,7 @@ def run_history(scene: Scene, arguments) -> None:
         raise failure
 
 
-def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
+def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
     """All but the result."""
     columns = {heading(name): result.columns[name] for name in OF_MOMENT}
     told = {"validity": [in_a_cell(entries) for entries in result.entries]}
@@ -91,7 +69,7 @@ def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: 
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}
     folder.contents["fields.npz"] = npz_bytes(fields)
     if result.time.size > 1:
-        folder.draw("history.png", plot_history, result.columns, plain_words(scene.name))
+        folder.draw("history.png", plot_history, result.columns, figures.plain_words(scene.name))
     if animation:
         folder.draw("animation.gif", animate, result, scene.bodies.half_width)
 
@@ -99,5 +77,5 @@ def _write(folder: RunFolder, scene: Scene, result: TransientResult, animation: 
 def plot_again(arguments) -> None:
     """Draw history.png of ``arguments.folder`` again."""
     folder = arguments.folder
-    columns, record = read_table(folder / "history.csv"), read_record(folder)
-    replot(arguments, "history.png", plot_history, columns, plain_words(record["scene"]["name"]))
+    columns, record = read_table(folder / "history.csv"), commands.read_record(folder)
+    replot(arguments, "history.png", plot_history, columns, figures.plain_words(record["scene"]["name"]))

@@ -1,52 +1,36 @@
 """``lubfric study`` and ``lubfric fit``: carry out a study file, or find numbers of a scene from a measured curve.
 Both write to a folder."""
 
-from __future__ import annotations
-
 import json
 import sys
 import time
 from pathlib import Path
 
-from .._base import new_figure, plain, shown, validate
+from .. import studies
+from .._base import figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
 from ..quantities import KEYS
 from ..scene import Scene
-from ..studies import (
-    MOST_WORKERS,
-    PLAN,
-    FitResult,
-    check_plan,
-    check_tools,
-    explain_fit,
-    fit,
-    in_words,
-    load_study,
-    open_study,
-    pool,
-    read_measured,
-    study,
-)
 from ..units import number_of
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
 
 
 def run_study(arguments) -> None:
     """Plan, solve and write study.csv (and study.nc, study.parquet)."""
-    workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=MOST_WORKERS)
-    plan = load_study(arguments.study)
+    workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
+    plan = studies.load_study(arguments.study)
     if arguments.explain:
         put(sys.stdout, plan.explain(arguments.out) + "\n")
         return
-    check_tools(arguments.netcdf, arguments.parquet)
+    studies.check_tools(arguments.netcdf, arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     check_outputs(arguments, arguments.out, names)
-    check_plan(arguments.out)
+    studies.check_plan(arguments.out)
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
-    with keeping(lambda: _kept(arguments.out)), pool(workers) as executor:
-        result = study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
+    with keeping(lambda: _kept(arguments.out)), studies.pool(workers) as executor:
+        result = studies.study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:
         folder.contents |= {name: made(name, writers[name.partition(".")[2]]) for name in names}
@@ -60,11 +44,11 @@ def run_study(arguments) -> None:
 
 
 def _kept(folder: Path) -> str:
-    if not (folder / PLAN).is_file():
-        return "interrupted before the first point"
-    found = open_study(folder)
+    if not (folder / studies.PLAN).is_file():
+        return "nothing is solved yet"
+    found = studies.open_study(folder)
     left = f"{found.missing} {'curves' if found.chosen else 'points'} are left"
-    return f"interrupted; {found.solved} points are kept in {folder}, {left}: the same command goes on from there"
+    return f"{found.solved} points are kept in {folder}, {left}"
 
 
 def _progress(begun: float):
@@ -75,8 +59,10 @@ def _progress(begun: float):
         first = done if first < 0 else first  # what the store held already took no time
         if due(done == total):
             passed = time.perf_counter() - begun
-            left = f", about {in_words(passed * (total - done) / (done - first))} left" if first < done < total else ""
-            say(f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s{left}")
+            told = f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s"
+            if first < done < total:
+                told += f", about {studies.in_words(passed * (total - done) / (done - first))} left"
+            say(told)
 
     return on_progress
 
@@ -88,17 +74,17 @@ def run_fit(scene: Scene, arguments) -> None:
     bounds, begun, due = _bounds(arguments.parameter), time.perf_counter(), paced()
     columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
     rolling = not arguments.without_rolling
-    measured = read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
-    say(explain_fit(scene, measured, bounds))
+    measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
+    say(studies.explain_fit(scene, measured, bounds))
 
     def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
         if due(done == 1):
             off = f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} deviations"
             best = ", ".join(f"{key} = {value:.4g}" for key, value in values.items())
-            passed = f"{time.perf_counter() - begun:.0f} s, about {in_words(left)} left"
+            passed = f"{time.perf_counter() - begun:.0f} s, about {studies.in_words(left)} left"
             say(f"curve {done} of about {total}: nearest so far {off} off at {best}; {passed}")
 
-    found = fit(scene, measured, bounds, on_progress=on_progress)
+    found = studies.fit(scene, measured, bounds, on_progress=on_progress)
     say(found.explain())
     with run_folder(arguments.out, begun) as folder:
         folder.contents["fitted.toml"] = found.scene.to_toml().encode()
@@ -115,16 +101,18 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
             unit = KEYS[key.strip()].unit if key.strip() in KEYS else "-"
             low, high = (number_of("--parameter", end, unit) for end in ends.split(":"))
         except ValueError as error:
-            refusal = InputError(f"--parameter {shown(text)}; write 'section.key=lowest:highest', in SI or with units")
+            refusal = InputError(
+                f"--parameter {validate.shown(text)}; write 'section.key=lowest:highest', in SI or with units"
+            )
             refusal.hint(getattr(error, "said", "").removeprefix(" = "))
             raise refusal from None
         if key.strip() in found:
-            raise InputError(f"--parameter {shown(text)}: {key.strip()} is given twice; give it once")
+            raise InputError(f"--parameter {validate.shown(text)}: {key.strip()} is given twice; give it once")
         found[key.strip()] = (low, high)
     return found
 
 
-def _record(found: FitResult) -> dict:
+def _record(found: studies.FitResult) -> dict:
     names = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
     return {name: getattr(found, name) for name in names} | {
         "parameters": list(found.parameters),
@@ -135,8 +123,8 @@ def _record(found: FitResult) -> dict:
     }
 
 
-def _draw(path: Path, found: FitResult) -> None:
-    figure = new_figure(figsize=(7, 6.5))
+def _draw(path: Path, found: studies.FitResult) -> None:
+    figure = figures.new_figure(figsize=(7, 6.5))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
     found.plot(top).set_xlabel("")
     found.plot_residuals(bottom)

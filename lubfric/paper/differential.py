@@ -1,12 +1,10 @@
 """The film by differential deflection, the method on which the load-sharing model was first built."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 
-from .._base import integer, number
+from .._base import validate
 from ..errors import CONVERGED, STAGNATED, InputError, Report
 from ..film import (
     Effort,
@@ -80,9 +78,9 @@ def solve_differential_deflection(
     oil = Lubricant(viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, inlet_length=inlet_length)
     Effort(tolerance, 0, max_iterations)  # checks both
     if nodes is not None:
-        integer("nodes", nodes, minimum=COARSEST + 1)
-    integer("most_nodes", most_nodes, minimum=COARSEST + 1)
-    integer("bandwidth", bandwidth, minimum=0)
+        validate.integer("nodes", nodes, minimum=COARSEST + 1)
+    validate.integer("most_nodes", most_nodes, minimum=COARSEST + 1)
+    validate.integer("bandwidth", bandwidth, minimum=0)
     problem = make_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, oil))
     ends = domain_ends(problem, domain)
     cells = _cells(problem, ends, nodes, most_nodes)
@@ -102,8 +100,8 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
             raise InputError("domain and inlet_length both say where the grid begins; give one of them")
         if np.shape(domain) != (2,):
             raise InputError(f"domain = {domain!r} is not a pair; give (first, last) in m")
-        first = number("domain[0]", domain[0], "m", maximum=-b * unit) / unit
-        return first, number("domain[1]", domain[1], "m", minimum=b * unit) / unit
+        first = validate.number("domain[0]", domain[0], "m", maximum=-b * unit) / unit
+        return first, validate.number("domain[1]", domain[1], "m", minimum=b * unit) / unit
     first = -2.0 * b - 20.0 * rise if problem.inlet is None else -problem.inlet
     return first, rupture_guess(problem) + 0.2 * b + rise
 
@@ -130,7 +128,11 @@ def _ascend(
     levels: list[Solution] = []
     for n in cells:
         mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet is None)
-        P, H = _transferred(mesh, levels[-1]) if levels else cold_start(mesh, problem)
+        P, H = cold_start(mesh, problem)
+        if levels:  # pressure (linear) and film (cubic) of the mesh before
+            X, last = levels[-1].mesh.X, levels[-1]
+            P = np.interp(mesh.X, X, last.P)
+            H = cubic(X, last.H - 0.5 * X**2, mesh.X) + 0.5 * mesh.X**2
         levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_iterations))
         if levels[0].status != CONVERGED and n in cells[:2] and n < cells[-1]:
             levels.pop()  # too coarse to start on
@@ -152,12 +154,6 @@ def cold_start(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     return P, gap - gap.min() + film
 
 
-def _transferred(mesh: Mesh, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
-    """Pressure (linear) and film (cubic) of a solution on another mesh."""
-    X, parabola = solution.mesh.X, 0.5 * mesh.X**2
-    return np.interp(mesh.X, X, solution.P), cubic(X, solution.H - 0.5 * X**2, mesh.X) + parabola
-
-
 def grid_error(levels: list[Solution]) -> float:
     """Largest relative change of minimum, central and flow film between the last two grids, or a quarter of the change
     before that. This is some three times the error, because the rupture point is always at a node, which makes the
@@ -174,17 +170,13 @@ def _at_centre(solution: Solution) -> float:
     return float(cubic(X, solution.H - 0.5 * X**2, np.zeros(1))[0])
 
 
-def _domain_error(problem: Problem, solution: Solution) -> float:
-    """The estimated effect of the finite inlet: the tail's share of the load times its departure from the parabola."""
-    if problem.inlet is not None:
-        return 0.0
-    a = -solution.mesh.X[0]
-    return float(0.5 * a * solution.P[0] / problem.M * abs(2.0 * solution.H[0] / a**2 - 1.0))
-
-
 def _report(problem: Problem, levels: list[Solution], tolerance: float) -> Report:
     last = levels[-1]
-    residuals = {"discretisation": grid_error(levels), "domain": _domain_error(problem, last)}
+    a = -last.mesh.X[
+        0
+    ]  # the effect of a finite inlet: the tail's share of the load times its departure from a parabola
+    tail = float(0.5 * a * last.P[0] / problem.M * abs(2.0 * last.H[0] / a**2 - 1.0))
+    residuals = {"discretisation": grid_error(levels), "domain": tail if problem.inlet is None else 0.0}
     residuals |= last.residuals
     residual = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else math.inf
     status = last.status

@@ -24,8 +24,6 @@ Sources: H. P. Evans, T. G. Hughes, Proc. IMechE C 214 (2000) 563-584; T. G. Hug
 IMechE C 214 (2000) 585-598; C. D. Elcoate, H. P. Evans, T. G. Hughes, R. W. Snidle, Proc. IMechE J 215 (2001) 319-337.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
@@ -146,17 +144,14 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Term
     log_eta, slope = problem.log_viscosity(P)
     rho, rho_slope = problem.density(P)
     fluidity, by_left, by_right = log_mean_fluidity(log_eta)
-    face_rho, h = 0.5 * (rho[1:] + rho[:-1]), _film_at_faces(H)
+    first = 0.375 * H[0] + 0.75 * H[1] - 0.125 * H[2]  # third-order upwind; the first face has nothing upstream
+    face_rho, h = 0.5 * (rho[1:] + rho[:-1]), np.append(first, 0.375 * H[2:] + 0.75 * H[1:-1] - 0.125 * H[:-2])
     gradient = np.diff(P) / (6.0 * mesh.step)
     flow = h - h**3 * fluidity * gradient
     cube = face_rho * h**3
     conductance = cube * fluidity / (6.0 * mesh.step)
-    by_P = np.stack(
-        [
-            conductance - cube * gradient * by_left * slope[:-1] + 0.5 * flow * rho_slope[:-1],
-            -conductance - cube * gradient * by_right * slope[1:] + 0.5 * flow * rho_slope[1:],
-        ]
-    )
+    left = conductance - cube * gradient * by_left * slope[:-1] + 0.5 * flow * rho_slope[:-1]
+    right = -conductance - cube * gradient * by_right * slope[1:] + 0.5 * flow * rho_slope[1:]
     through = face_rho * flow
     balance = np.zeros_like(P)
     balance[1:-1] = np.diff(through)
@@ -166,18 +161,8 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Term
     balance[0] = P[0] - inlet_ratio(mesh) * P[1]
     defect = H - 0.5 * mesh.X**2 - convolve(mesh.log_transform, P)
     ends = np.array([defect[0] - defect[-1], load_row(mesh, problem) @ P - 1.0])
-    return Terms(
-        through,
-        last,
-        float(through[last]),
-        balance,
-        defect - defect[0],
-        ends,
-        scale,
-        face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient),
-        by_P,
-        slope,
-    )
+    by_H, by_P = face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient), np.stack([left, right])
+    return Terms(through, last, float(through[last]), balance, defect - defect[0], ends, scale, by_H, by_P, slope)
 
 
 def load_row(mesh: Mesh, problem: Problem) -> np.ndarray:
@@ -196,12 +181,6 @@ def tilt_row(mesh: Mesh) -> np.ndarray:
 def inlet_ratio(mesh: Mesh) -> float:
     """P at the first node as a share of P at the second."""
     return (mesh.X[1] / mesh.X[0]) ** 3 if mesh.flooded else 0.0
-
-
-def _film_at_faces(H: np.ndarray) -> np.ndarray:
-    """Film between neighbouring nodes, third-order upwind; the first face has nothing upstream."""
-    first = 0.375 * H[0] + 0.75 * H[1] - 0.125 * H[2]
-    return np.append(first, 0.375 * H[2:] + 0.75 * H[1:-1] - 0.125 * H[:-2])
 
 
 def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:

@@ -5,24 +5,14 @@ ends. GMRES around it adds the weights of far pressures. So not only the answer 
 integral. Without GMRES (KRYLOV_LIMIT = 0) the far deflection lags one step behind, as in the original method.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from ..film import Problem, step_length
-from .differential_equations import (
-    Mesh,
-    Terms,
-    convolve,
-    evaluate,
-    inlet_ratio,
-    load_row,
-    measure,
-    tilt_row,
-)
+from . import differential_equations as equations
+from .differential_equations import Mesh, Terms
 
 KRYLOV_LIMIT = 40  # GMRES vectors in one Newton step
 FORCING = 1e-2  # share of the far deflection that a Newton step may leave to the next one
@@ -66,7 +56,7 @@ def near_solver(mesh: Mesh, problem: Problem, t: Terms):
     border = np.zeros((2 * n, 2), order="F")
     border[1, 0] = border[-1, 1] = 1.0
     border, _ = dgbtrs(lu, lower, upper, border, pivots, overwrite_b=1)
-    rows = np.stack([tilt_row(mesh), load_row(mesh, problem)])
+    rows = np.stack([equations.tilt_row(mesh), equations.load_row(mesh, problem)])
     closing = rows @ border[0::2] + [[1.0, -1.0], [0.0, 0.0]]
 
     def solve(balance, bend, ends):
@@ -79,7 +69,7 @@ def near_solver(mesh: Mesh, problem: Problem, t: Terms):
 
 def _put_reynolds(mesh: Mesh, t: Terms, put) -> None:
     put(0, 0, 1.0)
-    put(0, 2, -inlet_ratio(mesh))
+    put(0, 2, -equations.inlet_ratio(mesh))
     dry = np.arange(t.last + 1, mesh.size)
     put(2 * dry, 2 * dry, 1.0)
     i = np.arange(1, t.last + 1)
@@ -111,34 +101,27 @@ def newton_step(mesh: Mesh, t: Terms, near) -> tuple[np.ndarray, int]:
     far pressures on the second differences. So z = A⁻¹b + A⁻¹f and f - far(A⁻¹f) = far(A⁻¹b). GMRES solves the latter
     for f.
     """
+    from scipy.sparse.linalg import LinearOperator, gmres
 
     def far(z):
-        f = convolve(mesh.far_transform, z[0::2])
+        f = equations.convolve(mesh.far_transform, z[0::2])
         f[[0, -1]] = 0.0
         return f
 
-    bend = np.zeros(mesh.size)
+    bend, still = np.zeros(mesh.size), np.zeros(mesh.size)
     bend[1:-1] = np.diff(t.defect, 2)
     z = near(-t.balance, -bend, -t.ends)
-    f = far(z)
-    size, still = float(np.linalg.norm(f)), np.zeros(mesh.size)
-    if mesh.bandwidth >= mesh.size - 1 or size == 0.0:
+    if mesh.bandwidth >= mesh.size - 1:
         return z, 1
-    basis, answers = [f / size], []
-    h = np.zeros((KRYLOV_LIMIT + 1, KRYLOV_LIMIT))
-    for k in range(KRYLOV_LIMIT):
-        answers.append(near(still, basis[k], np.zeros(2)))
-        v = basis[k] - far(answers[k])
-        for j, b in enumerate(basis):
-            h[j, k] = b @ v
-            v = v - h[j, k] * b
-        h[k + 1, k] = np.linalg.norm(v)
-        goal = np.eye(k + 2)[0]
-        y = np.linalg.lstsq(h[: k + 2, : k + 1], goal)[0]
-        if np.linalg.norm(h[: k + 2, : k + 1] @ y - goal) <= FORCING:
-            break
-        basis.append(v / h[k + 1, k])
-    return (z + size * (y @ np.array(answers)) if answers else z), len(answers) + 1
+    answers = [z]
+
+    def left(f):
+        answers.append(near(still, f, np.zeros(2)))
+        return f - far(answers[-1])
+
+    operator = LinearOperator((mesh.size, mesh.size), left, dtype=float)
+    f, _ = gmres(operator, far(z), rtol=FORCING, restart=KRYLOV_LIMIT, maxiter=1)
+    return z + near(still, f, np.zeros(2)), len(answers) + 1
 
 
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # history tests for it
@@ -147,8 +130,8 @@ def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance
     the grid."""
     history, solves, status = [], 0, ITERATION_LIMIT
     for step in range(max_steps + 1):
-        t = evaluate(mesh, problem, P, H)
-        residuals = measure(t, P, H)
+        t = equations.evaluate(mesh, problem, P, H)
+        residuals = equations.measure(t, P, H)
         history.append(max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else np.inf)
         ruptured = t.last < mesh.size - 2 and P[t.last] > 0.0 and not np.any(P[t.last + 1 :])
         if history[-1] <= tolerance and ruptured:
@@ -161,15 +144,10 @@ def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance
         z, count = newton_step(mesh, t, near)
         solves += count
         length = step_length(z[0::2] * t.slope, float(np.max(-z[1::2] / H)))
-        P, H = _without_tension(P + length * z[0::2], t.last), H + length * z[1::2]
+        P, H = P + length * z[0::2], H + length * z[1::2]
+        P[t.last + 1 :] = 0.0  # and no tension behind the peak
+        peak = int(np.argmax(P))
+        P[peak:] = np.maximum(P[peak:], 0.0)
     if status != CONVERGED and step < max_steps:
         status = DIVERGED
     return Solution(mesh, P, H, t, status, residuals, tuple(history), solves)
-
-
-def _without_tension(P: np.ndarray, last: int) -> np.ndarray:
-    """The pressures with P = 0 behind ``last``, and wherever they are negative behind their peak."""
-    P[last + 1 :] = 0.0
-    peak = int(np.argmax(P))
-    P[peak:] = np.maximum(P[peak:], 0.0)
-    return P

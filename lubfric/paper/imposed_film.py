@@ -5,8 +5,6 @@ problem: A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. (3), (7), (8), doi
 signs of this library the gap is ``g = h - epsilon - z + K p``.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -59,13 +57,6 @@ class ImposedFilm:
         """
         return self.mean(self.problem.gap0 + displacement + overlap) - self.mean_film
 
-    def first_pressure(self) -> np.ndarray:
-        """A first pressure, proportional to the overlap at the offset of the undeformed surfaces, with the best
-        factor."""
-        overlap = np.maximum(self.mean(self.problem.gap0) - self.mean_film - self.problem.gap0, 0.0)
-        stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))
-        return np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
-
     def surplus(self, state: State) -> float:
         """By how much the film exceeds the volume between the surfaces: their difference over A, in the smaller of the
         mean film and the length in which `lubfric.solve_contact` measures residuals."""
@@ -88,7 +79,10 @@ class ImposedFilm:
             zero, note = np.zeros_like(self.problem.gap0), "the film clears the surface: no contact"
             solver, found = "none", self.ended(zero, self.offset(zero), CONVERGED, 0, [], [note])
         else:
-            found = iterate(self.first_pressure())
+            overlap = np.maximum(self.mean(self.problem.gap0) - self.mean_film - self.problem.gap0, 0.0)
+            stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))  # of the offset of undeformed surfaces
+            first = np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
+            found = iterate(first)
         control = {"volume": abs(self.surplus(found.state))}
         result = concluded(self.problem, replace(found, solver=solver), control, STAGNATED)
         if raise_on_failure:

@@ -14,8 +14,6 @@ The form "consistent" (default) keeps the single loop, and changes what prevents
 - The bulk deflection that is common to the whole contact becomes part of epsilon at once (`bulk`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 
 import numpy as np

@@ -8,7 +8,7 @@ interval. `friction` is the entry; `answer` and `answer_deterministic` are the t
 from .friction import friction
 from .moving import MOST_WORK, maps_of
 from .outlook import forecast
-from .pair import strip_of
+from .pair import numbers_of, strip_of
 from .result import FrictionResult, together
 from .sample import sampled
 from .scatter import block_error, moment_error

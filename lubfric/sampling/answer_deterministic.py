@@ -103,6 +103,8 @@ def _words_of_levels(levels: Levels) -> str:
     if pieces:
         times = round(pieces[0][1].result.spacing[0] / pieces[0][-1].result.spacing[0])
         strips += f", the effect of cells {times} times as short on {len(pieces)} piece{'s' if len(pieces) > 1 else ''}"
+    if levels.shortest:
+        strips += f", of cells {2 * times} times as short on a shorter one"
     if not levels.line:
         return f"one pressure with the contact on {strips}"
     return f"one pressure with the contact: its difference from Eq. (8) on {strips}, of a line of {levels.line}"

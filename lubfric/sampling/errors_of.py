@@ -29,6 +29,7 @@ TOO_SHORT = (
     "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling out, or give a "
     "map that is longer across the motion)"
 )
+NONE, UNKNOWN = (0.0, 0.0), (math.nan, math.nan)
 EMPTY = "the error of Eq. (8) is not known where what arrives does not fill the gap"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
@@ -71,19 +72,19 @@ def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
     notes = _notes(found, scene, sampling)
     if not math.isfinite(sampling):
         sampling = math.nan
-    model, unknown = model_error(scene, found)
+    of_model, unknown = model_error(scene, found)
     both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
     known = Uncertainty(
         numerical=relative,
         sampling=sampling,
-        interval=interval(forces.coefficient, relative, sampling, error.freedom, model),
+        interval=interval(forces.coefficient, relative, sampling, error.freedom, *of_model),
         line_scatter=sampling * math.sqrt(scatter.length / scene.bodies.width),
         participation=scatter.spots,
         length=scatter.length,
         freedom=float(error.freedom),
         tolerance=scene.numerics.sampling_tolerance,
         area_needed=_area_needed(found, scene),
-        model=model,
+        model=max(of_model),
         notes=(*notes, *unknown),
     )
     left_out = dict.fromkeys(depending_on("heat"), NO_HEAT) if balance.film is not None else {}
@@ -171,15 +172,15 @@ def _shear_errors(found: Forces, film: float) -> dict[str, float]:
     return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 
 
-def model_error(scene: Scene, found: Found) -> tuple[float, tuple[str, ...]]:
-    """Relative error of f by load sharing itself, at 95 %; where it is not known NaN, and why."""
+def model_error(scene: Scene, found: Found) -> tuple[tuple[float, float], tuple[str, ...]]:
+    """Relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and why."""
     balance = found.balance
     if balance.film is None:
-        return (0.0, ()) if scene.lubricant.inlet_film is None else (math.nan, (EMPTY,))
+        return (NONE, ()) if scene.lubricant.inlet_film is None else (UNKNOWN, (EMPTY,))
     if found.strips is None:
-        return math.nan, (NOT_STUDIED,)
+        return UNKNOWN, (NOT_STUDIED,)
     if why := gap_not_resolved(scene):
-        return math.nan, (MODEL_UNKNOWN.format(why),)
+        return UNKNOWN, (MODEL_UNKNOWN.format(why),)
     sq, film = float(found.contact.heights.std()), balance.film.central_film  # type: ignore[attr-defined]
     share = balance.contact_load / scene.bodies.load
     forces, load = balance.forces, scene.bodies.load

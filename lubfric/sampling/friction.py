@@ -27,7 +27,6 @@ def friction(
     scene: Scene | Prepared,
     speed: float | None = None,
     *,
-    start: object = None,
     tolerance: float | None = None,
     model: str | None = None,
     fields: bool = False,
@@ -38,9 +37,9 @@ def friction(
     Film and rough contact share the load. Two balances hold together: F_T = F_C + F_H, and the lubricant volume of Eq.
     (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries the whole load.
     When the film clears the summits, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of means
-    over A, is <= ``numerics.tolerances.balance`` divided by the share of the film in f. Where the error of that model
-    may be more than ``numerics.model_tolerance``, strips of the surface with one gap and one pressure correct it or
-    answer in its place (docs/uncertainty.md).
+    over A, is <= its tolerance (`Numerics.tolerance_of`) divided by the share of the film in f. Where the error of that
+    model may be more than ``numerics.model_tolerance``, strips of the surface with one gap and one pressure correct it
+    or answer in its place (docs/uncertainty.md).
 
     Parameters
     ----------
@@ -64,10 +63,6 @@ def friction(
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     prepared = at_speed(prepared, speed)
-    if start is not None:
-        raise InputError(
-            "start is not taken any more: every point is solved from its scene and speed alone; leave it out"
-        )
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):
@@ -116,6 +111,6 @@ def _enough(prepared: Prepared, found: Found) -> str:
     heat = balance.forces.heat
     if heat.heated is not None or 1 - heat.film_factor > scene.numerics.tolerance:
         return "Eq. (8) alone: heat matters, and the deterministic model is isothermal"
-    if found.response is None and model_error(scene, found)[0] <= scene.numerics.model_tolerance:
+    if found.response is None and max(model_error(scene, found)[0]) <= scene.numerics.model_tolerance:
         return "Eq. (8) alone: the film is so thick that the roughness hardly matters"
     return ""

@@ -2,14 +2,13 @@
 
     f = mean over strips (f deterministic - difference of that strip from a line of Eq. (8))      a few strips
       + mean over pieces (f on cells half as long - f)                                            fewer, half as long
+      + the same once more, from these cells on                                           one, a sixth as long
 
 The line is the first level: its many strips tell what is chance of the few (`lubfric.sampling.line`). These are few
 where both models scatter alike, as they do about lift-off on most surfaces. Where they do not, the line is left out.
 Which of the two needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617,
 doi:10.1287/opre.1070.0496).
 """
-
-from __future__ import annotations
 
 import math
 from collections.abc import Sequence
@@ -29,7 +28,7 @@ from .shorter import changed, on_shorter_cells
 from .uncertainty import student
 
 DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
-ALONE = 1.3  # scatter of the deterministic f between strips over that of blocks along them
+ALONE, LINED = 1.3, 1.2  # scatter of the deterministic f between strips over that of blocks; less that of a line
 PRIOR, FREEDOM = 3, 5  # strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
 GROWTH, SPARE = (4.0, 2.0), (1.1, 1.2)  # of the number of strips, which are dear: see `enlarged`
 MOST_WORK = 120.0  # s, counted: of the strips of one point
@@ -44,7 +43,7 @@ class Levels:
     - ``numbers``: of the deterministic model on an endless line, by name; ``errors``: their relative standard errors.
       ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of the flow.
     - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second;
-      ``pieces``: of the third, each on shorter and shorter cells.
+      ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
       the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips.
     """
@@ -56,6 +55,7 @@ class Levels:
     line: int
     pairs: tuple[Pair, ...]
     pieces: tuple[tuple[Strip, ...], ...]
+    shortest: tuple[Strip, ...]
     sampling: BlockError
     difference: BlockError
     numerical: float
@@ -93,8 +93,9 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     """
     assert prepared.strips is not None
     pairs, both = _first_levels(prepared, speed, found)
-    pieces, by_cells, numerical = on_shorter_cells(prepared, speed, pairs)
-    numbers = changed(prepared, both.numbers, pieces) if pieces else both.numbers
+    pieces, shortest, by_cells, numerical = on_shorter_cells(prepared, speed, pairs)
+    numbers = changed(prepared, both.numbers, [(piece[1], piece[-1]) for piece in pieces])
+    numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
     f = abs(numbers["coefficient"])
     of_strips = add_errors(both.whole, replace(by_cells, error=by_cells.error * f))
     difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
@@ -106,7 +107,7 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     length, first = prepared.strips.length * max(both.line, len(pairs)), pairs[0].resolved
     flow = change_by_flow(first.rest if isinstance(first, MovingStrip) else first)
     return Levels(
-        numbers, errors, films, flow, both.line, tuple(pairs), pieces, sampling, difference, numerical, length
+        numbers, errors, films, flow, both.line, tuple(pairs), pieces, shortest, sampling, difference, numerical, length
     )
 
 
@@ -176,7 +177,7 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, sh
         places = [one - share * line.deviations(k, one.size) for k, one in enumerate(places)]
         f -= share * line.numbers["coefficient"][:count]
     within = _block_error(places, strips, pairs[0])
-    by_blocks = count * (within.error * (1.0 if line else ALONE)) ** 2
+    by_blocks = count * (within.error * (LINED if line else ALONE)) ** 2
     if count == 1:
         return BlockError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
     by_strips = float(np.var(f, ddof=1))

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import Shown, axes_or_new, field_image, packaged
+from .._base import Shown, figures, packaged
 from ..deterministic import Refined
 from ..errors import InputError, Report
 from ..quantities import PointQuantities, described_in_doc, in_words
@@ -103,8 +103,8 @@ class FrictionResult(PointQuantities[float], Shown):
 
     def plot_contact(self, ax=None):
         """The pressure of the rough contact in the plane; returns the axes. Needs ``fields=True``, and contact."""
-        axes = axes_or_new(ax)
-        field_image(axes, self.x, self.y, self.pressure / 1e9, "magma_r", "contact pressure (GPa)", vmin=0)
+        axes = figures.axes_or_new(ax)
+        figures.field_image(axes, self.x, self.y, self.pressure / 1e9, "magma_r", "contact pressure (GPa)", vmin=0)
         axes.set_title(f"U = {self.speed:g} m/s, $F_C$ = {self.contact_load:.4g} N, $F_H$ = {self.film_load:.4g} N")
         return axes
 

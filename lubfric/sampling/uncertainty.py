@@ -76,23 +76,28 @@ def too_few(participation: float, reached: float, asked: float) -> bool:
     return 0 < participation < FEW and reached > MATTERS * asked
 
 
-def load_sharing_error(film_to_roughness_ratio: float, share: float, boundary: float, shear: float) -> float:
-    """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md).
+def load_sharing_error(
+    film_to_roughness_ratio: float, share: float, boundary: float, shear: float
+) -> tuple[float, float]:
+    """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md): by how much f may be lower, and higher.
 
     ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film. Three things may be
-    off: the load that asperities carry, by up to 0.7 sqrt(s (1 - s)) of the whole, which exchanges the friction of one
-    part for that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %;
-    and in contact all of f by 0.25 sqrt(1 - s). 0 without roughness.
+    off: the load that asperities carry, by up to 0.7 sqrt(s (1 - s)) of the whole, but never below 0 or above the
+    whole, which exchanges the friction of one part for that of the other; the shear of the film, which is that of
+    smooth surfaces, by 3.2/λ² of it, at most 30 %; and in contact all of f by 0.25 sqrt(1 - s): below, of what the
+    others leave. 0 without roughness.
     """
     f = abs(boundary + shear)
     if film_to_roughness_ratio == math.inf or f == 0:
-        return 0.0
-    of_film = min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear)
+        return 0.0, 0.0
+    of_film = min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) / f
     if not 0 < share < 1:
-        return of_film / f
-    exchanged = abs(boundary / share - shear / (1 - share))
-    of_share = OF_SHARE * math.sqrt(share * (1 - share)) * exchanged
-    return (of_film + of_share) / f + IN_CONTACT * math.sqrt(1 - share)
+        return of_film, of_film
+    exchanged, rooms = (boundary / share - shear / (1 - share)) / f, (share, 1 - share)
+    of_share = OF_SHARE * math.sqrt(share * (1 - share))
+    down, up = (of_film + min(of_share, room) * abs(exchanged) for room in rooms[:: 1 if exchanged > 0 else -1])
+    of_all = IN_CONTACT * math.sqrt(1 - share)
+    return 1 - (1 - down) * (1 - of_all), up + of_all
 
 
 @described_in_doc
@@ -133,14 +138,15 @@ def field_errors_of(known: dict[str, float], why: str, reasons: dict[str, str] |
     return FieldErrors(**errors, reasons={name: (reasons or {}).get(name, why) for name in unknown})
 
 
-def interval(value: float, numerical: float, sampling: float, freedom: float, model: float) -> tuple[float, float]:
+def interval(value: float, numerical: float, sampling: float, freedom: float, *model: float) -> tuple[float, float]:
     """value (1 ± sqrt(numerical² + (t sampling)² + model²)), t the 97.5 % quantile of Student's t with ``freedom``
-    degrees; ``model`` counts where it is known."""
+    degrees; ``model``: of both sides, or towards 0 and away from it; it counts where it is known."""
     if not math.isfinite(sampling):
         return math.nan, math.nan
-    known = 0.0 if math.isnan(model) else model
-    half = abs(value) * math.hypot(numerical, student(freedom) * sampling if sampling else 0.0, known)
-    return value - half, value + half
+    of_sample = student(freedom) * sampling if sampling else 0.0
+    sides = [abs(value) * math.hypot(numerical, of_sample, 0.0 if math.isnan(one) else one) for one in model]
+    down, up = (sides[0], sides[-1]) if value >= 0 else (sides[-1], sides[0])
+    return value - down, value + up
 
 
 def student(freedom: float) -> float:

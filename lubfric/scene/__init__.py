@@ -12,8 +12,6 @@ from .scene import (
     gap_not_resolved,
     moves,
     moving_bodies,
-    resolves_gap,
-    scene_as_dict,
     value_of,
 )
 from .sections import SECTIONS

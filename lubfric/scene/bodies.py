@@ -1,7 +1,5 @@
 """The line contact: two bodies, how they move, and the part of their contact that is resolved."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -11,17 +9,12 @@ import numpy as np
 from .._base import Brief, validate
 from ..errors import InputError
 from ..film import hertz
+from ..quantities import KEYS
 from ..units import without_unit
 
-FASTEST = 1e6  # m/s
-LARGEST_RATIO = 1e6  # slide-roll ratio
-GEOMETRIES = ("cylinder", "flat")
-REGIONS = ("hertz", "box")
-CONTACT_MODELS = ("half-space", "summits", "patches")
-ASPERITY_SEPARATIONS = ("volume", "mean-plane")
+FASTEST, LARGEST_RATIO = KEYS["motion.entrainment_speed"].most, KEYS["motion.slide_roll_ratio"].most  # m/s, -
 FRICTION = "bodies.boundary_friction_coefficient"
 FRICTION_OVER = {"sliding_speed": "m/s", "temperature": "K"}  # what a table of it may be over
-LARGEST_FRICTION = 10.0
 LARGEST = 2**26  # cells of a contact grid
 
 
@@ -45,7 +38,7 @@ class FrictionTable:
 
     def __post_init__(self):
         validate.choice(f"{FRICTION} over", self.over, FRICTION_OVER)
-        for name, limits in (("at", (0.0, FASTEST)), ("values", (0.0, LARGEST_FRICTION))):
+        for name, limits in (("at", (0.0, FASTEST)), ("values", (0.0, KEYS[FRICTION].most))):
             given, unit = getattr(self, name), FRICTION_OVER[self.over] if name == "at" else "(-)"
             if not isinstance(given, (list, tuple)) or len(given) < 2 or len(given) != len(self.at):
                 said = f" = {validate.shown(given)}, a table over {self.over}"
@@ -110,25 +103,14 @@ class Bodies(Brief):
 
     def __post_init__(self):
         validate.python_fields(self, "bodies")
-        for name, unit, least, most in (
-            ("radius", "m", 1e-9, 1e3),
-            ("width", "m", 1e-9, 1e3),
-            ("load", "N", 1e-12, 1e12),
-        ):
-            validate.positive(f"bodies.{name}", getattr(self, name), unit, minimum=least, maximum=most)
-        validate.number("bodies.e_prime", self.e_prime, "Pa", minimum=1e3, maximum=1e13)
-        validate.nonnegative(FRICTION, self.boundary_friction_coefficient, "(-)", maximum=LARGEST_FRICTION)
+        validate.in_range("bodies", self)
         if self.boundary_friction_table is not None:
             table = "a FrictionTable, by boundary_friction_coefficient = { sliding_speed = [...], values = [...] }"
             validate.instance("bodies.boundary_friction_table", self.boundary_friction_table, FrictionTable, table)
-        if self.hardness is not None:
-            validate.positive("bodies.hardness", self.hardness, "Pa", minimum=1.0, maximum=1e14)
-            if self.mean_hertz_pressure >= self.hardness:
-                said = f" = {self.load:g} N is above hardness x Hertz area"
-                most = self.hardness * 2 * self.half_width * self.width
-                raise InputError(said, "bodies.load", f"below {most:g} N", also=("bodies.hardness",))
-        if self.boundary_film is not None:
-            validate.number("bodies.boundary_film", self.boundary_film, "m", minimum=0.0, maximum=1e-6)
+        if self.hardness is not None and self.mean_hertz_pressure >= self.hardness:
+            said = f" = {self.load:g} N is above hardness x Hertz area"
+            most = self.hardness * 2 * self.half_width * self.width
+            raise InputError(said, "bodies.load", f"below {most:g} N", also=("bodies.hardness",))
         for name, unit in (("conductivity", "W/(m K)"), ("volumetric_heat", "J/(m^3 K)")):
             both = pair(f"bodies.{name}", getattr(self, name), unit)
             object.__setattr__(self, name, tuple(validate.positive(f"bodies.{name}", v, unit) for v in both))
@@ -183,9 +165,9 @@ class Motion(Brief):
 
     def __post_init__(self):
         validate.python_fields(self, "motion")
-        for name, unit, most in (("entrainment_speed", "m/s", FASTEST), ("slide_roll_ratio", "(-)", LARGEST_RATIO)):
-            value = validate.number(f"motion.{name}", getattr(self, name), unit, minimum=-most, maximum=most)
-            object.__setattr__(self, name, value + 0.0)  # -0.0 is no direction
+        validate.in_range("motion", self)
+        for name in ("entrainment_speed", "slide_roll_ratio"):
+            object.__setattr__(self, name, float(getattr(self, name)) + 0.0)  # -0.0 is no direction
         if not isinstance(self.speeds, (list, tuple)):
             raise InputError(f" = {validate.shown(self.speeds)}", "motion.speeds", "a list of numbers in m/s")
         speeds = validate.numbers("motion.speeds", self.speeds, "m/s", FASTEST) if self.speeds else ()
@@ -219,13 +201,7 @@ class ContactDomain(Brief):
 
     def __post_init__(self):
         validate.python_fields(self, "contact")
-        for name, options in (
-            ("model", CONTACT_MODELS),
-            ("asperity_separation", ASPERITY_SEPARATIONS),
-            ("geometry", GEOMETRIES),
-            ("region", REGIONS),
-        ):
-            validate.choice(f"contact.{name}", getattr(self, name), options)
+        validate.in_range("contact", self)
         if self.geometry == "flat" and self.region != "hertz":
             said = f" = {self.region!r} does nothing with geometry = 'flat', whose patch stands for the Hertz strip"
             raise InputError(said, "contact.region", "'hertz', or geometry = 'cylinder'")

@@ -5,8 +5,6 @@ error of the film reaches f by a factor (`lubfric.sharing.Response.per_film`), b
 film is divided.
 """
 
-from __future__ import annotations
-
 # shares of the tolerance on f
 FILM_GRID = 0.3  # grid of the film
 FILM_ALONE = 0.6  # the same where there is no contact
@@ -28,5 +26,6 @@ SLOPE = 0.3  # error of the slope by which a balance is corrected for its cells 
 MOST_MOVED = 0.1  # of ln(F_H/F_C), by that correction: a light contact follows it exponentially
 SLACK = 1.5  # a tolerance off by less is not worth another solve
 
-# the most that holds where f has not been looked at yet: see `Numerics.tolerances`
+# the most that holds where f has not been looked at yet: see `Numerics.tolerance_of`
 FIRST_FILM, FIRST_CONTACT, FIRST_VOLUME = 0.01, 1e-3, 1e-3
+OF_PARTS = {"film": (FILM_GRID, FIRST_FILM), "contact": (CONTACT, FIRST_CONTACT), "balance": (BALANCE, FIRST_VOLUME)}

@@ -1,7 +1,5 @@
 """Scenes as TOML: strict reading; a commented one to begin with."""
 
-from __future__ import annotations
-
 import os
 import tomllib
 from difflib import get_close_matches
@@ -14,16 +12,9 @@ from ..surface import PER_SQ
 from .roughness import GENERATED, check_fields, named
 from .scene import Scene, as_ranges
 from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section, meant, ranges_of
-from .transient import UNITS, Transient, history
+from .transient import HISTORIES, UNITS, Transient, history
 
 SCENES = resources.files(__package__) / "scenes"
-HISTORIES = {
-    "speed": ("motion", "entrainment_speed"),
-    "sliding": ("motion", "sliding_speed"),
-    "load": ("bodies", "load"),
-    "radius": ("bodies", "radius"),
-    "viscosity": ("lubricant", "viscosity"),
-}
 
 
 def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
@@ -67,6 +58,7 @@ def read_toml(path, what: str) -> dict:
 
 
 def _put_map(table: dict, section: str, path) -> None:
+    """Put the map at ``path`` in the place of the roughness in ``section`` of a scene's ``table``."""
     path = _map_path(f"{section}_file", path, Path())
     if not all(isinstance(table.get(name, {}), dict) for name in (section, "contact")):
         return  # refused by what reads the tables
@@ -130,9 +122,9 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     plain value: the largest load, else the value at the start.
     """
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
-    given = table.get("transient", {})
+    given, places = table.get("transient", {}), {name: key.split(".") for name, key in HISTORIES.items()}
     found = {n: history(f"transient.{n}", given.pop(n), UNITS[n], folder) for n in HISTORIES if n in given}
-    for name, (section, key) in HISTORIES.items():
+    for name, (section, key) in places.items():
         value = table.get(section, {}).get(key)
         if value is None and name == "sliding":
             table.get(section, {}).pop(key, None)
@@ -145,7 +137,7 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     if "duration" not in given:
         raise InputError("a scene with a history needs [transient] with duration in s")
     plan = made_section("transient", {**given, **found})
-    for name, (section, key) in HISTORIES.items():
+    for name, (section, key) in places.items():
         if name in found and name != "sliding" and key not in table.get(section, {}):
             value = found[name].range(plan.duration)[1] if name == "load" else found[name].before(0.0)
             table.setdefault(section, {})[key] = value

@@ -4,8 +4,6 @@ Each gives its value just after (``at``) and just before (``before``) a time [s]
 its range. `lubfric.scene.read_history` makes them from a scene file or a CSV file.
 """
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_left, bisect_right
 from dataclasses import dataclass

@@ -1,45 +1,13 @@
 """How exactly a scene is solved, and by which methods."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import Any
 
-from .._base import Brief, validate
+from .._base import Brief, packaged, validate
 from ..errors import InputError
 from . import budget
 
 MOST_THREADS = 1024
-OPTIONS = {
-    "model": ("auto", "load-sharing", "deterministic"),
-    "film_deflection": ("scaled", "hydrodynamic"),
-    "grid": ("auto", "given"),
-    "sampling": ("strips", "patch"),
-    "heat": ("auto", "on", "off"),
-    "cavitated_shear": ("none", "striated"),
-}
-DROPPED = {  # keys, and values of keys, that there were before: what to do instead
-    "closure": "leave it out: film and contact always share the load as in Eq. (8)",
-    "closure = 'one-way'": "leave it out, or give numerics.model = 'deterministic', which has one gap and one pressure",
-    "closure = 'separation'": "leave it out; lubfric.paper has the paper's closure as contact solvers",
-    "film_level": "leave it out: the film is always the full one (EHL)",
-    "contact_level": "leave it out: contact.geometry says which contact is solved",
-    "ehl_tolerance": "its name is numerics.film_tolerance",
-    "model = 'full'": "leave it out, and give numerics.tolerance a smaller value",
-    "film_deflection = 'auto'": "leave it out, or give 'scaled' or 'hydrodynamic'",
-    "film_deflection = 'total'": "leave it out: with 'scaled' too the whole load deflects the film",
-    "sampling = 'line'": "leave it out, or give 'strips'",
-}
-
-
-@dataclass(frozen=True)
-class Tolerances:
-    """Relative tolerances: of the EHL film (its error enters F_H, and so f, about one to one), of the contact solve,
-    and of the closing of load and volume."""
-
-    film: float
-    contact: float
-    balance: float
 
 
 @dataclass(frozen=True, repr=False)
@@ -49,7 +17,7 @@ class Numerics(Brief):
     Attributes
     ----------
     tolerance : on the friction coefficient. The tolerances of film, contact and balance follow from it if they are left
-        out (`tolerances`)
+        out (`tolerance_of`)
     film_tolerance, contact_tolerance, balance_tolerance : of the parts; None: from ``tolerance``
     sampling : the surface that is solved: "strips", as many of the scene's roughness as ``sampling_tolerance``
         needs (docs/uncertainty.md); "patch", the one patch of ``contact.shape``
@@ -88,31 +56,22 @@ class Numerics(Brief):
 
     def __post_init__(self):
         validate.python_fields(self, "numerics")
-        for name, options in OPTIONS.items():
-            validate.choice(f"numerics.{name}", getattr(self, name), options)
-        validate.number("numerics.tolerance", self.tolerance, "(-)", minimum=1e-4, maximum=0.2)
-        validate.number("numerics.sampling_tolerance", self.sampling_tolerance, "(-)", minimum=1e-3, maximum=0.5)
-        validate.number("numerics.model_tolerance", self.model_tolerance, "(-)", minimum=1e-3, maximum=1.0)
-        for name in ("film_tolerance", "contact_tolerance", "balance_tolerance"):
-            if getattr(self, name) is not None:
-                validate.number(f"numerics.{name}", getattr(self, name), "(-)", above=0, maximum=0.2)
+        validate.in_range("numerics", self)
         validate.integer("numerics.workers", self.workers, minimum=1, maximum=MOST_THREADS)
         validate.boolean("numerics.accept", self.accept)
 
-    @property
-    def tolerances(self) -> Tolerances:
-        """The tolerances of the parts, as given or as they follow from ``tolerance``."""
-        asked = self.tolerance
-        return Tolerances(
-            film=self.film_tolerance or min(budget.FILM_GRID * asked, budget.FIRST_FILM),
-            contact=self.contact_tolerance or min(budget.CONTACT * asked, budget.FIRST_CONTACT),
-            balance=self.balance_tolerance or min(budget.BALANCE * asked, budget.FIRST_VOLUME),
-        )
+    def tolerance_of(self, part: str) -> float:
+        """Relative tolerance of a part, as given or as it follows from ``tolerance``: of the EHL "film" (its error
+        enters F_H, and so f, about one to one), of the "contact" solve, and of the "balance", the closing of load and
+        volume."""
+        share, most = budget.OF_PARTS[part]
+        return getattr(self, f"{part}_tolerance") or min(share * self.tolerance, most)
 
 
 def refuse_dropped(given: dict[str, Any]) -> None:
     """Raise `InputError` for a key of [numerics], or a value of one, that there is no more; it says what to do."""
+    dropped = packaged(__package__, "other_words.toml")["dropped"]["numerics"]
     for key, value in given.items():
-        way_out = DROPPED.get(f"{key} = {validate.shown(value)}") or DROPPED.get(key)
+        way_out = dropped.get(f"{key} = {validate.shown(value)}") or dropped.get(key)
         if way_out:
             raise InputError(f" = {validate.shown(value)} is not there any more", f"numerics.{key}", way_out=way_out)

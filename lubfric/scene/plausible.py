@@ -1,35 +1,16 @@
 """Likely slips: values far from what machines have, and the unit in which they may have been meant.
 
-A value outside the usual range (usual.toml) is no error: it gets a sentence that names the unit in which it would be
+A value outside the usual range (keys.toml) is no error: it gets a sentence that names the unit in which it would be
 usual.
 """
 
-from __future__ import annotations
-
 from contextlib import contextmanager
 from functools import cache
-from typing import Any
 
 from .._base import packaged
 from ..errors import ConvergenceError, InputError
 from ..quantities import KEYS
 from ..units import converted, without_unit
-
-
-@cache
-def usual() -> dict[str, dict[str, Any]]:
-    """Of each key (section.key): ``low``, ``high`` and ``unit`` of its usual range in SI; ``meant``: units that are
-    mistaken for it, with their factors, and the key to give instead; ``zero``: whether 0 is usual too."""
-    rows = {
-        f"{section}.{key}": row
-        for section, keys in packaged(__package__, "usual.toml").items()
-        for key, row in keys.items()
-    }
-    for name, row in rows.items():
-        meant = [[given] if isinstance(given, str) else given for given in row["meant"]]
-        unit = KEYS[name].unit
-        row |= {"unit": unit, "meant": [(other, converted(1.0, other, unit), *advice) for other, *advice in meant]}
-    return rows
 
 
 @cache
@@ -44,17 +25,19 @@ def typical(name: str) -> dict[str, list[float]]:
 def slip(name: str, value) -> str | None:
     """What ``value`` of the key ``name`` (section.key) may have been meant to be. None: the value is usual; "": nothing
     fits."""
-    if name not in usual():
+    q = KEYS.get(name)
+    if q is None or not q.usual:
         return None
-    row = usual()[name]
+    low, high = q.usual
     numbers = value if isinstance(value, (list, tuple)) else (value,)
     numbers = [v for v in numbers if isinstance(v, (int, float)) and not isinstance(v, bool) and abs(v) < 1e300]
-    v = next((v for v in numbers if not row["low"] <= abs(v) <= row["high"]), None)
-    if v is None or v == 0 and row.get("zero"):
+    v = next((v for v in numbers if not low <= abs(v) <= high), None)
+    if v is None or v == 0 and q.zero:
         return None
-    for unit, factor, *advice in row["meant"]:
-        if row["low"] <= abs(v * factor) <= row["high"]:
-            return "; ".join((f"{unit} meant? {v:g} {unit} = {v * factor:g} {row['unit']}", *advice))
+    for unit, *advice in ([other] if isinstance(other, str) else other for other in q.meant):
+        meant = converted(v, unit, q.unit)
+        if low <= abs(meant) <= high:
+            return "; ".join((f"{unit} meant? {v:g} {unit} = {meant:g} {q.unit}", *advice))
     return ""
 
 
@@ -62,14 +45,13 @@ def doubts(scene) -> tuple[tuple[str, float, float, str, str], ...]:
     """The values of a scene that are outside their usual range: key, value, the bound that it exceeds, their unit, and
     what the value may have been meant to be, or ""."""
     found = []
-    for name, row in usual().items():
-        section, key = name.split(".")
-        value = _index(scene) if key == "viscosity_index" else getattr(getattr(scene, section), key, None)
+    for name, q in KEYS.items():
+        section, _, key = name.rpartition(".")
+        value = _index(scene) if key == "viscosity_index" else getattr(getattr(scene, section, None), key, None)
         for one in value if isinstance(value, (list, tuple)) else (value,):
             meant = None if one is None else slip(name, one)
             if meant is not None:
-                limit = row["high"] if abs(one) > row["high"] else row["low"]
-                found.append((name, float(one), limit, row["unit"], meant))
+                found.append((name, float(one), q.usual[abs(one) > q.usual[1]], q.unit, meant))
     return tuple(found)
 
 
@@ -99,9 +81,6 @@ def told_doubts(scene):
     try:
         yield
     except (InputError, ConvergenceError) as error:
-        told = (
-            f"{name} = {value:g} {unit} is unusual{meant and '; ' + meant}"
-            for name, value, _, unit, meant in doubts(scene)
-        )
-        error.hint("; ".join(told))
+        for name, value, _, unit, meant in doubts(scene):
+            error.hint(f"{name} = {value:g} {unit} is unusual{meant and '; ' + meant}")
         raise

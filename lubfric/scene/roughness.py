@@ -1,12 +1,11 @@
 """The roughness of one body: a measured map and how it is prepared, or a generated one."""
 
-from __future__ import annotations
-
 import math
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from .._base import Brief, changed, validate
@@ -15,8 +14,8 @@ from ..surface import ACFS, DECIMALS, FORMS, PER_SQ, UNITS
 from .bodies import lengths
 
 NEEDED = "either 'file', or 'sq' (or 'ra', 'rz') and 'correlation_length' in m"
-OUTLIERS = ("refuse", "keep", "mask")
-EXTENSIONS = ("none", "mirror")
+OPTIONS = {"acf": ACFS, "motion_axis": ("x", "y"), "unit": UNITS, "decimal": DECIMALS, "form": FORMS}
+OPTIONS |= {"outliers": ("refuse", "keep", "mask"), "extension": ("none", "mirror")}
 GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize")  # fields of a generated map
 
 
@@ -117,21 +116,13 @@ def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
     return values
 
 
-_CHECKS = {
-    "sq": lambda name, value: validate.nonnegative(name, value, "m", maximum=1.0),
-    "correlation_length": lengths,
-    "acf": lambda name, value: validate.choice(name, value, ACFS),
-    "decay_level": lambda name, value: validate.number(name, value, "(-)", above=0, maximum=0.99),
-    "seed": lambda name, value: validate.integer(name, value, minimum=0, maximum=2**128 - 1),
-    "oversize": lambda name, value: validate.integer(name, value, minimum=1, maximum=64),
-    "motion_axis": lambda name, value: validate.choice(name, value, ("x", "y")),
-    "spacing": lengths,
-    "unit": lambda name, value: validate.choice(name, value, UNITS),
-    "decimal": lambda name, value: validate.choice(name, value, DECIMALS),
-    "missing_value": lambda name, value: validate.number(name, value, "(unit of the file)"),
-    "form": lambda name, value: validate.choice(name, value, FORMS),
-    "outliers": lambda name, value: validate.choice(name, value, OUTLIERS),
-    "s_filter": lambda name, value: validate.positive(name, value, "m", maximum=1.0),
-    "l_filter": lambda name, value: validate.positive(name, value, "m", maximum=1.0),
-    "extension": lambda name, value: validate.choice(name, value, EXTENSIONS),
+_CHECKS: dict[str, Callable[[str, Any], Any]] = dict.fromkeys(
+    ("sq", "decay_level", "s_filter", "l_filter"), validate.of_key
+)
+_CHECKS |= dict.fromkeys(("correlation_length", "spacing"), lengths)
+_CHECKS |= {name: partial(validate.choice, options=options) for name, options in OPTIONS.items()}
+_CHECKS |= {
+    "seed": partial(validate.integer, minimum=0, maximum=2**128 - 1),
+    "oversize": partial(validate.integer, minimum=1, maximum=64),
+    "missing_value": partial(validate.number, unit="(unit of the file)"),
 }

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass, field, fields, replace
-from html import escape
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
-from .._base import Shown, changed, validate
+from .._base import Shown, changed, table, validate
 from ..errors import InputError
 from ..film import LineContact
 from ..oil import Lubricant
-from ..quantities import key_unit
+from ..quantities import KEYS
+from ..units import worded
 from .bodies import Bodies, ContactDomain, Motion
 from .history import History
 from .numerics import Numerics
@@ -22,7 +22,6 @@ from .sections import ROUGH, SECTIONS, changed_section, ranges_of
 from .short_forms import fields_of
 from .transient import KINDS, Transient
 
-MANY = 8  # values of a list that are shown
 RESOLVED = (  # key, the values that the deterministic model takes, why no other
     ("contact.geometry", ("cylinder",), ""),
     ("contact.model", ("half-space",), ""),
@@ -70,7 +69,13 @@ class Scene(Shown):
         friction = self.bodies.boundary_friction(sliding, self.lubricant.temperature)
         if friction != self.bodies.boundary_friction_coefficient:
             object.__setattr__(self, "bodies", replace(self.bodies, boundary_friction_coefficient=friction))
-        self._check_inlet()
+        length, half_width = self.lubricant.inlet_length, self.bodies.half_width
+        if self.transient is not None and not self.lubricant.floods:
+            said = " does not go with inlet_length or inlet_film"
+            raise InputError(said, "transient", way_out="runs in time are flooded")
+        if length is not None and length <= half_width:
+            said = f" = {length:g} m lies inside the dry contact, where no film begins"
+            raise InputError(said, "lubricant.inlet_length", f"more than its half-width {half_width:.4g} m")
         for name, low, high in self.ranges:
             section, _, key = name.partition(".")
             value = value_of(self, name)
@@ -79,16 +84,6 @@ class Scene(Shown):
                 raise InputError(said, name, allowed)
             for end in (low, high):
                 replace(getattr(self, section), **{key: end})  # refuses an end that is no value of it
-
-    def _check_inlet(self) -> None:
-        length, half_width = self.lubricant.inlet_length, self.bodies.half_width
-        if self.transient is not None and not self.lubricant.floods:
-            raise InputError(
-                " does not go with inlet_length or inlet_film", "transient", way_out="runs in time are flooded"
-            )
-        if length is not None and length <= half_width:
-            said = f" = {length:g} m lies inside the dry contact, where no film begins"
-            raise InputError(said, "lubricant.inlet_length", f"more than its half-width {half_width:.4g} m")
 
     def with_(self, **sections) -> Scene:
         """A copy with some fields of its sections replaced: ``scene.with_(bodies={"load": 10.0})``.
@@ -156,14 +151,11 @@ class Scene(Shown):
                 del keys["limiting_stress_offset"]  # refused where it does nothing
             if keys.get("oil") is not None:
                 oil = keys.pop("oil")  # in place of the numbers that follow from it
-                followed = fields_of(oil, keys["temperature"])
-                own = {
-                    key: value for key, value in keys.items() if key == "temperature" or followed.get(key, ...) != value
-                }
-                keys = oil.said | own
-            table = keys.pop("boundary_friction_table", None)
-            if table is not None:
-                keys["boundary_friction_coefficient"] = {table.over: table.at, "values": table.values}
+                followed = fields_of(oil, keys["temperature"]) | {"temperature": ...}
+                keys = oil.said | {key: value for key, value in keys.items() if followed.get(key, ...) != value}
+            over = keys.pop("boundary_friction_table", None)
+            if over is not None:
+                keys["boundary_friction_coefficient"] = {over.over: over.at, "values": over.values}
             for name, low, high in self.ranges:
                 if name.partition(".")[0] == section:
                     keys[name.partition(".")[2]] = (value_of(self, name), low, high)
@@ -185,28 +177,10 @@ class Scene(Shown):
         }
 
     def _repr_html_(self) -> str:
-        rows = []
-        for section in SECTIONS:
-            part = getattr(self, section)
-            values = {} if part is None else changed(part)
-            if values:
-                rows.append(f'<tr><th colspan="3">{section}</th></tr>')
-            rows += [_row(key, _text_of(value), key_unit(section, key)) for key, value in values.items()]
-        head = "<thead><tr><th>key</th><th>value</th><th>unit</th></tr></thead>"
-        return f"<table><caption>{escape(self.name)}</caption>{head}<tbody>{''.join(rows)}</tbody></table>"
-
-
-def _row(*cells: str) -> str:
-    return f"<tr>{''.join(f'<td>{escape(cell)}</td>' for cell in cells)}</tr>"
-
-
-def _text_of(value: Any) -> str:
-    if isinstance(value, float):
-        return f"{value:.6g}"
-    if isinstance(value, (tuple, list)):
-        shown = ", ".join(_text_of(part) for part in value[:MANY])
-        return f"{shown}, ... ({len(value)} values)" if len(value) > MANY else shown
-    return str(getattr(value, "name", value))  # an oil by its name
+        parts = {section: part for section in SECTIONS if (part := getattr(self, section)) is not None}
+        values = {f"{section}.{key}": value for section, part in parts.items() for key, value in changed(part).items()}
+        unit = {key: KEYS[key].unit if key in KEYS else "-" for key in values}
+        return table({key: worded(getattr(v, "name", v), unit[key]) for key, v in values.items()}, self.name)
 
 
 def _halved(text: str) -> bool:
@@ -243,16 +217,6 @@ def value_of(scene: Scene, name: str) -> Any:
 def as_ranges(found: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
     """`Scene.ranges` of the ends by name, None where a value has no range."""
     return tuple((name, *found[name]) for name in sorted(found) if found[name] is not None)
-
-
-def scene_as_dict(scene: Scene) -> dict:
-    """The resolved scene as plain data (for ``result.json``)."""
-    return asdict(scene)
-
-
-def resolves_gap(scene: Scene) -> bool:
-    """Whether the rough gap is resolved: the deterministic model."""
-    return scene.numerics.model == "deterministic"
 
 
 def gap_not_resolved(scene: Scene, given: bool = False) -> str:

@@ -1,7 +1,5 @@
 """The sections of a scene: which there are, made from the keys given for them, or changed by them."""
 
-from __future__ import annotations
-
 from dataclasses import MISSING, fields, replace
 from typing import Any
 
@@ -18,27 +16,10 @@ from .roughness import NEEDED, Roughness, as_given, named
 from .short_forms import resolve, short_keys
 from .transient import Transient
 
-SECTIONS: dict[str, Any] = {
-    "bodies": Bodies,
-    "lubricant": Lubricant,
-    "motion": Motion,
-    "surface": Roughness,
-    "counterface": Roughness,
-    "contact": ContactDomain,
-    "numerics": Numerics,
-    "transient": Transient,
-}
 ROUGH = ("surface", "counterface")
+SECTIONS: dict[str, Any] = {"bodies": Bodies, "lubricant": Lubricant, "motion": Motion}
+SECTIONS |= dict.fromkeys(ROUGH, Roughness) | {"contact": ContactDomain, "numerics": Numerics, "transient": Transient}
 NEEDED_SECTIONS = ("bodies", "lubricant", "motion", "surface")
-INSTEAD = {  # of a missing key
-    "lubricant.viscosity": " in Pa s, or an oil: grade and viscosity_index, or nu40 and nu100, with its temperature",
-    "bodies.radius": " in m, or radii of both bodies",
-    "bodies.width": " in m",
-    "bodies.load": " in N, or hertz_pressure in Pa",
-    "bodies.boundary_friction_coefficient": " of the contact spots (some 0.1)",
-    "bodies.e_prime": " in Pa, or material, or young_modulus and poisson_ratio",
-    "motion.entrainment_speed": " in m/s, or surface_speeds of both bodies",
-}
 
 
 def meant(section: str) -> dict[str, str]:
@@ -128,4 +109,5 @@ def _missing(section: str, table: dict) -> str:
     except InputError:
         return ""
     needed = [f.name for f in fields(SECTIONS[section]) if f.default is MISSING and f.name not in plain]
-    return "; ".join(f"{name!r}{INSTEAD.get(f'{section}.{name}', '')}" for name in needed)
+    words = packaged(__package__, "other_words.toml")["missing"]
+    return "; ".join(f"{name!r} {words.get(f'{section}.{name}', '')}".rstrip() for name in needed)

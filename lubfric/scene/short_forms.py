@@ -3,15 +3,13 @@
 Scene files and `Scene.with_` share them. A field may be given, or one of the short forms that stand for it, not two.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from .._base import packaged, python_value, validate
+from .._base import packaged, validate
 from ..errors import InputError
 from ..film import composite_modulus
 from ..oil import (
@@ -49,7 +47,7 @@ def resolve(section: str, given: dict, old=None) -> dict:
 
     Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
     """
-    given, forms = {key: python_value(value) for key, value in given.items()}, FORMS.get(section, ())
+    given, forms = {key: validate.python_value(value) for key, value in given.items()}, FORMS.get(section, ())
     for name in dict.fromkeys(name for _, fields, _ in forms for name in fields):
         only_one(section, given, name, *("+".join(keys) for keys, fields, _ in forms if name in fields))
     for keys, _, plain in forms:
@@ -61,8 +59,9 @@ def resolve(section: str, given: dict, old=None) -> dict:
     return resolve_oil(given, old) if section == "lubricant" else given
 
 
-def reduced_radius(first: float, second: float) -> float:
+def _of_radii(radii, *_) -> dict:
     """R [m], 1/R = 1/R1 + 1/R2; a plane is inf, a hollow (the outer ring around a roller) negative."""
+    first, second = pair("bodies.radii", radii, "m")
     for radius in (first, second):
         if isinstance(radius, bool) or not isinstance(radius, (int, float)) or radius == 0 or math.isnan(radius):
             way_out = "give radii in m, inf for a plane, negative for a hollow"
@@ -71,11 +70,7 @@ def reduced_radius(first: float, second: float) -> float:
     if curvature <= 0:
         allowed = "1/R1 + 1/R2 > 0 (inf for a plane, negative for a hollow that is wider than the other body)"
         raise InputError(f" = [{first:g}, {second:g}] m do not touch along one line", "bodies.radii", allowed)
-    return 1 / curvature
-
-
-def _of_radii(radii, *_) -> dict:
-    return {"radius": reduced_radius(*pair("bodies.radii", radii, "m"))}
+    return {"radius": 1 / curvature}
 
 
 def _of_materials(names, *_) -> dict:
@@ -83,10 +78,9 @@ def _of_materials(names, *_) -> dict:
     known = packaged(__package__, "materials.toml")
     both = (names, names) if isinstance(names, str) else pair("bodies.material", names, "names")
     first, second = (known[validate.choice("bodies.material", name, known)] for name in both)
+    moduli = [m[name] for m in (first, second) for name in ("young_modulus", "poisson_ratio")]
     return {
-        "e_prime": composite_modulus(
-            *(m[name] for m in (first, second) for name in ("young_modulus", "poisson_ratio"))
-        ),
+        "e_prime": composite_modulus(*moduli),
         "conductivity": (first["conductivity"], second["conductivity"]),
         "volumetric_heat": tuple(m["density"] * m["specific_heat"] for m in (first, second)),
     }
@@ -100,13 +94,9 @@ def _of_moduli(moduli, ratios, *_) -> dict:
     return {"e_prime": composite_modulus(e1, nu1, e2, nu2)}
 
 
-def _of_vickers(number, *_) -> dict:
-    return {"hardness": HV * validate.number("bodies.hardness_hv", number, "(HV)", minimum=5, maximum=5000)}
-
-
 def _of_hertz_pressure(pressure, given, old) -> dict:
     """The load [N] of a peak Hertz pressure [Pa]: w = 2 pi R p²/E'."""
-    validate.number("bodies.hertz_pressure", pressure, "Pa", minimum=1e3, maximum=1e11)
+    validate.of_key("bodies.hertz_pressure", pressure)
     needed = ("radius", "width", "e_prime")
     if missing := [repr(key) for key in needed if key not in given and old is None]:
         raise InputError(f"[bodies] hertz_pressure needs {', '.join(missing)} as well")
@@ -121,14 +111,6 @@ def _of_surface_speeds(speeds, *_) -> dict:
     if u1 + u2 == 0:
         raise InputError("motion.surface_speeds sum to 0 m/s: give entrainment_speed = 0 and a slide_roll_ratio")
     return {"entrainment_speed": (u1 + u2) / 2, "slide_roll_ratio": 2 * (u2 - u1) / (u1 + u2)}
-
-
-def _of_slip(percent, *_) -> dict:
-    return {"slide_roll_ratio": validate.number("motion.slip_percent", percent, "%") / 100}
-
-
-def _of_range(given, *_) -> dict:
-    return {"speeds": speeds_of_range("motion.speed_range", given)}
 
 
 def speeds_of_range(name: str, value) -> tuple[float, ...]:
@@ -160,14 +142,12 @@ def resolve_oil(given: dict, old) -> dict:
     temperature coefficient and law of the density (as given, else of the oil).
 
     The oil is given by ``viscosity_index`` with ``grade`` or ``nu40`` [m²/s], by ``nu40`` and ``nu100``, by
-    ``viscosity_table`` (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.oil_names` or an `Oil`.
+    ``viscosity_table`` (pairs of K and m²/s), or by ``oil``, which is a name of `lubfric.oil.OILS` or an `Oil`.
     """
     limit = given.get("limiting_stress_coefficient", getattr(old, "limiting_stress_coefficient", None))
     if limit is None and given.get("limiting_stress_offset", OFFSET) != OFFSET:
-        raise InputError(
-            "[lubricant] limiting_stress_offset does nothing without limiting_stress_coefficient (some 0.05 to 0.1); "
-            "give both, or neither"
-        )
+        said = "limiting_stress_offset does nothing without limiting_stress_coefficient (some 0.05 to 0.1)"
+        raise InputError(f"[lubricant] {said}; give both, or neither")
     before = getattr(old, "oil", None)
     if given.get("oil", "") is None or not any(key in given for key in (*SOURCES, *PROPERTIES)):
         if before is None:
@@ -199,10 +179,8 @@ def _check_temperature(given: dict, old) -> None:
         return
     if old.temperature is None and given.get("temperature_coefficient", old.temperature_coefficient):
         return  # from now on the heat of the film can be found
-    raise InputError(
-        "[lubricant] temperature moves no viscosity that is given as a number; give the viscosity there as well, or an "
-        "oil (grade, nu40 and nu100, oil, viscosity_table) in place of it"
-    )
+    ways = "give the viscosity there as well, or an oil (grade, nu40 and nu100, oil, viscosity_table) in place of it"
+    raise InputError(f"[lubricant] temperature moves no viscosity that is given as a number; {ways}")
 
 
 def fields_of(oil: Oil, temperature: float) -> dict:
@@ -282,14 +260,18 @@ FORMS: dict[str, tuple[tuple[tuple[str, ...], tuple[str, ...], Callable[..., dic
         (("radii",), ("radius",), _of_radii),
         (("material",), ("e_prime",), _of_materials),
         (("young_modulus", "poisson_ratio"), ("e_prime",), _of_moduli),
-        (("hardness_hv",), ("hardness",), _of_vickers),
+        (("hardness_hv",), ("hardness",), lambda hv, *_: {"hardness": HV * validate.of_key("bodies.hardness_hv", hv)}),
         (("hertz_pressure",), ("load",), _of_hertz_pressure),
     ),
     "lubricant": ((("temperature_celsius",), ("temperature",), of_celsius),),
     "motion": (
         (("surface_speeds",), ("entrainment_speed", "slide_roll_ratio"), _of_surface_speeds),
-        (("slip_percent",), ("slide_roll_ratio",), _of_slip),
-        (("speed_range",), ("speeds",), _of_range),
+        (
+            ("slip_percent",),
+            ("slide_roll_ratio",),
+            lambda slip, *_: {"slide_roll_ratio": validate.of_key("motion.slip_percent", slip) / 100},
+        ),
+        (("speed_range",), ("speeds",), lambda given, *_: {"speeds": speeds_of_range("motion.speed_range", given)}),
     ),
     "surface": tuple(((key,), ("sq",), _of_heights(key, per_sq)) for key, per_sq in PER_SQ.items()),
 }

@@ -1,16 +1,22 @@
 """`Transient`: what changes in time in a scene, and for how long; histories from what a user gives."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
 from pathlib import Path
 
 from .._base import read_columns, validate
 from ..errors import InputError
+from ..quantities import KEYS
 from ..units import without_unit
 from .history import Constant, Harmonic, History, Ramp, Table
 
-UNITS = {"speed": "m/s", "sliding": "m/s", "load": "N", "radius": "m", "viscosity": "Pa s"}  # of what may change
+HISTORIES = {  # what may change in time, and the key that has it where it does not
+    "speed": "motion.entrainment_speed",
+    "sliding": "motion.sliding_speed",
+    "load": "bodies.load",
+    "radius": "bodies.radius",
+    "viscosity": "lubricant.viscosity",
+}
+UNITS = {name: KEYS.get(key, KEYS["speed"]).unit for name, key in HISTORIES.items()}
 MOST_LAPS = 1e5
 LIMITS = {"m/s": (0.0, 1e6), "N": (1e-12, 1e12), "m": (1e-9, 1e3), "Pa s": (1e-9, 1e9)}  # least and largest
 KINDS = {"constant": Constant, "ramp": Ramp, "harmonic": Harmonic, "table": Table}
@@ -58,16 +64,11 @@ class Transient:
 
     def __post_init__(self):
         validate.python_fields(self, "transient")
-        validate.positive("transient.duration", self.duration, "s", minimum=1e-12, maximum=1e9)
+        validate.in_range("transient", self)
         validate.integer("transient.outputs", self.outputs, minimum=1, maximum=1_000_000)
-        validate.choice("transient.initial", self.initial, ("auto", "steady", "rest"))
-        if self.initial_film is not None:
-            validate.positive("transient.initial_film", self.initial_film, "m", minimum=1e-12, maximum=1.0)
-            if self.initial != "auto":
-                said = f" = {self.initial!r} does nothing beside initial_film, from which the run starts"
-                raise InputError(said, "transient.initial", "one of the two")
-        if self.tolerance is not None:
-            validate.number("transient.tolerance", self.tolerance, "(-)", minimum=1e-9, maximum=0.1)
+        if self.initial_film is not None and self.initial != "auto":
+            said = f" = {self.initial!r} does nothing beside initial_film, from which the run starts"
+            raise InputError(said, "transient.initial", "one of the two")
         for name, unit in UNITS.items():
             given = getattr(self, name)
             if given is not None:

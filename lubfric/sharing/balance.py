@@ -280,7 +280,7 @@ def _report(scene: Scene, status: str, history, contact, film, notes, tolerance:
         status=status,
         iterations=len(history),
         residual=min(history),
-        tolerance=scene.numerics.tolerances.balance if tolerance is None else tolerance,
+        tolerance=scene.numerics.tolerance_of("balance") if tolerance is None else tolerance,
         residuals=residuals,
         history=tuple(history),
         evaluations=len(history),

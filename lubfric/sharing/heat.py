@@ -46,7 +46,7 @@ class Heat:
 
     inlet: factors of inlet heating (None: not known), used: whether the film is solved with them; change: of f by the
     temperatures of film and surfaces, relative (an upper estimate if they are left out, ``heated`` None); peclet: u b
-    rho c/(2 k) of the faster surface.
+    rho c/(2 k) of the faster surface; typical: `typical_heat` of a moment in time.
     """
 
     inlet: InletHeat | None = None
@@ -54,6 +54,7 @@ class Heat:
     change: float = 0.0
     heated: FilmHeat | None = None
     peclet: float = math.inf
+    typical: float = 0.0
 
     @property
     def film_factor(self) -> float:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FieldsOnly, Shown, instance
+from .._base import FieldsOnly, Shown, validate
 from ..contact import (
     BOUNDARY,
     AsperityContact,
@@ -31,7 +31,7 @@ from ..contact import (
 )
 from ..contact import check_grid as check_map
 from ..errors import InputError
-from ..scene import Bodies, Scene, check_resolved_gap, resolves_gap, told_doubts
+from ..scene import Bodies, Scene, check_resolved_gap, told_doubts
 from ..surface import Surface
 from .checks_before import beforehand
 from .validity import Validity
@@ -114,11 +114,11 @@ def prepare(
     ------
     InputError : the map does not fit the scene, or ``like`` does not
     """
-    instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
-    if resolves_gap(scene):
+    validate.instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
+    if scene.numerics.model == "deterministic":
         check_resolved_gap(scene, surface is not None or isinstance(like, Prepared) and like.given)
     if like is not None:
-        instance("like", like, Prepared, "what lubfric.prepare returned")
+        validate.instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, surface, contact)
         if _same_contact(scene, like.scene):
             kept = {key: value for key, value in like.memo.items() if key[0] != "reference"}
@@ -172,17 +172,17 @@ def on_strip(prepared: Prepared, strips: Strips, index: int) -> HalfSpaceContact
     return prepared.remembered(("strip", strips.cells.factors, index), make, lambda made: made.heights.size)
 
 
-def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int]) -> HalfSpaceContact:
-    """The contact on every ``factors``-th cell of a piece of ``strips``."""
+def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int], **length) -> HalfSpaceContact:
+    """The contact on every ``factors``-th cell of a piece of ``strips`` (`Strips.piece`)."""
+    own = "piece", strips.cells.factors, index, *length.values()
 
     def make() -> HalfSpaceContact:
-        surface = prepared.remembered(("piece", strips.cells.factors, index), lambda: strips.piece(index))
+        surface = prepared.remembered(own, lambda: strips.piece(index, **length))
         heights = strips.cells.thinned(surface.heights, factors)
         spacing = surface.spacing[0] * factors[0], surface.spacing[1] * factors[1]
         return _contact(prepared, heights, spacing, strips.cells.axis(factors))
 
-    key = "piece", strips.cells.factors, index, factors
-    return prepared.remembered(key, make, lambda made: made.heights.size)
+    return prepared.remembered((*own, factors), make, lambda made: made.heights.size)
 
 
 def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) -> HalfSpaceContact:
@@ -218,7 +218,7 @@ def scene_of(scene: Scene | Prepared) -> Scene:
     """The scene that was prepared, or the scene itself; anything else is an `InputError`."""
     if isinstance(scene, Prepared):
         return scene.scene
-    instance("scene", scene, Scene, "what lubfric.load_scene or lubfric.prepare returned")
+    validate.instance("scene", scene, Scene, "what lubfric.load_scene or lubfric.prepare returned")
     return scene
 
 

@@ -1,7 +1,5 @@
 """The speeds that a Stribeck curve chooses, so that few points determine it everywhere."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
@@ -129,18 +127,16 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
     Raises `InputError` for negative speeds, and for a smooth surface without speeds, which has no such range.
     """
     if any(u < 0 for u in scene.motion.speeds):
-        raise InputError(
-            "speeds = 'auto' runs forwards, and motion.speeds backwards; give motion.speed_range, or speeds in m/s"
-        )
+        ways = "give motion.speed_range, or speeds in m/s"
+        raise InputError(" = 'auto' runs forwards, and motion.speeds backwards", "speeds", way_out=ways)
     speeds = sorted({u for u in scene.motion.speeds if u != 0})
     if len(speeds) > 1:
         return speeds[0], speeds[-1]
     if sq <= 0:
         raise InputError("speeds = 'auto' of a smooth surface (Sq = 0 m) needs a range; give motion.speed_range in m/s")
     if film_ratio(scene, sq, SLOWEST) > THIN or film_ratio(scene, sq, FASTEST) < THICK:
-        raise InputError(
-            "speeds = 'auto' finds no range from boundary lubrication to a full film; give motion.speed_range"
-        )
+        said = " = 'auto' finds no range from boundary lubrication to a full film"
+        raise InputError(said, "speeds", way_out="give motion.speed_range")
     return _speed_of(scene, sq, THIN, SLOWEST, FASTEST), _speed_of(scene, sq, THICK, SLOWEST, FASTEST)
 
 

@@ -6,8 +6,6 @@ is not finite ``{"float": "nan"}``. Tuples become lists, lists ``{"list": [...]}
 keep every bit. The bytes begin with the length of this tree in JSON; then come the tree and the arrays.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import re

@@ -1,8 +1,6 @@
 """Solved points over one number, each of which may have failed: what Stribeck and traction curves have in common, and
 their tables."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import ClassVar, TypeVar
 
@@ -98,7 +96,7 @@ def report_of(solver: str, names: list[str], plural: str, points, errors: dict[i
         float(max((p.report.residual for p in points if p is not None), default=np.inf)),
         float(max((p.report.tolerance for p in points if p is not None), default=0.0)),
         notes=tuple(f"{names[i]}: {error}" for i, error in sorted(errors.items())),
-        advice=f"the other {plural} are in .result, the reason of each failed one in its .errors" if errors else "",
+        advice=f"the other {plural} are in .result, the reason of each failed one in its .errors",
     )
 
 

@@ -1,7 +1,5 @@
 """Work on any executor, and the processes of a command. What a lost worker had is done again."""
 
-from __future__ import annotations
-
 import multiprocessing
 import os
 import signal
@@ -12,7 +10,7 @@ from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import contextmanager
 from queue import SimpleQueue
 
-from .._base import shown
+from .._base import validate
 from ..errors import InputError
 
 WATCH = 0.2  # s between two looks at whether the command still lives
@@ -23,7 +21,7 @@ LAST = 2.0  # s that an interrupted process is waited for
 def checked_executor(executor):
     """``executor``, None or a `concurrent.futures.Executor`; raises `InputError` for anything else."""
     if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {shown(executor)}; allowed: None or a concurrent.futures.Executor")
+        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
     return executor
 
 
@@ -93,22 +91,16 @@ def pool(workers: int):
         for _ in range(workers):
             executor.submit(os.getpid)
         yield executor
-    except BaseException:
-        _end(executor)
+    except BaseException:  # its own thread is waited for, but not for ever: an interrupt may have left a lock it needs
+        ending = threading.Thread(target=executor.shutdown, kwargs={"cancel_futures": True}, daemon=True)
+        ending.start()
+        for process in multiprocessing.active_children():
+            process.terminate()
+        ending.join(LAST)
+        for process in multiprocessing.active_children():
+            process.join(LAST)
         raise
     executor.shutdown()
-
-
-def _end(executor: ProcessPoolExecutor) -> None:
-    """End an interrupted ``executor`` with its processes. Its own thread is waited for, but not for ever: an interrupt
-    may have left a lock that it needs."""
-    ending = threading.Thread(target=executor.shutdown, kwargs={"cancel_futures": True}, daemon=True)
-    ending.start()
-    for process in multiprocessing.active_children():
-        process.terminate()
-    ending.join(LAST)
-    for process in multiprocessing.active_children():
-        process.join(LAST)
 
 
 def _follow(parent: int) -> None:

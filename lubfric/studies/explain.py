@@ -1,8 +1,6 @@
 """What a study or a fit will take, before a point is solved: its points, and the time of one by the work counted on the
 scene."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from numbers import Real

@@ -1,7 +1,5 @@
 """`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Iterator
 from functools import partial
@@ -9,7 +7,7 @@ from itertools import product
 
 import numpy as np
 
-from .._base import instance, number
+from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, InputError, Report
 from ..sampling import FrictionResult, friction
 from ..scene import Scene
@@ -64,16 +62,8 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     found = _checked(scene, measured, parameters)
     begin = _begin(scene, found, {} if start is None else start)
     search = Search(scene, measured, found, checked_executor(executor), on_progress)
-    end = least_squares(
-        search.residuals,
-        begin,
-        lambda unit: search.slopes(unit) / measured.scale[:, None],
-        bounds=(0.0, 1.0),
-        xtol=CLOSE,
-        ftol=1e-4,
-        gtol=1e-12,
-        max_nfev=MOST,
-    )
+    ends = {"bounds": (0.0, 1.0), "xtol": CLOSE, "ftol": 1e-4, "gtol": 1e-12, "max_nfev": MOST}
+    end = least_squares(search.residuals, begin, lambda unit: search.slopes(unit) / measured.scale[:, None], **ends)
     result = _result(search, end)
     result.report.raise_if_failed(result)
     return result
@@ -114,8 +104,8 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
 
 def _checked(scene: Scene, measured: Measured, parameters) -> dict[str, Between]:
     """What is sought, if data and scene can tell it."""
-    instance("scene", scene, Scene, "a scene to change: what lubfric.load_scene returned, not lubfric.prepare")
-    instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
+    validate.instance("scene", scene, Scene, "a scene to change: what lubfric.load_scene returned, not lubfric.prepare")
+    validate.instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
     found = parameters_of(scene, parameters)
     if measured.over == SLIP and (given := RATIO.intersection(found)):
         raise InputError(f"parameters: {', '.join(given)} is measured, not fitted; name another number of the scene")
@@ -134,7 +124,7 @@ def _begin(scene: Scene, found: dict[str, Between], start: dict) -> np.ndarray:
         section, _, name = key.partition(".")
         own = vars(getattr(scene, section)).get(name)  # a short form has none there
         if key in start:
-            own = number(f"start[{key!r}]", start[key], unit_of(key), minimum=bounds.low, maximum=bounds.high)
+            own = validate.number(f"start[{key!r}]", start[key], unit_of(key), minimum=bounds.low, maximum=bounds.high)
         elif not isinstance(own, (int, float)) or not bounds.low < own < bounds.high:
             continue
         unit[i] = bounds.share(own)
@@ -147,9 +137,8 @@ class Search:
 
     def __init__(self, scene: Scene, measured: Measured, parameters, executor=None, on_progress=None):
         self.scene, self.measured, self.parameters = scene, measured, parameters
-        scatter = (
-            0.05 if measured.deviation is None else float(np.median(measured.scale / np.abs(measured.coefficient)))
-        )
+        told = measured.deviation is not None
+        scatter = float(np.median(measured.scale / np.abs(measured.coefficient))) if told else 0.05
         self.tolerance = min(scene.numerics.tolerance, max(0.2 * scatter, 1e-3))  # as tight as the measurement requires
         self._executor, self._on_progress = executor, on_progress
         self._curves: dict[bytes, tuple[FrictionResult, ...]] = {}
@@ -190,9 +179,8 @@ class Search:
             try:
                 away = self.coefficient(moved)
             except ConvergenceError as error:
-                raise ConvergenceError(
-                    f"{key} moved by {STEP:g} of its range: {error}", error.report, error.result
-                ) from error
+                said = f"{key} moved by {STEP:g} of its range: {error}"
+                raise ConvergenceError(said, error.report, error.result) from error
             columns.append((away - self.coefficient(unit)) / (moved[i] - unit[i]))
         self._base, self._slopes = unit.copy(), np.stack(columns, axis=1)
         return self._slopes
@@ -203,7 +191,8 @@ class Search:
         begun, x = time.process_time(), self.measured.x.tolist()
         scene = self.scene.with_keys(values_at(self.parameters, np.clip(unit, 0.0, 1.0)))
         scene, last = scene.with_(numerics={"tolerance": self.tolerance}), self._ready
-        self._ready = prepare(scene, like=last if last is not None and _same_map(scene, last.scene) else None)
+        maps = [(s.surface, s.counterface, s.contact, s.bodies.e_prime) for s in (scene, last.scene if last else scene)]
+        self._ready = prepare(scene, like=last if maps[0] == maps[1] else None)
         speeds = x if self.measured.over == SPEED else [scene.motion.entrainment_speed] * len(x)
         return self._ready, curve_seconds(self._ready, speeds) + time.process_time() - begun
 
@@ -220,11 +209,6 @@ class Search:
         self._on_progress(done, total, left, least, values_at(self.parameters, nearest))
 
 
-def _same_map(one: Scene, other: Scene) -> bool:
-    parts = ((s.surface, s.counterface, s.contact, s.bodies.e_prime) for s in (one, other))
-    return next(parts) == next(parts)
-
-
 def _point(prepared: Prepared, speeds: bool, place: tuple[int, float]) -> Iterator[tuple[int, FrictionResult]]:
     """A point of a curve, with its number: ``place`` has that, and a speed [m/s] or a slide-roll ratio."""
     index, x = place
@@ -235,35 +219,22 @@ def _point(prepared: Prepared, speeds: bool, place: tuple[int, float]) -> Iterat
         yield index, friction(prepare(moved, like=prepared)).without_fields()
 
 
-def _numerical_variance(points, tolerance: float, relative: np.ndarray) -> float:
-    """Mean square of the numerical error of f, which hides from the data what changes f by less. ``relative``: f over
-    the scale of the residuals. Where the error of a point is not known it is the tolerance."""
-    stated = np.array([point.uncertainty.numerical for point in points])
-    known = np.maximum(np.where(np.isfinite(stated), stated, tolerance), LEAST_ERROR)
-    return float(np.mean((known * relative) ** 2))
-
-
 def _result(search: Search, end) -> FitResult:
     """The result of a ``search`` whose derivatives were computed where it ended (``end``, of SciPy), or near by."""
     measured, points, predicted = search.measured, search.at(end.x), search.coefficient(end.x)
     n, p = end.jac.shape
     squares = float(end.fun @ end.fun)
     variance = squares / (n - p) if measured.deviation is None else 1.0
-    f = np.array([point.coefficient for point in points])  # whose error is told; the rolling part has as much of it
-    variance += _numerical_variance(points, search.tolerance, f / measured.scale)
+    f, stated = np.array([(point.coefficient, point.uncertainty.numerical) for point in points]).T
+    known = np.maximum(np.where(np.isfinite(stated), stated, search.tolerance), LEAST_ERROR)
+    variance += float(np.mean((known * f / measured.scale) ** 2))  # what changes f by less is hidden from the data
     _, singular, axes = np.linalg.svd(end.jac, full_matrices=False)
     known = np.maximum(singular, max(1e-8 * singular[0], LEAST_SLOPE))  # a direction without effect: a huge variance
     status = CONVERGED if end.status > 0 else ITERATION_LIMIT
     coarse = "give start = {...} closer to the answer, narrower bounds, or fewer parameters"
-    report = Report(
-        "fit, trust region",
-        status,
-        int(end.nfev),
-        0.0 if status == CONVERGED else 1.0,
-        CLOSE,
-        {"sum of squares": squares},
-        advice="" if status == CONVERGED else coarse,
-    )
+    left, advice = (0.0, "") if status == CONVERGED else (1.0, coarse)
+    found = {"sum of squares": squares}
+    report = Report("fit, trust region", status, int(end.nfev), left, CLOSE, found, advice=advice)
     return FitResult(
         base=search.scene,
         measured=measured,

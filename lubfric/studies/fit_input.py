@@ -1,7 +1,5 @@
 """What a fit is given: a measured curve of friction with its units, and the numbers of a scene that are sought."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -50,10 +48,8 @@ class Measured:
         if self.deviation is not None and np.any(self.deviation <= 0):
             raise InputError("deviation holds values that are not positive; give positive ones, or leave it out")
         if self.deviation is None and np.any(self.coefficient <= 0):
-            raise InputError(
-                "coefficient holds values that are not positive, whose relative deviation means nothing; allowed: > 0, "
-                "or give a deviation"
-            )
+            said = " holds values that are not positive, whose relative deviation means nothing"
+            raise InputError(said, "coefficient", "> 0, or give a deviation")
         if np.unique(x).size < x.size:
             raise InputError("x holds a value twice; average repeated measurements")
 

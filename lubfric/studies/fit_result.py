@@ -1,13 +1,11 @@
 """The result of a fit, and how sure it is."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
-from .._base import BLUE, GREY, RED, Shown, axes_or_new, plain_ticks, plain_words, speed_label
+from .._base import Shown, figures
 from ..errors import Report
 from ..sampling import percent
 from ..scene import Scene
@@ -147,15 +145,6 @@ class FitResult(Shown):
             f"{percent(float(np.nanmax(self.sampling)))}), which moves {moved}"
         )
 
-    def contains(self, values: dict[str, float]) -> bool:
-        """Whether parameters lie in the joint 95 % region (F distribution of p and n - p)."""
-        from scipy.stats import f
-
-        away = np.array([bounds.share(values[key]) for key, bounds in self.parameters.items()]) - self.unit
-        p, n = away.size, self.predicted.size
-        distance = away @ np.linalg.solve(self.unit_covariance, away) / p
-        return bool(distance <= f.ppf(LEVEL, p, n - p))
-
     def explain(self) -> str:
         """Values, intervals, correlations, the parameters that the data cannot determine, and the assumptions that do
         not hold."""
@@ -174,22 +163,19 @@ class FitResult(Shown):
         return "\n".join([*lines, f"  scatter about the fit {100 * scatter:.2g} % of f", *cautions])
 
     def _facts(self) -> dict[str, str]:
-        facts = {
-            key: f"{self.values[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}"
-            for key, (low, high) in self.intervals.items()
-        }
+        facts = {k: f"{self.values[k]:.4g}, 95 % interval {a:.4g} to {b:.4g}" for k, (a, b) in self.intervals.items()}
         return facts | {"undetermined": ", ".join(self.undetermined) or "none"}
 
     def plot(self, ax=None):
         """Measured points, fitted curve and its 95 % band; returns the axes."""
-        axes = axes_or_new(ax)
+        axes = figures.axes_or_new(ax)
         x, (low, high) = np.abs(self.measured.x), self.band
         order = np.argsort(x)
         error = None if self.measured.deviation is None else 1.96 * self.measured.deviation
-        source = plain_words(self.measured.source)
-        axes.errorbar(x, self.measured.coefficient, error, fmt="o", ms=4, color=RED, lw=1, label=source)
-        axes.plot(x[order], self.predicted[order], color=BLUE, label="fit")
-        axes.fill_between(x[order], low[order], high[order], color=BLUE, alpha=0.2, lw=0, label="95 % band")
+        source = figures.plain_words(self.measured.source)
+        axes.errorbar(x, self.measured.coefficient, error, fmt="o", ms=4, color=figures.RED, lw=1, label=source)
+        axes.plot(x[order], self.predicted[order], color=figures.BLUE, label="fit")
+        axes.fill_between(x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % band")
         self._label(axes, "friction coefficient (-)")
         axes.set_ylim(bottom=0)
         axes.legend(frameon=False)
@@ -197,10 +183,10 @@ class FitResult(Shown):
 
     def plot_residuals(self, ax=None):
         """Deviation of the points from the fitted curve, relative; returns the axes."""
-        axes = axes_or_new(ax)
+        axes = figures.axes_or_new(ax)
         miss = 100 * (self.measured.coefficient / self.predicted - 1)
-        axes.axhline(0, color=GREY, lw=0.8)
-        axes.plot(np.abs(self.measured.x), miss, "o", ms=4, color=RED)
+        axes.axhline(0, color=figures.GREY, lw=0.8)
+        axes.plot(np.abs(self.measured.x), miss, "o", ms=4, color=figures.RED)
         reach = 1.15 * max(np.abs(miss).max(), 1e-3)
         axes.set_ylim(-reach, reach)
         self._label(axes, "measured - fit (%)")
@@ -210,8 +196,8 @@ class FitResult(Shown):
         over_speed = self.measured.over == SPEED
         if over_speed:
             axes.set_xscale("log")
-            plain_ticks(axes.xaxis)
-        axes.set(xlabel=speed_label(self.measured.x) if over_speed else "slide-roll ratio (-)", ylabel=label)
+            figures.plain_ticks(axes.xaxis)
+        axes.set(xlabel=figures.speed_label(self.measured.x) if over_speed else "slide-roll ratio (-)", ylabel=label)
 
     @property
     def _slopes(self) -> np.ndarray:

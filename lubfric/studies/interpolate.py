@@ -96,7 +96,10 @@ class Interpolant:
         spread = np.abs(self.at(speed, smooth=False) - value)
         s, others = self.samples, []
         if self.lift_off is not None:
-            others = [replace(self, lift_off=knee) for knee in knee_range(s) if knee != self.lift_off]
+            low, high, knee = s.speed[s.contacts - 1], s.speed[s.contacts], knee_of(s)
+            away = (high / knee) ** UNSURE  # a share of the way to the slowest film without contact
+            ends = float(max(knee / away, min(NEAR * low, knee))), float(knee * away)  # not where contact is known
+            others = [replace(self, lift_off=end) for end in ends if end != self.lift_off]
             others += [replace(self, end=power) for power in OTHERS]
         for other in others:
             spread = np.maximum(spread, np.abs(other.at(speed) - value))
@@ -200,15 +203,6 @@ def knee_of(samples: Samples) -> float | None:
     if found < NEAR * low:
         found = min(BEYOND * low, float(np.sqrt(low * high)))
     return float(min(found, high))
-
-
-def knee_range(samples: Samples) -> tuple[float, float]:
-    """The range in which lift-off [m/s] may be: to either side of its estimate, a share of the distance to the slowest
-    film without contact, but not where contact is known."""
-    k, knee = samples.contacts, knee_of(samples)
-    low, high = samples.speed[k - 1], samples.speed[k]
-    away = (high / knee) ** UNSURE
-    return float(max(knee / away, min(NEAR * low, knee))), float(knee * away)
 
 
 def _film_alone(speed, traction, at, smooth):

@@ -1,12 +1,9 @@
 """A curve or a study as a formula f(U, T, p) for system simulations, fitted, with its error and range: as text, JSON
 and C."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -34,6 +31,7 @@ FORMULA = {  # valid in Python and C, one name after the other
     "t2": "C2*pow(V/U0, k2)*pow(e, e2)*pow(q, d2)",
     "f": "U/V*(b*s + (1.0 - s)/(1.0/t1 + 1.0/t2))",
 }
+CODE = {expression: compile(expression, "law", "eval") for expression in (WALTHER, "eta0", *FORMULA.values())}
 FUNCTIONS = {"sqrt": np.sqrt, "pow": np.power, "log10": np.log10, "__builtins__": {}}
 SHARE, FILM = ("b", "U1", "n", "m", "r"), ("C1", "k1", "C2", "k2")
 POSITIVE = {
@@ -156,13 +154,8 @@ def value(numbers: dict[str, float], U, T, p):
     names = numbers | {"U": U, "T": T, "p": p}
     with np.errstate(over="ignore", under="ignore", divide="ignore"):
         for name, expression in _expressions(numbers).items():
-            names[name] = eval(_code(expression), FUNCTIONS, names)
+            names[name] = eval(CODE[expression], FUNCTIONS, names)
     return names["f"]
-
-
-@cache
-def _code(expression: str):
-    return compile(expression, "law", "eval")
 
 
 def _expressions(numbers) -> dict[str, str]:
@@ -217,9 +210,8 @@ def _viscosity(T, eta, coefficient) -> dict[str, float]:
         return {}
     if thin:
         allowed = f"above {THINNEST:g} Pa s, or one temperature"
-        raise InputError(
-            f" = {eta.min():.3g} Pa s is too thin for a law over temperature", "lubricant.viscosity", allowed
-        )
+        said = f" = {eta.min():.3g} Pa s is too thin for a law over temperature"
+        raise InputError(said, "lubricant.viscosity", allowed)
     x, y = np.log10(T), np.log10(np.log10(1e3 * eta + 0.7))
     if np.ptp(T) > 0:
         slope = np.polyfit(x, y, 1)[0]

@@ -1,11 +1,9 @@
 """All points of a study, laid out before the first is solved: from arguments, or from a study file, which is read
 strictly."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -14,7 +12,7 @@ import numpy as np
 
 from .._base import __version__, plain, validate
 from ..errors import InputError
-from ..scene import Scene, load_scene, read_toml, scene_as_dict, speeds_of_range
+from ..scene import Scene, load_scene, read_toml, speeds_of_range
 from .choose import AUTO, CHOSEN, MOST, asked_speeds
 from .codec import fits
 from .explain import explain
@@ -94,9 +92,10 @@ def plan_as_dict(plan: StudyPlan) -> dict:
         "format": 2,
         "lubfric": __version__,
         "name": plan.scene.name,
-        "scene": plain(scene_as_dict(plan.scene)),
+        "scene": plain(asdict(plan.scene)),
         "axes": [
-            {"name": a.name, "keys": list(a.keys), "values": [_worded(row) for row in a.values]} for a in plan.axes
+            {"name": a.name, "keys": list(a.keys), "values": [[_plain(value) for value in row] for row in a.values]}
+            for a in plan.axes
         ],
         "speeds": list(plan.speeds) or AUTO,
         "shape": list(plan.shape),
@@ -121,9 +120,9 @@ def is_plan(plan) -> bool:
     return once and rows and plan["shape"] == shape and math.prod(shape[:-1]) == len(plan["keys"])
 
 
-def _worded(row: tuple) -> list:
-    """Values in plain JSON types; an oil or a whole section in words."""
-    return [repr(value) if is_dataclass(value) else plain(value) for value in row]
+def _plain(value) -> Any:
+    """In JSON types; an oil or a whole section in words."""
+    return repr(value) if is_dataclass(value) else plain(value)
 
 
 def load_study(path) -> StudyPlan:
@@ -189,21 +188,20 @@ def _lists(table, where: str, folder: Path) -> dict[str, list]:
     for key, values in found.items():
         if not isinstance(values, list):
             raise InputError(f"[{where}] {key} = {values!r}; allowed: a list of values")
-    for section in ("surface", "counterface"):
-        key = f"{section}.file"
+
+    def beside(key: str, name) -> str:
+        path = (folder / str(name)).resolve()
+        if not path.is_file():
+            raise InputError(f"{key} = {name!r}: no such file in {folder}")
+        return str(path)
+
+    for key in ("surface.file", "counterface.file"):
         if key in found:
-            found[key] = [_beside(folder, key, name) for name in found[key]]
-        for part in found.get(section, []):
+            found[key] = [beside(key, name) for name in found[key]]
+        for part in found.get(key.removesuffix(".file"), []):
             if isinstance(part, dict) and "file" in part:
-                part["file"] = _beside(folder, key, part["file"])
+                part["file"] = beside(key, part["file"])
     return found
-
-
-def _beside(folder: Path, key: str, name) -> str:
-    path = (folder / str(name)).resolve()
-    if not path.is_file():
-        raise InputError(f"{key} = {name!r}: no such file in {folder}")
-    return str(path)
 
 
 def _sampled(table, file: str) -> tuple:

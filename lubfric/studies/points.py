@@ -2,13 +2,11 @@
 numbers. A point is a function of its scene and speed alone, so one process or many, in any order, in one call or
 several, give the same bits."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from .._base import instance
+from .._base import validate
 from ..errors import LubfricError, ValidityError
 from ..quantities import NUMBERS
 from ..sampling import FrictionResult, friction
@@ -89,7 +87,7 @@ def key_of(prepared: Prepared) -> str:
 
 def made_ready(scene: Scene | Prepared, tolerance: float | None = None, model: str | None = None) -> Prepared:
     """``scene`` made ready, with another tolerance on f and another model if they are given."""
-    instance("scene", scene, (Scene, Prepared), "what lubfric.load_scene or lubfric.prepare returned")
+    validate.instance("scene", scene, (Scene, Prepared), "what lubfric.load_scene or lubfric.prepare returned")
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
     if isinstance(scene, Scene):
         return prepare(scene.with_(numerics=changed))

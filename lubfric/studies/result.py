@@ -97,7 +97,10 @@ class StudyResult(Shown):
         found = {}
         for axis in self.plan["axes"]:
             for i, key in enumerate(axis["keys"]):
-                found[key] = (axis["name"], _column([row[i] for row in axis["values"]]))
+                values = [row[i] for row in axis["values"]]
+                numbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
+                words = [v if isinstance(v, str) else json.dumps(v) for v in values]
+                found[key] = axis["name"], np.array(values, dtype=float) if numbers else np.array(words)
         return found if self.chosen else found | {SPEED: (SPEED, np.array(self.plan["speeds"]))}
 
     @property
@@ -156,11 +159,9 @@ class StudyResult(Shown):
     def lift_off(self) -> np.ndarray:
         """The speed [m/s], over the axes and in the direction of the curves, at which the film lifts the surfaces off
         each other; NaN if a curve does not reach it."""
-        found = np.full(self.status.shape[:-1], np.nan)
-        for index in np.ndindex(*found.shape):
-            curve = self.curve(index)
-            found[index] = np.nan if curve is None else curve.lifted
-        return found
+        shape = self.status.shape[:-1]
+        found = [np.nan if (curve := self.curve(i)) is None else curve.lifted for i in np.ndindex(*shape)]
+        return np.array(found).reshape(shape)
 
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
         """The curve at one position along the axes, or None if fewer than three of its points are solved, if they run
@@ -172,13 +173,6 @@ class StudyResult(Shown):
             return found if np.allclose(found.at(s.speed), s.boundary + s.film, rtol=1e-2) else None
         except ValueError:  # InputError, or that of an interpolation
             return None
-
-
-def _column(values: list) -> np.ndarray:
-    """Numbers as floats, anything else as text."""
-    if all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values):
-        return np.array(values, dtype=float)
-    return np.array([v if isinstance(v, str) else json.dumps(v) for v in values])
 
 
 def study(

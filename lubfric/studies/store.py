@@ -1,6 +1,5 @@
-"""Solved points in a folder, each in a file of its own by the hash of all that it depends on."""
-
-from __future__ import annotations
+"""The store: records in a folder, each in a file of its own by the hash of all that it depends on. Points of curves,
+studies and runs of the command line, and states of runs in time, are kept in it."""
 
 import hashlib
 import os
@@ -13,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FolderLock, __version__, clear_parts, read_checked, saying, validate, write_checked
+from .._base import FolderLock, __version__, clear_checked, clear_parts, files, read_checked, validate, write_checked
 from ..errors import ConvergenceError, InputError, LubfricError, OutputError, Report, ValidityError
 from ..film import EHLResult
 from ..sampling import FrictionResult
@@ -42,21 +41,23 @@ CHOSEN = tuple[tuple[float, ...], bool]  # the same of a curve: its speeds [m/s]
 
 
 class Store:
-    """Records by key in the folder ``root``; without one (None) nothing is kept and nothing found.
+    """Records by key in the folder ``root``; without one (None) nothing is kept and nothing found. ``classes``: those
+    that a record may hold.
 
     A record is a whole file with a checksum, which appears at once when it is complete. So any number of processes may
     add, and what was added outlives every failure of them. A record that was cut off or overwritten counts as absent.
     """
 
-    def __init__(self, root):
-        self.root = root
+    def __init__(self, root, classes: dict[str, type] = CLASSES):
+        self.root, self.classes = root, classes
         self.folder = None if root is None else Path(root) / POINTS
 
-    def add(self, key: str, outcome) -> None:
-        """Keep a `FrictionResult`, a `LubfricError`, or a tuple of numbers. Raises `OutputError` when that fails."""
+    def add(self, key: str, outcome, sync: bool = False) -> None:
+        """Keep a dataclass of the ``classes``, a `LubfricError`, or a tuple of these and of numbers; ``sync``: it also
+        outlives a loss of power. Raises `OutputError` when that fails."""
         if self.folder is not None:
             stored = _failure(outcome) if isinstance(outcome, LubfricError) else outcome
-            write_checked(self._path(key), *encode(stored), sync=False)
+            write_checked(self._path(key), *encode(stored), sync=sync)
 
     def get(self, key: str, kind: Any = Any):
         """What was added under ``key``, of the type ``kind``; None for what is absent. A record that cannot be read, is
@@ -65,7 +66,7 @@ class Store:
             return None
         try:
             content = read_checked(self._path(key)) if self._path(key).is_file() else None
-            found = decode(content or b"", CLASSES, kind)
+            found = decode(content or b"", self.classes, kind)
         except (ValueError, OutputError):
             warnings.warn(f"{self._path(key)} is damaged and does not count: it is to be solved again", stacklevel=2)
             return None
@@ -76,21 +77,29 @@ class Store:
         found = {key: self.get(key, kind) for key in keys} if self.folder is not None and self.folder.is_dir() else {}
         return {key: outcome for key, outcome in found.items() if outcome is not None}
 
+    def clear(self, keys: Iterable[str] = ("*",)) -> None:
+        """Remove the records of ``keys`` (default: all), what killed writers left, and the folders that are empty
+        then."""
+        if self.folder is not None:
+            clear_checked(self.folder, *(self._path(key).name for key in keys))
+            clear_checked(Path(self.root))
+
     def _path(self, key: str) -> Path:
         return (self.folder or Path()) / f"{key[:40]}.bin"
 
 
 @contextmanager
-def opened(folder):
-    """The `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a second."""
+def opened(folder, classes: dict[str, type] = CLASSES, name: str = "store"):
+    """The `Store` in ``folder`` (None: none), which one caller at a time may fill. Raises `InputError` for a second.
+    ``name``: of the argument that gives the folder."""
     if folder is None:
         yield Store(None)
         return
-    folder = validate.folder("store", folder)
+    folder = validate.folder(name, folder)
     with FolderLock(folder):
         clear_parts(folder)
         clear_parts(folder / POINTS)
-        yield Store(os.path.abspath(folder))
+        yield Store(os.path.abspath(folder), classes)
 
 
 def point_key(scene_key: str, speed: float, fields: bool = False) -> str:
@@ -135,6 +144,6 @@ def _counted(part, name: str):
     if (kind, name) in LABELS:
         return None
     if (kind, name) == ("Roughness", "file") and value is not None:
-        with saying(f"surface.file = {value} was not read"), open(value, "rb") as file:
+        with files.saying(f"surface.file = {value} was not read"), open(value, "rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     return value

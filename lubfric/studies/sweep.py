@@ -1,7 +1,5 @@
 """Stribeck curves, friction over the speed; and traction curves, friction over the slide-roll ratio at one speed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
@@ -98,7 +96,6 @@ def stribeck(
     model: str | None = None,
     fields=False,
     store=None,
-    start=None,
     on_point=None,
     raise_on_failure: bool = True,
 ) -> StribeckResult:
@@ -117,14 +114,11 @@ def stribeck(
     executor : any `concurrent.futures.Executor`
     tolerance, model, fields : as in `lubfric.friction`; or fields: the speeds [m/s] whose film and contact are kept
     store : a folder that receives every point as it ends. The same call, or one with other speeds, goes on from there
-    start : no longer taken
     on_point : called as on_point(done, total, speed, outcome), with a result or an exception, as points end
     raise_on_failure : False returns a curve with failed points
 
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
-    if start is not None:
-        raise InputError("start: every point is solved from the scene alone; leave start out")
     validate.instance("scene", scene, (Scene, Prepared), "what lubfric.load_scene or lubfric.prepare returned")
     asked, kept = _asked(speeds, fields, scene.scene if isinstance(scene, Prepared) else scene)
     executor, prepared = checked_executor(executor), made_ready(scene, tolerance, model)
@@ -159,9 +153,8 @@ def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
             raise InputError("fields = True with speeds = 'auto'; give the speeds in m/s whose fields are kept")
         return [], np.abs(kept).tolist()
     if not set(kept) <= set(asked):
-        raise InputError(
-            f"fields = {fields!r} m/s are not all among the speeds of the curve; give some of them, or fields = True"
-        )
+        said = f" = {fields!r} m/s are not all among the speeds of the curve"
+        raise InputError(said, "fields", way_out="give some of them, or fields = True")
     return asked, asked if fields is True else kept
 
 
@@ -175,21 +168,17 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
     curve = StribeckResult(**numbers, points=points, errors=errors, report=report, scene=prepared.scene)
     if asked or len(points) - len(errors) < FEWEST:
         return curve
-    return replace(curve, report=_with_interpolation(curve, tolerance_between(prepared)))
-
-
-def _with_interpolation(curve: StribeckResult, tolerance: float) -> Report:
-    """The report of a curve that chose its speeds: its residual is the estimated error between the points."""
-    report, error = curve.report, next_speed(through(columns_of(curve.points)), tolerance)[1]
-    coarse = "" if error <= tolerance else "solve more speeds of your own, or loosen numerics.tolerance"
-    return replace(
+    error, tolerance = next_speed(curve._curve, tolerance_between(prepared))[1], tolerance_between(prepared)
+    close = error <= tolerance
+    told = replace(  # its residual is the estimated error between the points
         report,
-        status=report.status if error <= tolerance else ITERATION_LIMIT,
+        status=report.status if close else ITERATION_LIMIT,
         residual=error,
         tolerance=tolerance,
         residuals={"interpolation": error, "points": report.residual},
-        advice=report.advice or coarse,
+        advice=report.advice or ("" if close else "solve more speeds of your own, or loosen numerics.tolerance"),
     )
+    return replace(curve, report=told)
 
 
 @dataclass(frozen=True, repr=False)

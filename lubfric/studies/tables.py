@@ -1,30 +1,12 @@
 """Studies as tables for other tools, each imported only when its table is asked for; curves and studies drawn."""
 
-from __future__ import annotations
-
 import io
-import math
 from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 
-from .._base import (
-    BLUE,
-    FRICTION,
-    RED,
-    axes_or_new,
-    friction_lines,
-    key_above,
-    log_if_wide,
-    new_figure,
-    plain_ticks,
-    plain_words,
-    speed_label,
-    table_bytes,
-    whole_file,
-    write_whole,
-)
+from .._base import figures, files, table_bytes, write_whole
 from ..errors import InputError
 from ..quantities import KEYS, Quantity, axis_label, described, heading
 from ..units import worded
@@ -65,7 +47,7 @@ def to_netcdf(result, path) -> None:
     """The Dataset of `to_xarray` as a NetCDF file, which appears whole. Needs the ``study`` extra."""
     data = to_xarray(result)
     _tool("netCDF4")
-    with whole_file(path) as part:
+    with files.whole_file(path) as part:
         data.to_netcdf(part, engine="netcdf4")
 
 
@@ -94,7 +76,7 @@ def plot(result, ax=None, **style):
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
-    axes, indices = axes_or_new(ax), list(np.ndindex(*result.status.shape[:-1]))
+    axes, indices = figures.axes_or_new(ax), list(np.ndindex(*result.status.shape[:-1]))
     picked = np.unique(np.linspace(0, len(indices) - 1, min(MOST, len(indices))).astype(int))
     few = picked.size <= NAMED
     key = next((k for k, (_, v) in result.coords.items() if k != SPEED and v.dtype.kind == "f"), None)
@@ -105,7 +87,11 @@ def plot(result, ax=None, **style):
         place = scale(np.array([values[indices[i][result.dims.index(dim)]] for i in picked]))
         axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
     for index, colour in zip((indices[i] for i in picked), colours(place if key and not few else 0.9 * place)):
-        own = {"color": colour, "lw": 1.0} | ({"label": plain_words(_label(result, index))} if few else {}) | style
+        own = (
+            {"color": colour, "lw": 1.0}
+            | ({"label": figures.plain_words(_label(result, index))} if few else {})
+            | style
+        )
         speed = np.abs(result.columns[SPEED][index] if result.chosen else result.coords[SPEED][1])
         f, curve = result.columns["coefficient"][index], result.curve(index) if result.chosen else None
         good = np.flatnonzero(np.isfinite(f) & (speed > 0))
@@ -117,15 +103,11 @@ def plot(result, ax=None, **style):
         axes.plot(
             speed[good], f[good], **({"marker": "o", "ms": 3} if few or curve is None and good.size < 2 else {}) | own
         )
-    axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=FRICTION)
-    plain_ticks(axes.xaxis)
-    some, named = (
-        "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves",
-        few and picked.size > 1,
-    )
-    axes.set_title(plain_words(result.plan["name"]) + some, pad=6 + 13 * named * math.ceil(picked.size / 2))
-    if named:
-        key_above(axes, 2)
+    axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION)
+    figures.plain_ticks(axes.xaxis)
+    some = "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves"
+    rows = figures.key_above(axes, 2) if few and picked.size > 1 else 0
+    axes.set_title(figures.plain_words(result.plan["name"]) + some, pad=6 + 13 * rows)
     return axes
 
 
@@ -165,11 +147,11 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
         return
     known = np.isfinite(columns.get("model_error", unknown))
     band = BAND + ("" if known.all() else " (where known)" if known.any() else " (not known)")
-    ax.fill_between(x, y * (1 + low), y * (1 + high), color=BLUE, alpha=0.2, lw=0, label=band)
+    ax.fill_between(x, y * (1 + low), y * (1 + high), color=figures.BLUE, alpha=0.2, lw=0, label=band)
     for name, times, dashes in OF_INTERVAL:
         error = at(times * columns.get(name, unknown))
         if np.nanmax(error, initial=0.0) > 0:
-            thin = {"color": BLUE, "lw": 0.6, "ls": dashes}
+            thin = {"color": figures.BLUE, "lw": 0.6, "ls": dashes}
             ax.plot(x, y * (1 - error), **thin)
             ax.plot(x, y * (1 + error), **thin, label=f"of it: {name.partition('_')[0].replace('sampling', 'surface')}")
 
@@ -185,21 +167,21 @@ def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **st
     interval_band(axes, speed, c, between and between[:2])
     if between is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-        friction_lines(axes, speed, parts, **{"marker": "o", "ms": 4} | style)
+        figures.friction_lines(axes, speed, parts, **{"marker": "o", "ms": 4} | style)
     else:
-        friction_lines(axes, between[0], between[1:], **style)
-        axes.plot(speed, c["coefficient"], "o", ms=4, color=style.get("color", BLUE))
-    axes.set(xscale="log", xlabel=speed_label(c["speed"]), ylabel=FRICTION)
-    plain_ticks(axes.xaxis)
+        figures.friction_lines(axes, between[0], between[1:], **style)
+        axes.plot(speed, c["coefficient"], "o", ms=4, color=style.get("color", figures.BLUE))
+    axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION)
+    figures.plain_ticks(axes.xaxis)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(c["coefficient"].min(initial=0.0))))
-    key_above(axes)
+    figures.key_above(axes)
     return order
 
 
 def curve_axes(curve, ax=None, **style):
     """Friction over speed of a `lubfric.StribeckResult`, with its parts and the band of its intervals; interpolated if
     it chose its speeds."""
-    axes = axes_or_new(ax)
+    axes = figures.axes_or_new(ax)
     names = "speed", "coefficient", "contact_load", "film_load", "boundary_force", "shear_force"
     columns = {name: getattr(curve, name) for name in names}
     columns |= dict(zip(("interval_low", "interval_high"), curve.uncertainty.interval.T))
@@ -232,9 +214,9 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
     values = np.moveaxis(study[quantity], axes, (0, 1)).reshape(*(study.status.shape[a] for a in axes))
     x, y = (_numbers(key, coords[key][1]) for key in (across, up))
     values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
-    figure = new_figure(figsize=(7, 5))
+    figure = figures.new_figure(figsize=(7, 5))
     ax = figure.subplots()
-    bar = FRICTION if quantity == "coefficient" else axis_label(quantity)
+    bar = figures.FRICTION if quantity == "coefficient" else axis_label(quantity)
     if min(values.shape) < SMOOTH:
         _table_of(ax, x, y, values, bar)
     else:
@@ -243,10 +225,10 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
         ax.contour(x, y, known, levels=16, colors="w", linewidths=0.4)
         rows, places = np.nonzero(~np.isfinite(values))
         if rows.size:
-            ax.plot(x[places], y[rows], "x", color=RED, label="no answer")
+            ax.plot(x[places], y[rows], "x", color=figures.RED, label="no answer")
             ax.legend(frameon=False)
-        log_if_wide(ax, "x", x)
-        log_if_wide(ax, "y", y)
+        figures.log_if_wide(ax, "x", x)
+        figures.log_if_wide(ax, "y", y)
         figure.colorbar(shown, label=bar)
     ax.set(xlabel=axis_label(across), ylabel=axis_label(up), title=title)
     figure.savefig(path, dpi=150)
@@ -258,7 +240,7 @@ def _table_of(ax, x, y, values, bar: str) -> None:
     middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
     for (row, column), found in np.ndenumerate(values):
         known = np.isfinite(found)
-        colour = ("k" if found > middle else "w") if known else RED
+        colour = ("k" if found > middle else "w") if known else figures.RED
         ax.text(column, row, f"{found:.3g}" if known else "no answer", ha="center", va="center", color=colour)
     ax.set_xticks(range(x.size), [f"{value:.4g}" for value in x])
     ax.set_yticks(range(y.size), [f"{value:.4g}" for value in y])

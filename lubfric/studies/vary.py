@@ -1,7 +1,5 @@
 """What a study varies: lists of values, lists that go together, and ranges from which samples are drawn."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -78,10 +76,8 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
     axes, cases = [], 0
     points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1) != 0)
     if points > MOST_POINTS:
-        raise InputError(
-            f"vary asks for {float(points):.3g} combinations; allowed: up to {MOST_POINTS:.0e} in a study "
-            "(several studies, or lubfric.sample for points of the box)"
-        )
+        most = f"up to {MOST_POINTS:.0e} in a study (several studies, or lubfric.sample for points of the box)"
+        raise InputError(f" asks for {float(points):.3g} combinations", "vary", most)
     for key, values in vary.items():
         keys = key if isinstance(key, tuple) else (key,)
         for name in keys:
@@ -144,13 +140,11 @@ def _check_key(scene: Scene, key, seen: set) -> None:
     part = getattr(scene, section) or Roughness  # a body without roughness has its keys all the same
     fields = (*part.__dataclass_fields__, *short_keys(section))
     if field and field not in fields:
-        raise InputError(
-            f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}; allowed: {', '.join(fields)}"
-        )
+        said = f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}"
+        raise InputError(said, allowed=", ".join(fields))
     if key == "motion" or key in SPEEDS:
-        raise InputError(
-            f"vary: {key!r} is not varied as a key; give speeds = [...] in m/s, and vary motion.slide_roll_ratio"
-        )
+        ways = "give speeds = [...] in m/s, and vary motion.slide_roll_ratio"
+        raise InputError(f"vary: {key!r} is not varied as a key", way_out=ways)
     if key in seen:
         raise InputError(f"vary: {key!r} is given twice; give it once")
     seen.add(key)
@@ -161,10 +155,8 @@ def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:
     ``keys``."""
     given = keys & TEMPERATURES
     if given and scene.lubricant.oil is None and not keys.intersection(VISCOSITIES):
-        raise InputError(
-            f"{what}: {min(given)} moves no viscosity that is given as a number; give the scene an oil (grade, nu40 "
-            "and nu100, oil, viscosity_table), or vary lubricant.viscosity together with it"
-        )
+        oils = "an oil (grade, nu40 and nu100, oil, viscosity_table), or vary lubricant.viscosity together with it"
+        raise InputError(f"{what}: {min(given)} moves no viscosity that is given as a number; give the scene {oils}")
 
 
 def _listed(name: str, keys: tuple[str, ...], values) -> Axis:

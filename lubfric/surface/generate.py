@@ -1,7 +1,5 @@
 """Gaussian random surfaces with a prescribed autocorrelation, by FFT filtering of white noise."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace
@@ -54,15 +52,8 @@ def generate_surface(
         about 10 lengths for "exponential", 5 for "gaussian"), or when the grid has fewer than 2 cells per length at 1/e
     """
     seed = validate.integer("seed", seed, minimum=0, maximum=LARGEST_SEED)
-    surface = surface_generator(
-        shape,
-        spacing,
-        sq=sq,
-        correlation_length=correlation_length,
-        acf=acf,
-        decay_level=decay_level,
-        cutoff=cutoff,
-    )(seed)
+    of = {"sq": sq, "correlation_length": correlation_length, "acf": acf, "decay_level": decay_level, "cutoff": cutoff}
+    surface = surface_generator(shape, spacing, **of)(seed)
     first, *lengths = surface.notes
     found = (f"{note}, found {_found_length(surface, axis, decay_level)}" for axis, note in enumerate(lengths))
     return replace(surface, notes=(first, *found))
@@ -83,7 +74,13 @@ def surface_generator(
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
     decay = -math.log(level) if acf == "exponential" else math.sqrt(-math.log(level))
     scales = lengths[0] / decay, lengths[1] / decay  # where the ACF is 1/e
-    _check_grid(shape, spacing, scales)
+    for axis, n, d, scale in zip("xy", shape, spacing, scales):
+        name, said = f"correlation_length along {axis}", f" is {scale:g} m at 1/e"
+        if scale < FINEST * d:
+            raise InputError(f"{said}, {scale / d:.3g} cells", name, f"at least {FINEST:g} cells of {d:g} m")
+        if n * d < 4 * scale:
+            allowed = "at most a quarter of it (generate a larger map and crop it)"
+            raise InputError(f"{said}, the map {n * d:g} m", name, allowed)
     spectrum = _spectrum(shape, spacing, scales, acf, cutoff)
     expected = _expected_lengths(spectrum, shape, spacing, lengths, level)
     amplitude, source = np.sqrt(spectrum), f"generated, {acf} ACF"
@@ -100,16 +97,6 @@ def surface_generator(
         return Surface(heights, spacing, periodic_axes=(True, True), source=source, seed=seed, notes=notes)
 
     return made
-
-
-def _check_grid(shape, spacing, scales) -> None:
-    for axis, n, d, scale in zip("xy", shape, spacing, scales):
-        name, said = f"correlation_length along {axis}", f" is {scale:g} m at 1/e"
-        if scale < FINEST * d:
-            raise InputError(f"{said}, {scale / d:.3g} cells", name, f"at least {FINEST:g} cells of {d:g} m")
-        if n * d < 4 * scale:
-            allowed = "at most a quarter of it (generate a larger map and crop it)"
-            raise InputError(f"{said}, the map {n * d:g} m", name, allowed)
 
 
 def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:

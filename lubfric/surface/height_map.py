@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FrozenArrays, Shown, axes_or_new, field_image, validate
+from .._base import FrozenArrays, Shown, figures, validate
 from ..errors import InputError
 from . import prepare, regrid, statistics
 
@@ -53,7 +53,12 @@ class Surface(FrozenArrays, Shown):
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "mask", mask)
         object.__setattr__(self, "spacing", validate.spacing("spacing", self.spacing))
-        object.__setattr__(self, "periodic_axes", _two_booleans("periodic_axes", self.periodic_axes))
+        axes, said = self.periodic_axes, f" = {validate.shown(self.periodic_axes)}"
+        several = isinstance(axes, (tuple, list)) or isinstance(axes, np.ndarray) and axes.ndim == 1
+        if not several or len(axes) != 2:
+            raise InputError(said, "periodic_axes", "a pair of true and false, for x and y")
+        along = tuple(validate.boolean(f"periodic_axes[{i}]", closed) for i, closed in enumerate(axes))
+        object.__setattr__(self, "periodic_axes", along)
         object.__setattr__(self, "notes", tuple(self.notes))
         self.freeze()
 
@@ -95,18 +100,17 @@ class Surface(FrozenArrays, Shown):
     def plot(self, ax=None):
         """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
         which the title then tells."""
-        axes = axes_or_new(ax)
+        axes = figures.axes_or_new(ax, "compressed")
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
         z = (self.heights - np.nanmean(self.heights)) * 1e9
         (low, high), (least, most) = np.nanpercentile(z, (0.5, 99.5)), (np.nanmin(z), np.nanmax(z))
         reach = 0.4 * (high - low)  # to some four times Sq, were the heights normally distributed
         ends = {"vmin": max(least, low - reach), "vmax": min(most, high + reach)}
-        extend = {(1, 1): "both", (1, 0): "min", (0, 1): "max"}.get(
-            (least < ends["vmin"], most > ends["vmax"]), "neither"
-        )
-        field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
-        beyond = "" if extend == "neither" else f", lowest {least:.4g} nm, highest {most:.4g} nm"
-        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{beyond}")
+        beyond = least < ends["vmin"], most > ends["vmax"]
+        extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get(beyond, "neither")
+        figures.field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
+        ends_in_words = f"\nlowest {least:.4g}, highest {most:.4g} nm" if any(beyond) else ""
+        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{ends_in_words}")
         return axes
 
     def _facts(self) -> dict[str, str]:
@@ -128,8 +132,7 @@ class Surface(FrozenArrays, Shown):
         left = {"": self.sq}
         for form in prepare.FORMS:
             with suppress(InputError):
-                fitted, *_ = prepare.fitted_form(self.heights, self.mask, self.spacing, form)
-                left[form] = float((self.heights - fitted)[... if self.mask is None else self.mask].std())
+                left[form] = self.level(form).sq
         return left
 
     def fill(self) -> Surface:
@@ -284,11 +287,3 @@ def _mask(given: Any, heights: Any, shape: tuple[int, ...]) -> np.ndarray | None
     if found.size and not found.any():
         raise InputError(f"mask has 0 measured points of {found.size}; allowed: at least 1")
     return None if found.all() else found
-
-
-def _two_booleans(name: str, value: Any) -> tuple[bool, bool]:
-    """A pair of true and false, for x and y."""
-    several = isinstance(value, (tuple, list)) or isinstance(value, np.ndarray) and value.ndim == 1
-    if not several or len(value) != 2:
-        raise InputError(f" = {validate.shown(value)}", name, "a pair of true and false, for x and y")
-    return validate.boolean(f"{name}[0]", value[0]), validate.boolean(f"{name}[1]", value[1])

@@ -1,7 +1,5 @@
 """What is done to a measured map before it is used: form taken off, gaps filled, outliers found, waves filtered."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

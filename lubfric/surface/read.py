@@ -1,8 +1,6 @@
 """Height maps from files: .npy, text matrix, .xyz points and X3P; some 40 formats of instruments through the optional
 package SurfaceTopography."""
 
-from __future__ import annotations
-
 import warnings
 from dataclasses import replace
 from pathlib import Path
@@ -145,9 +143,7 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
     elif spacing is None:
         why = next((note for note in notes if note.startswith("steps of")), "the file does not carry it")
         said = f"spacing of {path.name} is missing: {why}"
-        raise InputError(
-            said, allowed="one length or (dx, dy) in m (of a scene: surface.spacing), dx from line to line"
-        )
+        raise InputError(said, allowed="one length or (dx, dy) in m (surface.spacing), dx from line to line")
     return _masked(heights, scale, missing_value, spacing if own is None else own, notes)
 
 

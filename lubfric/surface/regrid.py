@@ -3,8 +3,6 @@
 Functions of a `lubfric.Surface` return a new one.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 
@@ -44,10 +42,8 @@ def changed(surface, axis, heights, note, *, step=None, closed=None, mask=None):
 
 def mirrored(surface, axis: int):
     """``surface`` made periodic along ``axis``: its points, followed by their mirror image."""
-    heights, mask = (
-        None if values is None else np.concatenate([values, np.flip(values, axis)], axis)
-        for values in (surface.heights, surface.mask)
-    )
+    heights = np.concatenate([surface.heights, np.flip(surface.heights, axis)], axis)
+    mask = None if surface.mask is None else np.concatenate([surface.mask, np.flip(surface.mask, axis)], axis)
     return changed(surface, axis, heights, f"made periodic along {'xy'[axis]}: mirror", closed=True, mask=mask)
 
 
@@ -84,10 +80,9 @@ def fitted(surface, axis: int, count: int):
         note = f"{'repeated' if count > n else 'cut'} along {'xy'[axis]} from {n} to {count} points"
         return changed(surface, axis, np.take(surface.heights, pick, axis), note, closed=count % n == 0, mask=mask)
     if count > n:
-        said = (
-            f"patch of {count} points along {'xy'[axis]} ({count * surface.spacing[axis]:g} m) needs as many of the map"
-        )
-        raise InputError(said, allowed=f"up to {n} ({surface.size[axis]:g} m), or a periodic map")
+        asked = f"{count} points along {'xy'[axis]} ({count * surface.spacing[axis]:g} m)"
+        allowed = f"up to {n} ({surface.size[axis]:g} m), or a periodic map"
+        raise InputError(f"patch of {asked} needs as many of the map", allowed=allowed)
     shape = list(surface.shape)
     shape[axis] = count
     return surface.cropped(shape)
@@ -109,9 +104,8 @@ def combined(first, second):
     for name, surface in (("first", first), ("second", second)):
         if not np.isfinite(surface.heights).all():
             raise InputError(f"{name} surface has unmeasured points (NaN); call level() and fill() first")
-    second = replace(
-        second, heights=second.heights[:, ::-1], mask=None if second.mask is None else second.mask[:, ::-1]
-    )
+    turned = None if second.mask is None else second.mask[:, ::-1]
+    second = replace(second, heights=second.heights[:, ::-1], mask=turned)
     spacing = tuple(min(a, b) for a, b in zip(first.spacing, second.spacing))
     parts = [surface.resampled(spacing=spacing) for surface in (first, second)]
     shape, closed = zip(*(_common(axis, *parts) for axis in range(2)))

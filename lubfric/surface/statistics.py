@@ -4,8 +4,6 @@ Heights are taken about their mean, of the measured points only (names and signs
 Slopes and correlation lengths of rough surfaces depend on the spacing of the points.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -32,10 +30,8 @@ def rz(surface) -> tuple[float, float]:
     axis on which it is larger, which runs across a lay. The length is that of ISO 4288 for the map's Ra, or all of a
     shorter map."""
     wanted = next((length for most, length in SAMPLING if sa(surface) <= most), 8e-3)
-    z, found = (
-        np.where(np.isfinite(surface.heights) if surface.mask is None else surface.mask, surface.heights, np.nan),
-        [],
-    )
+    measured, found = np.isfinite(surface.heights) if surface.mask is None else surface.mask, []
+    z = np.where(measured, surface.heights, np.nan)
     for axis, step in enumerate(surface.spacing):
         lines = np.moveaxis(z, axis, 0)
         points = min(len(lines), max(2, round(wanted / step)))
@@ -87,10 +83,8 @@ def check_slopes(surface) -> None:
     """Raise `InputError` for slopes that no surface has."""
     slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
     if slope > STEEPEST:
-        raise InputError(
-            f"surface: rms slope = {slope:.3g} of heights with Sq {surface.sq:.3g} m on a spacing of "
-            f"{surface.spacing[0]:.3g} m; allowed: up to {STEEPEST:g} (are both in m?)"
-        )
+        of = f"of heights with Sq {surface.sq:.3g} m on a spacing of {surface.spacing[0]:.3g} m"
+        raise InputError(f": rms slope = {slope:.3g} {of}", "surface", f"up to {STEEPEST:g} (are both in m?)")
 
 
 def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:

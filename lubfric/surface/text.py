@@ -1,7 +1,5 @@
 """Height maps as text: a matrix of heights, or a list of points x y z; their separators and decimal marks."""
 
-from __future__ import annotations
-
 import math
 import re
 

@@ -7,4 +7,4 @@ from .film_setting import FIRST_STEP, TIME_SHARE, WET, ContactHistory, make_sett
 from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of, report_of, steps
 from .one_gap import begin_one_gap, work_of_run
 from .result import TransientResult, friction_over_time, time_scale
-from .run import STATE, transient
+from .run import transient

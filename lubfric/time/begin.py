@@ -1,8 +1,6 @@
 """The begin of a run in time: its strip of rough surface, from the needs of steady friction; its histories; its grid;
 and its state at t = 0, which is steady, at rest with all load on the contact, or a film without pressure."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import partial
@@ -38,21 +36,17 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, Step, float]:
         if value not in done:
             raise InputError(f" = {value!r} is not for a run in time", f"numerics.{name}", ", ".join(map(repr, done)))
     if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
-        raise InputError(
-            f"transient.load rises to {load.range(plan.duration)[1]:g} N; allowed: up to bodies.load = "
-            f"{base.bodies.load:g} N, whose Hertz strip is the area A"
-        )
+        said, most = f" rises to {load.range(plan.duration)[1]:g} N", f"up to bodies.load = {base.bodies.load:g} N"
+        raise InputError(said, "transient.load", f"{most}, whose Hertz strip is the area A")
     for time in looks(base) if base.bodies.boundary_friction_table is not None else ():
         scene_at(base, time)  # raises where the table of f_b has no value
     prepared, *of_strip = strip_for(scene if isinstance(scene, Prepared) else prepare(scene))
     sq, contact = prepared.surface.sq, _contact_history(prepared.scene)
     if not sq > 0.0 and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
-        raise InputError(
-            "smooth surfaces at rest have no film to start from; give transient.initial_film > 0 m, or "
-            "an entrainment speed before t = 0"
-        )
+        ways = "transient.initial_film > 0 m, or an entrainment speed before t = 0"
+        raise InputError(f"smooth surfaces at rest have no film to start from; give {ways}")
     reach = float(np.max(np.abs(prepared.contact.x))) if sq > 0.0 else 0.0
-    allowed = base.numerics.tolerances.film
+    allowed = base.numerics.tolerance_of("film")
     for finer in FINER:
         setting = make_setting(contact, allowed, sq=max(sq, 0.0), reach=reach, finer=finer)
         sharing = make_sharing(prepared, setting, *of_strip)
@@ -102,10 +96,8 @@ def _flying(sharing: Sharing, film: float) -> Step:
     found = _untouched(sharing, sharing.setting.undeformed(film))
     state = found.payload.state
     if state.volume_residual > 0.0:
-        raise InputError(
-            f"transient.initial_film: the surfaces touch at {state.mean_film:g} m of mean film; "
-            f"give a film above {state.mean_gap:g} m, or initial = 'rest'"
-        )
+        said = f": the surfaces touch at {state.mean_film:g} m of mean film"
+        raise InputError(said, "transient.initial_film", f"above {state.mean_gap:g} m, or initial = 'rest'")
     return found
 
 
@@ -116,10 +108,9 @@ def _resting(sharing: Sharing) -> Step:
     touching = setting.undeformed(0.0).terms.H
     film = state.mean_gap - float(sharing.mean_row @ touching)
     if film <= 0.0:
-        raise InputError(
-            "at rest the contact leaves no room for a film under the undeformed cylinder; give "
-            "initial = 'steady' with an entrainment speed, or transient.initial_film"
-        )
+        said = "at rest the contact leaves no room for a film under the undeformed cylinder"
+        ways = "initial = 'steady' with an entrainment speed, or transient.initial_film"
+        raise InputError(f"{said}; give {ways}")
     found = setting.undeformed(film)
     state = replace(state, mean_film=float(sharing.mean_row @ found.terms.H))
     return replace(found, payload=Contact(load, state, SOFT * state.mean_gap))

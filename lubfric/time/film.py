@@ -1,7 +1,5 @@
 """`solve_transient_ehl`: the smooth line contact in time, where the film carries the whole load."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,9 +104,8 @@ def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, di
         setting = make_setting(contact, tolerance)
         return setting, setting.undeformed(contact.initial_film), {}
     if contact.speed.before(0.0) == 0.0:
-        raise InputError(
-            "entrainment_speed = 0 m/s before t = 0 carries no steady film; give initial_film > 0 m, or a speed"
-        )
+        said = " = 0 m/s before t = 0 carries no steady film"
+        raise InputError(said, "entrainment_speed", way_out="give initial_film > 0 m, or a speed")
     for finer in FINER:
         setting = make_setting(contact, tolerance, finer=finer)
         start = steady_start(setting)

@@ -17,8 +17,6 @@ which the gap grows beyond the lubricant that flows in. Where the film forms aga
 as full: mass is conserved in the pressurised film, but not through cavitation.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

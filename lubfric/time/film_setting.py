@@ -1,7 +1,5 @@
 """A line contact in time: its histories, its units and grid, Newton's method for one step, and its steady start."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -50,10 +48,6 @@ class ContactHistory:
     width: float = 1.0
     sliding: Callable[[float], float] | None = None
 
-    def sliding_before(self, time: float) -> float | None:
-        """The sliding speed [m/s], if it is known."""
-        return None if self.sliding is None else self.sliding(time)
-
 
 @dataclass(frozen=True)
 class Setting:
@@ -74,7 +68,7 @@ class Setting:
         c, reference = self.contact, self.problem.contact
         time_unit = self.problem.length_unit / reference.entrainment_speed
         memory = memory or Memory(0.0, np.zeros(self.grid.n + 1))
-        sheared = replace(self.problem, contact=replace(reference, sliding=c.sliding_before(time)))
+        sheared = replace(self.problem, contact=replace(reference, sliding=c.sliding and c.sliding(time)))
         return StepEquations(
             self.grid,
             sheared,
@@ -146,11 +140,8 @@ def _reference(contact: ContactHistory, sq: float) -> tuple[Problem, tuple[float
         return LineContact(load, radius, c.e_prime, speed, oil).moes_film
 
     if fastest:
-        slowest = 0.0 if low < 0.0 < high else min(abs(low), abs(high))
-        films += [
-            moes(load[0], radius[1], eta[1], fastest),
-            moes(load[1], radius[0], eta[0], max(slowest, SLOWEST * fastest)),
-        ]
+        slowest = max(0.0 if low < 0.0 < high else min(abs(low), abs(high)), SLOWEST * fastest)
+        films += [moes(load[0], radius[1], eta[1], fastest), moes(load[1], radius[0], eta[0], slowest)]
     else:
         scale = math.sqrt(c.radius.at(0.0) * films[0])
         speed = scale**4 * c.e_prime / (2.0 * lubricant.viscosity * c.radius.at(0.0) ** 3)
@@ -166,7 +157,8 @@ def steady_start(setting: Setting, load: float | None = None) -> Step:
     c, p, grid, equations = setting.contact, setting.problem, setting.grid, setting.equations(0.0)
     load = load or c.load.before(0.0)
     oil = replace(c.lubricant, viscosity=c.viscosity.before(0.0))
-    line = LineContact(load / c.width, c.radius.before(0.0), c.e_prime, c.speed.before(0.0), oil, c.sliding_before(0.0))
+    sliding = c.sliding and c.sliding(0.0)
+    line = LineContact(load / c.width, c.radius.before(0.0), c.e_prime, c.speed.before(0.0), oil, sliding)
     found = solve_line_contact(line, Effort(tolerance=0.01))
     x, P = found.x / p.length_unit, found.pressure / p.pressure_unit
     forwards = found.entrainment_speed > 0

@@ -11,8 +11,6 @@ difference of films, which is compared with the tolerance of a step. The last un
 0 or positive, and keep that when the start of a step is extrapolated.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace

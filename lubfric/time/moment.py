@@ -1,7 +1,5 @@
 """The numbers of one moment: film, contact, friction with both parts and its heat, mass balance, validity."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -41,8 +39,8 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
     scene, sliding = scene_at(sharing.scene, time), sliding_at(sharing.scene, time)
     t, p, contact, state = solution.terms, setting.problem, solution.payload, solution.payload.state
     total, film_load, speed = scene.bodies.load, t.carried * setting.load_unit, scene.motion.entrainment_speed
-    shear, heat, typical = film_shear(sharing, scene, time, sliding, solution)
     boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
+    shear, heat = film_shear(sharing, scene, time, sliding, solution, boundary)
     loads, parts, force = (contact.load, film_load), (boundary, shear.total), boundary + shear.total
     sense = np.sign(sliding) or np.sign(speed) or 1.0
     inlet, _ = inlet_at(scene, speed)
@@ -87,7 +85,7 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
     }
     peclet = heat.peclet if heat.heated else math.inf
     heat = replace(heat, inlet=inlet, used=film_factor < 1.0, heated=None, peclet=peclet)
-    return row, tuple([*_violated(sharing, scene, row, shear, heat), *of_typical_heat(scene, typical)])
+    return row, tuple([*_violated(sharing, scene, row, shear, heat), *of_typical_heat(scene, heat.typical)])
 
 
 def _violated(
@@ -134,9 +132,9 @@ def _mass(sharing: Sharing, solution: Step) -> dict[str, float]:
 
 
 def film_shear(
-    sharing: Sharing, scene: Scene, time: float, sliding: float, solution: Step
-) -> tuple[ShearForce, Heat, float]:
-    """Forces [N] along +x on the upper surface, the heat, and what a typical oil's would take away (`typical_heat`).
+    sharing: Sharing, scene: Scene, time: float, sliding: float, solution: Step, boundary: float
+) -> tuple[ShearForce, Heat]:
+    """Forces [N] along +x on the upper surface, and the heat of these and of the ``boundary`` friction [N].
 
     They act where the film is pressurised and not touched, and include the inlet tails. ``scene``: that of the moment.
     Film and surfaces are taken to be as hot as in steady motion at the speeds of the moment.
@@ -149,7 +147,7 @@ def film_shear(
 
     isothermal = _summed(sharing, time, solution, cold, lubricant.viscosity * sliding)
     if wet.size < 3 or speed == 0.0:
-        return isothermal, Heat(), 0.0
+        return isothermal, Heat()
     inside = slice(wet[0], wet[-1] + 1)
     x = sharing.setting.grid.x[inside] * p.length_unit
     film = SimpleNamespace(  # all that `point_heat` needs of the pressurised film
@@ -159,17 +157,16 @@ def film_shear(
         entrainment_speed=speed,
         rupture=float(x[-1] if speed > 0 else x[0]),
     )
-    boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
     of_point = film, contact.state, contact.load, abs(boundary + isothermal.total), isothermal
     heat, warm = point_heat(scene, *of_point)
     if warm is None or warm.stress is None:
-        return isothermal, heat, typical_heat(scene, *of_point)
+        return isothermal, replace(heat, typical=typical_heat(scene, *of_point))
     along, heated = math.copysign(1.0, speed), warm.stress
 
     def hot(x, pressure, thickness):
         return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))
 
-    return _summed(sharing, time, solution, hot), heat, 0.0
+    return _summed(sharing, time, solution, hot), heat
 
 
 def _summed(sharing: Sharing, time: float, solution: Step, stress: Callable, drag: float | None = None) -> ShearForce:

@@ -5,8 +5,6 @@ It is a solver of `march`, whose y is the mass rho θ h of the cells. A step end
 moved by one cell. The fields are kept with x along the scene's; where U < 0, the film is solved in the mirror.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -37,7 +35,7 @@ from ..deterministic import (
 )
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
 from ..quantities import OF_MOMENT
-from ..sampling import block_error, maps_of, strip_of
+from ..sampling import block_error, maps_of, numbers_of, strip_of
 from ..scene import Constant, Scene
 from ..sharing import Prepared, Validity, of_motion, of_thickness, prepare
 from .film_setting import WET
@@ -47,8 +45,8 @@ from .sharing import changes, looks, scene_at, sliding_at
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
 EXACT = 1e-3  # residuals of a step
 MOST = 25  # Newton steps in a step
-REST = 1e-6  # of the fastest speed: slower entrainment counts as that
-LEAST_FLOW = 1e-3  # of the film of the fastest speed times that: what residuals are relative to, at least
+REST = 1e-6  # of the fastest entrainment (without any, of b over the duration): slower one counts as that
+LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what residuals are relative to, at least
 FIRST = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
 START = 20  # steps after the start, about
 MOST_CELLS = 100_000  # by which the roughness may move in a run
@@ -118,7 +116,7 @@ class OneGap:
         apart = motion.slide_roll_ratio * along if plan.sliding is None else plan.sliding.integral(time)
         back = -1 if speed < 0 else 1
         rough = {name: at(along + SIDES[name] * apart)[::back] for name, at in self.heights.items()}
-        pace = max(abs(speed), REST * self.fastest, 1e-300)
+        pace = max(abs(speed), REST * self.base.speed)
         return replace(
             self.base,
             contact=replace(now.line_contact(pace), sliding=abs(sliding)),
@@ -132,7 +130,7 @@ class OneGap:
 
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: State) -> Step:
         """The step that ends at ``time`` [s]; the payload is its state."""
-        back = self._back(time)
+        back = self.back(time)
         past = memory.film[::back], 1.0 / memory.rate
         start = _turned(replace(payload, approach=float(z[0])), back)
         found = newton(self.problem_at(time), start, Work(MOST), tolerance=EXACT, most=MOST, past=past)
@@ -146,9 +144,9 @@ class OneGap:
         return float(np.sqrt(np.mean(lost[wet] ** 2)) / film[wet].mean()) if wet.any() else 0.0
 
     def start(self) -> Step:
-        """The state at t = 0: steady; at rest, with all load on the dry contact and the gap full; or without pressure
-        at a flying height."""
-        plan, problem, back = changes(self.scene), self.problem_at(0.0), self._back(0.0)
+        """The state at t = 0: steady, as if the roughness rested; at rest, with all load on the dry contact; or without
+        pressure at a flying height. In the last two the gap is full."""
+        plan, problem, back = changes(self.scene), self.problem_at(0.0), self.back(0.0)
         still = (plan.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
         if plan.initial_film is None and not (plan.initial == "rest" or plan.initial == "auto" and still):
             if still:
@@ -169,7 +167,8 @@ class OneGap:
             )
         return self._step(evaluated(problem, state), back)
 
-    def _back(self, time: float) -> int:
+    def back(self, time: float) -> int:
+        """-1 where the film is solved in the mirror, else 1."""
         return -1 if scene_at(self.scene, time).motion.entrainment_speed < 0 else 1
 
     def _step(self, at: Iterate, back: int, status: str = CONVERGED) -> Step:
@@ -217,7 +216,7 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
         surface, factors = replace(surface, heights=surface.heights[:, :1], mask=None), (factors[0], 1)
     speed = plan.speed or Constant(scene.motion.entrainment_speed)
     low, high = speed.range(plan.duration)
-    line = scene.line_contact(max(abs(low), abs(high)) or REST)
+    line = scene.line_contact(max(abs(low), abs(high)) or scene.bodies.half_width / plan.duration)
     upstream, downstream = reach(line, surface.sq)
     base = lay_out(
         replace(surface, heights=0.0 * surface.heights, mask=None),
@@ -226,7 +225,7 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
         boundary_friction=0.0,
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if scene.bodies.boundary_film is None else scene.bodies.boundary_film,
-        ends=(upstream, upstream if low < 0.0 else downstream),
+        ends=(upstream, upstream if low <= 0.0 else downstream),
         factors=factors,
     )
     base = replace(base, least_flow=LEAST_FLOW * line.entrainment_speed * line.moes_film)
@@ -238,44 +237,30 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
 def moment_of_gap(solver: OneGap, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then. As of `OF_MOMENT`, of the
     rough gap; NaN where this model has no such number."""
-    time, at, scene = now.time, now.solution.terms, scene_at(solver.scene, now.time)
+    at, scene = now.solution.terms, scene_at(solver.scene, now.time)
     left = residuals(at)
     result = assemble(at, Report("film under moving roughness", CONVERGED, 1, max(left.values()), EXACT, left))
-    speed, sliding, width = scene.motion.entrainment_speed, sliding_at(solver.scene, time), scene.bodies.width
+    numbers = numbers_of(replace(solver.prepared, scene=scene), result)
+    speed, sliding, total = scene.motion.entrainment_speed, sliding_at(solver.scene, now.time), scene.bodies.load
     f, sense = result.coefficient, float(np.sign(sliding) or np.sign(speed) or 1.0)
-    places = result.friction_at - f * result.load_at
-    scatter = block_error(places / result.load, solver.base.spacing[1], solver.correlation_length).error
+    places = (result.friction_at - f * result.load_at) / result.load
+    scatter = block_error(places, solver.base.spacing[1], solver.correlation_length).error
     wet = solver.x[now.solution.payload.pressure.mean(axis=1) > 0]
-    total, contact = scene.bodies.load, result.split.spots * width
-    row = dict.fromkeys(OF_MOMENT, math.nan) | {
-        "time": time,
+    row = {name: numbers.get(name, math.nan) for name in OF_MOMENT} | {
+        **{name: sense * numbers[name] for name in ("boundary_force", "couette_force", "rolling_force")},
+        "time": now.time,
         "entrainment_speed": speed,
         "sliding_speed": sliding,
         "load": total,
-        "contact_load": contact,
-        "film_load": total - contact,
         "friction_force": sense * f * total,
-        "boundary_force": sense * result.boundary * width,
-        "couette_force": sense * result.couette * width,
-        "rolling_force": sense * result.rolling * width,
-        "coefficient": f,
         "sampling_error": scatter / abs(f) if f and math.isfinite(scatter) else math.nan,
         "shear_error": 0.0,
         "time_error": now.error,
-        "inlet_film_factor": 1.0,
         "heat_change": 0.0,
-        "flash_temperature_rise": 0.0,
-        "film_temperature_rise": 0.0,
-        "real_contact_area_fraction": result.spot_fraction,
-        "plastic_area_fraction": result.plastic_fraction,
-        "load_residual": left["load"],
         "volume_residual": 0.0,
         "mass_residual": left["mass"] if now.steps else 0.0,
         "steps": now.steps,
-        "min_film": result.min_gap,
-        "central_film": result.central_gap,
         "mean_film": result.mean_gap,
-        "mean_gap": result.mean_gap,
         "wet_from": wet[0] if wet.size else math.nan,
         "wet_to": wet[-1] if wet.size else math.nan,
         "max_pressure": float(result.pressure.max()),

@@ -1,13 +1,11 @@
 """What a run gives: `TransientResult`, with its report, and friction over time and over the speed drawn."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._base import BLUE, FRICTION, GREY, Shown, axes_or_new, friction_lines, key_above, validate
+from .._base import Shown, figures, validate
 from ..errors import Report
 from ..quantities import OF_MOMENT, axis_label
 from ..sampling import UncertaintyCurve, percent, student
@@ -63,7 +61,7 @@ class TransientResult(Shown):
         estimated relative error of f by the sum of the film's shear stress; edge_load [-], the share of the contact's
         load on the edge columns of its patch
     x : (nx,) [m]
-    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]
+    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]; with one gap, means over y
     report : how the run ended
     entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
     inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)
@@ -121,27 +119,28 @@ class TransientResult(Shown):
 
     def plot(self, ax=None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
-        axes, (low, high) = axes_or_new(ax), self.uncertainty.interval.T
+        axes, (low, high) = figures.axes_or_new(ax), self.uncertainty.interval.T
         if (high > low).any():
             time = self.time * time_scale(self.time[-1])[0]
             label = f"95 %: finite surface{', range of f_b' * bool(np.any(self.inputs))}"
-            axes.fill_between(time, low, high, color=BLUE, alpha=0.2, lw=0, label=label)
+            axes.fill_between(time, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=label)
         friction_over_time(axes, self.columns)
         return axes
 
     def plot_loop(self, ax=None):
         """Friction over speed, the hysteresis loop with its start marked, on ``ax`` or new axes, which are returned.
         At a standstill no friction coefficient is defined, and none is drawn."""
-        axes, speed = axes_or_new(ax), self.entrainment_speed
+        axes, speed = figures.axes_or_new(ax), self.entrainment_speed
         moving = (speed != 0) | (self.sliding_speed != 0)
         friction, begin = np.where(moving, self.coefficient, np.nan), np.flatnonzero(moving)[:1]
-        axes.plot(speed, friction, color=BLUE)
-        axes.plot(speed[begin], friction[begin], "o", color=GREY, label="start")
+        axes.plot(speed, friction, color=figures.BLUE)
+        axes.plot(speed[begin], friction[begin], "o", color=figures.GREY, label="start")
         middle = self.time.size // 2
         if self.time.size > 2 and moving[middle : middle + 2].all():
             ends = [(speed[i], friction[i]) for i in (middle, middle + 1)]
-            axes.annotate("", ends[1], ends[0], arrowprops={"arrowstyle": "->", "color": BLUE, "mutation_scale": 18})
-        axes.set(xlabel=axis_label("speed"), ylabel=FRICTION)
+            arrow = {"arrowstyle": "->", "color": figures.BLUE, "mutation_scale": 18}
+            axes.annotate("", ends[1], ends[0], arrowprops=arrow)
+        axes.set(xlabel=axis_label("speed"), ylabel=figures.FRICTION)
         axes.legend(frameon=False)
         return axes
 
@@ -167,7 +166,7 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
         "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / solver.tolerance,
     }
     if not math.isnan(grid_error):
-        worst["grid"] = grid_error / solver.scene.numerics.tolerances.film
+        worst["grid"] = grid_error / solver.scene.numerics.tolerance_of("film")
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
     prepared, renewal = solver.prepared, math.nan
@@ -201,12 +200,12 @@ def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
     film = (c["couette_force"] + c["rolling_force"]) * sense / c["load"]
     moving = (c["entrainment_speed"] != 0) | (c["sliding_speed"] != 0)
     parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film
-    friction_lines(axes, c["time"] * scale, [np.where(moving, part, np.nan) for part in parts])
+    figures.friction_lines(axes, c["time"] * scale, [np.where(moving, part, np.nan) for part in parts])
     if not moving.all():
         rest = {"where": ~moving, "transform": axes.get_xaxis_transform(), "label": "at rest: no f"}
-        axes.fill_between(c["time"] * scale, 0, 1, color=GREY, alpha=0.2, lw=0, **rest)
-    axes.set(xlabel=f"time ({unit})", ylabel=FRICTION)
-    key_above(axes)
+        axes.fill_between(c["time"] * scale, 0, 1, color=figures.GREY, alpha=0.2, lw=0, **rest)
+    axes.set(xlabel=f"time ({unit})", ylabel=figures.FRICTION)
+    figures.key_above(axes)
 
 
 def time_scale(longest: float) -> tuple[float, str]:

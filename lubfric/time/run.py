@@ -1,19 +1,14 @@
 """Friction in time: `transient`, and its state on disk after every step, so that a kill loses nothing."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from .._base import clear_checked, read_checked, validate, write_checked
 from ..deterministic import State
 from ..errors import InputError
-from ..scene import Scene, Transient, resolves_gap
+from ..scene import Scene, Transient
 from ..sharing import Prepared, Validity, refused, scene_of
-from ..studies import classes_of, decode, encode, fingerprint
+from ..studies import Store, classes_of, digest, fingerprint, opened
 from .begin import begin
 from .march import Plan, Progress, Step, begun, checked_times, plan_of, steps
 from .moment import moment
@@ -21,8 +16,8 @@ from .one_gap import OneGap, begin_one_gap, moment_of_gap
 from .result import Output, Solver, TransientResult, collect
 from .sharing import Contact, changes
 
-STATE, OUTPUTS = "state.bin", "output_*.bin"  # of a checkpoint
 CLASSES = classes_of(Progress, Contact, Validity, State)  # that a state or an output may hold
+STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
 
 
 def transient(
@@ -33,16 +28,17 @@ def transient(
     The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_equations`: Swift-Stieber complementarity, either
     side may rupture, no entrainment needed). It is integrated in time by variable-step BDF2 with error control
     (`lubfric.time`). At every step film and rough contact share the load of that moment, and close the volume of Eq.
-    (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
+    (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). With
+    ``numerics.model = "deterministic"`` there is one rough gap instead, whose surfaces move (`lubfric.time.one_gap`).
 
     Parameters
     ----------
     scene : with a `lubfric.Transient` in ``scene.transient``; or, with ``times``, without one: then nothing changes
     times : output times [s], increasing, >= 0; a step ends at each. None: the scene's own
-    checkpoint : folder that receives the state after every step. An interrupted run of the same scene and times
-        continues from there. It is removed when the run ends well
-    on_step : called as on_step(time, duration, row) after every step; ``row`` holds the numbers of an output, or is
-        None
+    checkpoint : folder that receives the state after every step, a store as that of `lubfric.study`. An interrupted run
+        of the same scene and times continues from there; the states of others are left alone. What is kept is removed
+        when the run ends well
+    on_step : called as on_step(time, duration, row) after every step; ``row``: the numbers of an output, or None
     raise_on_failure : False returns what was computed, with its report
 
     Returns
@@ -69,40 +65,47 @@ def transient(
     - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
     """
     scene, times = _with_plan(scene, times)
-    folder = None if checkpoint is None else _folder(checkpoint)
-    solver, start, grid_error = (begin_one_gap if resolves_gap(scene_of(scene)) else begin)(scene)
+    solver, start, grid_error = (begin_one_gap if scene_of(scene).numerics.model == "deterministic" else begin)(scene)
     scene, plan = solver.scene, changes(solver.scene)
-    store = None if folder is None else Checkpoint(folder, solver.prepared, plan, times)
     tolerance = plan.tolerance or solver.time_error
     course = plan_of(times, plan.histories, solver.first_step, tolerance, solver.stops)
-    now, outputs = _marched(solver, start, course, store, on_step)
+    key = fingerprint(solver.prepared, plan, times)
+    with opened(checkpoint, CLASSES, "checkpoint") as store:
+        now, outputs = _marched(solver, start, course, store, key, on_step)
     result = collect(solver, grid_error, course, now, outputs)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         severe = sorted((e for entries in result.entries for e in entries if e.severe), key=lambda e: e.value)
         worst = {entry.what: entry for entry in severe}  # of each kind
         refused(tuple(worst.values()), scene.numerics.accept, result)
-    if store is not None and result.report.converged:
-        store.clear()
+    if result.report.converged:
+        store.clear([key, *_output_keys(key, len(outputs))])
     return result
 
 
-def _marched(
-    solver: Solver, start: Step, plan: Plan, store: Checkpoint | None, on_step
-) -> tuple[Progress, list[Output]]:
+def _output_keys(key: str, count: int) -> list[str]:
+    return [digest([key, number]) for number in range(count)]
+
+
+def _marched(solver: Solver, start: Step, plan: Plan, store: Store, key: str, on_step) -> tuple[Progress, list[Output]]:
+    """The last progress of a run, and its outputs; from where the ``store`` has it under ``key``, if it does: its state
+    and all outputs that the state knows of, which were kept before it."""
+    count, now = store.get(key, STATE) or (0, begun(start, plan))
+    outputs: list[Output] = [*store.known(_output_keys(key, count), Output).values()]
+    if len(outputs) < count:  # one was damaged, which was told
+        now, outputs = begun(start, plan), []
+
     def put_out(now: Progress) -> None:
         outputs.append(_output(solver, now))
-        if store is not None:
-            store.append(outputs[-1])
+        store.add(_output_keys(key, len(outputs))[-1], outputs[-1], sync=True)
 
-    now, outputs = (store and store.load()) or (begun(start, plan), [])
     if not outputs and plan.times[0] == 0.0:
         put_out(now)
     for now in steps(solver, plan, now):
         if now.at_output:
             put_out(now)
-        if store is not None:
-            store.save(_state(now))
+        if store.folder is not None:
+            store.add(key, (len(outputs), _state(now)), sync=True)
         if on_step is not None:
             on_step(now.time, plan.end, outputs[-1][0] if now.at_output else None)
     return now, outputs
@@ -112,8 +115,7 @@ def _output(solver: Solver, now: Progress) -> Output:
     """Numbers and fields after the last step."""
     terms = now.solution.terms
     if isinstance(solver, OneGap):
-        back = 1 if terms.problem.x[0] == solver.x[0] else -1
-        fields = (field.mean(axis=1)[::back] for field in (terms.state.pressure, terms.balance.film))
+        fields = (f.mean(axis=1)[:: solver.back(now.time)] for f in (terms.state.pressure, terms.balance.film))
         return (*moment_of_gap(solver, now), *fields)
     p = solver.setting.problem
     return (*moment(solver, now), terms.P * p.pressure_unit, terms.H * p.film_unit)
@@ -141,74 +143,3 @@ def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.nda
     last = float(times[-1])
     base = replace(base, transient=Transient(last) if plan is None else replace(plan, duration=last))
     return (replace(scene, scene=base) if isinstance(scene, Prepared) else base), times
-
-
-class Checkpoint:
-    """A folder that holds the state of one run: files with checksums, each replaced as a whole. The state carries a
-    fingerprint of the problem and the number of outputs so far, which are written before it.
-
-    ``description``: everything that decides the result, for `lubfric.studies.fingerprint`: the prepared scene with its
-    heights and spacing, the histories, the output times.
-    """
-
-    def __init__(self, folder: Path, *description):
-        self.folder, self.fingerprint = folder, fingerprint(*description)
-        self._count = 0
-
-    def load(self) -> tuple[Any, list[Any]] | None:
-        """The state and the outputs of an interrupted run of the same problem, or None if there is none.
-
-        Raises `InputError` for the state of another problem, and for files that were cut off or overwritten.
-        """
-        if not (self.folder / STATE).is_file():
-            return None
-        content = _content(self.folder / STATE)
-        try:
-            kept = decode(content, CLASSES)
-        except ValueError:  # of another version
-            kept = {"fingerprint": None}
-        if kept["fingerprint"] != self.fingerprint:
-            raise InputError(
-                f"checkpoint in {self.folder} belongs to another run (scene, height map, times or version differ); "
-                "run the same scene, or give an empty folder"
-            )
-        self._count = kept["outputs"]
-        return kept["state"], [decode(_content(self._output(number)), CLASSES) for number in range(self._count)]
-
-    def append(self, output) -> None:
-        """Add one output: like the state, of dataclasses of this package, dicts, numbers and arrays."""
-        write_checked(self._output(self._count), *encode(output))
-        self._count += 1
-
-    def save(self, state) -> None:
-        """Replace the state."""
-        kept = {"fingerprint": self.fingerprint, "outputs": self._count, "state": state}
-        write_checked(self.folder / STATE, *encode(kept))
-
-    def clear(self) -> None:
-        """Remove the files of a finished run, and its folder if it is empty then."""
-        clear_checked(self.folder, STATE, OUTPUTS)
-
-    def _output(self, number: int) -> Path:
-        return self.folder / OUTPUTS.replace("*", f"{number:07d}")
-
-
-def _folder(given) -> Path:
-    """The folder of a checkpoint. Raises `InputError` where a file of somebody else has its name, or that of one of its
-    own."""
-    folder = validate.folder("checkpoint", given)
-    if folder.exists() and not folder.is_dir():
-        raise InputError(f" = {str(folder)!r} is a file", "checkpoint", "a folder, existing or not")
-    for path in (*folder.glob(STATE), *folder.glob(OUTPUTS)):
-        _content(path)
-    return folder
-
-
-def _content(path: Path) -> bytes:
-    content = read_checked(path) if path.is_file() and not path.is_symlink() else None
-    if content is None:
-        raise InputError(
-            f"checkpoint file {path} is damaged (cut or overwritten), or not of lubfric; give an empty folder to begin "
-            "again"
-        )
-    return content

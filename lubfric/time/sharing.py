@@ -1,8 +1,6 @@
 """A run in time at one moment: its scene, in which the values of the histories replace the constants; its warm
 inlet; and how a film that remembers its past and the rough contact share the load."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -153,7 +151,7 @@ class Sharing:
     @property
     def time_error(self) -> float:
         """Largest local error of a step, unless it is said."""
-        return TIME_SHARE * self.scene.numerics.tolerances.film
+        return TIME_SHARE * self.scene.numerics.tolerance_of("film")
 
     @property
     def x(self) -> np.ndarray:
@@ -238,7 +236,7 @@ def make_sharing(prepared: Prepared, setting: Setting, *of_strip: float) -> Shar
     x = patch.x / p.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit
-    tolerance = min(prepared.scene.numerics.tolerances.balance, LOOSEST)
+    tolerance = min(prepared.scene.numerics.tolerance_of("balance"), LOOSEST)
     return Sharing(prepared, setting, to_patch, patch.weight @ to_patch / patch.weight.sum(), tolerance, *of_strip)
 
 

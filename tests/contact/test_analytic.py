@@ -11,8 +11,6 @@ from lubfric import InputError
 from lubfric.film import formulas as film
 from lubfric.film import hertz
 
-OIL = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9}
-
 
 def test_composite_modulus_convention():
     assert hertz.composite_modulus(210e9, 0.3, 210e9, 0.3) == pytest.approx(210e9 / 0.91)
@@ -84,9 +82,3 @@ def test_moes_formula_tends_to_its_asymptotes():
     assert film.moes_film(1e12, 100) == pytest.approx(1.311 * 1e12**-0.125 * 100**0.75, rel=1e-3)
     assert film.moes_film(1e-3, 1e6) == pytest.approx(1.287 * 1e6 ** (2 / 3), rel=5e-2)
     assert film.moes_film(3.0, 0) == pytest.approx(film.moes_film(3.0, 1e-12), rel=1e-6)
-
-
-def test_moes_numbers_out_of_range():
-    for bad in [(0, 5), (5, 0), (-1, 5), (math.inf, 5)]:
-        with pytest.raises(InputError):
-            film.load_and_speed(*bad, **OIL)

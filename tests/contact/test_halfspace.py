@@ -127,15 +127,6 @@ def test_transposed_semiperiodic():
     assert v.T == pytest.approx(u, rel=1e-12)
 
 
-def test_semiperiodic_of_uniform_pressure_is_the_line_kernel():
-    nx, ny, dx = 40, 6, 0.2
-    line = np.random.default_rng(1).random(nx)
-    u = half_space((nx, ny), (dx, 0.5), 2.0, ("free", "periodic")).apply(np.repeat(line[:, None], ny, axis=1))
-    lag = np.abs(np.arange(nx)[:, None] - np.arange(nx))
-    expected = line_coefficients(nx, dx, 2.0, nx * dx)[lag] @ line
-    assert u == pytest.approx(np.repeat(expected[:, None], ny, axis=1), rel=1e-12)
-
-
 def test_single_precision():
     p = np.random.default_rng(3).random((30, 20))
     for boundary in BOUNDARIES:

@@ -1,5 +1,7 @@
 """The equations of the deterministic film against quadrature, differences, closed forms and averaged flows."""
 
+import math
+
 import numpy as np
 import pytest
 import rigid_cylinder as rigid
@@ -10,7 +12,7 @@ from lubfric.deterministic import Problem, lay_out, solve_point
 from lubfric.deterministic.flow import balance, derivatives
 from lubfric.deterministic.inlet import inlet
 from lubfric.deterministic.linear import Patterns
-from lubfric.deterministic.rheology import mean_fluidity
+from lubfric.deterministic.rheology import mean_fluidity, thinning
 from lubfric.deterministic.state import _opened
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
@@ -188,8 +190,58 @@ def test_touching_cells_open_as_far_as_the_surplus_reaches():
             handed = surplus[i, j] + handed if touching[i, j] else 0.0
             assert found[i, j] == (handed > 0.5)
             handed = handed if handed > 0.5 else 0.0
-    furrow = np.zeros((30, 3), bool)
-    furrow[5:20, 1] = True
-    enters = np.where(furrow, -1.0, 0.0)
-    enters[7, 1], enters[10, 1] = 2.8, 0.4  # 1.8 is left in the next cell, .8 behind it, then less than the pull
-    assert np.flatnonzero(_opened(furrow, enters, 0.5)[:, 1]).tolist() == [7, 8, 9, 10]
+
+
+ETA, U, DX, DY = 0.1, 0.4, 4e-6, 9e-6
+SHAPE = (40, 24)
+WATER = Lubricant(ETA, viscosity_law="constant")
+
+
+def even(lubricant=WATER):
+    x = (np.arange(SHAPE[0]) - 30) * DX
+    contact = LineContact(900.0, RADIUS, 231e9, U, lubricant)
+    return Problem(contact, 2 * U, x, np.zeros(SHAPE), half_space(SHAPE, (DX, DY), 231e9, ("free", "periodic")), 0.09)
+
+
+@pytest.mark.parametrize("axis, waves", [(0, 2), (1, 2), (1, 3)])
+def test_a_wave_of_pressure_drives_its_flow_along_its_own_axis(axis, waves):
+    """In an even gap: div(-h³/(12 eta) grad p), with the difference of neighbours for the derivative."""
+    h, step = 2e-7, (DX, DY)[axis]
+    places = np.arange(SHAPE[axis])
+    line = 1e7 * (2 + np.sin(2 * np.pi * waves * places / SHAPE[axis]))
+    p = np.broadcast_to(line[:, None] if axis == 0 else line[None, :], SHAPE)
+    found = balance(even(), p, np.full(SHAPE, h)).residual[2:-1]
+    second = (np.roll(line, -1) - 2 * line + np.roll(line, 1)) / step**2
+    expected = -(h**3) / (12 * ETA) * (second[2:-1, None] if axis == 0 else second[None, :])
+    np.testing.assert_allclose(
+        found, np.broadcast_to(expected, found.shape), rtol=1e-8, atol=1e-8 * abs(expected).max()
+    )
+
+
+def test_a_wedge_takes_in_what_it_is_dragged():
+    """U dh/dx without pressure, for a gap that falls in a straight line; across the motion a slope drags nothing."""
+    x = np.arange(SHAPE[0]) * DX
+    h = 4e-7 - 1e-3 * np.broadcast_to(x[:, None], SHAPE)
+    np.testing.assert_allclose(balance(even(), np.zeros(SHAPE), h).residual[3:], -U * 1e-3, rtol=1e-9)
+    across = np.broadcast_to(3e-7 + 1e-8 * np.arange(SHAPE[1])[None, :], SHAPE)
+    np.testing.assert_allclose(balance(even(), np.zeros(SHAPE), across).residual[3:], 0.0, atol=1e-12)
+
+
+def test_the_narrowest_place_limits_the_flow():
+    """Between two cells with h linear the mean of 1/h³ is (h1 + h2)/(2 h1² h2²)."""
+    p, h = np.full(SHAPE, 1e7), np.full(SHAPE, 4e-7)
+    p[:, 5], h[:, 5] = 3e7, 1e-7
+    flow = balance(even(), p, h).across.flow
+    mean = (1e-7 + 4e-7) / (2 * 1e-14 * 16e-14)
+    np.testing.assert_allclose(flow[:, 5], 2e7 / DY / (12 * ETA * mean), rtol=1e-9)
+    np.testing.assert_allclose(flow[:, 4], -2e7 / DY / (12 * ETA * mean), rtol=1e-9)
+
+
+@pytest.mark.parametrize("s", [0.3, 3.0, 40.0])
+def test_sliding_thins_by_eyrings_law_and_by_the_limit(s):
+    """Conry et al. (1987): the tangent √(1 + s²) along the sliding, the secant s/asinh(s) across; a limit adds s."""
+    oil, tau = Lubricant(ETA, 1e-8, eyring_stress=5e6), np.array([s * 5e6])
+    along, across = (float(thinning(oil, tau, None, way)[0][0]) for way in (True, False))
+    assert along == pytest.approx(math.sqrt(1 + s * s)) and across == pytest.approx(s / math.asinh(s))
+    limited = Lubricant(ETA, 1e-8, limiting_stress_coefficient=0.05)
+    assert float(thinning(limited, tau, np.array([2e7]), True)[0][0]) == pytest.approx(1 + s * 5e6 / 2e7)

@@ -102,7 +102,7 @@ def test_the_first_page_leads_to_a_curve_of_ones_own(tmp_path, monkeypatch):
     scene = lubfric.load_scene({**written, **oil, **surface, "contact": {}, "numerics": {"model": "load-sharing"}})
     point = lubfric.friction(scene, 0.1)
     low, high = point.uncertainty.interval
-    assert 0 < low < point.coefficient < high < 0.12
+    assert 0 < low < point.coefficient < high < 0.2
     assert scene.lubricant.oil is not None and point.uncertainty.area_needed >= 1
 
 

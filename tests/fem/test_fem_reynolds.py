@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import skfem
 
 from verification import exact
 from verification.fem.fluid import STEP, Fluid, slope
@@ -13,10 +12,6 @@ from verification.studies.reynolds import parabola_mesh
 OIL = Fluid(0.1)
 SLIDER = exact.Slider(0.1, 1.0, 0.01, 2e-6, 1e-6)
 PARABOLA = exact.Parabola(0.1, 1.0, 0.01, 1e-6, -10.0)
-
-
-def slider_mesh(cells=40):
-    return skfem.MeshLine(np.linspace(0, SLIDER.length, cells + 1))
 
 
 def test_closed_forms_agree_with_quadrature_and_with_the_literature():

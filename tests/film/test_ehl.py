@@ -15,27 +15,15 @@ from lubfric import ConvergenceError, InputError, solve_ehl
 from lubfric.film import LineContact, grid, hat_kernel, problem, reynolds, start
 from lubfric.film import nested as solve
 from lubfric.oil import Lubricant
-
-ALPHA, Z = 2.2e-8, 0.68
-ROELANDS_VISCOSITY = math.exp(ALPHA * 1.96e8 / Z - 9.67)
+from verification.parts import ALPHA, VISCOSITY, case_of
 
 
-def contact(M, L, *, radius=0.01, e_prime=2.2e11, **options):
+def contact(M, L, **options):
     """Keyword arguments of solve_ehl with the Moes numbers M, L, and the unit of film."""
-    law = options.get("viscosity_law", "roelands")
-    if L == 0.0:
-        law, u1 = "constant", 1e-11
-    else:
-        u1 = (L / (ALPHA * e_prime)) ** 4
-    arguments = {
-        "load_per_width": M * math.sqrt(u1) * e_prime * radius,
-        "radius": radius,
-        "e_prime": e_prime,
-        "entrainment_speed": u1 * e_prime * radius / (2 * ROELANDS_VISCOSITY),
-        "viscosity": ROELANDS_VISCOSITY,
-        "pressure_viscosity_coefficient": ALPHA,
-    }
-    return arguments | options | {"viscosity_law": law}, radius * math.sqrt(u1)
+    case = case_of(M, L)
+    del case["density_law"]
+    speed = 2 * case["viscosity"] * case["entrainment_speed"] / (case["e_prime"] * case["radius"])
+    return case | options, case["radius"] * math.sqrt(speed)
 
 
 def moes_film(M, L, **options):
@@ -80,9 +68,7 @@ def test_rigid_isoviscous_limit(M):
     assert h_min * M == pytest.approx(2.447484, rel=2e-4)
     assert h_flow * M == pytest.approx(3.0, rel=2e-4)
     assert r.rupture / math.sqrt(2 * r.radius * r.min_film) == pytest.approx(constants.rupture, rel=3e-4)
-    exact = rigid.pressure(
-        r.x, r.min_film, radius=r.radius, entrainment_speed=r.entrainment_speed, viscosity=ROELANDS_VISCOSITY
-    )
+    exact = rigid.pressure(r.x, r.min_film, radius=r.radius, entrainment_speed=r.entrainment_speed, viscosity=VISCOSITY)
     assert np.max(np.abs(r.pressure - exact)) < 5e-4 * exact.max()
 
 
@@ -233,14 +219,6 @@ def test_reversal_mirrors():
     assert (back.min_film, back.flow_film) == (forth.min_film, forth.flow_film)
     x = np.linspace(-30, 30, 301) * forth.half_width
     assert np.allclose(back.film_at(-x), forth.film_at(x), rtol=1e-12)
-
-
-def test_similarity_of_si_inputs():
-    found = [
-        moes_film(7, 6, radius=radius, e_prime=e, viscosity_law="barus")[:3]
-        for radius, e in [(0.01, 2.2e11), (2e-3, 2.2e11), (0.5, 7e10), (1e-4, 5e9)]
-    ]
-    assert np.allclose(found, found[0], rtol=1e-9)
 
 
 def wedeven(contact, flooded, distance):
@@ -399,7 +377,7 @@ def test_flux_and_flow_film():
     assert r.flux == pytest.approx(r.flow_film * r.entrainment_speed)
     assert float(r.film_at(r.rupture)) == pytest.approx(r.flow_film, rel=1e-5)
     assert r.density_ratio.max() > 1.05 and r.density_ratio.min() == 1.0
-    assert r.viscosity.min() == pytest.approx(ROELANDS_VISCOSITY)
+    assert r.viscosity.min() == pytest.approx(VISCOSITY)
 
 
 GOOD = {

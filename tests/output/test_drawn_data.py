@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from scene_text import paper_scene
 
 import lubfric
-from lubfric._base import field_image, new_figure
+from lubfric._base.figures import field_image, new_figure
 from lubfric.output.fields import fields_bytes, grid_bytes
 from lubfric.output.pictures import plot_contact, plot_history, plot_stribeck, plot_traction
 from lubfric.studies import csv_bytes, plot_map

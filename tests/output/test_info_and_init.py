@@ -117,10 +117,6 @@ def test_an_option_that_would_do_nothing_is_refused(tmp_path, capsys, scene, opt
     assert told in capsys.readouterr().err and not (tmp_path / "out").exists()
 
 
-def test_a_command_says_what_it_lacks(capsys):
-    assert main(["oils", "show"]) == 2 and "needs a name" in capsys.readouterr().err
-
-
 SWINGING = lubfric.load_scene("paper").with_(
     contact={"shape": (48, 48), "spacing": 1.1e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
 )

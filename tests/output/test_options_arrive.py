@@ -9,7 +9,8 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric.output import command_line, main, run_curve, run_history, run_study
+from lubfric import studies
+from lubfric.output import command_line, main, run_history
 
 STUDY = "scene = 's.toml'\nspeeds = [0.1]\n[vary]\n'bodies.load' = [5.0, 6.0]\n"
 
@@ -36,8 +37,8 @@ def work(tmp_path, monkeypatch):
         calls.append((arguments, options))
         raise Reached
 
-    for module, name in ((run_curve, "stribeck"), (run_curve, "traction"), (run_study, "fit"), (run_study, "study")):
-        monkeypatch.setattr(module, name, solver)
+    for name in ("stribeck", "traction", "fit", "study"):
+        monkeypatch.setattr(studies, name, solver)
     monkeypatch.setattr(run_history, "transient", solver)
     monkeypatch.chdir(tmp_path)
     return SimpleNamespace(folder=tmp_path, calls=calls)
@@ -93,8 +94,7 @@ def test_workers_of_a_curve_and_of_a_study(work, monkeypatch):
         asked.append(count)
         raise Reached
 
-    monkeypatch.setattr(run_curve, "pool", pool)
-    monkeypatch.setattr(run_study, "pool", pool)
+    monkeypatch.setattr(studies, "pool", pool)
     (work.folder / "study.toml").write_text(STUDY)
     for command in (["run", "s.toml", "--workers", "3"], ["study", "study.toml", "--workers", "2"]):
         with pytest.raises(Reached):
@@ -123,7 +123,7 @@ def test_a_fit_gets_columns_bounds_and_axis(work):
 def test_other_tables_of_a_study(work, monkeypatch, options, asked):
     (work.folder / "study.toml").write_text(STUDY)
     tools = []
-    monkeypatch.setattr(run_study, "check_tools", lambda *given: tools.append(given))
+    monkeypatch.setattr(studies, "check_tools", lambda *given: tools.append(given))
     given(work, "study", "study.toml", *options)
     assert tools == [asked]
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from small_study import SCENE
 
 import lubfric
-from lubfric._base import new_figure
+from lubfric._base import figures
 from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
 from lubfric.time import friction_over_time
 
@@ -114,7 +114,7 @@ def test_the_parts_of_a_history_add_up_to_its_friction_either_way():
     count = {"load": 2.0, "boundary_force": 0.0, "couette_force": 0.0, "rolling_force": -0.2, "coefficient": 0.1}
     columns = {name: np.full(2, value) for name, value in count.items()}
     columns |= {"time": np.array([0.0, 1.0]), "sliding_speed": np.zeros(2), "entrainment_speed": np.full(2, -0.3)}
-    axes = new_figure().subplots()
+    axes = figures.new_figure().subplots()
     friction_over_time(axes, columns)  # pure rolling, backwards
     whole, contact, film = (line.get_ydata() for line in axes.get_lines())
     np.testing.assert_allclose(contact + film, whole)
@@ -129,9 +129,9 @@ def test_a_scene_prints_in_a_line_and_as_a_table_of_keys_values_and_units():
     assert repr(scene.bodies).count("=") == 6 and eval(repr(scene.bodies), {"Bodies": Bodies}) == scene.bodies
     assert repr(lubfric.Numerics(tolerance=0.02)) == "Numerics(tolerance=0.02)"
     html = scene._repr_html_()
-    for row in (("load", "5.5", "N"), ("oil", "ISO VG 68, VI 95", ""), ("correlation_length", "4e-06", "m")):
-        assert f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" in html
-    assert "(40 values)" in html and "sampling_tolerance" not in html and len(html) < 4000
+    rows = {"bodies.load": "5.5 N", "lubricant.oil": "ISO VG 68, VI 95", "surface.correlation_length": "4 µm"}
+    assert all(f"<tr><th>{key}</th><td>{text}</td></tr>" in html for key, text in rows.items())
+    assert "40 values, 0.001 to 1 m/s" in html and "sampling_tolerance" not in html and len(html) < 4000
     assert html.count("<tr>") == html.count("</tr>") and html.startswith("<table>")
 
 

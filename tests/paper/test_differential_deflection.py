@@ -7,12 +7,14 @@ import pytest
 
 import lubfric
 from lubfric.film import LineContact, Problem, hat_kernel
-from lubfric.film import formulas as film
 from lubfric.oil import Lubricant
 from lubfric.paper import solve_differential_deflection
 from lubfric.paper.differential import cold_start
 from lubfric.paper.differential_equations import convolve, evaluate, make_mesh, measure
 from lubfric.paper.differential_newton import newton
+from verification.parts import ALPHA, VISCOSITY, case_of
+from verification.parts import E_PRIME as E
+from verification.parts import RADIUS as R
 
 PAPER = {
     "load_per_width": 5.5 / 6e-3,
@@ -21,20 +23,10 @@ PAPER = {
     "viscosity": 0.36,
     "pressure_viscosity_coefficient": 25e-9,
 }
-ALPHA, R, E = 2.2e-8, 0.01, 2.2e11
-ETA = math.exp(ALPHA * 1.96e8 / 0.68 - 9.67)  # Roelands z = 0.68
 
 
 def moes(M, L, **options):
-    load, speed = film.load_and_speed(M, L, radius=R, e_prime=E, viscosity=ETA, pressure_viscosity_coefficient=ALPHA)
-    return {
-        "load_per_width": load,
-        "radius": R,
-        "e_prime": E,
-        "entrainment_speed": speed,
-        "viscosity": ETA,
-        "pressure_viscosity_coefficient": ALPHA,
-    } | options
+    return case_of(M, L) | options
 
 
 def numbers(result):
@@ -140,7 +132,7 @@ def test_reversed_motion_mirrors(heavy):
 )
 def test_residuals_find_a_wrong_answer(name, spoil):
     kw = moes(5, 5)
-    problem = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(ETA, ALPHA)))
+    problem = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(VISCOSITY, ALPHA)))
     mesh = make_mesh(-20.0, 6.0, 401, 8, True)
     s = newton(mesh, problem, *cold_start(mesh, problem), 1e-8, 60)
     assert max(s.residuals.values()) <= 1e-8

@@ -34,8 +34,7 @@ def found(prepared):
 
 
 def half(result):
-    low, high = result.uncertainty.interval
-    return 0.5 * (high - low) / result.coefficient
+    return result.uncertainty.interval[1] / result.coefficient - 1
 
 
 def test_parts_add_up_and_the_model_is_told(found):
@@ -52,7 +51,7 @@ def test_interval_holds_numerical_sampling_and_model(found):
     t = scipy.stats.t.ppf(0.975, known.freedom)
     assert known.model > 0 and known.sampling > 0
     assert half(found) == pytest.approx(math.sqrt(known.numerical**2 + (t * known.sampling) ** 2 + known.model**2))
-    assert half(found) < 0.09
+    assert half(found) < 0.1
 
 
 def test_f_is_that_of_other_strips_one_by_one(prepared, found):
@@ -76,6 +75,29 @@ def test_the_effect_of_shorter_cells_is_that_on_other_strips():
     assert len(found.pieces) >= 1 and prepared.strips.cells.factors == (4, 4)
     assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * found.sampling.error)
     assert found.numerical < FINE.numerics.tolerance
+
+
+def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
+    """f = .05 (1 + (dx/18 µm)^p) on every strip and piece, on cells from 7.2 to 0.9 µm; the scene's own are .45 µm."""
+    prepared = lubfric.prepare(FINE)
+    solved = solve_strip(FINE, prepared.strips.strip(0), 0.1, factors=(4, 4))
+    pair = Pair(solved, solved, None)
+    for order, most in ((2.0, 0.01), (1.0, 0.03), (0.5, 0.07)):
+
+        def on(dx, order=order):
+            f = 0.05 * (1 + (dx / 18) ** order)
+            return replace(solved, result=replace(solved.result, coefficient=f, spacing=(1e-6 * dx,) * 2))
+
+        def ladder(*_, times=2, **length):
+            assert times == 2 or length["length"] < 42
+            return tuple(on(7.2 / 2**k) for k in range(2 + round(math.log2(times))))
+
+        monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(7.2)))
+        monkeypatch.setattr(levels, "solve_finer", ladder)
+        found = levels.levels_of(prepared, 0.1, None)
+        truth = on(0.45).result.coefficient
+        assert bool(found.shortest) == (order < 2)
+        assert abs(found.numbers["coefficient"] / truth - 1) <= 1.1 * found.numerical <= 1.1 * most
 
 
 def test_eq_8_alone_states_its_error(prepared, found):

@@ -55,13 +55,27 @@ def test_the_contact_that_a_line_misses(count):
 
 def test_the_error_of_load_sharing_itself_is_that_of_its_rule():
     """docs/uncertainty.md, by hand: a film of λ = 2, 4, 8 by .3, .2, .05 of its shear; half of the load on asperities
-    with f_b .12 beside a film of .04: .35 of .08 exchanged, .3 of the film's .02, and .25 sqrt(.5) of f = .08."""
+    with f_b .12 beside a film of .04: .35 of .08 exchanged, .3 of the film's .02, and .25 sqrt(.5) of f = .08; a tenth
+    of the load: no more than that tenth can go to the film."""
     films = [load_sharing_error(ratio, 0.0, 0.0, 0.03) for ratio in (2.0, 4.0, 8.0)]
-    assert films == pytest.approx([0.3, 0.2, 0.05])
-    both = load_sharing_error(1.0, 0.5, 0.06, 0.02)
-    assert both == pytest.approx((0.35 * 0.08 + 0.3 * 0.02) / 0.08 + 0.25 * math.sqrt(0.5))
-    assert load_sharing_error(math.inf, 0.0, 0.0, 0.03) == 0.0
-    assert load_sharing_error(0.1, 0.99999, 0.0899991, 1e-7) < 3e-3
+    assert np.array(films) == pytest.approx(np.array([[0.3, 0.3], [0.2, 0.2], [0.05, 0.05]]))
+    down, up = load_sharing_error(1.0, 0.5, 0.06, 0.02)
+    others, of_all = (0.35 * 0.08 + 0.3 * 0.02) / 0.08, 0.25 * math.sqrt(0.5)
+    assert (down, up) == pytest.approx((1 - (1 - others) * (1 - of_all), others + of_all))
+    down, up = load_sharing_error(8.0, 0.1, 0.012, 0.0)
+    of_all = 0.25 * math.sqrt(0.9)
+    assert (down, up) == pytest.approx((1.0, 0.7 * 0.3 * 0.12 / 0.012 + of_all))
+    down, up = load_sharing_error(
+        8.0, 0.9, 0.009, 0.03
+    )  # the film rubs more: all of its tenth may go to the asperities
+    assert down == pytest.approx(1 - (1 - (0.1 * 0.29 + 0.05 * 0.03) / 0.039) * (1 - 0.25 * math.sqrt(0.1)))
+    assert load_sharing_error(math.inf, 0.0, 0.0, 0.03) == (0.0, 0.0)
+    assert max(load_sharing_error(0.1, 0.99999, 0.0899991, 1e-7)) < 3e-3
+
+
+def test_an_interval_has_two_sides_and_the_farther_one_lies_away_from_0():
+    assert interval(0.05, 0.03, 0.0, 30, 0.04, 0.4) == pytest.approx((0.0475, 0.05 * (1 + math.hypot(0.03, 0.4))))
+    assert interval(-0.05, 0.03, 0.0, 30, 0.04, 0.4) == pytest.approx((-0.05 * (1 + math.hypot(0.03, 0.4)), -0.0475))
 
 
 def test_a_mean_of_correlated_places_is_not_surer_than_it_tells():

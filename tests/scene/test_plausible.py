@@ -6,8 +6,10 @@ import pickle
 import pytest
 
 import lubfric
+from lubfric.quantities import KEYS
 from lubfric.scene import doubts
-from lubfric.scene.plausible import slip, usual
+from lubfric.scene.plausible import slip
+from lubfric.units import converted
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 343.15}
 
@@ -17,14 +19,15 @@ def test_built_in_scenes_are_usual(name):
     assert doubts(lubfric.load_scene(name)) == ()
 
 
-@pytest.mark.parametrize("name", [name for name, row in usual().items() if row["meant"]])
+@pytest.mark.parametrize("name", [name for name, q in KEYS.items() if q.meant])
 def test_a_usual_value_in_each_mistaken_unit_is_found_out(name):
-    low, high, unit, others = (usual()[name][what] for what in ("low", "high", "unit", "meant"))
+    (low, high), unit = KEYS[name].usual, KEYS[name].unit
     middle = (max(low, high / 1e6) * high) ** 0.5
     assert slip(name, middle) is None
-    for _, factor, *_ in others:
-        if not low <= middle / factor <= high:
-            meant = slip(name, middle / factor)
+    for other in KEYS[name].meant:
+        given = converted(middle, unit, other if isinstance(other, str) else other[0])
+        if not low <= given <= high:
+            meant = slip(name, given)
             assert meant and unit in meant
     assert slip(name, [middle, middle]) is None
 

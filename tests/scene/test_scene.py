@@ -75,7 +75,7 @@ def test_a_file_equals_its_short_forms(tmp_path):
     [
         ({"bodies__laod": "5.5"}, ["laod", "did you mean 'load'", "[bodies]"]),
         ({"bodis__load": "5.5"}, ["bodis", "did you mean 'bodies'"]),
-        ({"bodies__load": "-1.0"}, ["bodies.load", "-1", "(0", " N"]),
+        ({"bodies__load": "-1.0"}, ["bodies.load", "-1", "[1e-12", " N"]),
         ({"bodies__load": "'heavy'"}, ["bodies.load", "'heavy'"]),
         ({"bodies__load": None}, ["[bodies] needs 'load'"]),
         ({"bodies__hardness": "1e8"}, ["bodies.load", "hardness", "allowed: below", " N"]),

@@ -7,7 +7,6 @@ import pytest
 import lubfric
 from lubfric import oil
 from lubfric.film import hertz
-from lubfric.scene.short_forms import reduced_radius
 
 PAPER = lubfric.load_scene("paper")
 INF = math.inf
@@ -75,7 +74,6 @@ def test_every_key_of_an_oil_reaches_the_viscosity_or_its_coefficients():
     "pair, radius", [((0.01, INF), 0.01), ((0.02, 0.02), 0.01), ((0.01, -0.02), 0.02), ((0.006, -0.05), 0.3 / 44)]
 )
 def test_two_radii(tmp_path, pair, radius):
-    assert reduced_radius(*pair) == pytest.approx(radius)
     assert PAPER.with_(bodies={"radii": pair}).bodies.radius == pytest.approx(radius)
     text = "[" + ", ".join(str(r) for r in pair) + "]"
     assert scene(tmp_path, radius=None, radii=text).bodies.radius == pytest.approx(radius)

@@ -12,26 +12,9 @@ from lubfric._base import validate
 from lubfric.errors import InputError
 
 NO_NUMBERS = [
-    True,
-    np.True_,
-    "1",
-    b"1",
-    1 + 0j,
-    None,
-    np.ma.masked,
-    np.datetime64("2020"),
-    np.timedelta64(1, "s"),
-    datetime.date(2020, 1, 1),
-    [1],
-    np.array([1.0]),
-    np.array(True),
-    {},
-    object(),
-    float("nan"),
-    float("inf"),
-    10**400,
-    10**5000,
-    decimal.Decimal("1e999"),
+    *(True, np.True_, "1", b"1", 1 + 0j, None, {}, object(), float("nan"), float("inf"), 10**400, 10**5000),
+    *(np.ma.masked, np.datetime64("2020"), np.timedelta64(1, "s"), datetime.date(2020, 1, 1)),
+    *([1], np.array([1.0]), np.array(True), decimal.Decimal("1e999")),
 ]
 
 
@@ -50,26 +33,21 @@ def test_every_kind_of_real_number_is_one(value):
 
 
 NO_ARRAYS = [
-    [True, 1.0],
-    [1, "2"],
-    ["1"],
-    [1j],
-    [None, 1.0],
-    np.ma.array([1.0, 2.0], mask=[False, True]),
-    [np.ma.masked, 1.0],
-    np.array(["2020"], "M8[D]"),
-    np.array([1], "m8[s]"),
-    [datetime.date(2020, 1, 1)],
-    np.zeros(3, bool),
-    np.zeros(2, [("a", float)]),
-    [b"1"],
-    [10**400],
-    [[1], [1, 2]],
-    [],
-    [float("inf")],
-    {1.0, 2.0},
-    "123",
-    object(),
+    *(
+        [True, 1.0],
+        [1, "2"],
+        ["1"],
+        [1j],
+        [None, 1.0],
+        [b"1"],
+        [10**400],
+        [[1], [1, 2]],
+        [],
+        [float("inf")],
+        {1.0, 2.0},
+    ),
+    *(np.ma.array([1.0, 2.0], mask=[False, True]), [np.ma.masked, 1.0], np.zeros(3, bool), np.zeros(2, [("a", float)])),
+    *(np.array(["2020"], "M8[D]"), np.array([1], "m8[s]"), [datetime.date(2020, 1, 1)], "123", object()),
 ]
 
 

@@ -74,15 +74,6 @@ def test_speed_fields_and_versions_make_other_keys(monkeypatch):
     assert len({before, other, fingerprint(SCENE)}) == 3
 
 
-def test_a_record_lies_under_its_own_key(tmp_path):
-    kept = Store(tmp_path)
-    keys = [point_key(fingerprint(SCENE), 0.1 + number, bool(number % 2)) for number in range(20)]
-    for number, key in enumerate(keys):
-        kept.add(key, (float(number),))
-    assert [kept.get(key) for key in keys] == [(float(number),) for number in range(20)]
-    assert kept.known([*keys, "f" * 64]).keys() == set(keys)
-
-
 def test_a_map_comes_back_the_way_round_it_was_stored(tmp_path):
     """Column by column or row by row in memory, and turned."""
     heights, kept = np.arange(6.0).reshape(2, 3), Store(tmp_path)

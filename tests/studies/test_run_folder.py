@@ -15,6 +15,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 import lubfric
 from lubfric._base import read_table
 from lubfric.output import main
+from lubfric.studies import Store
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 ROOT = Path(__file__).parents[2]
@@ -35,9 +36,9 @@ def counted(*arguments, **options):
     print("solved", flush=True)
     return found
 points.friction = counted
-from lubfric.time.run import Checkpoint
-save = Checkpoint.save
-Checkpoint.save = lambda *arguments: (save(*arguments), print("saved", flush=True))
+from lubfric.studies.store import Store
+add = Store.add
+Store.add = lambda *arguments, **options: (add(*arguments, **options), print("saved", flush=True))
 from lubfric.output.command_line import main
 sys.exit(main(["run", *sys.argv[1:2], "--out", *sys.argv[2:]]))
 """
@@ -213,17 +214,15 @@ def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tm
 
 
 def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, capsys):
-    from lubfric.time import run as checkpoint
+    real, count = Store.add, [0]
 
-    real, count = checkpoint.Checkpoint.save, [0]
-
-    def save(*arguments):
-        real(*arguments)
+    def add(*arguments, **options):
+        real(*arguments, **options)
         count[0] += 1
-        if count[0] == 7:
+        if count[0] == 9:
             os.kill(os.getpid(), signal.SIGTERM)
 
-    monkeypatch.setattr(checkpoint.Checkpoint, "save", save)
+    monkeypatch.setattr(Store, "add", add)
     assert main(["run", written(tmp_path, MOVING), "--out", str(tmp_path / "out")]) == 143
     assert "is kept in" in capsys.readouterr().err.splitlines()[-1]
     assert main(["run", written(tmp_path, MOVING), "--out", str(tmp_path / "out")]) == 0

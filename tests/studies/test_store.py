@@ -21,7 +21,8 @@ from lubfric._base import FolderLock, read_checked, write_checked, write_whole
 from lubfric.errors import Report
 from lubfric.output import command_line as cli
 from lubfric.sharing import Validity, prepare
-from lubfric.studies import classes_of, decode, encode, fingerprint
+from lubfric.studies import classes_of, fingerprint
+from lubfric.studies.codec import decode, encode
 from lubfric.studies.store import Store, digest
 
 ROOT = Path(__file__).parents[2]

@@ -76,12 +76,6 @@ def test_the_curve_has_the_shape_of_stribeck(curve):
     np.testing.assert_allclose(curve.mean_gap[separated], curve.central_film[separated], rtol=0.02)
 
 
-def test_a_start_is_refused(model, curve):
-    """Bits are the same in any order and company: tests/sharing/test_purity.py."""
-    with pytest.raises(lubfric.InputError, match="solved from the scene alone"):
-        lubfric.stribeck(model, SPEEDS, start=curve.points[0])
-
-
 @pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
 def test_any_executor_gives_the_same_curve(curve, pool):
     with pool(2) as executor:

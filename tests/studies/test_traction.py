@@ -166,3 +166,13 @@ def test_what_a_list_of_a_command_is_allowed_to_be_is_told_in_its_own_unit(tmp_p
     assert main(["run", "paper", option, text, "--out", str(tmp_path)]) == 2
     told = capsys.readouterr().err
     assert unit in told and option in told and ("m/s" in told) == (unit == "m/s")
+
+
+def test_a_key_with_long_words_stays_in_its_picture():
+    """As drawn: no word of it is cut off at the right, and the title is above it."""
+    scene = paper_scene().with_(numerics={"sampling": "patch"})
+    loads = {"bodies.load": [3.0, 5.0], "lubricant.pressure_viscosity_coefficient": [1e-8, 2e-8]}
+    axes = lubfric.study(scene, loads, [0.01, 1.0]).plot()
+    axes.figure.canvas.draw()
+    key, title = axes.get_legend().get_window_extent(), axes.title.get_window_extent()
+    assert 0 < key.x0 < key.x1 < axes.figure.bbox.width and key.y1 <= title.y0

@@ -24,15 +24,6 @@ def test_the_sum_of_independent_maps_has_the_root_of_both_squares():
     assert math.sqrt(np.mean(squares)) == pytest.approx(math.sqrt(5) * 1e-7, rel=0.03)
 
 
-def test_a_flat_counterface_changes_nothing_and_order_only_mirrors():
-    a, b = rough(1), rough(2)
-    flat = Surface(np.zeros(a.shape), a.spacing, periodic_axes=(True, True))
-    np.testing.assert_allclose(a.combined(flat).heights, a.heights - a.heights.mean(), atol=1e-22)
-    one, other = a.combined(b), b.combined(a)
-    np.testing.assert_allclose(one.heights, other.heights[:, ::-1], atol=1e-20)
-    assert one.periodic_axes == (True, True) and one.shape == a.shape
-
-
 def test_the_gap_of_two_facing_waves():
     """cos(ky) against cos(ky) shifted: the second runs backwards in y, so a sine changes its sign and a cosine does
     not."""

@@ -39,14 +39,17 @@ def test_at_constant_speed_it_is_the_steady_answer_of_moving_roughness():
     np.testing.assert_allclose(gap, steady.series["mean_gap"][steady.discarded :], rtol=0.02)
 
 
-def test_smooth_bodies_have_the_smooth_film_of_a_run():
+FALLING = Transient(4e-4, speed=0.0, initial_film=5e-7)
+
+
+@pytest.mark.parametrize("plan", [Transient(4e-4, load=Harmonic(mean=15.0, amplitude=5.0, frequency=5e3)), FALLING])
+def test_smooth_bodies_have_the_smooth_film_of_a_run(plan):
     """By another program: complementarity on a graded grid."""
-    plan, smooth = Transient(6e-4, load=Harmonic(mean=15.0, amplitude=5.0, frequency=5e3)), {"sq": 0.0}
-    fine = {"shape": (64, 32), "spacing": 1.5e-6}
-    found = run(plan, np.linspace(0, 6e-4, 13), surface=smooth, contact=fine)
+    smooth, fine = {"sq": 0.0}, {"shape": (64, 32), "spacing": 1.5e-6}
+    found = run(plan, np.linspace(0, 4e-4, 9), surface=smooth, contact=fine)
     film = run(plan, found.time, surface=smooth, numerics={"model": "load-sharing"})
-    np.testing.assert_allclose(found.central_film, film.central_film, rtol=0.015)
-    np.testing.assert_allclose(found.coefficient, film.coefficient, rtol=0.02)
+    np.testing.assert_allclose(found.central_film[1:], film.central_film[1:], rtol=0.015)
+    np.testing.assert_allclose(found.coefficient[1:], film.coefficient[1:], rtol=0.02, atol=2e-4)
     assert np.ptp(film.central_film) > 0.05 * film.central_film.mean()
 
 
@@ -70,6 +73,9 @@ def test_motion_backwards_is_the_mirror_image():
     back = lubfric.transient(lubfric.prepare(SCENE.with_(transient=plan), turned), [0.0, 1e-4, 2e-4])
     np.testing.assert_allclose(back.coefficient, there.coefficient, rtol=1e-3)
     np.testing.assert_allclose(back.friction_force, -there.friction_force, rtol=1e-3)
+    mirrored = np.interp(-there.x, back.x, back.pressure[-1])
+    np.testing.assert_allclose(mirrored, there.pressure[-1], atol=2e-3 * there.max_pressure[-1])
+    assert np.abs(mirrored - mirrored[::-1]).max() > 0.1 * mirrored.max()
 
 
 def test_each_surface_is_displaced_by_the_integral_of_its_own_speed():

@@ -13,12 +13,9 @@ from scene_text import paper_scene
 from small_study import slowness
 
 import lubfric
-from lubfric._base import write_checked
 from lubfric.output import main
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 from lubfric.sharing import prepare
-from lubfric.time import STATE
-from lubfric.time.run import Checkpoint
 from lubfric.time.sharing import Sharing
 
 SCENE = paper_scene(
@@ -190,7 +187,7 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path):
     folder, calls = tmp_path / "killed", []
     command = [sys.executable, "-c", SCRIPT, str(Path(__file__).parent), str(folder)]
     assert subprocess.run(command, cwd=Path(__file__).parents[2]).returncode == -signal.SIGKILL
-    assert (folder / STATE).is_file()
+    assert any((folder / "points").iterdir())
     resumed = swing(checkpoint=folder, on_step=lambda *now: calls.append(now))
     assert not folder.exists()
     whole = swing()
@@ -200,67 +197,27 @@ def test_a_killed_run_goes_on_where_it_was(tmp_path):
         np.testing.assert_array_equal(resumed.columns[name], values)
 
 
-def test_a_checkpoint_goes_back_to_what_its_state_knows(tmp_path):
-    Checkpoint(tmp_path, "another").append(np.full(3, np.nan))  # of a run killed before its first state
-    store = Checkpoint(tmp_path, "one")
-    assert store.load() is None
-    for i in range(2):
-        store.append(({"time": 0.5 * i}, np.arange(3.0) + i))
-    store.save({})
-    store.append(np.ones(3))  # killed here: that output is computed once more
-    again = Checkpoint(tmp_path, "one")
-    _, outputs = again.load()
-    assert [(row["time"], field.tolist()) for row, field in outputs] == [(0.0, [0, 1, 2]), (0.5, [1, 2, 3])]
-    again.append(np.zeros(3))
-    again.save({})
-    assert Checkpoint(tmp_path, "one").load()[1][2].tolist() == [0, 0, 0]
-    with pytest.raises(lubfric.InputError, match="another run"):
-        Checkpoint(tmp_path, "two").load()
-    write_checked(tmp_path / STATE, b"the state of another version")
-    with pytest.raises(lubfric.InputError, match="version differ"):
-        again.load()
-    again.clear()
-    assert not tmp_path.exists()
-
-
-def test_any_damage_of_a_checkpoint_is_refused(tmp_path):
-    store = Checkpoint(tmp_path, "one")
-    for i in range(2):
-        store.append((np.arange(3.0) + i, np.arange(5.0) - i))
-    store.save({"level": np.arange(20.0)})
-    rng = np.random.default_rng(2)
-    for path in sorted(tmp_path.iterdir()):
-        whole = path.read_bytes()
-        for at in rng.integers(0, len(whole), 20):
-            overwritten = bytearray(whole)
-            overwritten[at] ^= int(rng.integers(1, 256))
-            for content in (bytes(overwritten), whole[:at]):
-                path.write_bytes(content)
-                with pytest.raises(lubfric.InputError, match=f"{path.name} is damaged.*empty folder to begin again"):
-                    Checkpoint(tmp_path, "one").load()
-        path.unlink()
-        if path.name != STATE:
-            with pytest.raises(lubfric.InputError, match="damaged"):
-                Checkpoint(tmp_path, "one").load()
-        path.write_bytes(whole)
-    assert Checkpoint(tmp_path, "one").load() is not None
-
-
 class Killed(Exception):
     pass
 
 
-def stopped(model, folder):
-    def on_step(*_):
-        raise Killed
+def stopped(model, folder, after=1):
+    """The times of all steps of a run that ends by an exception after some of them."""
+    seen = []
+
+    def on_step(time, *_):
+        seen.append(time)
+        if len(seen) == after:
+            raise Killed
 
     plan = Transient(0.01, outputs=10, speed=Harmonic(mean=0.05, amplitude=0.02, frequency=100.0))
-    return run(plan, model=model, checkpoint=folder, on_step=on_step)
-
-
-def test_a_checkpoint_of_another_map_or_scene_is_refused(tmp_path):
     with pytest.raises(Killed):
-        stopped(MODEL, tmp_path)
+        run(plan, model=model, checkpoint=folder, on_step=on_step)
+    return seen
+
+
+def test_a_checkpoint_of_another_map_or_scene_is_left_alone(tmp_path):
+    first = stopped(MODEL, tmp_path)
     surface = MODEL.surface
     for other in (
         prepare(SCENE, surface=replace(surface, heights=surface.heights[::-1])),
@@ -269,10 +226,20 @@ def test_a_checkpoint_of_another_map_or_scene_is_refused(tmp_path):
         prepare(SCENE.with_(bodies={"boundary_friction_coefficient": 0.1})),
         prepare(SCENE.with_(numerics={"tolerance": 0.02})),
     ):
-        with pytest.raises(lubfric.InputError, match="belongs to another run"):
-            stopped(other, tmp_path)
-    with pytest.raises(Killed):
-        stopped(MODEL, tmp_path)
+        begun = stopped(other, tmp_path)[0]
+        assert stopped(other, tmp_path)[0] > begun  # each goes on from its own
+    assert stopped(MODEL, tmp_path)[0] > first[0]
+
+
+def test_a_damaged_checkpoint_is_told_of_and_the_run_begins_again(tmp_path):
+    first = stopped(MODEL, tmp_path, after=12)
+    for path in sorted((tmp_path / "points").iterdir()):
+        whole = path.read_bytes()
+        for content in (whole[: len(whole) // 2], whole[:-1] + bytes([whole[-1] ^ 1]), b""):
+            path.write_bytes(content)
+            with pytest.warns(UserWarning, match="damaged and does not count"):
+                assert stopped(MODEL, tmp_path, after=12) == first
+    assert stopped(MODEL, tmp_path)[0] > first[-1]
 
 
 def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monkeypatch):

@@ -88,7 +88,8 @@ def test_a_map_that_says_that_it_is_too_small_does_not_fail_by_its_coverage():
 @pytest.mark.parametrize(("off", "covered"), [(0.02, True), (0.2, False)])
 def test_answers_beside_finer_strips_fail_where_their_intervals_miss_f(monkeypatch, off, covered):
     truth = {"f": 0.1, "half": 0.02, "error": 0.01}
-    row = {"f": 0.1 + 0.1 * off, "half": 0.05, "error": 0.01}
+    f = 0.1 + 0.1 * off
+    row = {"f": f, "low": f - 0.005, "high": f + 0.005, "error": 0.01}
     monkeypatch.setattr(answers, "reference", lambda case: truth)
     monkeypatch.setattr(answers, "answer", lambda case: dict.fromkeys(answers.WAYS, row))
     checks = [item for item in answers.answers("quick") if isinstance(item, Check)]

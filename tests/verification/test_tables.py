@@ -72,12 +72,12 @@ def test_the_command_measures_what_is_marked_and_reports_it(tmp_path, monkeypatc
 
 def test_a_table_that_fails_costs_no_other_and_leaves_its_page_as_it_was(tmp_path, monkeypatch):
     monkeypatch.setitem(TABLES, "times", lambda: 1 / 0)
-    monkeypatch.setitem(TABLES, "area", lambda: (["speed"], []))
-    monkeypatch.setitem(TABLES, "orders", lambda: CELLS)
-    page = marked(tmp_path, "times", "orders")
-    asked = ["--only", "times", "area", "orders", "--docs", str(tmp_path), "--out", str(tmp_path)]
+    monkeypatch.setitem(TABLES, "roughness", lambda: (["speed"], []))
+    monkeypatch.setitem(TABLES, "stribeck", lambda: CELLS)
+    page = marked(tmp_path, "times", "stribeck")
+    asked = ["--only", "times", "roughness", "stribeck", "--docs", str(tmp_path), "--out", str(tmp_path)]
     assert main(asked) == 1
     assert page.read_text().startswith("<!-- table: times -->\n<!-- end of table -->\n")
     assert "| 0.1 | 0.05 |" in page.read_text()
     studies = json.loads((tmp_path / "report.json").read_text())["studies"]
-    assert {s["name"]: s["passed"] for s in studies} == {"times": False, "area": False, "orders": True}
+    assert {s["name"]: s["passed"] for s in studies} == {"times": False, "roughness": False, "stribeck": True}

@@ -13,6 +13,7 @@ import numpy as np
 from skfem import LinearForm
 
 from .ehl import Solution
+from .ehl_body import Body
 from .ehl_film import assemble
 from .ehl_newton import HERTZ_LOAD, load_weights, step_length
 from .report import InputError, SolveError
@@ -71,7 +72,9 @@ def march(
             held = new
             stored_P, stored_H = stored(film, P, H)
             by_P, by_H = flow.by_P + a[0] / step * stored_P, flow.by_H + a[0] / step * stored_H
-            P, H0 = newton_step(film, P, H, H0, held, lost, load, by_P, by_H, compliance, weights)
+            dP, dH0 = newton_change(body, P, held, lost, load, by_P, by_H)
+            share = step_length(film, P, dP, H, dH0 + compliance @ dP)
+            P, H0 = P + share * dP, H0 + share * dH0
         else:
             raise SolveError(f"wave in time: T = {time:g} b/U, error {error:.1e} after {max_iterations} steps")
         before, now = now, then
@@ -84,16 +87,15 @@ def content(at: Solution, P, H):
     return at.film.density(np.asarray(line.interpolate(P))) * np.asarray(line.interpolate(H))
 
 
-def newton_step(film, P, H, H0, held, lost, load, by_P, by_H, compliance, weights):
-    """Pressure and approach after one step of Newton's method."""
-    free = np.flatnonzero(~held)
+def newton_change(body: Body, P, held, lost, load: float, by_P, by_H) -> tuple[np.ndarray, float]:
+    """Change of pressure and approach by one step of Newton's method: ``lost`` and ``load`` to 0, ``held`` P to 0."""
+    free, weights = np.flatnonzero(~held), load_weights(body)
     dP = np.where(held, -P, 0.0)
-    full = by_P[free].toarray() + by_H[free] @ compliance
+    full = by_P[free].toarray() + by_H[free] @ body.compliance
     matrix = np.zeros((free.size + 1, free.size + 1))
     matrix[:-1, :-1], matrix[:-1, -1] = full[:, free], np.asarray(by_H[free].sum(axis=1)).ravel()
     matrix[-1, :-1] = weights[free] / HERTZ_LOAD
     right = -np.append(lost[free] + full @ dP, load + weights @ dP / HERTZ_LOAD)
     change = np.linalg.solve(matrix, right)
     dP[free] = change[:-1]
-    share = step_length(film, P, dP, H, change[-1] + compliance @ dP)
-    return P + share * dP, H0 + share * change[-1]
+    return dP, change[-1]

@@ -23,18 +23,19 @@ from ..kept import Run
 from ..plotting import finish, panels
 
 SEED = 884  # so that the first few differ in surface and load
-DRAWN = {"quick": 2, "default": 6, "full": 32}  # combinations, drawn from all
+DRAWN = {"quick": 2, "default": 6, "full": 24}  # combinations, drawn from all; of rollers a third of them
 RATIOS = {"quick": (1.5,), "default": (1.5, 0.8, 0.3)}  # Moes' film over Sq; "full" has those of "default"
 SEEDS = {"quick": 1, "default": 4, "full": 4}  # answers on generated surfaces; of a measured map there is one
 REFERENCE = 1001  # seed
 ASKED = {"tolerance": 0.01, "sampling_tolerance": 0.012, "model_tolerance": 0.03}  # of the reference
 CELLS, CELL = (640, 448), 1.8e-6  # of a map from a file, and their length [m] over that of the Gaussian correlation
 LENGTH = 8e-6
+ROLLER = "roller, 1 GPa"
 CONTACTS = {  # changes of the built-in scene, and the lengths of the surface over those of its own
     "5.5 N": ({}, 1.0),
     "27.5 N": ({"bodies": {"load": 27.5}}, 1.0),
     "110 N": ({"bodies": {"load": 110.0}}, 1.0),
-    "roller, 1 GPa": (
+    ROLLER: (
         {
             "bodies": {"radius": 6e-3, "width": 0.01, "load": 1600.0, "boundary_friction_coefficient": 0.12},
             "lubricant": {"viscosity": 0.02, "pressure_viscosity_coefficient": 1.8e-8, "eyring_stress": 5e6},
@@ -50,20 +51,7 @@ GENERATED = {
     "ridges along": ("gaussian", (40e-6, 4e-6)),
 }
 MEASURED = ("ridges at 45 degrees", "plateau", "peaks", "self-affine")
-COLUMNS = (
-    "surface",
-    "contact",
-    "f_b/limit",
-    "film/Sq",
-    "f",
-    "answers",
-    "off by",
-    "interval",
-    "inside",
-    "Eq. (8) off by",
-    "interval ",
-    "inside ",
-)
+COLUMNS = ("", "answers", "off by", "interval", "inside", "Eq. (8) off by", "interval ", "inside ")
 WAYS = {"default": {}, "load sharing": {"model": "load-sharing"}}
 
 
@@ -127,10 +115,11 @@ def heights(kind: str, seed: int) -> np.ndarray:
     return z if kind == "plateau" else -z
 
 
-def cases(level: str) -> dict[str, Case]:
-    """The combinations of ``level`` by name, the same first ones at every level."""
-    kinds = list(itertools.product((*GENERATED, *MEASURED), CONTACTS, (1.0, 2.0)))
-    order = np.random.default_rng(SEED).permutation(len(kinds))[: DRAWN[level]]
+def cases(level: str, rollers: bool) -> dict[str, Case]:
+    """The combinations of ``level`` by name, the same first ones at every level: the lighter contacts, or rollers."""
+    contacts = [name for name in CONTACTS if (name == ROLLER) == rollers]
+    kinds = list(itertools.product((*GENERATED, *MEASURED), contacts, (1.0, 2.0)))
+    order = np.random.default_rng(SEED).permutation(len(kinds))[: max(1, DRAWN[level] // (3 if rollers else 1))]
     every = [Case(*kinds[int(index)], ratio) for index in order for ratio in RATIOS.get(level, RATIOS["default"])]
     return {f"{c.surface}; {c.contact}; {c.over:g}; {c.ratio:g}": c for c in every}
 
@@ -156,55 +145,63 @@ def solved(case: Case, seed: int, numerics: dict) -> dict:
         except lubfric.LubfricError as error:
             return {"failure": f"{type(error).__name__}: {error}"[:200]}
     known, f = found.uncertainty, found.coefficient
-    row = {"f": f, "half": 0.5 * (known.interval[1] - known.interval[0]) / f, "by": found.decision.model}
+    row = {"f": f, "low": known.interval[0], "high": known.interval[1], "by": found.decision.model}
     return row | {"error": math.hypot(known.numerical, known.sampling), "seconds": time.process_time() - begun}
 
 
-def answers(level: str, run: Run = Run()) -> Iterator[Item]:
+def answers(level: str, run: Run = Run(), rollers: bool = False) -> Iterator[Item]:
     """Every case by default, by load sharing alone, and by the reference: errors, intervals and coverage."""
-    rows: list = []
     off: dict[str, list] = {way: [] for way in WAYS}
+    of: list[tuple[str, str]] = []  # surface and contact of every answer
     failed = 0
-    for case, truth in run.solved(cases(level), reference, "references"):
+    for case, truth in run.solved(cases(level, rollers), reference, "references"):
         seeds = range(1, 2 if case.surface in MEASURED else 1 + SEEDS[level])
-        found = [row for _, row in run.solved({f"{case}, {seed}": (case, seed) for seed in seeds}, answer, "answers")]
-        failed += sum("failure" in row["default"] for row in found)
-        cells = [case.surface, case.contact, f"{case.over:g}", f"{case.ratio:g}"]
-        cells += [f"{truth['f']:.4f}" if "f" in truth else "-", str(len(found))]
-        for way, both in off.items():
-            new = [judged(row[way], truth) for row in found if row[way].get("half") and truth.get("error")]
-            both += new
-            cells += told(np.array(new)) if new else ["-"] * 3
-        rows.append(cells)
-    yield Table("answers", "The default answer, and load sharing alone, beside finer strips", COLUMNS, rows)
-    for way, name in (("default", "default answer"), ("load sharing", "load sharing alone")):
-        every = np.array(off[way]).reshape(-1, 3)
-        covered = float(np.mean(np.abs(every[:, 0]) <= every[:, 1])) if every.size else math.nan
-        yield Check(f"{name}: share of {len(every)} intervals with f", covered, 1.0, 0.1, "finer strips", ABSOLUTE)
+        for _, row in run.solved({f"{case}, {seed}": (case, seed) for seed in seeds}, answer, "answers"):
+            failed += "failure" in row["default"]
+            if truth.get("error") and all(row[way].get("low") is not None for way in WAYS):
+                of.append((case.surface, case.contact))
+                for way in WAYS:
+                    off[way].append(judged(row[way], truth))
+    every = {way: np.array(found).reshape(-1, 3) for way, found in off.items()}
+    groups = [(name, [name in pair for pair in of]) for name in (*GENERATED, *MEASURED, *CONTACTS)]
+    rows = [
+        [name, str(sum(here)), *told(every["default"][here]), *told(every["load sharing"][here])]
+        for name, here in (*groups, ("all", [True] * len(of)))
+        if any(here)
+    ]
+    name = "answers-rollers" if rollers else "answers"
+    yield Table(name, "The default answer, and load sharing alone, beside finer strips", COLUMNS, rows)
+    for way, said in (("default", "default answer"), ("load sharing", "load sharing alone")):
+        inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if of else math.nan
+        yield Check(f"{said}: share of {len(of)} intervals with f", inside, 1.0, 0.1, "finer strips", ABSOLUTE)
     yield Check("default answers that failed", failed, 0, 0.0, "the solver's own report", TOLD)
-    yield drawn(off)
+    yield drawn(name, every)
 
 
 def judged(row: dict, truth: dict) -> tuple[float, float, float]:
-    """By how much an answer is off, what its interval and twice the reference's error allow, and half of the interval
-    alone; relative."""
-    return row["f"] / truth["f"] - 1, math.hypot(row["half"], 2 * truth["error"]), row["half"]
+    """Half of the interval; by how much f is off; and how much of that its interval on this side and twice the error of
+    the reference allow; all relative to the reference."""
+    f, t = row["f"], truth["f"]
+    side = f - row["low"] if f > t else row["high"] - f
+    return (row["high"] - row["low"]) / (2 * t), abs(f / t - 1), math.hypot(side / t, 2 * truth["error"])
 
 
 def told(found: np.ndarray) -> list[str]:
-    """The mean error, the mean half of the interval, and how many intervals hold f."""
-    off, allowed, half = found.T
-    return [f"{100 * off.mean():+.1f} %", f"{100 * half.mean():.1f} %", f"{(np.abs(off) <= allowed).sum()}"]
+    """The root mean square error, the mean half of the interval, and the share of intervals that hold f."""
+    half, off, allowed = found.T
+    return [
+        f"{100 * math.sqrt(np.mean(off**2)):.1f} %",
+        f"{100 * half.mean():.1f} %",
+        f"{100 * (off <= allowed).mean():.0f} %",
+    ]
 
 
-def drawn(off: dict[str, list]) -> Figure:
-    """The error of f over the half-width of the interval, for both ways."""
+def drawn(name: str, every: dict[str, np.ndarray]) -> Figure:
+    """The error of f over what its interval allows, for both ways."""
     figure, (axes,) = panels(1, 1, 6.0, 4.5)
     for way, label in (("load sharing", "load sharing alone"), ("default", "default answer")):
-        both = 100 * np.array(off[way]).reshape(-1, 3)
-        axes.plot(both[:, 1], both[:, 0], "o", label=label, alpha=0.7)
-    most = max(1.0, *(100 * abs(value) for rows in off.values() for row in rows for value in row))
-    axes.plot([0, most, 0, most], [0, most, 0, -most], "k-", lw=0.8)
-    axes.set(xlabel="half of the interval (%)", ylabel="f off by (%)")
+        axes.loglog(*100 * np.maximum(every[way][:, [2, 1]].T, 1e-4), "o", label=label, alpha=0.7)
+    axes.plot([1, 100], [1, 100], "k-", lw=0.8)
+    axes.set(xlabel="allowed by interval and reference (%)", ylabel="f off by (%)")
     axes.legend()
-    return finish("answers", figure, "Error of f and half of its interval; between the lines it is covered")
+    return finish(name, figure, "Error of f over what its interval allows; below the line it is covered")

@@ -11,7 +11,7 @@ import numpy as np
 import lubfric
 from lubfric.deterministic import RoughBody, moments, solve_strip, travelling
 
-from ..references import density
+from ..fem.fluid import Fluid
 
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 SWEEP = 2.5  # half-widths that the film travels before anything counts
@@ -62,20 +62,20 @@ def balances(problem, result, passing: Sequence, step: float) -> dict[str, float
     """How far fields are from what they must obey.
 
     - mass: what enters, less what leaves behind the rupture (U times what is there, at the end of the grid) and what is
-      gained, over the time of ``passing`` results that are ``step`` [s] apart, over what enters; of a steady film
-      (none) at once.
+      gained, in the steps of ``step`` [s] between ``passing`` results, over what enters; of a steady film (none) at
+      once.
     - load: ∫ p less the load, relative.
     - gap: mean over y of the gap, less parabola, heights and -4/(pi E') ∫ p ln|x - s| ds, up to a constant, over the
       mean gap between the ends of the contact.
     - bounds: the largest violation of p >= 0, 0 <= fill <= 1, p (1 - fill) = 0, h >= 1 nm, relative.
     """
     line, dx, x = problem.contact, problem.spacing[0], result.x
-    results, U = passing or (result, result), line.entrainment_speed
+    results, U = passing or (result,) * 4, line.entrainment_speed
     lost = [U * (one.flow_film - held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1]) for one in results]
-    gained = (held(line, results[-1], results[-1].gap) - held(line, results[0], results[0].gap)).sum() * dx
-    lasted = len(results) - 1
-    missing = float(np.trapezoid(lost)) / lasted - (gained / (step * lasted) if passing else 0.0)
-    enters = U * float(np.mean([one.flow_film for one in results]))
+    first, second, *_, before, last = (float(held(line, one, one.gap).sum()) * dx for one in results)
+    gained = (3 * (last - second) - (before - first)) / (2 * step) if passing else 0.0  # the sum of BDF2 over all steps
+    missing = float(np.sum(lost[2:])) - gained
+    enters = U * float(np.sum([one.flow_film for one in results[2:]]))
     p = result.pressure.mean(axis=1)
     face = x[:, None] - x[None, :]
     a, b = face + dx / 2, face - dx / 2
@@ -86,7 +86,7 @@ def balances(problem, result, passing: Sequence, step: float) -> dict[str, float
     fill, top = result.fill, result.pressure.max()
     broken = -result.pressure.min() / top, -fill.min(), fill.max() - 1, (result.pressure * (1 - fill)).max() / top
     return {
-        "mass": float(abs(missing / enters)),
+        "mass": abs(missing / enters),
         "load": abs(float(p.sum() * dx + result.inlet_load) / problem.load - 1),
         "gap": float(np.ptp(off)) / 2 / result.mean_gap,
         "bounds": max(0.0, *map(float, broken), 1 - result.gap.min() / FLOOR),
@@ -95,5 +95,5 @@ def balances(problem, result, passing: Sequence, step: float) -> dict[str, float
 
 def held(line, result, gap) -> np.ndarray:
     """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure, mean over y (nx,)."""
-    law = density(result.pressure) if line.lubricant.density_law == "dowson-higginson" else 1.0
-    return (result.fill * law * gap).mean(axis=1)
+    law = Fluid(1.0, density_law=line.lubricant.density_law.replace("-", "_")).rho
+    return (result.fill * law(result.pressure) * gap).mean(axis=1)

@@ -21,6 +21,7 @@ DEEP = 100e-6  # m: the gap around the pad; so deep that the pressure there is n
 CURVATURE, RIGID = 1.0, 1e18  # m, Pa: the parabola of the model is taken off the pad; nothing deflects
 PLACES = (0.6, 0.75, 0.9)  # of the length, behind the pocket
 LAWS = ("constant", "dowson-higginson")
+GRIDS = {"narrow": ((100, 21), (200, 41)), "wide": ((200, 1), (400, 1))}  # cells that fit the pocket
 AMBIENT = 0.1  # MPa outside theirs; ours has the pressure of rupture there
 Profile = tuple[np.ndarray, np.ndarray]  # x over the length, p in MPa on the middle line
 
@@ -77,9 +78,8 @@ def cavitation(level: str) -> Iterator[Item]:
     for pocket in references.BANDS:
         yield from band(pocket)
     for name, pocket in references.BERTOCCHI.items():
-        found = {
-            (law, n): Pad(pocket, cells, law).at_its_gap(pocket.load) for law in LAWS for n, cells in grids(pocket)
-        }
+        cells = GRIDS[name]
+        found = {(law, n): Pad(pocket, cells[n], law).at_its_gap(pocket.load) for law in LAWS for n in (0, 1)}
         at = {key: np.interp(PLACES, *profile) for key, profile in found.items()}
         fine, coarse = (np.mean([at[law, n] for law in LAWS], axis=0) for n in (1, 0))
         laws = np.abs(at["constant", 1] - at["dowson-higginson", 1]) / 2
@@ -88,11 +88,6 @@ def cavitation(level: str) -> Iterator[Item]:
             label = f"{name} pocket, pressure at {place:g} of the length"
             yield against("bertocchi", label, ours, theirs, error / ours, "MPa", error=0.02 + AMBIENT / theirs)
         yield drawn(name, pocket, found)
-
-
-def grids(pocket: references.Pocket) -> tuple:
-    """Two grids, whose cells fit the pocket."""
-    return tuple(enumerate(((200, 1), (400, 1)) if pocket.width > 0.1 else ((100, 21), (200, 41))))
 
 
 def band(pocket: references.Pocket) -> Iterator[Check]:

@@ -137,10 +137,9 @@ def ground(across: float) -> np.ndarray:
     """Heights (CELLS, CELLS) m, grooved and skewed, with worn tops and deep scratches, on a tilted plane."""
     rng = np.random.default_rng(5)
     y, x = np.arange(CELLS)[:, None] * across, np.arange(CELLS) * LENGTH / CELLS
+    width = CELLS * across
     waves = sum(
-        rng.standard_normal()
-        * np.cos(2 * np.pi * (m * x / LENGTH + n * y / (CELLS * across)) + rng.uniform(0, 6.3))
-        / m
+        rng.standard_normal() * np.cos(2 * np.pi * (m * x / LENGTH + n * y / width) + rng.uniform(0, 6.3)) / m
         for m in range(2, 8)
         for n in (0, 1)
     )

@@ -27,17 +27,10 @@ def ran(name: str) -> Outcome:
     return outcome
 
 
-def copied(study: str, table: str, *formats: str) -> Callable[[], Cells]:
-    """A table of a study as it stands there, with one format for each column, the last one for all that are left."""
-
-    def make() -> Cells:
-        found = next(t for t in ran(study).tables if t.name == table)
-        widened = (*formats, *[formats[-1]] * len(found.columns))
-        rows = [[format(value, f) for value, f in zip(row, widened)] for row in found.rows]
-        return found.columns, rows
-
-    make.__doc__ = f"`{table}` of the study {study}."
-    return make
+def waviness() -> Cells:
+    """Small waves by both programs."""
+    found = next(t for t in ran("deterministic").tables if t.name == "waviness")
+    return found.columns, [[*row[:2], f"{row[2]:g}", *(f"{value:.3f}" for value in row[3:])] for row in found.rows]
 
 
 def load_sharing() -> Cells:
@@ -51,36 +44,6 @@ def load_sharing() -> Cells:
     ]
     columns = ["U (m/s)", f"{finest} x {finest} cells", "f", "F_C (N)", "F_H (N)", "mean gap (nm)", "Couette force (N)"]
     return columns, rows
-
-
-def orders() -> Cells:
-    """The orders by which the errors of contact and film fall on ever finer grids, lowest and highest of each kind."""
-    found: dict[str, list[float]] = {}
-    for study in ("contact_grid", "ehl_grid"):
-        for check in ran(study).checks:
-            quantity = re.split(r", order$|: order in the cells$", check.name)[0]
-            if quantity != check.name:
-                what = "films" if study == "ehl_grid" else quantity.partition(": ")[2] or quantity
-                found.setdefault(f"{what} ({check.expected:g})", []).append(check.measured)
-    rows = [[what, f"{min(orders):.2f} to {max(orders):.2f}"] for what, orders in found.items()]
-    return ["quantity (order expected)", "found"], rows
-
-
-def film_against_table() -> Cells:
-    """Films beside those of the table of another program."""
-    rows: dict[str, list[str]] = {}
-    for check in ran("ehl_grid").checks:
-        case, _, film = check.name.partition(": ")
-        if film in ("smallest film", "flow film"):
-            rows.setdefault(case, [case]).append(f"{100 * (check.measured / check.expected - 1):+.3f} %")
-    return ["contact", "smallest film off by", "flow film off by"], list(rows.values())
-
-
-def tolerance_asked() -> Cells:
-    """Error of f for every tolerance asked."""
-    checks = [c for c in ran("friction").checks if c.name.startswith("tolerance ")]
-    rows = [[f"{100 * c.tolerance:g} %", f"{100 * c.measured:.2g} %"] for c in checks]
-    return ["tolerance asked", "error of f"], rows
 
 
 def transient() -> Cells:
@@ -141,14 +104,8 @@ def authors(source: Source) -> str:
 
 TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
-    "orders": orders,
     "publications": publications,
-    "film-against-table": film_against_table,
-    "contact-cells": copied("friction", "contact_cells", "d", ".1f", ".1e"),
-    "tolerance-asked": tolerance_asked,
-    "area": copied("friction", "area", "g", ".4f"),
-    "waviness": copied("deterministic", "waviness", "", "", "g", ".3f"),
-    "patch-length": copied("friction", "patch_size", "g", ".4f"),
+    "waviness": waviness,
     "transient": transient,
     "formulations": formulations,
 }
