@@ -283,12 +283,11 @@ D341 = {  # m, n: at 40, 70 and 100 °C
     (6.5834, 2.4898): (218.78, 72.49, 31.906),
 }
 SO_KLAUS = {40: 28.0, 70: 21.0}  # mineral, VG 100, VI 95
-RIG_OILS: dict[str, tuple[str, float, float, str, float, dict[int, float]]] = {
-    # source; at 40 and 100 °C, base, density at 15.6 °C; alpha by temperature
-    "naphthenic": ("arana", 97.9, 8.61, "mineral", 900, {40: 27.3, 60: 22.9, 80: 19.8, 100: 17.4}),
-    "paraffinic (FVA 3)": ("arana", 96.0, 10.6, "mineral", 882, {40: 20.9, 60: 19.1, 80: 17.5, 100: 16.3}),
-    "PAO": ("arana", 94.1, 14.0, "pao", 840, {40: 15.4, 60: 13.8, 80: 12.4, 100: 11.3}),
-    "FVA 3A": ("manjunath", 90.02, 10.41, "mineral", 884.1, {25: 21.6, 80: 15.8}),
+RIG_OILS: dict[str, tuple[float, float, str, float, dict[int, float]]] = {
+    # at 40 and 100 °C, base, density at 15.6 °C; alpha by temperature
+    "naphthenic": (97.9, 8.61, "mineral", 900, {40: 27.3, 60: 22.9, 80: 19.8, 100: 17.4}),
+    "paraffinic (FVA 3)": (96.0, 10.6, "mineral", 882, {40: 20.9, 60: 19.1, 80: 17.5, 100: 16.3}),
+    "PAO": (94.1, 14.0, "pao", 840, {40: 15.4, 60: 13.8, 80: 12.4, 100: 11.3}),
 }
 MACHINE_OILS: dict[str, dict[int, tuple[float, float]]] = {  # dynamic viscosity [mPa s], alpha at each temperature
     "heavy machine oil": {30: (153, 23.7), 60: (34, 20.5), 100: (9.1, 15.8)},

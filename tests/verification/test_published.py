@@ -36,11 +36,10 @@ def test_a_check_has_the_grade_of_its_study_unless_it_has_its_own(monkeypatch):
         Check("x", 1.0, 1.0, 0.1, "x", grade="D")
 
 
-def test_oils_and_heat_agree_but_for_one_cold_oil_and_their_page_shows_both_values(tmp_path):
-    assert main(["published", "--only", "oils", "heat", "--out", str(tmp_path)]) == 1
+def test_oils_and_heat_agree_and_their_page_shows_both_values(tmp_path):
+    assert main(["published", "--only", "oils", "heat", "--out", str(tmp_path)]) == 0
     data = json.loads((tmp_path / "report.json").read_text())
     checks = [c for study in data["studies"] for c in study["checks"]]
-    assert [c["name"] for c in checks if not c["passed"]] == ["alpha of FVA 3A, 25 °C, so-klaus"]
     assert len(checks) > 50 and {c["grade"] for c in checks} == {"A"}
     page = (tmp_path / "report.html").read_text()
     for word in ("Theirs", "Ours", "Deviation", "In errors", "R. Nahme", "naphthenic"):
