@@ -1,7 +1,5 @@
 """From solutions on nested grids to errors, report and result."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -4,8 +4,6 @@
 `solve_ehl` is the same with plain numbers. A light film (Moes' M below 1) takes some 5 ms.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

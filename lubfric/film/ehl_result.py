@@ -1,7 +1,5 @@
 """The film of a line contact, and its continuation outside the computed domain."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

@@ -6,8 +6,6 @@ contact is small beside R, so that each body is a half-space, and stresses are e
 Source: K. L. Johnson, Contact Mechanics, 1985, Sec. 4.2, doi:10.1017/CBO9781139171731.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Solutions on nested grids, from a warm or a cold start, each as accurate as asked."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from itertools import product

@@ -20,8 +20,6 @@ a given film arrives, q is known, and that place a = -X[0] is the unknown instea
 An imposed pressure adds its deflection. It is a function of X alone, and the nodes move over it as e changes.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -7,8 +7,6 @@ equation as it is, with the reduced pressure ``q = ∫ dp eta0/eta(p)`` in place
 Sources: H. M. Martin, Engineering 102 (1916) 119; P. L. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747.
 """
 
-from __future__ import annotations
-
 import math
 from functools import cache, lru_cache
 from types import SimpleNamespace

@@ -1,7 +1,5 @@
 """First guesses: without any solution, from a coarser grid, and from a solution of a neighbouring problem."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

@@ -10,8 +10,6 @@ Which of the two needs fewer strips is read off those that are solved (M. B. Gil
 doi:10.1287/opre.1070.0496).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -101,7 +99,8 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     pairs, both = _first_levels(prepared, speed, found)
     pieces, shortest, by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
     numbers = both.numbers
-    changes = [(piece[1], piece[-1], len(pieces)) for piece in pieces] + [(*one[-2:], 1) for one in [shortest] if one]
+    changes = [(piece[1], piece[-1], len(pieces)) for piece in pieces]
+    changes += [(shortest[-2], shortest[-1], 1)] if shortest else []
     for coarse, fine, count in changes:
         before, after = numbers_of(prepared, coarse.result), numbers_of(prepared, fine.result)
         numbers = {name: value + (after[name] - before[name]) / count for name, value in numbers.items()}

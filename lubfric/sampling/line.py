@@ -7,8 +7,6 @@ strips of the deterministic model leaves less scatter and the same mean (a contr
 Handscomb, Monte Carlo Methods, Methuen 1964, Sec. 5.5).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

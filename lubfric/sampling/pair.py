@@ -1,7 +1,5 @@
 """One strip of the surface, or a piece of it, by the deterministic model on longer and shorter cells."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

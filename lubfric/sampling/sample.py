@@ -1,8 +1,6 @@
 """Friction of an endless rough line to a given standard error: a first sample of strips, then more of them, then the
 effect of their cells."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

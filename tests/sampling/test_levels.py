@@ -34,7 +34,7 @@ def found(prepared):
 
 
 def half(result):
-    return result.uncertainty.interval[1] / result.coefficient - 1
+    return max(abs(end / result.coefficient - 1) for end in result.uncertainty.interval)
 
 
 def test_parts_add_up_and_the_model_is_told(found):
