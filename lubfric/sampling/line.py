@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..contact import HalfSpaceContact
 from ..sharing import Prepared, on_strip
 from .sample import Found
 from .scatter import BlockError, friction_influence, gap_influence, line_load, strip_gap
@@ -40,7 +41,7 @@ class Line:
 def line_of(prepared: Prepared, found: Found) -> Line:
     """The `Line` of ``found``, a sample of the strips of ``prepared``. Where nothing touches, strips do not differ."""
     solved, contact, response, load = found.solved, found.contact, found.response, prepared.scene.bodies.load
-    assert prepared.strips is not None
+    assert prepared.strips is not None and isinstance(contact, HalfSpaceContact)
     rows = on_strip(prepared, prepared.strips, 0).heights.shape[1]
     starts = np.arange(found.count) * contact.heights.shape[1] // found.count  # a measured line may have some more
 
