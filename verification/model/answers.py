@@ -203,5 +203,5 @@ def drawn(name: str, every: dict[str, np.ndarray]) -> Figure:
         axes.loglog(*100 * np.maximum(every[way][:, [2, 1]].T, 1e-4), "o", label=label, alpha=0.7)
     axes.plot([1, 100], [1, 100], "k-", lw=0.8)
     axes.set(xlabel="allowed by interval and reference (%)", ylabel="f off by (%)")
-    axes.legend()
+    axes.legend(loc="upper left")
     return finish(name, figure, "Error of f over what its interval allows; below the line it is covered")
