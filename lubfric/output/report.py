@@ -134,7 +134,12 @@ def _points(curve: CurveResult) -> list[str]:
         _rows(heads, numbers),
         "<h2>Errors of f</h2>",
         _rows(head, errors),
-        _list([f"{note} (at {', '.join(places)})" for note, places in notes.items()]),
+        _list(
+            [
+                f"{note} (at {COLUMNS[name].symbol} = {', '.join(places)} {printed(units[kinds[name]])}".rstrip() + ")"
+                for note, places in notes.items()
+            ]
+        ),
     ]
 
 
