@@ -53,8 +53,14 @@ def friction_lines(axes, x, parts, **style) -> None:
         axes.plot(x, part, color=color, lw=1, ls=(0, (4, 4)), label=label)  # f shows through where a part is all of it
 
 
+def widened(x, *values):
+    """``x`` and ``values`` over it; a lone point as a short piece of x, as an area over a point shows nothing."""
+    return (x, *values) if np.size(x) != 1 else (np.multiply(x, (0.97, 1.03)), *(np.repeat(v, 2) for v in values))
+
+
 def load_shares(axes, x, share) -> None:
     """Share of the load on the contact, and the rest on the film, over ``x``."""
+    x, share = widened(x, share)
     axes.fill_between(x, 0, share, color=RED, alpha=0.5, lw=0, label="contact $F_C$")
     axes.fill_between(x, share, 1, color=GREEN, alpha=0.3, lw=0, label="film $F_H$")
     axes.set(ylim=(0, 1), ylabel="share of the load (-)")

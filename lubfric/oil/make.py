@@ -96,7 +96,7 @@ def estimate_in_words(oil: Oil, temperature: float) -> str:
     """Viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the coefficient
     is known."""
     text = (
-        f"oil: {oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, "
+        f"{oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, "
         f"constant 0.7), density {oil.density_at(temperature):.4g} kg/m³"
     )
     alpha, other = oil.pressure_viscosity_coefficient(temperature), oil.other_estimate(temperature)

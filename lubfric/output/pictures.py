@@ -243,7 +243,7 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
     error = c.get("sampling_error", np.zeros(0))
     if np.any(error > 0):
         low, high = (c["coefficient"] * (1 + sign * 2 * error) for sign in (-1, 1))
-        fourth.fill_between(t, low, high, color=figures.BLUE, alpha=0.2, lw=0, label="95 %: finite surface")
+        fourth.fill_between(t, low, high, color=figures.BLUE, alpha=0.2, lw=0, label="95 %: finite surface alone")
     friction_over_time(fourth, c)
     fourth.set_xlim(t[0], t[-1])
     figure.savefig(path, dpi=150)

@@ -70,7 +70,8 @@ def _of_curve(scene: Scene, curve: CurveResult) -> list[str]:
         return [f"0 of {counted(f.size, plural)} have an answer."]
     own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
     nearest = solved[np.abs(swept[solved] - own).argmin()]
-    place = f"at {symbol} = {swept[nearest]:.4g} {unit}".removesuffix(" (slide-roll ratio)")
+    unit = unit.removesuffix("(slide-roll ratio)")
+    place = f"at {symbol} = {swept[nearest]:.4g} {unit}".rstrip()
     known = curve.points[nearest]
     low, high = known.uncertainty.interval
     model = f"; {UNKNOWN}" if np.isnan(known.uncertainty.model) else ", model included"
@@ -78,7 +79,7 @@ def _of_curve(scene: Scene, curve: CurveResult) -> list[str]:
     told = [f"f = {f[nearest]:.3g}{within}, {place}."]
     if f.size > 1:
         least = swept[solved[f[solved].argmin()]]
-        ends = f"{f[solved].min():.4g} to {f[solved].max():.4g}, and least at {symbol} = {least:.4g}"
+        ends = f"{f[solved].min():.4g} to {f[solved].max():.4g}, and least at {symbol} = {least:.4g} {unit}".rstrip()
         told.append(f"{solved.size} of {f.size} {plural} have an answer. f is {ends}.")
     return told
 
@@ -89,11 +90,13 @@ def _of_run(result) -> list[str]:
         return ["The run has no answer."]
     mean, f = result.average(), result.coefficient
     error = 100 * mean.sampling
-    film = worded(float(result.min_film.min()), "m")
+    film, peak = worded(float(result.min_film.min()), "m"), int(np.abs(f).argmax())
+    low, high = result.uncertainty.interval[peak]
+    ends = f" ({low:.3g} to {high:.3g} with the range of f_b)" if np.any(result.inputs) else ""
     return [
         f"f is {mean.coefficient:.4g} on average over {result.time[-1]:.4g} s.",
         f"Its standard error is {error:.2g} %, as the surface is finite; {UNKNOWN}.",
-        f"f is at most {f[np.abs(f).argmax()]:.4g}; the film is at least {film}.",
+        f"f is at most {f[peak]:.4g}{ends}; the film is at least {film}.",
     ]
 
 
@@ -131,7 +134,12 @@ def _points(curve: CurveResult) -> list[str]:
         _rows(heads, numbers),
         "<h2>Errors of f</h2>",
         _rows(head, errors),
-        _list([f"{note} (at {', '.join(places)})" for note, places in notes.items()]),
+        _list(
+            [
+                f"{note} (at {COLUMNS[name].symbol} = {', '.join(places)} {printed(units[kinds[name]])}".rstrip() + ")"
+                for note, places in notes.items()
+            ]
+        ),
     ]
 
 

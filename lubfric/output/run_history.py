@@ -36,7 +36,7 @@ def run_history(scene: Scene, arguments) -> None:
         if row is not None and due(now >= duration):
             commands.say(
                 f"t = {now:<8.5g} of {duration:g} s: U = {row['entrainment_speed']:<9.4g} m/s, f = "
-                f"{row['coefficient']:<8.5f}, F_C = {row['contact_load']:<9.4g} N, F_H = {row['film_load']:<9.4g} N, "
+                f"{row['coefficient']:<z8.5f}, F_C = {row['contact_load']:<9.4g} N, F_H = {row['film_load']:<9.4g} N, "
                 f"h_min = {row['min_film'] * 1e9:<6.4g} nm (step {row['steps']:.0f})"
             )
 

@@ -91,7 +91,7 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
     assert strips is not None
     if math.isnan(sampling):
         return TOO_SHORT.format(length / strips.lengths[1]), BIASED
-    return (f"more than the {percent(asked)} asked",) if sampling > asked else ()
+    return (f"the surface leaves more than the {percent(asked)} asked",) if sampling > asked else ()
 
 
 def _words_of_levels(levels: Levels) -> str:

@@ -155,7 +155,9 @@ def student(freedom: float) -> float:
 
 
 def percent(value: float) -> str:
-    """Two digits and a percent sign; "< 0.001 %" for what nobody can see, "not known" for NaN."""
+    """Two digits (all of 100 and more) and a percent sign; "< 0.001 %" for what nobody can see, "not known" for NaN."""
     if math.isnan(value):
         return "not known"
+    if value >= 0.995:
+        return f"{100 * value:.0f} %"
     return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.2g} %"

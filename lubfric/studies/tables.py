@@ -147,7 +147,8 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
         return
     known = np.isfinite(columns.get("model_error", unknown))
     band = BAND + ("" if known.all() else " (where known)" if known.any() else " (not known)")
-    ax.fill_between(x, y * (1 + low), y * (1 + high), color=figures.BLUE, alpha=0.2, lw=0, label=band)
+    over, low, high = figures.widened(x, y * (1 + low), y * (1 + high))
+    ax.fill_between(over, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=band)
     for name, times, dashes in OF_INTERVAL:
         error = at(times * columns.get(name, unknown))
         if np.nanmax(error, initial=0.0) > 0:

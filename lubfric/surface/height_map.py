@@ -91,7 +91,7 @@ class Surface(FrozenArrays, Shown):
         """One line: size, points, Sq, Ra, Rz, largest height over Sq, missing share, source."""
         (lx, ly), (nx, ny), (rz, length) = self.size, self.shape, statistics.rz(self)
         text = (
-            f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} um, Sq {self.sq * 1e9:.4g} nm, "
+            f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} µm, Sq {self.sq * 1e9:.4g} nm, "
             f"Ra {self.sa * 1e9:.4g} nm, Rz {rz * 1e9:.4g} nm over {length * 1e3:.3g} mm, "
             f"max |z|/Sq {self.largest_ratio:.3g}, {100 * self.missing_fraction:.3g} % missing"
         )

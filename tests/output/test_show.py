@@ -10,6 +10,7 @@ from small_study import SCENE
 
 import lubfric
 from lubfric._base import figures
+from lubfric.sampling import percent
 from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
 from lubfric.time import friction_over_time
 
@@ -81,6 +82,22 @@ def test_a_curve_is_drawn_on_given_axes(curve):
     parts = found["from the contact spots"][:, 1] + found["from the film"][:, 1]
     np.testing.assert_allclose(parts, curve.coefficient, rtol=1e-12)
     assert ax.get_xscale() == "log" and "m/s" in ax.get_xlabel()
+
+
+def test_a_lone_point_shows_the_shares_of_its_load():
+    """An area over one value of x would be invisible."""
+    figures.load_shares(drawn := axes(), np.array([2.0]), np.array([0.25]))
+    boxes = [area.get_paths()[0].get_extents() for area in drawn.collections]
+    assert [(box.y0, box.y1) for box in boxes] == [(0.0, 0.25), (0.25, 1.0)]
+    assert all(box.x0 < 2.0 < box.x1 for box in boxes)
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(1.12, "112 %"), (0.9951, "100 %"), (0.031, "3.1 %"), (1e-6, "< 0.001 %"), (np.nan, "not known")],
+)
+def test_percents_are_written_without_powers_of_ten(value, text):
+    assert percent(value) == text
 
 
 def test_a_history_and_its_loop_are_drawn(history):
