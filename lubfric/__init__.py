@@ -61,27 +61,21 @@ if TYPE_CHECKING:
     from .time import transient as transient
 
 _NAMES = {  # by the room that they come from
-    "_base": ("__version__",),
-    "errors": ("LubfricError", "InputError", "OutputError", "ConvergenceError", "ValidityError", "Report"),
-    "scene": ("load_scene", "Scene", "Bodies", "ContactDomain", "Roughness", "Motion", "Numerics", "Transient"),
-    "oil": ("Lubricant",),
-    "surface": ("Surface", "generate_surface", "read_surface"),
-    "contact": (
-        *("solve_contact", "ContactResult", "run_in"),
-        *("asperity_contact", "separation_for_load", "AsperityResult"),
-    ),
-    "film": ("solve_ehl", "EHLResult"),
-    "sharing": ("prepare", "Prepared", "Validity"),
-    "sampling": ("friction", "FrictionResult"),
-    "time": ("transient", "TransientResult"),
-    "studies": (
-        *("stribeck", "StribeckResult", "traction", "TractionResult"),
-        *("study", "plan_study", "open_study", "sample", "Between", "StudyPlan", "StudyResult"),
-        *("fit", "explain_fit", "read_measured", "Measured", "FitResult"),
-    ),
-    "paper": ("solve_differential_deflection",),
+    "_base": "__version__",
+    "errors": "LubfricError InputError OutputError ConvergenceError ValidityError Report",
+    "scene": "load_scene Scene Bodies ContactDomain Roughness Motion Numerics Transient",
+    "oil": "Lubricant",
+    "surface": "Surface generate_surface read_surface",
+    "contact": "solve_contact ContactResult run_in asperity_contact separation_for_load AsperityResult",
+    "film": "solve_ehl EHLResult",
+    "sharing": "prepare Prepared Validity",
+    "sampling": "friction FrictionResult",
+    "time": "transient TransientResult",
+    "studies": "stribeck StribeckResult traction TractionResult study plan_study open_study sample Between StudyPlan "
+    "StudyResult fit explain_fit read_measured Measured FitResult",
+    "paper": "solve_differential_deflection",
 }
-_HOME = {name: home for home, names in _NAMES.items() for name in names}
+_HOME = {name: home for home, names in _NAMES.items() for name in names.split()}
 _PACKAGES = ("oil",)
 __all__ = sorted(name for name in _HOME if name != "__version__")
 

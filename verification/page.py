@@ -25,8 +25,8 @@ table { border-collapse: collapse; width: 100%; font-size: .875rem; font-variant
 th { text-align: left; white-space: nowrap; font-weight: 600; color: var(--dim); }
 th, td { padding: .35rem .6rem .35rem 0; border-bottom: 1px solid var(--line); vertical-align: top;
   overflow-wrap: anywhere; }
-[data-label=Check] { min-width: 11rem; }
-[data-label=Measured], [data-label=Allowed] { min-width: 7rem; }
+[data-label=Check], [data-label=Quantity] { min-width: 11rem; }
+[data-label=Measured], [data-label=Allowed], [data-label=Theirs], [data-label=Ours] { min-width: 7rem; }
 [data-label=Verdict], [data-label=Time] { white-space: nowrap; }
 figure { margin: 1.5rem 0; }
 figure img { max-width: 100%; height: auto; display: block; background: #fff; border-radius: .3rem; }
@@ -145,7 +145,7 @@ def beside_table(checks) -> str:
     for c in checks:
         unit = "" if c.unit == "1" else f" {c.unit}"
         ours, theirs = (f"{number(v)} ± {e:.2g}{unit}" for v, e in zip((c.measured, c.expected), c.errors))
-        percent = f"{100 * (c.measured / c.expected - 1):+.2g} %"
+        percent = f"{round(100 * (c.measured / c.expected - 1), 6) + 0.0:+.2g} %"
         source = c.source + (f". {c.note}" if c.note else "")
         rows.append(
             (mark(c.passed), escape(c.name), escape(theirs), escape(ours), percent, f"{c.units:.2f}", escape(source))

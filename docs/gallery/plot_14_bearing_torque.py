@@ -10,7 +10,8 @@ In pure rolling each contact takes the power 2 u F of its rolling force F, one F
 the sum over 16 rollers and two races is two to three times the measured torque, and so is that of the published law
 (Biboulet and Houpert 2010). So the inlets are not flooded, or hotter than the outer ring. Inlets that begin 0.2 to 0.3
 mm before the contact, where the gap is some micrometres, bracket the measurement; how long they are is not known. Not
-modelled: the flange, the cage and churning, which only add.
+modelled: the flange, the cage and churning, which only add. (Bearing 32008, measured by Manjunath et al., Machines 11
+(2023) 801, has no page: neither its rollers nor its roughness are published.)
 """
 
 import matplotlib.pyplot as plt

@@ -12,8 +12,6 @@ Since only the contacts deform, the volume balance of Eq. (8) loses its deflecti
 Under a cylinder the contact load does not flatten the surface as a whole: its shape is that of the film.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property

@@ -1,7 +1,5 @@
 """Load and area of all asperities at a separation, and the separation at which they carry a load."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Where the asperities of a height map are, and how sharp: summits, or patches above a separation."""
 
-from __future__ import annotations
-
 import math
 from collections import defaultdict
 

@@ -1,8 +1,6 @@
 """The nominally flat contact (paper, Sec. 3.1): one curve of mean gap against mean pressure, of the half-space or of
 independent asperities, for every speed and lubricant, under the film of the Hertz strip."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property

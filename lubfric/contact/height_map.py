@@ -1,7 +1,5 @@
 """The height map of a scene on its contact grid, periodic along the axes on which the contact is."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from typing import Any

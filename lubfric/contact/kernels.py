@@ -1,7 +1,5 @@
 """Deflection of a half-space by cells of uniform pressure, exact: both axes free, a line, one axis periodic."""
 
-from __future__ import annotations
-
 import numpy as np
 
 FAR = 42.0  # K0 beyond it is below 1e-19

@@ -6,8 +6,6 @@ proof that conjugate directions converge when they are kept while the set change
 solve as stagnated.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

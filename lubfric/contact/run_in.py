@@ -5,8 +5,6 @@ becomes a dent: those cells are lowered by it. After that the same contact has t
 it is elastic. The cylinder moves along the map, step by step, and pass by pass, until no cell sinks any more.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace

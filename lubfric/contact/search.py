@@ -16,8 +16,6 @@ the free cells, and what the limits cut off is convolved at once. It converges w
 changes the pressure a lot: for nearly rigid bodies, and after rounds that gained nothing.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

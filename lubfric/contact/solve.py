@@ -1,7 +1,5 @@
 """Dry contact of a rough half-space, with its load or its mean gap prescribed: `solve_contact`."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 

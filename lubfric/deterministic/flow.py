@@ -5,8 +5,6 @@ pressures (`rheology`). So the narrowest place limits the flow. The Couette flow
 the upstream difference is added, limited to half of the cell's own film.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import lru_cache
 

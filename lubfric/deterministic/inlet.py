@@ -8,8 +8,6 @@ If a film of given thickness arrives (`Lubricant.inlet_film`), no more than U ti
 cells then finds where the lubricant fills the gap; or, if that is upstream of them, Q falls to 0 there.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 

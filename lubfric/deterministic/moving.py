@@ -10,8 +10,6 @@ cell.
 f is that of surface 2, the upper one, against its sliding u2 - u1, or against U in pure rolling (`Problem.sense`).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
@@ -41,7 +39,7 @@ SMOOTH = 0.4  # half-widths over which the pressure is smoothed to tell what goe
 SWEEP = 2.5  # half-widths that the film travels before anything counts: from -1.5 to 1
 STEPS, KRYLOV = 4.0, 25.0  # factorisations and iterations in a step in time, about
 SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film"
-AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type == "float") + ("load_at", "friction_at")
+AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,6 @@
 """Newton's method with active sets and a line search; and implicit steps in time towards the steady state, for starts
 from which it does not converge."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 

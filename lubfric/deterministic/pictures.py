@@ -1,7 +1,5 @@
 """Pictures of roughness that moves: moments side by side, an animation, and film and spots over time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 

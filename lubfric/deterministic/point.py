@@ -1,8 +1,6 @@
 """A rough surface under the bodies of a scene at one speed: a strip of it on one grid, and on finer and finer grids,
 with an estimate of the error that is left."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from contextlib import suppress

@@ -9,8 +9,6 @@ A Newtonian lubricant has no limit of its own. So that of a film above 50 MPa is
 length, so f at half and at twice of it costs no solve.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -12,8 +12,6 @@ fluid. With s = eta Δu/(h tau), the Newtonian stress over a characteristic stre
   is added to that of Eyring. (The tangent of a fluid at its limit is infinite.)
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

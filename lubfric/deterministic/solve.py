@@ -1,7 +1,5 @@
 """One deterministic operating point on one grid: Newton's method, and other ways if it fails."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace

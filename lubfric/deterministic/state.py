@@ -1,7 +1,5 @@
 """The unknowns of an iteration, and the equation that each cell obeys."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,9 +1,9 @@
 """The smooth film of a line contact, its shear force and its heat.
 
-There is one film, an `EHLResult`, and one solver: ``solve_line_contact(contact, effort, imposed=, start=)`` for a
+There is one film, an `EHLResult`, and one solver: ``solve_line_contact(contact, effort, start=)`` for a
 `LineContact`, or `solve_ehl` for plain numbers. It covers all regimes, from rigid bodies and constant viscosity to
 heavy piezoviscous contacts. ``shear_force(film, lubricant, ...)`` is its force on the upper surface, with the rolling
-force that the film knows. The closed forms (`rigid_cylinder`, `formulas`, `hertz`) are checks and starts.
+force that the film knows. The closed forms (`formulas`, `hertz`) are checks and starts.
 """
 
 from .ehl import solve_ehl, solve_line_contact
@@ -25,7 +25,7 @@ from .heat import (
 from .hertz import LineContact, OfLineContact, composite_modulus
 from .nested import Effort
 from .problem import Problem, make_problem
+from .reduced import true_pressure
 from .reynolds import log_mean_fluidity, step_length
-from .rigid_cylinder import true_pressure
 from .shear import ShearForce, rolling_error, shear_force, spike_error
 from .start import State, rupture_guess

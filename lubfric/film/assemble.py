@@ -1,7 +1,5 @@
 """From solutions on nested grids to errors, report and result."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -28,11 +26,9 @@ def grid_error(levels: list[Solution]) -> float:
     return float(changes[0] / 1.5 if changes.size == 1 else max(changes[1], changes[0] / 3.0) / 2.0)
 
 
-def _central_film(problem: Problem, X: np.ndarray, H: np.ndarray) -> float:
-    """Film at X = 0. Only the deflection by its own pressure is interpolated; the rest is known."""
-    centre = np.zeros(1)
-    bend = H - 0.5 * X * X - problem.imposed_deflection(X)[0]
-    return float((cubic(X, bend, centre) + problem.imposed_deflection(centre)[0])[0])
+def _central_film(X: np.ndarray, H: np.ndarray) -> float:
+    """Film at X = 0. Only the deflection is interpolated; the parabola is known."""
+    return float(cubic(X, H - 0.5 * X * X, np.zeros(1))[0])
 
 
 def domain_error(problem: Problem, solution: Solution) -> float:
@@ -55,27 +51,26 @@ def complementarity(solution: Solution, outlet_film: np.ndarray) -> float:
 def _outlet(problem: Problem, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
     """Nodes behind the rupture point, graded like those before it, and the film there."""
     xi = solution.grid.xi
-    reach = 2.0 * problem.flat_half_width + 3.0 * math.sqrt(2.0 * solution.terms.q)
+    reach = 2.0 * problem.half_width + 3.0 * math.sqrt(2.0 * solution.terms.q)
     mirrored = -xi[-2::-1]
     behind = mirrored[: max(8, int(np.searchsorted(mirrored, reach)) + 1)][1::2]
     X = behind + solution.z[-1]
-    bend = hat_kernel(behind, xi) @ solution.terms.P + problem.imposed_deflection(X)[0]
-    return X, solution.z[-3] + 0.5 * X * X + bend
+    return X, solution.z[-3] + 0.5 * X * X + hat_kernel(behind, xi) @ solution.terms.P
 
 
 def rolling_resistance(problem: Problem, levels: list[Solution]) -> tuple[float, float]:
     """Half of ∫ h dp, the resistance to rolling [N/m], from the gap of the undeformed bodies, and its estimated error.
 
     The kernel of the half-space is even, so a pressure does no work when it is shifted together with the deflection
-    that it causes: ∫ (K p) dp = 0. What is left of ∫ h dp is ∫ (x²/2R + imposed deflection) dp; without an imposed
-    pressure this is the first moment of the pressure, -∫ x p dx/R. The direct sum of h dp is a small difference at high
-    pressure, and takes ten times as many cells for the same error.
+    that it causes: ∫ (K p) dp = 0. What is left of ∫ h dp is ∫ (x²/2R) dp, the first moment of the pressure, -∫ x p
+    dx/R. The direct sum of h dp is a small difference at high pressure, and takes ten times as many cells for the same
+    error.
 
     It is extrapolated to second order from the last two of ``levels``, solutions on ever finer grids. The error is the
     step of the extrapolation, or a quarter of the one before if that is larger.
     """
     unit = problem.pressure_unit * problem.film_unit
-    found = [unit * _half_work(problem, solution) for solution in levels[-3:]]
+    found = [unit * _half_work(solution) for solution in levels[-3:]]
     steps = np.diff(found) / 3.0
     if not steps.size:
         return found[-1], math.inf
@@ -83,13 +78,11 @@ def rolling_resistance(problem: Problem, levels: list[Solution]) -> tuple[float,
     return float(found[-1] + steps[-1]), float(max(abs(steps[-1]), before))
 
 
-def _half_work(problem: Problem, solution: Solution) -> float:
+def _half_work(solution: Solution) -> float:
     """∫ h dp/2 of a pressure that is linear between the nodes and zero upstream of the first."""
     t = solution.terms
-    given = problem.imposed_deflection(t.X)[0]
     square = (t.X[1:] ** 2 + t.X[1:] * t.X[:-1] + t.X[:-1] ** 2) / 6.0
-    inside = np.diff(t.P) @ (square + 0.5 * (given[1:] + given[:-1]))
-    return 0.5 * float(inside - t.P[0] * (t.H[0] - 0.5 * t.X[0] ** 2 - given[0]))
+    return 0.5 * float(np.diff(t.P) @ square - t.P[0] * (t.H[0] - 0.5 * t.X[0] ** 2))
 
 
 def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
@@ -100,8 +93,8 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
     status = last.status
     if status == CONVERGED and not residual <= tolerance:
         status = ITERATION_LIMIT
-    inlet = last.terms.X[0] / problem.flat_half_width
-    centre = [_central_film(problem, level.terms.X, level.terms.H) for level in levels[-2:]]
+    inlet = last.terms.X[0] / problem.half_width
+    centre = [_central_film(level.terms.X, level.terms.H) for level in levels[-2:]]
     change = abs(centre[0] / centre[-1] - 1.0)
     if change > 2.0 * tolerance:
         notes += (f"central_film changed by {change:.1e} between the last two grids",)
@@ -134,7 +127,6 @@ def assemble(
         residuals["supply"] = abs(t.q / problem.fed - 1.0)
     report = _report(problem, levels, first, tolerance, residuals, notes)
     b, length, film = problem.half_width, problem.length_unit, problem.film_unit
-    deflecting = last.grid.weights @ t.P + problem.imposed_load
     with np.errstate(over="ignore"):  # Barus far above its range: infinite beyond e^709
         viscosity = contact.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -145,16 +137,15 @@ def assemble(
         viscosity=viscosity[order],
         density_ratio=problem.density(P)[0][order],
         min_film=smallest(X, H) * film,
-        central_film=_central_film(problem, X, H) * film,
+        central_film=_central_film(X, H) * film,
         flow_film=float(t.q) * film,
         flux=float(t.q) * film * contact.entrainment_speed,
         rupture=float(last.z[-1]) * length * sign,
-        approach=(float(last.z[-3]) - 4.0 / math.pi * deflecting * math.log(b)) * film,
+        approach=(float(last.z[-3]) - 4.0 / math.pi * (last.grid.weights @ t.P) * math.log(b)) * film,
         half_width=b * length,
         hertz_pressure=2.0 * M / (math.pi * b) * problem.pressure_unit,
         contact=contact,
         report=report,
         state=solution_state(problem, last, error),
-        imposed=problem.imposed if sign > 0 or problem.imposed is None else problem.imposed.mirrored(),
         rolling=rolling_resistance(problem, levels),
     )

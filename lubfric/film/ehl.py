@@ -1,21 +1,16 @@
 """The film of any regime.
 
-``solve_line_contact(LineContact(...), Effort(tolerance, least_cells), imposed=, start=)`` returns an `EHLResult`;
+``solve_line_contact(LineContact(...), Effort(tolerance, least_cells), start=)`` returns an `EHLResult`;
 `solve_ehl` is the same with plain numbers. A light film (Moes' M below 1) takes some 5 ms.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
-from typing import Any
 
 from .._base import increasing_root, validate
-from ..errors import InputError
 from ..oil import Lubricant
 from .assemble import assemble
 from .ehl_result import EHLResult
-from .grid import line_pressure
 from .hertz import LineContact
 from .nested import Effort, Solved, coarsest, first_state, solved, sound, warm
 from .problem import Problem, make_problem
@@ -43,7 +38,6 @@ def solve_ehl(
     sliding: float | None = None,
     eyring_stress: float | None = None,
     carreau: tuple[float, float] | None = None,
-    imposed_pressure=None,
     start: EHLResult | None = None,
     least_cells: int = 0,
     max_iterations: int = 60,
@@ -67,8 +61,6 @@ def solve_ehl(
     inlet_length, inlet_film : None: fully flooded; or where it begins, the film that arrives [m] (`Lubricant`)
     sliding, eyring_stress, carreau : u2 - u1 [m/s], with which shear makes the flow of the film thinner, by the law of
         Ree and Eyring (tau_E [Pa]) or of Carreau ([G [Pa], n]); without all three the flow is Newtonian
-    imposed_pressure : None, or (x [m], pressure [Pa]), (m,) each, x ascending, pressure >= 0: a line pressure, linear
-        between the x and zero outside, that deflects the film in addition to p, and carries no load (kinks cost cells)
     start : the result of a neighbouring load or speed; if it leads nowhere, a cold start is made, and noted
     least_cells, max_iterations : least cells before rupture (0 to 3072); Newton steps per grid
     raise_on_failure : False returns an unconverged result with its report
@@ -83,29 +75,25 @@ def solve_ehl(
     fluid = viscosity, pressure_viscosity_coefficient, viscosity_law, density_law, eyring_stress
     lubricant = Lubricant(*fluid, inlet_length=inlet_length, inlet_film=inlet_film, carreau=carreau)
     contact = LineContact(load_per_width, radius, e_prime, entrainment_speed, lubricant, sliding)
-    how: dict[str, Any] = {"imposed": imposed_pressure, "start": start, "raise_on_failure": raise_on_failure}
-    return solve_line_contact(contact, Effort(tolerance, least_cells, max_iterations), **how)
+    effort = Effort(tolerance, least_cells, max_iterations)
+    return solve_line_contact(contact, effort, start=start, raise_on_failure=raise_on_failure)
 
 
 def solve_line_contact(
     contact: LineContact,
     effort: Effort = Effort(),
     *,
-    imposed=None,
     start: EHLResult | None = None,
     raise_on_failure: bool = True,
 ) -> EHLResult:
-    """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits; ``imposed``: as ``imposed_pressure`` there, or
-    a `LinePressure`."""
+    """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
     if start is not None:
         validate.instance("start", start, EHLResult, "an EHLResult or None")
-    problem = make_problem(contact, line_pressure(imposed))
+    problem = make_problem(contact)
     state = None if start is None else start.state
     arriving = contact.lubricant.inlet_film
     if arriving is None:
         result = assemble(*solved(problem, effort, state), effort.tolerance)
-    elif imposed is not None:
-        raise InputError(f" = {arriving:g} m does not go with an imposed pressure", "inlet_film", "None")
     else:
         result = assemble(*_fed(problem, arriving / contact.film_unit, effort, state), effort.tolerance)
     if raise_on_failure:
@@ -116,14 +104,14 @@ def solve_line_contact(
 def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Solved:
     """The film of a ``flow`` that arrives, or that of the ``full`` inlet where it takes no more. Nothing flows to the
     sides, so what arrives passes, and the lubricant begins where the flow is as much."""
-    b = full.flat_half_width
+    b = full.half_width
     furthest = full.inlet or 3.0 * b + FURTHEST * full.rise
 
     def fed_from(near: State, aim: float, known: float = 1.0) -> tuple[Problem, list[Solution]]:
         there = near.problem
         assert near.inlet is not None
-        law = full.inlet_of(aim / known) - b, there.inlet_of(near.flux / known) - there.flat_half_width
-        closer = (near.inlet - there.flat_half_width) * law[0] / law[1]
+        law = full.inlet_of(aim / known) - b, there.inlet_of(near.flux / known) - there.half_width
+        closer = (near.inlet - there.half_width) * law[0] / law[1]
         problem = replace(full, fed=aim, inlet=min(b + closer, furthest))
         return problem, warm(problem, effort if aim == flow else ROUGH, near)
 
@@ -152,7 +140,7 @@ def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Sol
 def _found_inlet(problem: Problem, effort: Effort, state: State, furthest: float, spent, notes) -> Solved:
     """The same by a search for the inlet. Where nearly as much arrives as the full inlet takes, the flow hardly depends
     on where the lubricant begins, and Newton's method for that place fails."""
-    flow, guess, b = problem.fed, problem.inlet, problem.flat_half_width
+    flow, guess, b = problem.fed, problem.inlet, problem.half_width
     assert flow is not None and guess is not None
 
     def surplus(log_distance: float, last) -> tuple[float, Solved]:

@@ -1,7 +1,5 @@
 """The film of a line contact, and its continuation outside the computed domain."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field
 
@@ -9,7 +7,6 @@ import numpy as np
 
 from .._base import Shown
 from ..errors import Report
-from .grid import LinePressure, line_deflection
 from .hertz import LineContact, OfLineContact
 from .start import State
 
@@ -30,10 +27,9 @@ class EHLResult(Shown, OfLineContact):
     flow_film : mass flux/(rho0 |U|) [m]. It is the film at the rupture point, where dp/dx = 0 and rho = rho0. With
         constant density it is also the film at every other point where dp/dx = 0
     flux : mass flux/rho0, along +x when positive [m²/s]
-    approach : h0 [m] in h = h0 + x²/2R - (4/(pi E')) ∫ (p + imposed) ln(|x - x'|/half_width) dx'
+    approach : h0 [m] in h = h0 + x²/2R - (4/(pi E')) ∫ p ln(|x - x'|/half_width) dx'
     half_width, hertz_pressure : Hertz values of the load [m, Pa]
     contact : what was solved, a `LineContact`
-    imposed : the pressure, if any, that deflects the film beside its own
     report : how the solve ended
     state : what a neighbouring solve starts from
     rolling : half of ∫ h dp over the nodes, along the motion, and its estimated error, both in N/m
@@ -70,7 +66,6 @@ class EHLResult(Shown, OfLineContact):
     contact: LineContact
     report: Report
     state: State = field(repr=False)
-    imposed: LinePressure | None = field(default=None, repr=False)
     rolling: tuple[float, float] | None = None
 
     @property
@@ -97,7 +92,7 @@ class EHLResult(Shown, OfLineContact):
     def film_at(self, x) -> np.ndarray:
         """Film thickness [m] at any positions ``x`` [m], any shape.
 
-        Between the nodes the deflection by the own pressure is interpolated by cubics; outside it is the line kernel
+        Between the nodes the deflection is interpolated by cubics; outside it is the line kernel
         of the pressure lumped in groups of nodes.
         """
         x = np.asarray(x, dtype=float)
@@ -106,19 +101,10 @@ class EHLResult(Shown, OfLineContact):
         nodes = self.x
         inside = (flat >= nodes[0]) & (flat <= nodes[-1])
         film = np.empty_like(flat)
-        bend = self.film_thickness - nodes**2 / (2.0 * self.radius) - self.imposed_deflection(nodes)
+        bend = self.film_thickness - nodes**2 / (2.0 * self.radius)
         film[inside] = cubic(nodes, bend, flat[inside])
         film[~inside] = self.approach + _far_deflection(self, flat[~inside])
-        return (film + parabola + self.imposed_deflection(flat)).reshape(x.shape)
-
-    def imposed_deflection(self, x) -> np.ndarray:
-        """Part of the film [m] at ``x`` [m], any shape, that is due to the imposed pressure, up to a constant."""
-        x = np.asarray(x, dtype=float)
-        if self.imposed is None:
-            return np.zeros(x.shape)
-        b, imposed = self.half_width, self.imposed
-        found, _ = line_deflection(x.ravel() / b, imposed.x / b, imposed.pressure)
-        return (b / self.e_prime * found).reshape(x.shape)
+        return (film + parabola).reshape(x.shape)
 
 
 def cubic(nodes: np.ndarray, values: np.ndarray, x: np.ndarray) -> np.ndarray:

@@ -9,8 +9,6 @@ isothermal walls that slide at dU: with the Nahme (or Brinkman) number ``Na = be
 across the film. R. Nahme, Ingenieur-Archiv 11 (1940) 191-209, doi:10.1007/BF02086920.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

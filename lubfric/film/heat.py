@@ -37,8 +37,6 @@ Both stresses are taken at the mean temperature of the film, T_w + tau dU h/(12 
 about the walls, it is somewhat too low if the middle of the film is tens of kelvin hotter.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

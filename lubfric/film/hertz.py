@@ -6,8 +6,6 @@ contact is small beside R, so that each body is a half-space, and stresses are e
 Source: K. L. Johnson, Contact Mechanics, 1985, Sec. 4.2, doi:10.1017/CBO9781139171731.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from functools import cached_property
@@ -18,7 +16,9 @@ import numpy as np
 from .._base import validate
 from ..errors import InputError
 from ..oil import Lubricant
-from . import formulas, rigid_cylinder
+from . import formulas
+
+RIGID = 4.894968493913369  # of eta0 |U| R/w: smallest film of a rigid cylinder
 
 
 def composite_modulus(young_1, poisson_1, young_2, poisson_2) -> float:
@@ -162,13 +162,9 @@ class LineContact:
 
     @cached_property
     def rigid_film(self) -> float:
-        """Smallest film [m] of rigid bodies and constant viscosity, 4.895 eta0 |U| R/w."""
-        return rigid_cylinder.isoviscous_min_film(
-            load_per_width=self.load_per_width,
-            radius=self.radius,
-            entrainment_speed=abs(self.entrainment_speed),
-            viscosity=self.lubricant.viscosity,
-        )
+        """Smallest film [m] of rigid bodies and constant viscosity, 4.895 eta0 |U| R/w (H. M. Martin, Engineering 102
+        (1916) 119; rupture where p = dp/dx = 0)."""
+        return RIGID * self.lubricant.viscosity * abs(self.entrainment_speed) * self.radius / self.load_per_width
 
 
 class OfLineContact:

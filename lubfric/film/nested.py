@@ -1,10 +1,7 @@
 """Solutions on nested grids, from a warm or a cold start, each as accurate as asked."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
 
@@ -12,16 +9,15 @@ from .._base import validate
 from ..errors import CONVERGED
 from .assemble import grid_error
 from .formulas import flooded_inlet
-from .grid import FAR_INLET, make_grid, node_positions
+from .grid import make_grid, node_positions
 from .problem import Problem
 from .reynolds import Solution, newton
-from .start import State, cold_start, on_seats, refined_start, rupture_guess, solution_state, warm_start
+from .start import State, cold_start, refined_start, rupture_guess, solution_state, warm_start
 
 COARSEST, STARTS, FINEST = 48, 5, 3072  # cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
 WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
 COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
 WIDE_INLET, CLOSER = 3.0, 0.5  # of what a flooded film needs: from where a meniscus starts inwards; and its steps
-DOUBLINGS = 8  # of the speed, to begin with a film too thick to feel an imposed pressure
 STIFFER = (625.0, 125.0, 25.0, 5.0, 1.0)  # times the critical stress, from a Newtonian flow to the oil's own
 EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
 
@@ -45,16 +41,13 @@ class Effort:
 
 def solved(problem: Problem, effort: Effort, state: State | None) -> Solved:
     """``problem`` from the warm start ``state``; where there is none, or it fails, from a cold start."""
-    seated = on_seats(problem)
     notes: tuple[str, ...] = ()
     if state is not None:
-        alike = [p for p in seated if (p.seat_modulus < 1.0) == (state.problem.seat_modulus < 1.0)]
-        problem = (alike or seated)[0]
         levels = warm(problem, effort, state)
         if sound(levels):
             return problem, levels, [], notes
         notes = ("the warm start failed; solved again from a cold start",)
-    problem, levels, first, retries = _cold(seated, effort)
+    levels, first, retries = _cold(problem, effort)
     return problem, levels, first, notes + retries
 
 
@@ -67,27 +60,25 @@ def warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
     return _ascend(problem, effort, state, n, 2)
 
 
-def _cold(seated: tuple[Problem, ...], effort: Effort) -> Solved:
-    """A solution from a cold start on grids from the coarsest up; if that fails, from another start or on a finer grid.
+def _cold(problem: Problem, effort: Effort) -> tuple[list[Solution], list[Solution], tuple[str, ...]]:
+    """A solution from a cold start on grids from the coarsest up; if that fails, from a finer grid.
 
-    Returns the problem on its seat with its solutions, the solutions that led there, and notes.
+    Returns its solutions, those that led there, and notes.
     """
     spent: list[Solution] = []
     notes: tuple[str, ...] = ()
-    usual = coarsest(seated[0])
-    grids = sorted((COARSEST * 2**k for k in range(STARTS)), key=lambda n: n != usual)
-    beginnings = [(problem, 0) for problem in seated] + [(seated[0], DOUBLINGS)] * (len(seated) > 1)
-    for n, (problem, doublings) in product(grids, beginnings):
+    usual = coarsest(problem)
+    for n in sorted((COARSEST * 2**k for k in range(STARTS)), key=lambda n: n != usual):
         if spent:
             notes += (f"the cold start failed; tried again from {n} cells",)
-        state, first = first_state(problem, n, effort.max_iterations, doublings)
+        state, first = first_state(problem, n, effort.max_iterations)
         levels = _ascend(problem, effort, state, n, 2 if effort.tolerance >= COARSE_TOLERANCE else 3)
         if sound(levels):
-            return problem, levels, spent + first, notes
+            return levels, spent + first, notes
         spent += first + levels
         if levels[0].status == CONVERGED and levels[-1].grid.n >= COARSEST * 2 ** (STARTS - 1):
             break  # it is not the start that fails
-    return problem, levels, spent[: -len(levels)], notes
+    return levels, spent[: -len(levels)], notes
 
 
 def coarsest(problem: Problem) -> int:
@@ -113,28 +104,23 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
         n *= 2
 
 
-def first_state(problem: Problem, n: int, max_steps: int, doublings: int = 0) -> tuple[State, list[Solution]]:
+def first_state(problem: Problem, n: int, max_steps: int) -> tuple[State, list[Solution]]:
     """The first state, and the chain of rough solutions on n cells that leads there, each started from the one before.
 
-    alpha rises from the value at which L = EASY, then shear begins to thin the oil. With an imposed pressure this is
-    done for the cylinder of the seat alone, at a speed that is doubled so many times, because a thick film bridges any
-    gap that an imposed pressure leaves. Then the speed is halved again and again.
+    alpha rises from the value at which L = EASY, then shear begins to thin the oil, and the inlet moves inwards.
     """
-    slower = [_faster(problem, 2.0**k) for k in range(doublings, 0, -1)]
-    alone = (slower or [problem])[0].alone()
-    shares = [min(1.0, EASY / max(alone.L, EASY))]
+    shares = [min(1.0, EASY / max(problem.L, EASY))]
     while shares[-1] < 1.0:
         shares.append(min(1.0, STAGE * shares[-1]))
-    inlets = _inwards(alone)
-    alone = replace(alone, inlet=inlets[0])
-    slower = [replace(alone, inlet=inlet) for inlet in inlets[1:]] + slower
+    inlets = _inwards(problem)
+    widest = replace(problem, inlet=inlets[0])
+    stages = [widest.softened(share) for share in shares]
+    if problem.thins:
+        stages = [stage.stiffened(math.inf) for stage in stages] + [widest.stiffened(times) for times in STIFFER]
+    stages += [replace(problem, inlet=inlet) for inlet in inlets[1:]]
     states: list[State] = []
     solutions: list[Solution] = []
-    softer = [alone.softened(share) for share in shares]
-    if problem.thins:
-        softer = [stage.stiffened(math.inf) for stage in softer]
-        slower = [alone.stiffened(times) for times in STIFFER] + slower
-    for stage in softer + slower:
+    for stage in stages:
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
         z, H = warm_start(grid, stage, states[-1]) if states else cold_start(grid, stage)
         solutions.append(newton(grid, stage, z, H, 0.03, max_steps))
@@ -148,17 +134,11 @@ def _inwards(problem: Problem) -> list[float | None]:
     """Where the lubricant of ``problem`` begins, and before that places further upstream from which to come nearer."""
     if problem.inlet is None:
         return [None]
-    b = problem.flat_half_width
+    b = problem.half_width
     found, widest = [problem.inlet - b], WIDE_INLET * flooded_inlet(problem.rise, b)
     while found[0] < CLOSER * widest:
         found.insert(0, found[0] / CLOSER)
     return [b + distance for distance in found]
-
-
-def _faster(problem: Problem, factor: float) -> Problem:
-    """The same contact at ``factor`` times its speed, on the likelier seat there."""
-    contact = replace(problem.contact, entrainment_speed=problem.contact.entrainment_speed * factor)
-    return on_seats(replace(problem, contact=contact))[0]
 
 
 def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
@@ -166,9 +146,7 @@ def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
     distance = None
     if problem.inlet is not None:
         distance = problem.inlet + rupture
-    elif problem.imposed is not None:
-        distance = 3.0 * problem.flat_half_width + FAR_INLET * math.sqrt(2.0 * problem.film_guess) + rupture
-    return node_positions(problem.seat_half_width, problem.film_guess * problem.seat_radius, n, distance)
+    return node_positions(problem.half_width, problem.film_guess, n, distance)
 
 
 def sound(levels: list[Solution]) -> bool:

@@ -3,7 +3,7 @@
 With the units of `lubfric.film.hertz`, x = R U1^(1/4) X, h = R U1^(1/2) H, p = E' U1^(1/4) P:
 
     d/dX( rho H^3/(6 eta) dP/dX ) = d(rho H)/dX                  Reynolds
-    H = H00 + X^2/2 - (4/pi) ∫ (P + Pi)(X') ln|X - X'| dX'       elastic film, Pi imposed
+    H = H00 + X^2/2 - (4/pi) ∫ P(X') ln|X - X'| dX'              elastic film
     ∫ P dX = M                                                   load
 
 rho and eta relative to their ambient values, d ln(eta)/dP = L at ambient pressure.
@@ -20,20 +20,17 @@ import numpy as np
 from ..errors import InputError
 from ..oil import density_ratio, log_viscosity_ratio
 from .formulas import moes_film, starved_inlet, starved_share
-from .grid import LinePressure, line_deflection
 from .hertz import LineContact
 from .thinning import thinned
 
 MOST_STARVED = 0.995  # of Moes' film, from where on a guess of the inlet makes no sense
 
 
-def make_problem(contact: LineContact, imposed: LinePressure | None = None) -> Problem:
+def make_problem(contact: LineContact) -> Problem:
     """The contact in Moes' units, along its motion, with all the lubricant that its inlet takes. Raises `InputError` if
     the lubricant begins inside the dry contact."""
-    if imposed is not None and contact.entrainment_speed < 0:
-        imposed = imposed.mirrored()
-    problem, length = Problem(contact, imposed), contact.lubricant.inlet_length
-    half_width = problem.flat_half_width * problem.length_unit
+    problem, length = Problem(contact), contact.lubricant.inlet_length
+    half_width = problem.half_width * problem.length_unit
     if length is None:
         return problem
     if length <= half_width:
@@ -47,21 +44,12 @@ class Problem:
     """A line contact in Moes' units, seen along its motion: X points downstream.
 
     The lubricant begins at ``inlet``, None: nowhere, it is fully flooded. fed: None, or the flow q that arrives, with
-    which the inlet is not known, and ``inlet`` is a guess of it; both in Moes' units. imposed: a pressure that deflects
-    the film in addition to its own, and carries none of the load.
-
-    The seat is a cylinder that approximates the gap which an imposed pressure leaves, about seat_at [m], with
-    seat_radius R and seat_modulus E' (ratios to the real ones). The film in that gap, and the dry contact of the film's
-    own load, are roughly those of this cylinder. It only serves to make grids and starts.
+    which the inlet is not known, and ``inlet`` is a guess of it; both in Moes' units.
     """
 
     contact: LineContact
-    imposed: LinePressure | None = None
     inlet: float | None = None
     fed: float | None = None
-    seat_at: float = 0.0
-    seat_radius: float = 1.0
-    seat_modulus: float = 1.0
 
     # the numbers and units of the contact: M, L [-]; units of x [m], h [m], p [Pa]
     M = property(attrgetter("contact.M"))
@@ -76,43 +64,9 @@ class Problem:
         return math.sqrt(8.0 * self.M / math.pi)
 
     @property
-    def imposed_load(self) -> float:
-        """Load of the imposed pressure, in the units of M."""
-        return 0.0 if self.imposed is None else self.M * self.imposed.load / self.contact.load_per_width
-
-    @property
-    def flat_half_width(self) -> float:
-        """Hertz half-width, in units of x, of the film's own load and the imposed load together."""
-        return math.sqrt(8.0 * (self.M + self.imposed_load) / math.pi)
-
-    @property
-    def seat_centre(self) -> float:
-        """Centre of the seat, in units of x."""
-        return self.seat_at / self.length_unit
-
-    @property
-    def seat_half_width(self) -> float:
-        """Half-width, in units of x, of the dry contact of the film's own load in the gap that the imposed pressure
-        leaves."""
-        return math.sqrt(8.0 * self.M * self.seat_radius / (math.pi * self.seat_modulus))
-
-    def imposed_deflection(self, X: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Deflection by the imposed pressure at ``X`` (n,), and its derivative by X."""
-        if self.imposed is None:
-            return np.zeros_like(X), np.zeros_like(X)
-        return line_deflection(X, self.imposed.x / self.length_unit, self.imposed.pressure / self.pressure_unit)
-
-    def alone(self) -> Problem:
-        """The problem of the seat's cylinder, without imposed pressure."""
-        radius, e_prime = self.contact.radius * self.seat_radius, self.contact.e_prime * self.seat_modulus
-        alone = replace(self.contact, radius=radius, e_prime=e_prime)
-        return Problem(alone, inlet=self.inlet, fed=self.fed)
-
-    @property
     def flooded_film(self) -> float:
-        """Moes' film of the cylinder of the seat, in the units of the real one."""
-        root = math.sqrt(self.seat_radius * self.seat_modulus)
-        return moes_film(self.M / root, self.L * self.seat_modulus / math.sqrt(root)) * self.seat_radius / root
+        """Moes' film of a flooded inlet."""
+        return moes_film(self.M, self.L)
 
     @property
     def film_guess(self) -> float:
@@ -121,7 +75,7 @@ class Problem:
             return self.flooded_film
         if self.fed is not None:
             return min(self.fed, self.flooded_film)
-        return self.flooded_film * starved_share(self.inlet, self.rise, self.flat_half_width)
+        return self.flooded_film * starved_share(self.inlet, self.rise, self.half_width)
 
     @property
     def rise(self) -> float:
@@ -131,7 +85,7 @@ class Problem:
     def inlet_of(self, flow: float) -> float:
         """Where about the lubricant begins, if ``flow`` arrives and the full inlet takes more."""
         share = min(flow / self.flooded_film, MOST_STARVED)
-        return starved_inlet(share, self.rise, self.flat_half_width)
+        return starved_inlet(share, self.rise, self.half_width)
 
     def stiffened(self, times: float) -> Problem:
         """The same contact of a lubricant with so many ``times`` the critical stress (inf: its flow is Newtonian)."""

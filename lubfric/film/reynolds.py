@@ -17,10 +17,7 @@ better start than the film of an interpolated pressure. The equations, each divi
 Where the lubricant begins at a given place, the grid is stretched as e moves, so that its first node stays there. Where
 a given film arrives, q is known, and that place a = -X[0] is the unknown instead; again the grid is stretched.
 
-An imposed pressure adds its deflection. It is a function of X alone, and the nodes move over it as e changes.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 
@@ -41,9 +38,9 @@ class Terms:
     P: np.ndarray
     H: np.ndarray
     X: np.ndarray
-    defect: np.ndarray  # H00 + X²/2 + K P + imposed deflection - H
-    by_rupture: np.ndarray  # d(H00 + X²/2 + imposed deflection)/de
-    by_stretch: np.ndarray  # d(H00 + X²/2 + K P + imposed deflection)/ds of the grid stretched by s
+    defect: np.ndarray  # H00 + X²/2 + K P - H
+    by_rupture: np.ndarray  # d(H00 + X²/2)/de
+    by_stretch: np.ndarray  # d(H00 + X²/2 + K P)/ds of the grid stretched by s
     q: float
     slope: np.ndarray  # d ln(eta)/dP at the nodes
     density: tuple  # rho and d rho/dP at the nodes
@@ -67,13 +64,12 @@ def log_mean_fluidity(log_eta: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.n
     return left * mean, -left * (mean + by_d), left * by_d
 
 
-def elastic_film(grid: Grid, problem: Problem, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """H00 + X²/2 + K P + imposed deflection at the nodes, and its derivatives by e and by the stretch of the grid."""
+def elastic_film(grid: Grid, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """H00 + X²/2 + K P at the nodes, and its derivatives by e and by the stretch of the grid."""
     X = grid.xi + z[-1]
-    deflection, slope = problem.imposed_deflection(X)
     own = grid.kernel[:, :-1] @ z[:-3]
-    by_stretch = own - 4.0 / np.pi * (grid.weights[:-1] @ z[:-3]) + (X + slope) * grid.xi
-    return own + (z[-3] + 0.5 * X * X) + deflection, X + slope, by_stretch
+    by_stretch = own - 4.0 / np.pi * (grid.weights[:-1] @ z[:-3]) + X * grid.xi
+    return own + (z[-3] + 0.5 * X * X), X, by_stretch
 
 
 def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, Terms]:
@@ -100,7 +96,7 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
         R[n] = P[0] * a / problem.M
         R[n + 1] = grid.weights @ P / problem.M - 1.0
     R[n + 2] = rho[-1] * H[-1] / q - 1.0
-    film, by_rupture, by_stretch = elastic_film(grid, problem, z)
+    film, by_rupture, by_stretch = elastic_film(grid, z)
     moved = film - H, by_rupture, by_stretch
     return R, Terms(P, H, X, *moved, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, thin, flux)
 
@@ -232,7 +228,7 @@ def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance
         if info != 0:
             break
         dH = terms.defect + grid.kernel[:, :-1] @ delta[:-3] + (delta[-3] + terms.by_rupture * delta[-1])
-        lost = -delta[-2] / (terms.q if fed is None else -terms.X[0] - problem.flat_half_width)
+        lost = -delta[-2] / (terms.q if fed is None else -terms.X[0] - problem.half_width)
         stretch = 0.0
         if inlet is not None:
             stretch = (delta[-1] + (0.0 if fed is None else delta[-2])) / -grid.xi[0]

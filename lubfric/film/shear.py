@@ -1,7 +1,5 @@
 """Tangential force of the film on the upper surface (paper, Eqs. 10-12)."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

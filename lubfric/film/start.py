@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from .grid import Grid, line_deflection
+from .grid import Grid
 from .problem import Problem
 from .reynolds import Solution, elastic_film
-
-FLATTEST = 1e8  # radius of a seat, in radii of the cylinder
-FLAT_WINDOW = 0.8  # of the Hertz half-width of all the load: a film that reaches so far sees the edges of the flat
 
 
 @dataclass(frozen=True)
@@ -20,7 +16,7 @@ class State:
     """Solution in Moes' variables, kept with a result so that it can start another solve.
 
     problem: of which it is a solution; pressure: at the n nodes before rupture; film: at all n + 1 nodes; flux: q;
-    rupture: e, from the centre of the seat; grid_error: estimated relative discretisation error on these n cells;
+    rupture: e; grid_error: estimated relative discretisation error on these n cells;
     inlet: where the lubricant begins, if it does (of ``problem`` it may be a guess); nodes (n + 1,) from the rupture.
     """
 
@@ -35,17 +31,17 @@ class State:
 
 
 def _expected_rupture(problem: Problem) -> float:
-    """Rupture point of the guess, in units of x, from the centre of the seat."""
-    film, b = problem.flooded_film * problem.seat_radius, problem.seat_half_width
+    """Rupture point of the guess, in units of x, of a flooded film."""
+    film, b = problem.flooded_film, problem.half_width
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
 
 
 def rupture_guess(problem: Problem) -> float:
     """Rupture point of the guess, in units of x: nearer to the centre if a starved film is thin."""
-    expected = problem.seat_centre + _expected_rupture(problem)
+    expected = _expected_rupture(problem)
     if problem.inlet is None:
         return expected
-    return min(expected, problem.seat_centre + problem.seat_half_width + np.sqrt(2.0 * problem.film_guess))
+    return min(expected, problem.half_width + np.sqrt(2.0 * problem.film_guess))
 
 
 def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
@@ -57,14 +53,14 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     P[-1] = 0.0
     P *= problem.M / (grid.weights @ P)
     z = np.append(P[:-1], [0.0, film, e])
-    gap, *_ = elastic_film(grid, problem, z)
+    gap, *_ = elastic_film(grid, z)
     z[-3] = film - gap.min()
     return z, gap + z[-3]
 
 
 def solution_state(problem: Problem, solution: Solution, error: float) -> State:
     """The `State` of a solution, ``error`` its estimated discretisation error."""
-    t, rupture = solution.terms, float(solution.z[-1]) - problem.seat_centre
+    t, rupture = solution.terms, float(solution.z[-1])
     inlet = None if problem.inlet is None else -float(t.X[0])
     return State(problem, t.P[:-1], t.H, float(t.q), rupture, error, inlet, solution.grid.xi)
 
@@ -91,10 +87,10 @@ def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, 
         P, H = P[::2], H[::2]
     while H.size < grid.n + 1:
         P, H = refine(P), refine(H)
-    e = problem.seat_centre + state.rupture * (_expected_rupture(problem) / _expected_rupture(state.problem))
+    e = state.rupture * (_expected_rupture(problem) / _expected_rupture(state.problem))
     P = P * (problem.M / (grid.weights @ P))
     z = np.append(P[:-1], [0.0, state.flux * ratio, e])
-    gap, *_ = elastic_film(grid, problem, z)
+    gap, *_ = elastic_film(grid, z)
     z[-3] = state.film.min() * ratio - gap.min()
     return z, H * ratio
 
@@ -108,50 +104,3 @@ def refine(values: np.ndarray) -> np.ndarray:
     fine[::2] = values
     fine[1::2] = np.where(middle > 0.0, middle, mean)
     return fine
-
-
-def on_seats(problem: Problem) -> tuple[Problem, ...]:
-    """The problem on each of its seats, the likelier one first; a single one if no pressure is imposed.
-
-    One seat is flat: it has Johnson's modulus, E' times the film's share of the load. The other is curved. Over a
-    window |x - x0| <= s the gap G = x²/2R + imposed deflection is close to a parabola where the Chebyshev mean of G' is
-    zero. Its curvature is k = 2/(pi s) ∫ sin(t) G'(x0 + s sin t) dt. A dry contact of the half-width s then carries
-    what a cylinder of the radius 1/k does (K. L. Johnson, Contact Mechanics, 1985, Sec. 2.7). The window is that of
-    contact and film, s² = b² + 2 h/k.
-    """
-    if problem.imposed is None:
-        return (problem,)
-    from scipy.optimize import brentq
-
-    imposed, radius = problem.imposed, problem.contact.radius
-    wide = problem.flat_half_width * problem.length_unit
-    reach = max(2.0 * wide + _window(problem, 1.0), float(np.abs(imposed.x).max()))
-    x = reach * np.sinh(np.linspace(-6.0, 6.0, 1201)) / 50.0
-    slope = x / radius + line_deflection(x, imposed.x, imposed.pressure)[1] / problem.contact.e_prime
-    sine = np.sin((np.arange(64) + 0.5) * (math.pi / 64) - math.pi / 2)
-
-    def slopes(centre, window):
-        return np.interp(centre + window * sine, x, slope)
-
-    def centre_of(window):
-        return brentq(lambda centre: slopes(centre, window).sum(), -reach, reach, xtol=1e-6 * wide)
-
-    def ratio_of(window):
-        curvature = float(slopes(centre_of(window), window) @ sine) / 32.0 / window
-        return min(1.0 / (radius * curvature), FLATTEST) if curvature > 0 else FLATTEST
-
-    def surplus(log_window):
-        return log_window - math.log(_window(problem, ratio_of(math.exp(log_window))))
-
-    load = problem.contact.load_per_width
-    window = math.exp(brentq(surplus, math.log(1e-4 * wide), math.log(2.0 * reach), xtol=1e-2))
-    middle = 0.5 * float(imposed.x[0] + imposed.x[-1])
-    flat = replace(problem, seat_at=middle, seat_radius=1.0, seat_modulus=load / (load + imposed.load))
-    curved = replace(problem, seat_at=centre_of(window), seat_radius=ratio_of(window), seat_modulus=1.0)
-    return (curved, flat) if window < FLAT_WINDOW * wide else (flat, curved)
-
-
-def _window(problem: Problem, ratio: float) -> float:
-    """Half-width of the dry contact and length of the film on a cylinder of ``ratio`` radii, as a hypotenuse [m]."""
-    seated = replace(problem, seat_at=0.0, seat_radius=ratio, seat_modulus=1.0)
-    return math.hypot(seated.seat_half_width, math.sqrt(2.0 * seated.film_guess * ratio)) * problem.length_unit

@@ -15,8 +15,6 @@ doi:10.1115/1.3261526); without sliding, the flow between plates.
 - Carreau: x = r (1 + r²)^((n - 1)/2), by quadrature.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from ..oil import Lubricant, carreau_rate

@@ -1,7 +1,5 @@
 """The numbers of one operating point by load sharing, and their errors."""
 
-from __future__ import annotations
-
 import math
 import time
 from dataclasses import replace

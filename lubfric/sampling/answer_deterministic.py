@@ -1,8 +1,6 @@
 """The deterministic model, one gap with one pressure, as a `FrictionResult`: its numbers, and what a reader has to
 know."""
 
-from __future__ import annotations
-
 import math
 import time
 from collections.abc import Iterator, Sequence

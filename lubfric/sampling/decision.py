@@ -1,7 +1,5 @@
 """What was modelled for a result, and what was left out because the tolerance on f does not need it."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

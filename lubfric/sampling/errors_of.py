@@ -1,7 +1,5 @@
 """From the error of a gap to `Uncertainty` and to the errors of all reported quantities."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The friction coefficient of one operating point: scene -> film -> contact -> balance -> friction."""
 
-from __future__ import annotations
-
 import math
 import time
 from dataclasses import replace

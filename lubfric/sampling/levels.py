@@ -10,8 +10,6 @@ Which of the two needs fewer strips is read off those that are solved (M. B. Gil
 doi:10.1287/opre.1070.0496).
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -19,23 +17,19 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..contact import Strips
-from ..deterministic import MovingStrip, Strip, change_by_flow, changes_of, estimate
-from ..scene import Numerics, moves
+from ..deterministic import MovingStrip, Strip, change_by_flow
+from ..scene import Numerics
 from ..sharing import Prepared
 from .line import Line, line_of
-from .pair import PIECE, Pair, cells_of, numbers_of, solve_finer, solve_pair
+from .pair import Pair, numbers_of, solve_pair
 from .sample import Found, enlarged
 from .scatter import BlockError, add_errors, block_error
+from .shorter import changed, on_shorter_cells
 from .uncertainty import student
 
 DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
-CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
-ALONE = 1.3  # scatter of the deterministic f between strips over that of blocks along them
+ALONE, LINED = 1.3, 1.2  # scatter of the deterministic f between strips over that of blocks; less that of a line
 PRIOR, FREEDOM = 3, 5  # strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
-MOST_PIECES = 4
-SHORTEST = 14.0  # correlation lengths: the piece of the last level
-OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean
-SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 GROWTH, SPARE = (4.0, 2.0), (1.1, 1.2)  # of the number of strips, which are dear: see `enlarged`
 MOST_WORK = 120.0  # s, counted: of the strips of one point
 FEWEST = 3  # strips whose scatter tells an error
@@ -99,15 +93,11 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     """
     assert prepared.strips is not None
     pairs, both = _first_levels(prepared, speed, found)
-    pieces, shortest, by_cells, numerical = _on_finer_cells(prepared, speed, pairs)
-    numbers = both.numbers
-    changes = [(piece[1], piece[-1], len(pieces)) for piece in pieces]
-    changes += [(shortest[-2], shortest[-1], 1)] if shortest else []
-    for coarse, fine, count in changes:
-        before, after = numbers_of(prepared, coarse.result), numbers_of(prepared, fine.result)
-        numbers = {name: value + (after[name] - before[name]) / count for name, value in numbers.items()}
+    pieces, shortest, by_cells, numerical = on_shorter_cells(prepared, speed, pairs)
+    numbers = changed(prepared, both.numbers, [(piece[1], piece[-1]) for piece in pieces])
+    numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
     f = abs(numbers["coefficient"])
-    of_strips = add_errors(both.whole, by_cells)
+    of_strips = add_errors(both.whole, replace(by_cells, error=by_cells.error * f))
     difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
     sampling = replace(of_strips, error=math.sqrt((of_strips.error / f) ** 2 - difference.error**2))
     results = [pair.resolved.result for pair in pairs]
@@ -187,7 +177,7 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, sh
         places = [one - share * line.deviations(k, one.size) for k, one in enumerate(places)]
         f -= share * line.numbers["coefficient"][:count]
     within = _block_error(places, strips, pairs[0])
-    by_blocks = count * (within.error * (1.0 if line else ALONE)) ** 2
+    by_blocks = count * (within.error * (LINED if line else ALONE)) ** 2
     if count == 1:
         return BlockError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
     by_strips = float(np.var(f, ddof=1))
@@ -197,57 +187,9 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, sh
     return BlockError(math.sqrt(pooled / count), FREEDOM + count - 1)
 
 
-def _on_finer_cells(
-    prepared: Prepared, speed: float, pairs: Sequence[Pair]
-) -> tuple[tuple[tuple[Strip, ...], ...], tuple[Strip, ...], BlockError, float]:
-    """Solve the third and fourth level, as far as needed, if the roughness rests: the pieces of both, the standard
-    error of the mean change of f on those of the third, and the relative error that the last cells leave.
-
-    There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK` allows it. What it
-    tells from one short piece may be off by half.
-    """
-    scene, strips, first = prepared.scene, prepared.strips, pairs[0]
-    assert strips is not None
-    by_longer = mean(changes_of((pair.longer, pair.resolved))[0] for pair in pairs)
-    factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.factors)
-    halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
-    left = max(estimate([by_longer]), SOLVED)
-    enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
-    own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
-    if enough or own or moves(scene):
-        return (), (), BlockError(0.0, 1), left
-    asked = CELLS * scene.numerics.sampling_tolerance * abs(first.resolved.result.coefficient)
-    pieces: list[tuple[Strip, ...]] = []
-    error = BlockError(math.inf, 0)
-    while len(pieces) < min(strips.pieces, MOST_PIECES) and not error.error <= asked:
-        pieces.append(solve_finer(prepared, speed, len(pieces), first))
-        error = BlockError(0.0, 1) if strips.whole else _block_error([_change(one) for one in pieces], strips, first)
-    if strips.whole:
-        return tuple(pieces), (), error, max(estimate(changes_of(pieces[0])), SOLVED)
-    change = abs(
-        mean(one[-1].result.coefficient / one[1].result.coefficient - 1 for one in pieces)
-    )  # its error is told
-    left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
-    spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
-    dear = spent + 4 * SHORTEST / PIECE * pieces[0][-1].work > MOST_WORK
-    if left <= scene.numerics.tolerance or halvings < 2 or dear:
-        return tuple(pieces), (), error, left
-    shortest = solve_finer(prepared, speed, 0, first, times=4, length=SHORTEST)
-    further = changes_of(shortest[-2:])[0]
-    left = max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED)
-    return tuple(pieces), shortest, error, left
-
-
 def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:
     """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
     kept = values[0].size // (2 if pair.mirrored else 1)
     return block_error(
         np.concatenate([one[:kept] for one in values]), pair.resolved.problem.spacing[1], strips.lengths[1]
     )
-
-
-def _change(piece: Sequence[Strip]) -> np.ndarray:
-    """Change of f from the cells of the second level to the last ones, from place to place."""
-    base, last = piece[1], piece[-1]
-    places = last.deviations.reshape(base.result.load_at.size, -1).mean(axis=1)
-    return last.result.coefficient - base.result.coefficient + places - base.deviations

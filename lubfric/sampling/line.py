@@ -7,9 +7,8 @@ strips of the deterministic model leaves less scatter and the same mean (a contr
 Handscomb, Monte Carlo Methods, Methuen 1964, Sec. 5.5).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -41,7 +40,8 @@ class Line:
 
 def line_of(prepared: Prepared, found: Found) -> Line:
     """The `Line` of ``found``, a sample of the strips of ``prepared``. Where nothing touches, strips do not differ."""
-    solved, contact, response, load = found.solved, found.contact, found.response, prepared.scene.bodies.load
+    solved, response, load = found.solved, found.response, prepared.scene.bodies.load
+    contact: Any = found.contact  # of cells, as there are strips
     assert prepared.strips is not None
     rows = on_strip(prepared, prepared.strips, 0).heights.shape[1]
     starts = np.arange(found.count) * contact.heights.shape[1] // found.count  # a measured line may have some more

@@ -1,7 +1,5 @@
 """The methods behind a result that have a paper behind them (papers.toml)."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from ..sharing import Prepared

@@ -1,7 +1,5 @@
 """Contact that a finite line misses by chance, where its film just clears its summits."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

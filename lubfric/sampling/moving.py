@@ -1,7 +1,5 @@
 """Points whose roughness moves through the film: its maps, and what the deterministic model would cost there."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 from ..contact import HalfSpaceContact, Strips

@@ -1,8 +1,6 @@
 """A forecast of what a point will take, from closed forms: whether the summits touch, how many strips are solved and
 how long that takes. Nothing is solved."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -1,22 +1,18 @@
-"""One strip of the surface, or a piece of it, by the deterministic model on longer and shorter cells."""
-
-from __future__ import annotations
+"""One strip of the surface by the deterministic model, on two lengths of cells."""
 
 import math
 from dataclasses import dataclass, replace
 
 from ..contact import Strips
-from ..deterministic import DeterministicResult, Strip, changes_of, estimate, solve_strip
+from ..deterministic import DeterministicResult, Strip
 from ..quantities import NUMBERS
 from ..scene import moves
-from ..sharing import Prepared, on_piece
+from ..sharing import Prepared
 from ..surface import Surface
-from .moving import map_of, solved_strip, strip_surface
+from .moving import solved_strip, strip_surface
 from .scatter import mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
-PIECE = 42.0  # correlation lengths
-SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 
 
 @dataclass(frozen=True)
@@ -66,33 +62,6 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
     strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
     return Pair(strip, first, prepared.strips.whole and mirrored(surface.heights))
-
-
-def solve_finer(
-    prepared: Prepared, speed: float, index: int, first: Pair, *, times: int = 2, length: float = PIECE
-) -> tuple[Strip, ...]:
-    """A piece of the surface of this ``length`` in correlation lengths (or a strip, if that is as `SHORT`) on cells
-    twice as long as those of ``first``, on the same, and on shorter and shorter ones, at last so many ``times`` as
-    short. Of a patch: all of it, until the estimated error is within ``numerics.tolerance``, at last (with
-    ``numerics.grid = "given"`` always) on the map's own. Raises `ConvergenceError`."""
-    scene, strips = prepared.scene, prepared.strips
-    assert strips is not None
-    surface, factors = strip_of(prepared, index)
-    enough = scene.numerics.tolerance if strips.whole and scene.numerics.grid != "given" else 0.0
-    short = times == 2 and index == 0 and strips.length < SHORT * strips.lengths[1] and factors != (1, 1)
-    if strips.whole or short:
-        ladder = [first.longer, first.resolved]
-    else:
-        cells = tuple(f * n for f, n in zip(factors, strips.cells.factors))
-        last = max(1, cells[0] // times), max(1, cells[1] // times)
-        factors = cells[0] // last[0], cells[1] // last[1]
-        surface = map_of(prepared, on_piece(prepared, strips, index, last, length=length))
-        ladder = [solve_strip(scene, surface, speed, factors=longer_than(surface, factors))]
-        ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[0]))
-    while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
-        factors = max(1, factors[0] // 2), max(1, factors[1] // 2)
-        ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[-1]))
-    return tuple(replace(one, slope=first.resolved.slope) for one in ladder)
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:

@@ -1,7 +1,5 @@
 """Inputs that are known to a range only: what both ends of each change of f, in its interval."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import replace

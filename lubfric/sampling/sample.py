@@ -1,8 +1,6 @@
 """Friction of an endless rough line to a given standard error: a first sample of strips, then more of them, then the
 effect of their cells."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 
@@ -33,6 +31,8 @@ FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be correcte
 LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
 CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
 REFERENCES = (0.05, 0.4, 1.6)  # expected film of the whole load over Sq, at the speeds of reference points
+NEAR_LOAD = 0.25  # of ln F_C, from a reference point whose cells serve as one's own,
+REFERENCED = 0.1  # if they leave no more than that of the tolerance on f
 
 
 @dataclass(frozen=True)
@@ -147,7 +147,7 @@ def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
         else:
             scatter = scatter_of(scene, contact, solved, strips, count)
             if effect is None and solved.film is not None:
-                effect = effect_of_cells(prepared, _point(prepared, speed, found), solved, strips)
+                effect = _effect(prepared, _point(prepared, speed, found), solved, strips)
             found = replace(found, scatter=scatter, effect=(effect or CellEffect()).at_load(solved.contact_load))
         more = _wanted(prepared, found, strips)
         if more <= count or _too_coarse(prepared, speed, found):
@@ -167,10 +167,9 @@ def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | No
     nearest = min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))
 
     def make() -> Balance | None:
-        there = _speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
-        contact = on_stack(prepared, strips, strips.first)
+        there = speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
         try:
-            return solve_balance(scene, there, contact, sq)
+            return solve_balance(scene, there, on_stack(prepared, strips, strips.first), sq)
         except LubfricError:
             return None
 
@@ -178,7 +177,25 @@ def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | No
     return found if found is not None and found.response is not None else None
 
 
-def _speed_of(scene, film: float) -> float:
+def _effect(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> CellEffect:
+    """The effect of the cells at ``balance``: that at the reference point, if the load on the contact is so near that
+    the difference hardly moves f, else its own."""
+    reference, response = _reference(prepared, point.speed, strips), balance.response
+    if reference is not None and abs(math.log(balance.contact_load / reference.contact_load)) < NEAR_LOAD:
+        assert response is not None and reference.film is not None and reference.settings is not None
+        there = replace(point, speed=reference.film.entrainment_speed, settings=reference.settings)
+
+        def make() -> CellEffect:
+            return effect_of_cells(prepared, there, reference, strips)
+
+        found = prepared.remembered(("reference", strips.cells.factors, there.speed, "cells"), make)
+        more = found.at_load(balance.contact_load).rest - found.rest
+        if response.relative("coefficient", more) <= REFERENCED * prepared.scene.numerics.tolerance:
+            return found
+    return effect_of_cells(prepared, point, balance, strips)
+
+
+def speed_of(scene, film: float) -> float:
     """Speed [m/s] at which the expected film of the whole load is ``film`` [m], to a per cent."""
     speed = 1.0
     for _ in range(30):

@@ -7,8 +7,6 @@ a given film. Means of I over blocks longer than its correlation are nearly inde
 standard error of the mean gap.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

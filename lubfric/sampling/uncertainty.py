@@ -1,7 +1,5 @@
 """`Uncertainty`: what is known about the error of a friction coefficient."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

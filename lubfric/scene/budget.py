@@ -12,7 +12,7 @@ SHEAR_SUM = 0.3  # sum of the film's shear stress over its nodes
 CONTACT_GRID = 0.4  # grid of the rough contact
 BALANCE = 5e-2  # closing of load and volume
 CORRECTED = 0.15  # the same on coarse cells, where what is left open is corrected to first order
-CONTACT = 1e-2  # solver of the rough contact
+CONTACT = 0.1  # solver of the rough contact
 HEAT = 0.2  # what leaving the heat of film and surfaces out changes of f
 INLET = 2e-3  # what leaving the heat of the inlet out changes of the film: it costs nothing, and parts of f may cancel
 CURVE = 0.3  # interpolation of a contact curve
@@ -27,5 +27,5 @@ MOST_MOVED = 0.1  # of ln(F_H/F_C), by that correction: a light contact follows 
 SLACK = 1.5  # a tolerance off by less is not worth another solve
 
 # the most that holds where f has not been looked at yet: see `Numerics.tolerance_of`
-FIRST_FILM, FIRST_CONTACT, FIRST_VOLUME = 0.01, 1e-4, 1e-3
+FIRST_FILM, FIRST_CONTACT, FIRST_VOLUME = 0.01, 1e-3, 1e-3
 OF_PARTS = {"film": (FILM_GRID, FIRST_FILM), "contact": (CONTACT, FIRST_CONTACT), "balance": (BALANCE, FIRST_VOLUME)}

@@ -1,7 +1,5 @@
 """Load sharing: one bracketed root closes F_T = F_C + F_H and the balance of lubricant volume, Eq. (8)."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 

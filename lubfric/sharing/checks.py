@@ -1,7 +1,5 @@
 """Checks of a solution: motion, film, shear stress and heat outside the range of the model."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 

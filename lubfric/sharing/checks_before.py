@@ -1,7 +1,5 @@
 """Checks of a scene and its map before anything is solved: half-space, small slopes, enough asperities."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 

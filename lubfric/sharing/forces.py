@@ -1,7 +1,5 @@
 """The friction of a film and a contact that share the load (paper, Eqs. 9-12)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,8 +1,6 @@
 """Heat of one operating point: modelled if leaving it out would change f by more than its share of the
 tolerance."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

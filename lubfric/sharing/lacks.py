@@ -7,8 +7,6 @@ under the Hertz pressure, with the resistance of its inlet to rolling. Only rati
 known, s and mu are scaled to what it has.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Film and rough contact at one speed: each at its own share of the load."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property

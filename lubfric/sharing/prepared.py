@@ -1,7 +1,5 @@
 """A scene made ready: all that its speeds share."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property

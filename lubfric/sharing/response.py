@@ -1,7 +1,5 @@
 """How a balance reacts to an error of its gap or its film: the division of the load, and all that depends on it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace

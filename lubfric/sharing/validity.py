@@ -1,7 +1,5 @@
 """`Validity`: one assumption of the model that is violated; and those of many points as a few sentences."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass

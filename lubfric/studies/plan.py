@@ -18,7 +18,7 @@ from .codec import fits
 from .explain import explain
 from .law import conditions_of
 from .store import fingerprint
-from .vary import Axis, Between, axes_of, sample
+from .vary import Axis, Between, axes_of, sample, unit_of
 
 KEYS = ("scene", "speeds", "speed_range", "vary", "together", "sample")
 SAMPLE_KEYS = ("count", "sampler", "seed")
@@ -215,5 +215,7 @@ def _sampled(table, file: str) -> tuple:
     for key, given in ranges.items():
         if not isinstance(given, dict) or not {"low", "high"} <= set(given) <= {"low", "high", "scale"}:
             raise InputError(f"[sample] {key} = {given!r}; allowed: {{ low = , high = , scale = 'linear' or 'log' }}")
+        ends = {end: validate.in_plain(f"[sample] {key} {end}", given[end], unit_of(key)) for end in ("low", "high")}
+        ranges[key] = given | ends
     drawn = sample([Between(**given) for given in ranges.values()], **options)
     return (*ranges,) if len(ranges) > 1 else [*ranges][0], drawn

@@ -26,10 +26,9 @@ def transient(
     """Film, load sharing and friction of a scene while speed, load, radius or viscosity change in time.
 
     The film obeys Eq. (6) with its squeeze term (`lubfric.time.film_equations`: Swift-Stieber complementarity, either
-    side may rupture, no entrainment needed). It is integrated in time by variable-step BDF2 with error control
-    (`lubfric.time`). At every step film and rough contact share the load of that moment, and close the volume of Eq.
-    (8) over A, the strip of ``bodies.load`` (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). With
-    ``numerics.model = "deterministic"`` there is one rough gap instead, whose surfaces move (`lubfric.time.one_gap`).
+    side may rupture, no entrainment needed), by variable-step BDF2 with error control. At every step film and rough
+    contact share the load of that moment, and close the volume of Eq. (8) over A, the strip of ``bodies.load``
+    (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). With a deterministic model there is one rough gap.
 
     Parameters
     ----------

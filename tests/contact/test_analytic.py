@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
+import rigid_cylinder as rigid
 from scipy import integrate
 
 from lubfric import InputError
 from lubfric.film import formulas as film
 from lubfric.film import hertz
-from lubfric.film import rigid_cylinder as rigid
 
 
 def test_composite_modulus_convention():

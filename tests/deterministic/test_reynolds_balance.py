@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+import rigid_cylinder as rigid
 from scipy.integrate import quad
 
 from lubfric.contact import half_space
@@ -14,7 +15,6 @@ from lubfric.deterministic.linear import Patterns
 from lubfric.deterministic.rheology import mean_fluidity, thinning
 from lubfric.deterministic.state import _opened
 from lubfric.film import LineContact
-from lubfric.film import rigid_cylinder as rigid
 from lubfric.oil import Lubricant
 from lubfric.surface import Surface
 

@@ -4,10 +4,10 @@ import math
 from dataclasses import replace
 
 import pytest
+import rigid_cylinder as rigid
 
 from lubfric import InputError
 from lubfric.film import LineContact
-from lubfric.film import rigid_cylinder as rigid
 from lubfric.oil import Lubricant
 
 OIL = Lubricant(0.04, 2.2e-8)

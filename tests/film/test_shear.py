@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import rigid_cylinder as rigid
 from scipy.integrate import quad
 
 import lubfric
 from lubfric.contact import ContactState
-from lubfric.film import rigid_cylinder as rigid
 from lubfric.film import shear_force
 from lubfric.film.shear import _upstream, rolling_error, spike_error
 from lubfric.oil import Lubricant

@@ -11,7 +11,7 @@ import scipy.stats
 
 import lubfric
 from lubfric.deterministic import change_by_flow, solve_strip
-from lubfric.sampling import levels, sampled
+from lubfric.sampling import levels, sampled, shorter
 from lubfric.sampling.line import Line, line_of
 from lubfric.sampling.pair import Pair, solve_pair, strip_of
 from lubfric.sampling.scatter import BlockError
@@ -34,7 +34,7 @@ def found(prepared):
 
 
 def half(result):
-    return result.uncertainty.interval[1] / result.coefficient - 1
+    return max(abs(end / result.coefficient - 1) for end in result.uncertainty.interval)
 
 
 def test_parts_add_up_and_the_model_is_told(found):
@@ -93,8 +93,8 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
             return tuple(on(7.2 / 2**k) for k in range(2 + round(math.log2(times))))
 
         monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(7.2)))
-        monkeypatch.setattr(levels, "solve_finer", ladder)
-        found = levels.levels_of(prepared, 0.1, None)
+        monkeypatch.setattr(shorter, "_refined", ladder)
+        found = levels.levels_of(lubfric.prepare(FINE, like=prepared), 0.1, None)
         truth = on(0.45).result.coefficient
         assert bool(found.shortest) == (order < 2)
         assert abs(found.numbers["coefficient"] / truth - 1) <= 1.1 * found.numerical <= 1.1 * most

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import rigid_cylinder as rigid
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scene_text import paper_scene
@@ -13,7 +14,6 @@ from toys import Spring
 
 import lubfric
 from lubfric.errors import ITERATION_LIMIT
-from lubfric.film import rigid_cylinder as rigid
 from lubfric.sharing import Point
 
 PATCH = paper_scene(

@@ -26,6 +26,20 @@ def test_several_sampled_keys_go_together(tmp_path):
     assert [scene.bodies.load for scene in plan.scenes] == [load for load, _ in axis.values]
 
 
+def test_a_study_file_takes_units_as_a_scene_does(tmp_path):
+    words, plain = (
+        read(
+            tmp_path,
+            f"speed_range = [{slow}, 0.1, 3]\n[vary]\nbodies.width = [{width}, 0.007]\n[sample]\ncount = 2\n"
+            f"bodies.load = {{ low = {low}, high = 4.0 }}\n",
+        )
+        for slow, width, low in (("'1 cm/s'", "'6 mm'", "'2 N'"), (0.01, 0.006, 2.0))
+    )
+    assert words == plain
+    with pytest.raises(lubfric.InputError, match="low = '2 K' is in K, a unit of another kind"):
+        read(tmp_path, "speeds = [0.1]\n[sample]\ncount = 2\nbodies.load = { low = '2 K', high = 4.0 }\n")
+
+
 def test_one_sampled_key_beside_whole_sections(tmp_path):
     np.save(tmp_path / "a.npy", np.random.default_rng(1).normal(size=(48, 48)) * 1e-8)
     text = '[vary]\nsurface = [{ file = "a.npy", spacing = 1.1e-6 }, { seed = 3 }]\n[sample]\ncount = 4\nseed = 2\n'

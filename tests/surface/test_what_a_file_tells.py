@@ -29,7 +29,7 @@ def test_an_empty_cell_is_unmeasured(tmp_path, text, found):
     surface = read_surface(tmp_path / "a.csv", spacing=1.0, **RAW)
     np.testing.assert_array_equal(surface.heights, found)
     np.testing.assert_array_equal(surface.mask, np.isfinite(found))
-    count = np.count_nonzero(np.isnan(found))
+    count = int(np.isnan(found).sum())
     assert f"{count} empty cell{'s' * (count > 1)} taken for unmeasured" in surface.notes
 
 

@@ -63,8 +63,9 @@ def drawn(seed: int) -> tuple[Any, list[RoughBody], float, dict]:
 def solved(seed: int) -> dict[str, Any]:
     """One point: f and its balances; or how it was said not to be solved."""
     begun = time.process_time()
-    scene, bodies, speed, told = drawn(seed)
+    told: dict[str, Any] = {}
     try:
+        scene, bodies, speed, told = drawn(seed)
         found = passed(scene, bodies, speed)
     except lubfric.LubfricError as error:
         return told | {"failure": f"{type(error).__name__}: {error}"[:200], "seconds": time.process_time() - begun}

@@ -111,5 +111,5 @@ def drawn(name: str, pocket: references.Pocket, found: dict[tuple[str, int], Pro
         ax.plot(*found[law, 1], "-", label=f"lubfric, density: {law}")
     ax.errorbar(PLACES, pocket.pressures, [0.02 * p + AMBIENT for p in pocket.pressures], fmt="ko", label="Bertocchi")
     ax.set(xlabel="x over the length of the pad", ylabel="pressure (MPa)")
-    ax.legend()
+    canvas.legend(loc="outside lower center", ncols=3, frameon=False)
     return plotting.finish(name, canvas, f"Pressure over a pad with a pocket in which the film ruptures ({name})")

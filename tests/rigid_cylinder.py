@@ -1,24 +1,17 @@
-"""Lubrication of a rigid cylinder near a plane, ``h = h0 + x^2/(2R)``, flooded inlet.
+"""A rigid cylinder near a plane, ``h = h0 + x^2/(2R)``, flooded inlet: the oracle of thick films. It shares no code
+with the library.
 
-With ``x = sqrt(2 R h0) tan(theta)`` Reynolds' equation integrates in closed form up to the
-rupture angle, the root of one scalar equation (p = dp/dx = 0 there: Swift-Stieber). Valid for
-h0 << R, a Newtonian lubricant and rigid surfaces. A viscosity that rises with pressure leaves the
-equation as it is, with the reduced pressure ``q = ∫ dp eta0/eta(p)`` in place of p.
+With ``x = sqrt(2 R h0) tan(theta)`` Reynolds' equation integrates in closed form up to the rupture angle, the root of
+one scalar equation (p = dp/dx = 0 there: Swift-Stieber). Valid for h0 << R, a Newtonian lubricant and rigid surfaces.
 Sources: H. M. Martin, Engineering 102 (1916) 119; P. L. Kapitza, Zh. Tekh. Fiz. 25 (1955) 747.
 """
 
-from __future__ import annotations
-
 import math
-from functools import cache, lru_cache
+from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
-
-from ..oil import Lubricant, log_viscosity_ratio
-
-TABLE = 4000  # points of q(p), up to alpha p = FARTHEST
-FARTHEST = 1e4
+from scipy.optimize import brentq
 
 
 def _reduced(theta, rupture):
@@ -40,8 +33,6 @@ def rigid_constants() -> SimpleNamespace:
     rolling : force per width, half the integral of h dp, = rolling * eta u_s sqrt(R/h0)
     min_film, flow_film : H M in Moes units
     """
-    from scipy.optimize import brentq
-
     angle = brentq(lambda t: _reduced(t, t), 0.1, 1.0, xtol=1e-15, rtol=1e-15)
     ratio = 1 / math.cos(angle) ** 2
     swept = angle + math.pi / 2
@@ -81,23 +72,3 @@ def couette_friction(min_film, *, radius, speed_difference, viscosity):
 def rolling_friction(min_film, *, radius, entrainment_speed, viscosity):
     """Force per width [N/m], half the integral of h dp over the film; on either surface."""
     return rigid_constants().rolling * viscosity * 2 * entrainment_speed * np.sqrt(radius / min_film)
-
-
-@lru_cache(maxsize=16)
-def true_pressure(lubricant: Lubricant):
-    """p(q) [Pa] by the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest possible q."""
-    if lubricant.viscosity_law == "constant":
-        return np.positive
-    alpha = lubricant.pressure_viscosity_coefficient
-    if lubricant.viscosity_law == "barus":
-
-        def barus(q):
-            with np.errstate(divide="ignore"):
-                return -np.log1p(-np.minimum(alpha * q, 1.0)) / alpha
-
-        return barus
-    p = np.expm1(np.linspace(0.0, math.log1p(FARTHEST), TABLE)) / alpha
-    fluidity = np.exp(-np.minimum(log_viscosity_ratio(lubricant, p)[0], 700.0))
-    q = np.append(0.0, np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(p)))
-    ratio = np.append(1.0, p[1:] / q[1:])  # smooth where q is small
-    return lambda reduced: reduced * np.interp(reduced, q, ratio, right=math.inf)

@@ -1,0 +1,32 @@
+"""The pressure of an oil from its reduced pressure ``q = ∫ dp eta0/eta(p)``, with which Reynolds' equation of any oil
+is that of a constant viscosity."""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from ..oil import Lubricant, log_viscosity_ratio
+
+TABLE = 4000  # points of q(p), up to alpha p = FARTHEST
+FARTHEST = 1e4
+
+
+@lru_cache(maxsize=16)
+def true_pressure(lubricant: Lubricant):
+    """p(q) [Pa] by the lubricant's law: the inverse of q = ∫ dp eta0/eta(p), infinite above the largest possible q."""
+    if lubricant.viscosity_law == "constant":
+        return np.positive
+    alpha = lubricant.pressure_viscosity_coefficient
+    if lubricant.viscosity_law == "barus":
+
+        def barus(q):
+            with np.errstate(divide="ignore"):
+                return -np.log1p(-np.minimum(alpha * q, 1.0)) / alpha
+
+        return barus
+    p = np.expm1(np.linspace(0.0, math.log1p(FARTHEST), TABLE)) / alpha
+    fluidity = np.exp(-np.minimum(log_viscosity_ratio(lubricant, p)[0], 700.0))
+    q = np.append(0.0, np.cumsum(0.5 * (fluidity[1:] + fluidity[:-1]) * np.diff(p)))
+    ratio = np.append(1.0, p[1:] / q[1:])  # smooth where q is small
+    return lambda reduced: reduced * np.interp(reduced, q, ratio, right=math.inf)
