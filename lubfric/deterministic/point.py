@@ -156,11 +156,13 @@ def estimate(changes: Sequence[float], left: float = math.inf) -> float:
 
     It is the geometric series of the last change, with the ratio q of the last two kept within 1/4 and 3/4 (0.6 from
     one change). ``left``: how often the cells can be halved until they are those that the answer is for. The series
-    ends there, and q may be up to 2: on exponential surfaces under heavy loads the changes grow down to those cells.
+    ends there, with twice that ratio, since two changes tell it badly, and up to 2: on exponential surfaces under heavy
+    loads the changes grow down to those cells.
     """
     ratio, endless = UNKNOWN_RATIO, math.isinf(left)
     if len(changes) > 1 and changes[-2] > 0:
-        ratio = min(max(changes[-1] / changes[-2], RATIO[0]), RATIO[1] if endless else GROWING)
+        times, most = (1.0, RATIO[1]) if endless else (2.0, GROWING)
+        ratio = min(max(times * changes[-1] / changes[-2], RATIO[0]), most)
     return changes[-1] * (ratio / (1 - ratio) if endless else sum(ratio ** (k + 1) for k in range(int(left))))
 
 

@@ -82,7 +82,7 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
     prepared = lubfric.prepare(FINE)
     solved = solve_strip(FINE, prepared.strips.strip(0), 0.1, factors=(4, 4))
     pair = Pair(solved, solved, None)
-    for order, most in ((2.0, 0.01), (1.0, 0.03), (0.5, 0.07)):
+    for order, most in ((3.0, 0.01), (1.0, 0.06), (0.5, 0.13)):
 
         def on(dx, order=order):
             f = 0.05 * (1 + (dx / 18) ** order)
