@@ -2,50 +2,11 @@
 
 import base64
 from html import escape
+from pathlib import Path
 
 from .wording import allowed, by_grade, listed, number, seconds
 
-CSS = """
-:root { color-scheme: light dark; --ink: #1b1f24; --dim: #57606a; --line: #d0d7de; --paper: #fff;
-  --soft: #f6f8fa; --good: #1a7f37; --bad: #cf222e; --link: #0969da; }
-@media (prefers-color-scheme: dark) { :root { --ink: #e6edf3; --dim: #9198a1; --line: #3d444d;
-  --paper: #0d1117; --soft: #151b23; --good: #3fb950; --bad: #f85149; --link: #58a6ff; } }
-* { box-sizing: border-box; }
-body { margin: 0 auto; padding: 1rem; max-width: 70rem; font: 16px/1.5 system-ui, sans-serif;
-  color: var(--ink); background: var(--paper); overflow-wrap: anywhere; }
-h1 { font-size: 1.5rem; line-height: 1.25; margin: 0 0 .5rem; }
-h2 { font-size: 1.2rem; line-height: 1.3; margin: 2.5rem 0 .5rem; padding-top: 1rem;
-  border-top: 1px solid var(--line); }
-h3 { font-size: 1rem; margin: 1.5rem 0 .5rem; }
-a { color: var(--link); }
-.verdict { font-weight: 600; padding: .6rem .8rem; border-left: .3rem solid; background: var(--soft); }
-.good { color: var(--good); } .bad { color: var(--bad); } .dim { color: var(--dim); font-size: .875rem; }
-.text { max-width: 46rem; }
-table { border-collapse: collapse; width: 100%; font-size: .875rem; font-variant-numeric: tabular-nums; }
-th { text-align: left; white-space: nowrap; font-weight: 600; color: var(--dim); }
-th, td { padding: .35rem .6rem .35rem 0; border-bottom: 1px solid var(--line); vertical-align: top;
-  overflow-wrap: anywhere; }
-[data-label=Check], [data-label=Quantity] { min-width: 11rem; }
-[data-label=Measured], [data-label=Allowed], [data-label=Theirs], [data-label=Ours] { min-width: 7rem; }
-[data-label=Verdict], [data-label=Time] { white-space: nowrap; }
-figure { margin: 1.5rem 0; }
-figure img { max-width: 100%; height: auto; display: block; background: #fff; border-radius: .3rem; }
-figcaption, caption { text-align: left; color: var(--dim); font-size: .875rem; padding: .4rem 0; }
-pre { overflow-x: auto; background: var(--soft); padding: .6rem; font-size: .8rem; overflow-wrap: normal; }
-.scroll { overflow-x: auto; }
-.scroll th, .scroll td { white-space: nowrap; padding-right: 1rem; }
-@media (max-width: 44rem) {
-  .cards thead { display: none; }
-  .cards tr { display: grid; grid-template-columns: 6rem 1fr; padding: .5rem 0;
-    border-bottom: 1px solid var(--line); }
-  .cards td { min-width: 0; grid-column: 1 / 3; display: grid; grid-template-columns: subgrid; border: 0;
-    padding: .1rem 0; }
-  .cards td:empty { display: none; }
-  .cards td::before { content: attr(data-label); color: var(--dim); }
-  .cards td > * { min-width: 0; overflow-wrap: anywhere; }
-  .cards td:first-child { font-weight: 600; }
-}
-"""
+CSS = Path(__file__).with_name("page.css").read_text(encoding="utf-8")
 
 
 def render(report) -> str:
@@ -57,7 +18,7 @@ def render(report) -> str:
         '<html lang="en"><head><meta charset="utf-8">',
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         '<link rel="icon" href="data:,">',
-        f"<title>lubfric verification: {escape(report.verdict)}</title><style>{CSS}</style></head><body>",
+        f"<title>lubfric verification: {escape(report.verdict)}</title><style>\n{CSS}</style></head><body>",
         "<h1>lubfric verification</h1>",
         f'<p class="verdict {state}">{escape(report.verdict)}</p>',
         f'<p class="dim">Level {escape(report.level)}, {escape(report.started)}, {report.seconds:.0f} s. '

@@ -1,11 +1,13 @@
 """Bad input from a seeded generator: scenes, files and calls that must each be refused in words.
 
-`scenes`, `files` and `calls` make the cases. `case.judge` runs one and says how it ended. None may end in
-another exception than lubfric's own, be answered with a number, take longer than 8 s, or take more than 2 GB.
+`scenes`, `files` and `calls` make the cases, those by hand from `bad.toml`. `case.judge` runs one and says how it
+ended. None may end in another exception than lubfric's own, be answered with a number,
+take longer than 8 s, or take more than 2 GB.
 """
 
 import importlib
 import tempfile
+import tomllib
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +16,7 @@ from ..check import AT_MOST, Check, Item, Table
 from ..kept import Run
 
 SEED = 1
+HAND = tomllib.loads(Path(__file__).with_name("bad.toml").read_text(encoding="utf-8"))
 COUNTS = {"scenes": 1500, "files": 500, "calls": 900}  # at least so many of a group
 
 

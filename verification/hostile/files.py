@@ -2,40 +2,20 @@
 
 import io
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path
-from types import MappingProxyType
 
 import numpy as np
 
 import lubfric
 from lubfric.scene import read_history
 
+from . import HAND
 from .case import Case
 
 MAP = 1e-7 * np.random.default_rng(0).standard_normal((24, 16))
 HISTORY = "time [s],speed [m/s]\n0,1\n0.5,2\n1,0\n"
-HOSTILE_TEXT = (
-    "", "\n\n", "# only a comment\n", "x y z\n", "1 2\n3\n", "1 2\n3 four\n", "1,5 2.5\n3,5 4.5\n", "1e999 2\n3 4\n",
-    "nan nan\nnan nan\n", "inf 1\n2 3\n", "1\x002\n3 4\n", "[mm]\n1 2\n3 4\n", "1 2\n3 4\nend\n", "1;2;3\n1;2\n",
-    "0x10 0x11\n0x12 0x13\n", "1_0 2\n3 4\n", "true false\nfalse true\n", "1+2j 1\n2 3\n",
-    "1e308 -1e308\n-1e308 1e308\n", "# spacing = a b\n1 2\n3 4\n", "# spacing = -1e-6\n1 2\n3 4\n",
-    "# spacing = 0\n1 2\n3 4\n", "# spacing = 1e-6 1e-6 1e-6\n1 2\n3 4\n", "9" * 5000 + " 1\n2 3\n",
-    "<html><body>404</body></html>", '{"heights": [[1, 2], [3, 4]]}',
-)  # fmt: skip
-HOSTILE_POINTS = (
-    "", "0 0\n0 1\n1 0\n", "0 0 1\n", "0 0 1\n0 1 1\n0 2 1\n", "0 0 1\n0 0 2\n1 0 1\n1 1 1\n",
-    "0 0 1\n0 1 1\n1 0 1\n1 1.3 1\n2 0 1\n2 1 1\n", "1e308 0 1\n-1e308 1 1\n0 0 1\n0 1 1\n",
-    "0 0 1e308\n0 1 -1e308\n1 0 0\n1 1 0\n", "0 0 1\n0 1 1\n1 0 1\n1e-300 1 1\n", "nan 0 1\n0 1 1\n1 0 1\n1 1 1\n",
-    "0 0 inf\n0 1 1\n1 0 1\n1 1 1\n", "0 0 1\n0 1e9 1\n1e9 0 1\n1 1 1\n0.001 0.001 1\n",
-)  # fmt: skip
-HOSTILE_HISTORIES = (
-    "", "time,speed\n", "time,speed\n0,1\n", "time,speed\n0,1\n1,x\n", "time,speed\n0,1\n1\n",
-    "time,speed\n1,1\n0,2\n", "time,speed\n0,nan\n1,2\n", "time,speed\n0,1e999\n1,2\n",
-    "time [parsec],speed\n0,1\n1,2\n", "time,speed [N]\n0,1\n1,2\n", "time,spead\n0,1\n1,2\n",
-    "time,speed,speed\n0,1,1\n1,2,2\n", "time;speed\n0;1,5.0\n1;2\n", "time,speed\n5,1\n6,2\n",
-    "time,speed\n0,1\n0,2\n0,3\n1,1\n", "\x00\x01\x02",
-)  # fmt: skip
+LONG = "9" * 5000 + " 1\n2 3\n"
 
 
 def npy(array: np.ndarray) -> bytes:
@@ -45,33 +25,27 @@ def npy(array: np.ndarray) -> bytes:
     return stream.getvalue()
 
 
-def archive(**members: str) -> bytes:
+def archive(members: dict[str, str | bytes]) -> bytes:
     """The bytes of a zip file."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w") as file:
-        for name, text in members.items():
-            file.writestr(name.replace("__", "."), text)
+        for name, content in members.items():
+            file.writestr(name, content)
     return stream.getvalue()
 
 
-def x3p(size: str = "24", points: bytes | None = None, changes: Mapping[str, str] = MappingProxyType({})) -> bytes:
-    """The bytes of an X3P file; ``changes`` replaces text in its main.xml."""
+def x3p(points: bytes = MAP.T.tobytes(), old: str = "", new: str = "") -> bytes:
+    """The bytes of an X3P file, with ``new`` for ``old`` in its main.xml."""
     axis = "<{0}><AxisType>I</AxisType><DataType>D</DataType><Increment>1e-6</Increment></{0}>"
     document = (
         "<p:ISO5436_2 xmlns:p='http://www.opengps.eu/2008/ISO5436_2'><Record1><FeatureType>SUR</FeatureType><Axes>"
         + axis.format("CX")
         + axis.format("CY")
         + "<CZ><AxisType>A</AxisType><DataType>D</DataType></CZ></Axes></Record1><Record3><MatrixDimension>"
-        f"<SizeX>{size}</SizeX><SizeY>16</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink><PointDataLink>bin/data.bin"
+        "<SizeX>24</SizeX><SizeY>16</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink><PointDataLink>bin/data.bin"
         "</PointDataLink></DataLink></Record3></p:ISO5436_2>"
     )
-    for old, new in changes.items():
-        document = document.replace(old, new)
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w") as file:
-        file.writestr("main.xml", document)
-        file.writestr("bin/data.bin", MAP.T.tobytes() if points is None else points)
-    return stream.getvalue()
+    return archive({"main.xml": document.replace(old, new) if old else document, "bin/data.bin": points})
 
 
 def damaged(rng: np.random.Generator, content: bytes) -> tuple[bytes, str]:
@@ -108,12 +82,12 @@ def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
 
 
 def _by_hand() -> Iterator[Case]:
-    for text in HOSTILE_TEXT:
+    for text in (*HAND["files"]["grid"], LONG):
         for name in ("map.txt", "map.csv", "map.asc"):
             yield _case(name, repr(text[:30]), text.encode("utf-8"))
-    for text in HOSTILE_POINTS:
+    for text in HAND["files"]["points"]:
         yield _case("map.xyz", repr(text[:30]), text.encode("utf-8"))
-    for text in HOSTILE_HISTORIES:
+    for text in HAND["files"]["history"]:
         yield _case("run.csv", repr(text[:30]), text.encode("utf-8"))
     for name in ("map.npy", "map.txt", "map.xyz", "map.x3p", "run.csv", "map.foo", "map.sur", "map"):
         yield _case(name, "no such file", None)
@@ -124,24 +98,15 @@ def _by_hand() -> Iterator[Case]:
         yield _case("map.npy", f"{array.dtype} of {array.flat[0]}", npy(array))
     huge = npy(MAP).replace(b"(24, 16)", b"(24000000, 16000000)")
     yield _case("map.npy", "huge shape", huge.replace(b"                \n", b"\n", 1))
-    wrong = {
-        "size 0": x3p("0"),
-        "size -1": x3p("-1"),
-        "size 1e8 x 16": x3p("100000000"),
-        "another size": x3p("25"),
-        "no points": x3p(points=b""),
-        "NaN only": x3p(points=np.full(MAP.shape, np.nan).tobytes()),
-        "infinite": x3p(points=np.full(MAP.shape, np.inf).tobytes()),
-        "a path outside": x3p(changes={"bin/data.bin": "../../etc/passwd"}),
-        "spacing 0": x3p(changes={"1e-6": "0"}),
-        "spacing NaN": x3p(changes={"1e-6": "nan"}),
-        "spacing 1e308": x3p(changes={"1e-6": "1e308"}),
-        "no axes": x3p(changes={"Axes": "Axis"}),
-        "a profile": x3p(changes={"SUR": "PRF"}),
-        "entities": archive(main__xml="<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>"),
-        "no XML": archive(main__xml="hello"),
-        "no member": archive(other__xml="<a/>"),
-    }
+    wrong = {what: x3p(old=old, new=new) for what, (old, new) in HAND["x3p"].items()}
+    for what, points in (
+        ("no points", np.zeros(0)),
+        ("NaN only", MAP * np.nan),
+        ("infinite", np.full(MAP.shape, np.inf)),
+    ):
+        wrong[what] = x3p(points.tobytes())
+    wrong["entities"] = archive({"main.xml": "<!DOCTYPE a [<!ENTITY b 'c'>]><a>&b;</a>"})
+    wrong |= {"no XML": archive({"main.xml": "hello"}), "no member": archive({"other.xml": "<a/>"})}
     for what, content in wrong.items():
         yield _case("map.x3p", what, content)
 
