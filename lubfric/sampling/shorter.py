@@ -25,6 +25,7 @@ MOST_PIECES = 4
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 LENGTH, SHORTEST = 42.0, 14.0  # correlation lengths: pieces of the third level, and the one of the last
+SMOOTH = 3.0  # mean square of the change of heights over two cells, over that over one: 4 of smooth ones, 2 of others
 OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean
 FIXED = 2.0  # ratio of the expected films at neighbouring fixed speeds
 
@@ -48,6 +49,7 @@ def on_shorter_cells(
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED)
     enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
+    enough = enough and (strips.whole or _smooth(strips))
     own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
     if enough or own or moves(scene):
         return (), (), BlockError(0.0, 1), left
@@ -66,9 +68,19 @@ def on_shorter_cells(
     if left <= scene.numerics.tolerance or halvings < 2 or dear:
         return pieces, (), error, left
     shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=SHORTEST)
-    further = changes_of(shortest[-2:])[0]
-    left = max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED)
+    coarse, fine = (strip.result for strip in shortest[-2:])
+    further = abs(1 - coarse.coefficient / fine.coefficient)
+    scatter = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # of its mean over places
+    left = math.hypot(max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), scatter)
     return pieces, shortest, error, left
+
+
+def _smooth(strips: Strips) -> bool:
+    """Whether the heights are smooth over a cell of ``strips``: then they change over two cells twice as much as over
+    one. Of an exponential autocorrelation it is sqrt(2), and one change of f says nothing of what shorter cells do."""
+    z = strips.strip(0).heights
+    one, two = (float(np.mean(np.square(z - np.roll(z, k, axis=1)))) for k in (1, 2))
+    return two >= SMOOTH * one
 
 
 def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[Strip]]) -> dict[str, float]:

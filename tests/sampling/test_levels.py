@@ -98,6 +98,10 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
         truth = on(0.45).result.coefficient
         assert bool(found.shortest) == (order < 2)
         assert abs(found.numbers["coefficient"] / truth - 1) <= 1.1 * found.numerical <= 1.1 * most
+    monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(3.6)))
+    for acf in ("gaussian", "exponential"):  # no change between cells is believed only where heights are smooth
+        found = levels.levels_of(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, None)
+        assert bool(found.pieces) == (acf == "exponential")
 
 
 def test_eq_8_alone_states_its_error(prepared, found):
