@@ -231,6 +231,19 @@ def test_keys_that_go_together_and_samples():
     assert (scene.bodies.load, scene.lubricant.viscosity) == drawn[5] and scene.contact.region == "box"
 
 
+def test_a_range_with_units_is_that_of_its_key():
+    drawn = lubfric.sample([lubfric.Between("1 N", "0.01 kN"), lubfric.Between("20 °C", "60 °C")], 4, seed=3)
+    plain = lubfric.sample([lubfric.Between(1.0, 10.0), lubfric.Between(20.0, 60.0)], 4, seed=3)
+    oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 40}
+    scene, keys = SCENE.with_(lubricant=oil), ("bodies.load", "lubricant.temperature_celsius")
+    (axis,), (same,) = (lubfric.plan_study(scene, {keys: values}, [0.1]).axes for values in (drawn, plain))
+    assert np.array(axis.values) == pytest.approx(np.array(same.values), rel=1e-12)
+    with pytest.raises(lubfric.InputError, match="another kind"):
+        lubfric.Between("1 N", "2 m")
+    with pytest.raises(lubfric.InputError, match="another kind"):
+        lubfric.plan_study(SCENE, {"bodies.radius": [v for v, _ in drawn]}, [0.1])
+
+
 def test_samples_fill_their_ranges():
     ranges = [lubfric.Between(1.0, 10.0), lubfric.Between(0.01, 1.0, "log")]
     sobol = np.array(lubfric.sample(ranges, 64, seed=3))
