@@ -54,7 +54,7 @@ def test_deviation_is_eq_13_with_the_sign_of_the_asperities():
 
 
 def test_a_load_the_asperities_cannot_carry_is_not_a_number():
-    patches = deviation.pressed(1e9, "exponential", 0.3679, 34e-6, 1, 96, ("patches", "volume"))
+    patches = deviation.pressed(1e9, "exponential", 0.3679, 34e-6, 1, 256, ("patches", "volume"))
     assert math.isnan(deviation.friction_over_speed(patches, "Johnson", [1e-3])[0])
 
 
