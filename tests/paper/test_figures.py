@@ -53,11 +53,6 @@ def test_deviation_is_eq_13_with_the_sign_of_the_asperities():
     assert deviation.signed_deviation(np.array([math.nan]), np.array([1.0]))[1] == -1
 
 
-def test_a_load_the_asperities_cannot_carry_is_not_a_number():
-    patches = deviation.pressed(1e9, "exponential", 0.3679, 34e-6, 1, 256, ("patches", "volume"))
-    assert math.isnan(deviation.friction_over_speed(patches, "Johnson", [1e-3])[0])
-
-
 @pytest.mark.parametrize("name", ["fig2", "fig4", "fig9", "fig10"])
 def test_the_command_writes_picture_data_and_page(name, tmp_path):
     (tmp_path / "docs").mkdir()
