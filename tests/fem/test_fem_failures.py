@@ -18,10 +18,7 @@ UNIT, STEEL = Elastic(1.0, 0.3), Elastic.from_e_prime(231e9, 0.3)
 OIL = Fluid(0.1)
 BRICKS = layer3d.Layer3D(UNIT, (1.0, 1.0), layer3d.graded_levels(1.0, 2, 4.0), (8, 8), 1)
 STRIP = Strip((24, 12), (1e-6, 1e-6), STEEL)
-LINE = ehl.LineContact(
-    *(case_of(20, 5)[k] for k in ("load_per_width", "radius", "e_prime", "entrainment_speed")),
-    Fluid(0.0358, "roelands", 2.2e-8),
-)
+LINE = ehl.LineContact.of(case_of(20, 5))
 FLAT = sharing.FlatBodies(LINE, 6e-3, lambda p: (3e-7 * math.exp(-p / 5e7), p / 5e9), 0.09, 0.04)
 
 

@@ -8,7 +8,9 @@ included, starts the next finer one.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from skfem import Basis
@@ -46,6 +48,12 @@ class LineContact:
         for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa"), ("entrainment_speed", "m/s")):
             if not 0 < getattr(self, name) < math.inf:
                 raise InputError(f"{name} = {getattr(self, name)} {unit}; allowed: a finite number > 0")
+
+    @classmethod
+    def of(cls, case: Mapping[str, Any], sliding_speed: float = 0.0) -> "LineContact":
+        """The contact and its fluid (`Fluid.of`) from the arguments of ``lubfric.solve_ehl``."""
+        sizes = {name: case[name] for name in ("load_per_width", "radius", "e_prime", "entrainment_speed")}
+        return cls(**sizes, fluid=Fluid.of(case), sliding_speed=sliding_speed)
 
     @property
     def half_width(self) -> float:

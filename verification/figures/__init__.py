@@ -25,7 +25,7 @@ FIGURES = {
 
 def main(argv: list[str]) -> int:
     """The command."""
-    parts = [(name, f"figures.{target}", name, {}) for name, target in FIGURES.items()]
+    parts: list[tuple[str, str, str, dict]] = [(name, f"figures.{at}", name, {}) for name, at in FIGURES.items()]
     command = frame.campaign("figures", __doc__, parts, ("full", "quick"))
     return frame.main(replace(command, finished=_document), argv)
 
