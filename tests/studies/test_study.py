@@ -221,16 +221,6 @@ def test_an_interrupt_keeps_what_is_done_and_progress_counts_it(tmp_path):
 # what can be varied
 
 
-def test_keys_that_go_together_and_samples():
-    drawn = lubfric.sample([lubfric.Between(1.0, 10.0), lubfric.Between(0.01, 1.0, "log")], 8, seed=3)
-    plan = lubfric.plan_study(
-        SCENE, {("bodies.load", "lubricant.viscosity"): drawn, "contact.region": ["hertz", "box"]}, [0.1]
-    )
-    assert plan.shape == (8, 2, 1) and [axis.name for axis in plan.axes] == ["case", "contact.region"]
-    scene = plan.scenes[np.ravel_multi_index((5, 1), (8, 2))]
-    assert (scene.bodies.load, scene.lubricant.viscosity) == drawn[5] and scene.contact.region == "box"
-
-
 def test_samples_fill_their_ranges():
     ranges = [lubfric.Between(1.0, 10.0), lubfric.Between(0.01, 1.0, "log")]
     sobol = np.array(lubfric.sample(ranges, 64, seed=3))
