@@ -7,8 +7,7 @@ import pytest
 from small_study import SCENE
 
 import lubfric
-from lubfric.film import LineContact, solve_line_contact
-from lubfric.studies.choose import first_speeds, next_speed, span
+from lubfric.studies.choose import next_speed, span
 from lubfric.studies.interpolate import Interpolant, Samples, knee_of
 
 FIRST = np.geomspace(1e-4, 1.0, 5)
@@ -111,20 +110,6 @@ def test_fields_of_an_adaptive_curve(asked):
     curve = lubfric.stribeck(SCENE.with_(numerics={"tolerance": 0.1}), "auto", fields=[asked])
     (kept,) = [p for p in curve.points if p.balance is not None]
     assert kept.speed == 0.02 and kept.pressure.shape == (48, 48)
-
-
-def test_the_first_speeds_are_where_the_film_is_so_thick():
-    """Judged by solved films of the whole load, which the formula meets within a quarter."""
-    sq = lubfric.prepare(SCENE).surface.sq
-    bodies, found = SCENE.bodies, first_speeds(SCENE, sq)
-    assert found == tuple(sorted(found, reverse=True)) and found[0] == 1.0 and found[-1] == pytest.approx(1e-4)
-    contacts = [
-        LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, u, SCENE.lubricant) for u in found
-    ]
-    films = [solve_line_contact(contact).central_film for contact in contacts[1:-1]]
-    np.testing.assert_allclose(np.array(films) / sq, [4.5, 1.5, 0.5], rtol=0.25)
-    narrow = first_speeds(SCENE.with_(motion={"speeds": (0.5, 1.0)}), sq)
-    assert len(narrow) == 5 and narrow[0] == 1.0 and narrow[-1] == 0.5
 
 
 def test_the_range_where_a_scene_has_no_speeds():

@@ -4,7 +4,6 @@ import csv
 import json
 import os
 import signal
-import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
@@ -335,12 +334,6 @@ def test_netcdf_and_parquet_round_trips(serial, tmp_path):
         np.testing.assert_array_equal(again.coefficient, serial["coefficient"])
     serial.to_parquet(tmp_path / "study.parquet")
     assert pandas.read_parquet(tmp_path / "study.parquet")["coefficient"].tolist() == list(serial["coefficient"].flat)
-
-
-def test_a_missing_tool_is_named_with_its_extra(serial, monkeypatch):
-    monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(lubfric.InputError, match=r"needs the package xarray: pip install 'lubfric\[study\]'"):
-        serial.to_xarray()
 
 
 def test_folders_that_are_no_store(tmp_path):

@@ -142,17 +142,3 @@ def test_a_cut_sweep_goes_on_to_the_same_bits(model, tmp_path, monkeypatch, cut,
 def test_fields_of_a_speed_that_is_not_solved_are_refused():
     with pytest.raises(lubfric.InputError, match="not all among the speeds"):
         lubfric.stribeck(SCENE, SPEEDS, fields=[SPEEDS[1], 1.1 * SPEEDS[2]])
-
-
-@pytest.mark.parametrize("speeds", [[], [[0.1]], [np.nan], "abc", [0.1, "x"]])
-def test_bad_speeds_are_errors_before_any_work(speeds):
-    with pytest.raises(lubfric.InputError, match="speeds"):
-        lubfric.stribeck(SCENE, speeds)
-
-
-def test_a_bad_executor_or_scene_is_an_error():
-    with pytest.raises(lubfric.InputError, match="Executor"):
-        lubfric.stribeck(SCENE, SPEEDS, "process")
-    for call in (lubfric.stribeck, lubfric.friction, lubfric.study):
-        with pytest.raises(lubfric.InputError, match="load_scene"):
-            call("paper")
