@@ -83,12 +83,6 @@ def test_bad_study_files_are_one_line(tmp_path, capsys, change, words):
     assert words in error and error.count("\n") == 1 and not (tmp_path / "out").exists()
 
 
-def test_broken_streams_do_not_stop_a_study(tmp_path):
-    process = command("study", written(tmp_path), "--out", tmp_path / "out", stderr=subprocess.PIPE)
-    process.stderr.close()
-    assert process.wait() == 0 and (tmp_path / "out" / "study.csv").is_file()
-
-
 @pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
     many = STUDY.replace("[3.0, 5.5]", str([3.0 + 0.001 * i for i in range(1500)]))
