@@ -125,7 +125,8 @@ def _one_body(rough: Roughness, name: str, stream: int, spacing, shape) -> Calla
     make = surface_generator((shape[0] * rough.oversize, shape[1]), spacing, **statistics(rough))
 
     def made(index: int) -> Surface:
-        surface = make(_seed_of(rough.seed, stream, index, *(() if name == "surface" else (1,))))
+        words = (rough.seed, stream, index, *(() if name == "surface" else (1,)))  # far apart for neighbouring numbers
+        surface = make(int(np.random.SeedSequence(words).generate_state(1)[0]))
         return surface if rough.oversize == 1 else surface.cropped(shape).scaled(sq=rough.sq or 0.0)
 
     return made
@@ -216,9 +217,9 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     return GeneratedStrips(scene, cells, lengths, length, first, available, available, exact_sq=len(bodies) == 1)
 
 
-def measured_strips(scene: Scene, surface: Surface, lengths: tuple[float, float] | None = None) -> MeasuredStrips:
+def measured_strips(scene: Scene, surface: Surface) -> MeasuredStrips:
     """Windows of a measured map under the cylinder of ``scene``. The map is levelled and filled, with x along the
-    motion. ``lengths``: its correlation lengths [m] along x and y, where they are known.
+    motion.
 
     A map with fewer than eight whole windows gets further ones, which reach over its ends, where it is continued by its
     mirror image. The Hertz strip of every window lies on the map itself: beyond it only single high summits touch.
@@ -229,7 +230,7 @@ def measured_strips(scene: Scene, surface: Surface, lengths: tuple[float, float]
     if extended(scene):
         surface = surface.continued(reach)
     half_width, (dx, _) = scene.bodies.half_width, surface.spacing
-    lengths = lengths or (length_or_half(surface, 0), length_or_half(surface, 1))
+    lengths = length_or_half(surface, 0), length_or_half(surface, 1)
     if scene.contact.shape is not None:
         reach = scene.contact.shape[0] * dx
     cells = choose_cells(surface.spacing, lengths, half_width, min(reach, surface.size[0]))
@@ -265,8 +266,3 @@ def one_patch(scene: Scene, surface: Surface, lengths: tuple[float, float]) -> O
     while scene.numerics.grid == "given" and not cells.own:
         cells = cells.halved()
     return OnePatch(scene, cells, lengths, surface.size[1], whole=True, surface=surface)
-
-
-def _seed_of(*words: int) -> int:
-    """One seed from several numbers; far apart for neighbouring numbers."""
-    return int(np.random.SeedSequence(words).generate_state(1)[0])

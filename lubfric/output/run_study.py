@@ -26,7 +26,6 @@ def run_study(arguments) -> None:
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     check_outputs(arguments, arguments.out, names)
-    studies.check_plan(arguments.out)
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), studies.pool(workers) as executor:
@@ -44,9 +43,10 @@ def run_study(arguments) -> None:
 
 
 def _kept(folder: Path) -> str:
-    if not (folder / studies.PLAN).is_file():
+    try:
+        found = studies.open_study(folder)
+    except InputError:
         return "nothing is solved yet"
-    found = studies.open_study(folder)
     left = f"{found.missing} {'curves' if found.chosen else 'points'} are left"
     return f"{found.solved} points are kept in {folder}, {left}"
 
