@@ -131,7 +131,7 @@ class OneGap:
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: State) -> Step:
         """The step that ends at ``time`` [s]; the payload is its state."""
         back = self.back(time)
-        past = memory.film[::back], 1.0 / memory.rate
+        past = memory.film[::back], 1.0 / memory.rate, None
         start = _turned(replace(payload, approach=float(z[0])), back)
         found = newton(self.problem_at(time), start, Work(MOST), tolerance=EXACT, most=MOST, past=past)
         return self._step(found.at, back, CONVERGED if found.residual <= EXACT else ITERATION_LIMIT)

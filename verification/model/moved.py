@@ -78,9 +78,13 @@ def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) 
     """
     line, dx, x = problem.contact, problem.spacing[0], result.x
     results, U = passing or (result,) * 4, line.entrainment_speed
-    lost = [U * (one.flow_film - held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1]) for one in results]
-    first, second, *_, before, last = (float(held(line, one, one.gap).sum()) * dx for one in results)
-    gained = (3 * (last - second) - (before - first)) / (2 * step) if passing else 0.0  # the sum of BDF2 over all steps
+    lost = [
+        U * (one.flow_film - held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1].mean())
+        for one in results
+    ]
+    first, second, *_, before, last = (held(line, one, one.gap) for one in results)
+    kept = [np.maximum(1.5 * now - 0.5 * then, 0.5 * now) for now, then in ((last, before), (second, first))]
+    gained = float((kept[0] - kept[1]).mean(axis=1).sum()) * dx / step if passing else 0.0  # limited BDF2, all steps
     source = out * len(results[2:])
     missing = float(np.sum(lost[2:])) + source - gained
     enters = U * float(np.sum([one.flow_film for one in results[2:]])) + source
@@ -102,6 +106,6 @@ def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) 
 
 
 def held(line, result, gap) -> np.ndarray:
-    """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure, mean over y (nx,)."""
+    """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure (nx, ny)."""
     law = Fluid(1.0, density_law=line.lubricant.density_law.replace("-", "_")).rho
-    return (result.fill * law(result.pressure) * gap).mean(axis=1)
+    return result.fill * law(result.pressure) * gap
