@@ -46,7 +46,7 @@ def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
     found, out = zip(*((moment.result, given(moment.at)) for moment in islice(moving, start, start + count + 1)))
     rows = [row(problem, *both) for both in zip(found[1:], out[1:])]
     mean: dict[str, Any] = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
-    mean["drawn"] = mean["given"] / max(mean["given"] + mean["enters"], mean["given"])
+    mean["drawn"] = share(mean["given"], mean["enters"])
     at, out = travelling(problem, bodies)((start + count) * step), float(np.mean(out[2:]))
     return mean | {"rest": first, "off": balances(at, found[-1], found, step, out), "steps": start + count}
 
@@ -56,7 +56,12 @@ def row(problem, result, out: float) -> dict[str, Any]:
     p, h, enters = result.pressure, result.gap, result.flow_film * result.speed
     shares = [float(p[h < film].sum() / p.sum()) for film in FILMS]
     numbers = {"f": result.coefficient, "central": result.central_gap, "mean": result.mean_gap, "given": out}
-    return numbers | {"enters": enters, "drawn": out / max(out + enters, out), "shares": shares}
+    return numbers | {"enters": enters, "drawn": share(out, enters), "shares": shares}
+
+
+def share(out: float, enters: float) -> float:
+    """Of the lubricant that is given off, in all of it."""
+    return out / (out + max(enters, 0.0)) if out > 0 else 0.0
 
 
 def given(at: Iterate) -> float:
