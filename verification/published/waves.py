@@ -37,9 +37,11 @@ def waves(level: str) -> Iterator[Item]:
     In pure rolling the amplitude of the film at x = 0 is taken over one period. It is extrapolated from cells twice as
     long, which make the steps in time twice as long too; our error is that step. The film is of second order. Waves
     shorter than b die away by what the steps lose on the way from the inlet, where they are not short against it: a
-    factor whose logarithm is of third order. (So extrapolated, low waves are within 1.5 % of finite elements.) At rest the residual
-    wave is fitted over five wavelengths of a contact 20 wavelengths wide, for waves of a tenth of the height (the
-    theory is linear); our error is the change to half the width. With Eyring's law both parts are fitted, as Hooke did.
+    factor whose logarithm is of third order. (So extrapolated, low waves are within 1.5 % of finite elements.)
+
+    At rest the residual wave is fitted over five wavelengths of a contact 20 wavelengths wide, for waves of a tenth of
+    the height (the theory is linear); our error is the change to half the width. With Eyring's law both parts are
+    fitted, as Hooke did.
     """
     table = {}
     for length, (cells, which) in ROLLING[level].items():
