@@ -28,7 +28,10 @@ SLIDING = {
     "full": ((1.25, 0.24), (1.5, 0.5), (0.75, 0.5), (0.5, 0.5)),
 }  # speed, wavelength/b
 GREENWOOD = {"P": 20.0, "S": 5.0, "pressure": 1e9, "e_prime": 228e9, "eyring": 4e6}  # Hooke's contact
-SHORT = "the linear response of finite elements is 0.888: theirs has lost height on its cells"
+NOTES = {
+    (0.125, 0): "the linear response of finite elements is 0.88: theirs has lost height on its cells",
+    (0.5, 2): "finite elements in time keep as much of these as of waves a fifth as high; theirs keep 4 % less",
+}
 
 
 def waves(level: str) -> Iterator[Item]:
@@ -50,7 +53,7 @@ def waves(level: str) -> Iterator[Item]:
             theirs = references.AMPLITUDES[length][column]
             table[length, column] = ours, error * ours
             name = f"waves of {length:g} b and {HEIGHTS[column]:g} of the film, rolling: amplitude kept"
-            yield against("venner", name, ours, theirs, error, note=SHORT if length < 0.2 else "")
+            yield against("venner", name, ours, theirs, error, note=NOTES.get((length, column), ""))
     for m, l, length in FITS:
         ours, error = reduced(m, l, length, 0.1, 40 / min(length, 1.0))
         name = f"waves of {length:g} b, M = {m}, L = {l}, rolling: amplitude kept"
