@@ -89,7 +89,7 @@ def moments(
     while True:
         count += 1
         work, problem = Work(MOST), problem_at(count * step)
-        past = (at.mass, step, None) if count == 1 else (kept(at.mass, before.mass), step, at.mass)
+        past = (at.mass, step, None) if count == 1 else (kept(at.mass, before.mass), step, (at.mass, 0.5))
         near = (_carried(at.state, before.state, carried, smooth),) if carried else ()
         for state in (*near, at.state):
             found = newton(problem, state, work, tolerance=tolerance, most=MOST // 4, past=past)

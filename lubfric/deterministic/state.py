@@ -8,7 +8,7 @@ from .flow import Balance, balance
 from .problem import Problem
 
 FLUID, RUPTURED, TOUCHING = 0, 1, 2
-Past = tuple[np.ndarray, float, np.ndarray | None]  # of `stored`
+Past = tuple[np.ndarray, float, tuple[np.ndarray, float] | None]  # of `stored`
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
 
 
@@ -58,19 +58,21 @@ class Iterate:
 
 def stored(mass: np.ndarray, past: Past) -> tuple[np.ndarray, np.ndarray]:
     """What cells of this ``mass`` rho h [m] have stored in a step [m/s], and its derivative [1/s]. ``past``: the mass
-    that was kept before it [m], its length [s]; and, if it is of second order (BDF2), the mass then [m].
+    that was kept before it [m], its length [s]; and, if it is of second order (BDF2), the mass then [m], and the part
+    of the change since then that is kept.
     """
     before, step, then = past
     if then is None:
         return (mass - before) / step, np.full_like(mass, 1 / step)
-    return (kept(mass, then) - before) / step, np.where(then < 2 * mass, 1.5, 0.5) / step
+    now, free = kept(mass, *then), then[1] * (then[0] - mass) < 0.5 * mass
+    return (now - before) / step, np.where(free, 1.0 + then[1], 0.5) / step
 
 
-def kept(mass: np.ndarray, then: np.ndarray) -> np.ndarray:
+def kept(mass: np.ndarray, then: np.ndarray, part: float = 0.5) -> np.ndarray:
     """The mass [m] that is kept at a moment, of cells of this ``mass`` that had another ``then``, a step before: with
-    half of the change, and half of their mass at least. (So is the Couette flow limited in space. Without, a cell that
-    a summit closes would give off more than it has.)"""
-    return np.maximum(1.5 * mass - 0.5 * then, 0.5 * mass)
+    a ``part`` of the change (a half where steps are equal), and half of their mass at least. (So is the Couette flow
+    limited in space. Without, a cell that a summit closes would give off more than it has.)"""
+    return np.maximum(mass + part * (mass - then), 0.5 * mass)
 
 
 def evaluated(problem: Problem, state: State, past: Past | None = None) -> Iterate:
