@@ -149,10 +149,8 @@ def mean(values: Sequence[float], theirs: float) -> tuple[float, float, float]:
 
 def drawn(found: list[tuple[float, float]]) -> Figure:
     """Contact of the wave over the load."""
-    canvas, ax = plotting.axes(width=5.6, height=3.6)
-    dense = np.linspace(0, 1, 200)
-    ax.plot(dense, [references.westergaard_area(s) for s in dense], "-", label="Westergaard 1939")
-    ax.errorbar(SHARES, [a for a, _ in found], [a * e for a, e in found], fmt="o", label="lubfric")
-    ax.set(xlabel="p/p*", ylabel="share of the length in contact")
-    ax.legend()
-    return plotting.finish("wave", canvas, "Contact of a wave with a flat, ours with its error beside the closed form")
+    dense, (ours, errors) = np.linspace(0, 1, 200), np.array(found).T
+    theirs = (dense, [references.westergaard_area(s) for s in dense], "-", "Westergaard 1939")
+    curves = [theirs, (SHARES, ours, "o", "lubfric", ours * errors)]
+    caption = "Contact of a wave with a flat, ours with its error beside the closed form"
+    return plotting.chart("wave", caption, curves, xlabel="p/p*", ylabel="share of the length in contact")
