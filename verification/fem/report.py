@@ -15,6 +15,12 @@ class InputError(ValueError):
     """An input outside its allowed range, raised before any work."""
 
 
+def require(fits: bool, said: str, allowed: str) -> None:
+    """`InputError` with what was ``said`` and what is ``allowed``, where it does not fit."""
+    if not fits:
+        raise InputError(f"{said}; allowed: {allowed}")
+
+
 class SolveError(RuntimeError):
     """A solve stopped short of its tolerance; carries its ``report`` and whatever ``result`` it had."""
 
