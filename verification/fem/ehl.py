@@ -195,7 +195,6 @@ def solve_ehl(
         if level and not report.converged:
             start, _, _ = newton(body, replace(film, upwind=1.0), start, ROUGH, max_iterations)
             end, flow, report = newton(body, film, start, tolerance, max_iterations)
-            report = replace(report, notes=("started again from the first-order upwind solution on this mesh",))
         fields = (end.u, end.P, film_thickness(body, end), end.H0)
         found = Solution(contact, layout, body, film, *fields, flow * contact.film_unit, report)
         solutions.append(report.checked(found))

@@ -26,7 +26,7 @@ BLOCK = 64  # right-hand sides solved at a time
 class Layer:
     """The discrete layer and the nodes of its surface that may carry force.
 
-    body, width, thickness : what it is made of; m
+    body : what it is made of
     basis : displacement (two components) on all of the layer
     spread : (basis.N, unknowns) from unknowns to all degrees of freedom; leaves out the base, joins periodic
         sides
@@ -36,8 +36,6 @@ class Layer:
     """
 
     body: Elastic
-    width: float
-    thickness: float
     basis: Basis
     spread: sp.csc_matrix
     x: np.ndarray
@@ -132,9 +130,7 @@ def make_layer(
         inside &= x < right - near
     chosen = vertical[inside][np.argsort(x[inside])]
     unknowns = spread[chosen].tocsr().indices
-    return Layer(
-        body, right - left, -bottom, basis, spread, basis.doflocs[0, chosen], (spread.T @ weights)[unknowns], unknowns
-    )
+    return Layer(body, basis, spread, basis.doflocs[0, chosen], (spread.T @ weights)[unknowns], unknowns)
 
 
 def spread_matrix(basis: Basis, periodic: bool) -> sp.csc_matrix:

@@ -50,11 +50,6 @@ class Layer3D:
         require(min(self.size) > 0 and ascending, said, "lengths > 0, levels ascending to 0")
 
     @property
-    def thickness(self) -> float:
-        """Thickness of the layer [m]."""
-        return -float(self.levels[0])
-
-    @property
     def cells(self) -> tuple[int, int]:
         """Elements along x and y."""
         return self.shape[0] // self.degree, self.shape[1] // self.degree
@@ -207,11 +202,10 @@ def solve(grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: in
     load = surface.ravel()
     history: list[float] = []
     limits = {"tol": 0.1 * tolerance, "maxiter": max_iterations}
-    found, info = grid.hierarchy.solve(load, **limits, accel="cg", residuals=history, return_info=True)
+    found = grid.hierarchy.solve(load, **limits, accel="cg", residuals=history)
     scale = float(np.linalg.norm(load))
     residual = float(np.linalg.norm(load - grid.matrix @ found)) / scale
     status = CONVERGED if residual <= tolerance else ITERATION_LIMIT
     solver, past = "smoothed aggregation, conjugate gradients", tuple(r / scale for r in history)
-    notes = (f"pyamg info {info}", f"{layer.unknowns} unknowns")
-    report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past, notes)
+    report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past)
     return report.checked(Solved(found.reshape(layer.planes, *layer.shape, 3), report))

@@ -43,7 +43,6 @@ class SolveReport:
     tolerance : dimensionless, as the residuals
     residuals : final value of each measured residual by name
     history : largest residual after each iteration
-    notes : choices made on the way that a reader of the result should know
     """
 
     solver: str
@@ -52,7 +51,6 @@ class SolveReport:
     tolerance: float
     residuals: dict[str, float]
     history: tuple[float, ...] = ()
-    notes: tuple[str, ...] = ()
 
     @property
     def residual(self) -> float:
