@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base import figures, files, table_bytes, write_whole
+from .._base import __version__, figures, files, table_bytes, write_whole
 from ..errors import InputError
 from ..quantities import KEYS, Quantity, axis_label, described, heading
 from ..units import worded
@@ -26,7 +26,7 @@ def to_xarray(result):
     data[STATUS] = (result.dims, result.status.astype(str), {"long_name": "converged, or why there are no numbers"})
     data[VALIDITY] = (result.dims, result.validity.astype(str), {"long_name": "assumptions that do not hold"})
     coords = {key: (dim, values, described(key)) for key, (dim, values) in result.coords.items()}
-    attributes = {"title": f"friction of {result.plan['name']}", "source": f"lubfric {result.plan['lubfric']}"}
+    attributes = {"title": f"friction of {result.plan.scene.name}", "source": f"lubfric {__version__}"}
     return xarray.Dataset(data, coords, attributes)
 
 
@@ -107,7 +107,7 @@ def plot(result, ax=None, **style):
     figures.plain_ticks(axes.xaxis)
     some = "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves"
     rows = figures.key_above(axes, 2) if few and picked.size > 1 else 0
-    axes.set_title(figures.plain_words(result.plan["name"]) + some, pad=6 + 13 * rows)
+    axes.set_title(figures.plain_words(result.plan.scene.name) + some, pad=6 + 13 * rows)
     return axes
 
 
@@ -147,14 +147,16 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
         return
     known = np.isfinite(columns.get("model_error", unknown))
     band = BAND + ("" if known.all() else " (where known)" if known.any() else " (not known)")
-    over, low, high = figures.widened(x, y * (1 + low), y * (1 + high))
-    ax.fill_between(over, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=band)
+    ends = y * (1 + low), y * (1 + high)
+    ax.fill_between(*figures.widened(x, *ends), color=figures.BLUE, alpha=0.2, lw=0, label=band)
     for name, times, dashes in OF_INTERVAL:
         error = at(times * columns.get(name, unknown))
         if np.nanmax(error, initial=0.0) > 0:
             thin = {"color": figures.BLUE, "lw": 0.6, "ls": dashes}
-            ax.plot(x, y * (1 - error), **thin)
-            ax.plot(x, y * (1 + error), **thin, label=f"of it: {name.partition('_')[0].replace('sampling', 'surface')}")
+            within = np.maximum(y * (1 - error), ends[0]), np.minimum(y * (1 + error), ends[1])  # a part of the whole
+            wide, *sides = figures.widened(x, *within)
+            ax.plot(wide, sides[0], **thin)
+            ax.plot(wide, sides[1], **thin, label=f"of it: {name.partition('_')[0].replace('sampling', 'surface')}")
 
 
 def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **style) -> np.ndarray:

@@ -1,7 +1,6 @@
 """Studies: every point is what friction gives, on any executor and after any kill; lost workers, failures, tables."""
 
 import csv
-import json
 import os
 import signal
 import time
@@ -29,7 +28,7 @@ def serial():
 
 
 def records(folder):
-    return list((folder / "points").glob("*.bin"))
+    return [path for path in (folder / "points").glob("*.bin") if path.stem != "plan"]
 
 
 # what is computed
@@ -220,6 +219,19 @@ def test_an_interrupt_keeps_what_is_done_and_progress_counts_it(tmp_path):
 # what can be varied
 
 
+def test_a_range_with_units_is_that_of_its_key():
+    drawn = lubfric.sample([lubfric.Between("1 N", "0.01 kN"), lubfric.Between("20 °C", "60 °C")], 4, seed=3)
+    plain = lubfric.sample([lubfric.Between(1.0, 10.0), lubfric.Between(20.0, 60.0)], 4, seed=3)
+    oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 40}
+    scene, keys = SCENE.with_(lubricant=oil), ("bodies.load", "lubricant.temperature_celsius")
+    (axis,), (same,) = (lubfric.plan_study(scene, {keys: values}, [0.1]).axes for values in (drawn, plain))
+    assert np.array(axis.values) == pytest.approx(np.array(same.values), rel=1e-12)
+    with pytest.raises(lubfric.InputError, match="another kind"):
+        lubfric.Between("1 N", "2 m")
+    with pytest.raises(lubfric.InputError, match="another kind"):
+        lubfric.plan_study(SCENE, {"bodies.radius": [v for v, _ in drawn]}, [0.1])
+
+
 def test_samples_fill_their_ranges():
     ranges = [lubfric.Between(1.0, 10.0), lubfric.Between(0.01, 1.0, "log")]
     sobol = np.array(lubfric.sample(ranges, 64, seed=3))
@@ -337,12 +349,11 @@ def test_netcdf_and_parquet_round_trips(serial, tmp_path):
 
 
 def test_folders_that_are_no_store(tmp_path):
-    with pytest.raises(lubfric.InputError, match="holds no study.json"):
+    with pytest.raises(lubfric.InputError, match="holds no study"):
         lubfric.open_study(tmp_path)
-    for text in ('{"keys": ', "[]", '{"keys": 3}'):
-        (tmp_path / "study.json").write_text(text)
-        with pytest.raises(lubfric.InputError, match="damaged"):
-            lubfric.open_study(tmp_path)
-    (tmp_path / "points").mkdir()  # so that it is a damaged store, and no file of others
+    (tmp_path / "points").mkdir()
+    (tmp_path / "points" / "plan.bin").write_text("[]")
+    with pytest.raises(lubfric.InputError, match="damaged"), pytest.warns(UserWarning, match="damaged"):
+        lubfric.open_study(tmp_path)
     lubfric.study(SCENE, {}, [0.01], store=tmp_path)
-    assert json.loads((tmp_path / "study.json").read_text())["speeds"] == [0.01]
+    assert lubfric.open_study(tmp_path).plan.speeds == (0.01,)
