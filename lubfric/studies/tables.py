@@ -9,6 +9,7 @@ from .._base import __version__, figures, files, table_bytes, validate, write_wh
 from ..errors import InputError
 from ..quantities import KEYS, Quantity, axis_label, described, heading
 from ..units import worded
+from .curve import numbers_of
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
@@ -174,17 +175,12 @@ def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **st
 def curve_axes(curve, ax=None, **style):
     """Friction over speed of a `lubfric.StribeckResult`, with its parts and the band of its intervals; interpolated if
     it chose its speeds."""
-    axes = figures.axes_or_new(ax)
-    names = "speed", "coefficient", "contact_load", "film_load", "boundary_force", "shear_force"
-    columns = {name: getattr(curve, name) for name in names}
-    columns |= dict(zip(("interval_low", "interval_high"), curve.uncertainty.interval.T))
-    columns |= {"model_error": curve.uncertainty.model, "sampling_error": curve.uncertainty.sampling}
-    between = None
+    axes, between = figures.axes_or_new(ax), None
     if "interpolation" in curve.report.residuals:
         known = np.abs(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])
         fine = np.geomspace(known.min(), known.max(), 400)
         between = fine, curve.at(fine), *curve.parts_at(fine)
-    friction_over_speed(axes, columns, between, **style)
+    friction_over_speed(axes, numbers_of(curve), between, **style)
     return axes
 
 
