@@ -17,6 +17,7 @@ import numpy as np
 
 from .._base import FieldsOnly, validate
 from ..errors import InputError
+from ..quantities import counted
 from ..scene import ROUGH, Roughness, Scene
 from ..surface import Surface, surface_generator
 from .height_map import extended, measured, rough_bodies, statistics, whole_maps
@@ -151,7 +152,8 @@ class MeasuredStrips(Strips):
         pieces = [self._columns(self.starts[index])[fx // 2 :: fx] for index in indices]
         heights = stacked(pieces, self._blend)
         rows = heights.shape[1] // (4 * fy) * 4 * fy
-        note = f"{len(pieces)} windows of {self.cells.count * fx} x {self.surface.shape[1]} cells, stacked along y"
+        shape = f"{self.cells.count * fx} x {self.surface.shape[1]} cells"
+        note = f"{counted(len(pieces), 'windows')} of {shape}, stacked along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
 
     def piece(self, index: int, length: float = PIECE) -> Surface:

@@ -1,10 +1,13 @@
 """A scene in words: its inputs with their units, regime numbers, and what will be solved."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import suppress
+from dataclasses import replace
 
-from ..contact import Strips, contact_map, measured, strips_of
+import numpy as np
+
+from ..contact import MeasuredStrips, Strips, check_grid, contact_map, strips_of
 from ..errors import InputError
 from ..film import hertz
 from ..oil import estimate_in_words
@@ -14,16 +17,18 @@ from ..scene import (
     CHANGING,
     FRICTION,
     FRICTION_OVER,
+    HISTORIES,
     Harmonic,
     History,
     Scene,
     Table,
     gap_not_resolved,
+    moves,
     told_doubts,
     typical,
 )
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
-from ..studies import in_words
+from ..studies import AUTO, CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
 from ..units import converted, worded
@@ -34,30 +39,33 @@ FILM_STEP, CELL_STEP = 6e-3, 1.5e-7  # s of a step in time: its film, and a cell
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
 
 
-def describe_scene(scene: Scene) -> str:
-    """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved."""
+def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
+    """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved.
+    ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
     with told_doubts(scene):
         strips = strips_of(scene) if takes_strips(scene) else None
-        first = None if strips is None else strips.stack(strips.first)
-        surface = contact_map(scene) if first is None or measured(scene) else first
-    speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
+        surface = contact_map(scene) if strips is None else strips.stack(strips.first)
+        check_grid(scene, surface)
+    whole, own = map_of(surface, strips), scene.motion.entrainment_speed
+    if speeds == AUTO:
+        speeds = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist()
+    speeds = tuple(speeds) or scene.motion.speeds or (own,)
     told, over = [], counted(len(speeds), "speeds")
     if scene.transient is not None:
         speeds, over = tuple(speeds_of_run(scene)) or (0.0,), "a run in time"
-        told = [*_histories(scene), _cost(scene, strips, surface, max(speeds))]
-    at = expected(scene, surface if first is None else first, sorted(set(speeds)))  # None: of bodies and map
+        told, own = [*_histories(scene), *_cost(scene, strips, surface, speeds)], max(speeds)
+    at = expected(scene, surface, sorted(set(speeds)))  # None: of bodies and map
     known = [entry.text for speed, entry in at if speed is None]
     known += gathered([(speed, (entry,)) for speed, entry in at if speed is not None])
-    own = scene.motion.entrainment_speed
-    left_out = [f"  {lack_in_words(lack)}" for lack in lacking(scene, surface.sq, own)]
+    left_out = [f"  {lack_in_words(lack)}" for lack in lacking(scene, whole.sq, own)]
     left_out = left_out and [f"likely changes of f at {own:g} m/s, by closed forms:", *left_out]
     return "\n".join(
         [
             f"scene {scene.name}",
             *(row for name in FACTS for row in _section(name, [*_inputs(scene, name), *FACTS[name](scene)])),
             *_section("transient", told),
-            *_section("surface", [surface.describe(), *(note for note in surface.notes if "nm as it is" in note)]),
-            *_map_rows(scene, surface),
+            *_section("surface", [*map_in_words(surface, strips), *(n for n in whole.notes if "nm as it is" in n)]),
+            *_map_rows(scene, whole, surface.heights.size),
             *_section("contact", [f"{_plan(scene, surface)}; {over}"]),
             *_section("model", _model(scene, strips, surface, speeds)),
             *_section("left out", left_out or ["nothing that would change f by its tolerance"]),
@@ -74,28 +82,32 @@ def _section(name: str, rows) -> list[str]:
 def _plan(scene: Scene, surface: Surface) -> str:
     cells = "{} x {} cells".format(*surface.shape)
     if scene.numerics.model == "deterministic":
-        what = "one gap and one pressure, on grids of the map halved and doubled"
+        how = "one strip, whose cells are not corrected" if scene.transient else "grids of the map halved and doubled"
+        what = f"one gap and one pressure, on {how}"
     elif scene.contact.geometry == "flat":
         what = f"periodic contact curve on {cells}, once, then read at every speed"
     elif takes_strips(scene):
-        what = "semi-periodic contact on strips of the roughness (below) under the film at every speed"
+        what = "semi-periodic contact on strips of the roughness under the film at every speed"
     else:
         what = f"semi-periodic contact on {cells} under the film at every speed"
-    return f"{what}; f within {100 * scene.numerics.tolerance:g} %"
+    return f"{what}; f within {100 * scene.numerics.tolerance:g} % by the numerics"
 
 
 def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
     """Which model will answer at the ``speeds`` [m/s], why, and what all of them cost (`lubfric.sampling.friction`)."""
     asked, why = scene.numerics.model, gap_not_resolved(scene)
+    unknown = "its error is not known, and not in the interval"
+    if scene.transient is not None and asked == "deterministic":
+        return ["one gap and one pressure (the deterministic model) at all times, as asked"]
+    if scene.transient is not None:
+        more = "; it does not see that the roughness moves, as numerics.model = 'deterministic' does" * moves(scene)
+        return [f"load sharing, Eq. (8), at all times; {unknown}{more}"]
     moving = sorted({abs(u) for u in speeds if u != 0})
     some = moving[:: max(1, len(moving) // 25)]
     found = [forecast(scene, strips, surface, speed) for speed in some]
     resolved = [one.speed for one in found if one.resolved]
-    unknown = "its error is not known, and not in the interval"
     if asked == "deterministic":
         rows = ["one gap and one pressure (the deterministic model), as asked"]
-    elif scene.transient is not None:
-        rows = [f"load sharing, Eq. (8), at all times; {unknown}"]
     elif asked == "load-sharing":
         rows = [f"load sharing, Eq. (8), as asked: the fast way; {unknown if why else 'its interval is wide'}"]
     elif why:
@@ -116,7 +128,7 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
             f"the roughness moves: one strip with one gap and one pressure takes about {in_words(strip)}; beyond "
             f"{MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
         ]
-    if found and scene.transient is None:
+    if found:
         seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
         count = counted(len(moving), "speeds")
         rows.append(f"cost: about {seconds} of processor time for {count} (an order of magnitude)")
@@ -148,22 +160,29 @@ def _laps(history: History, duration: float) -> float:
     return duration / history.times[-1] if isinstance(history, Table) and history.repeat else 0.0
 
 
-def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float) -> str:
-    """Steps and time of a run, by what runs of the paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
+def _cost(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
+    """Steps, time and sample of a run, whose film is judged at the ``speeds`` [m/s]; by what runs of the paper's scene
+    took (8 to 17 ms a step on 200 x 200 cells)."""
     assert (plan := scene.transient) is not None
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
     swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
     steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
-    one = forecast(scene, strips, surface, fastest)
-    cells = surface.heights.size
-    if strips is not None and not strips.whole:
-        cells = round(strips.cells.count * one.length / strips.cells.coarse[1])
-    seconds = one.seconds + steps * (FILM_STEP + CELL_STEP * cells)
+    found = [forecast(scene, strips, surface, speed) for speed in speeds]
+    most, fastest = max(found, key=lambda one: one.strips), max(speeds)
+    cells, sample = surface.heights.size, []
+    if strips is not None and scene.numerics.model != "deterministic":
+        cells = round(strips.cells.count * most.length / strips.cells.coarse[1])
+        asked = f"f within {100 * scene.numerics.sampling_tolerance:g} %"
+        sample = [
+            f"sample: {counted(most.strips, 'strips')} of the roughness, {1e3 * most.length:.2g} mm, at all times: for "
+            f"{asked} at {most.speed:.3g} m/s, which needs most"
+        ]
+    seconds = sum(one.seconds for one in found) + steps * (FILM_STEP + CELL_STEP * cells)
     if scene.numerics.model == "deterministic":
         steps, seconds = work_of_run(scene)
     top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
     course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs"
-    return f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)"
+    return [f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", *sample]
 
 
 def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
@@ -171,7 +190,8 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
     and what the sample costs."""
     head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (nm)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
     rows = ["  film of the whole load by closed forms, and whether it clears the summits", head]
-    if strips is not None:
+    sampled = strips is not None and scene.transient is None
+    if strips is not None and sampled:
         dx, dy = strips.cells.coarse
         asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} µm"
         rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
@@ -185,16 +205,31 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
             film = f"{line.M:9.3g} {line.L:8.3g} {line.expected_film * 1e9:10.4g} {ratio:8.3g}"
         row = f"  {speed:<12.4g} {film}  {one.touching:<22} {one.clearance:>14.2g}"
-        if strips is not None:
+        if sampled:
             row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
         rows.append(row)
     return rows
 
 
-def _map_rows(scene: Scene, surface: Surface) -> list[str]:
+def map_of(surface: Surface, strips: Strips | None) -> Surface:
+    """The map that the scene has: measured, the whole of it; else ``surface``, which is solved first."""
+    return strips.surface if isinstance(strips, MeasuredStrips) else surface
+
+
+def map_in_words(surface: Surface, strips: Strips | None) -> list[str]:
+    """The map that the scene has; and where ``strips`` of it are solved, ``surface``, the first of them."""
+    if strips is None or strips.whole:
+        return [surface.describe()]
+    made = "" if strips.windows else f"{surface.source}: as many strips as are needed"
+    first = replace(surface, source="").describe()
+    joined = f"{counted(strips.first, 'strips')} of it, joined along the line" if strips.first > 1 else "a strip of it"
+    return [made or map_of(surface, strips).describe(), f"solved first: {joined}: {first}"]
+
+
+def _map_rows(scene: Scene, surface: Surface, solved: int) -> list[str]:
     """Statistics of the map on its own grid, how well that grid resolves them, and the memory of a contact solve on
-    it."""
-    (nx, ny), (dx, dy), b = surface.shape, surface.spacing, scene.bodies.half_width
+    the cells ``solved`` first."""
+    (dx, dy), b = surface.spacing, scene.bodies.half_width
     along_x, along_y, total = rms_slope(surface)
     in_um, in_cells = (
         ["-", "-"],
@@ -205,12 +240,12 @@ def _map_rows(scene: Scene, surface: Surface) -> list[str]:
             length = correlation_length(surface, axis)
             in_um[axis], in_cells[axis] = f"{length * 1e6:.3g}", f"{length / step:.3g}"
     lengths = f"{' x '.join(in_um)} µm = {' x '.join(in_cells)} cells  (along x and y, to 1/e)"
-    memory = f"about {SOLVE_FIELDS * 8 * nx * ny / 2**20:.3g} MiB at a contact solve on all of them"
+    memory = f"about {SOLVE_FIELDS * 8 * solved / 2**20:.3g} MiB at a contact solve"
     slopes = f"{total:.3g}  ({along_x:.3g} along x, {along_y:.3g} along y)"
     rows = [
         ("Sq", f"{surface.sq * 1e9:.4g} nm", "rms slope", slopes),
         ("cells per b", f"{b / dx:.3g}", "correlation length", lengths),
-        ("length / 2b", f"{nx * dx / (2 * b):.3g}", "cells", f"{nx * ny}, {memory}"),
+        ("length / 2b", f"{surface.size[0] / (2 * b):.3g}", "cells solved first", f"{solved}, {memory}"),
     ]
     return [f"    {left:<12} {value:<11} {right:<19} {text}" for left, value, right, text in rows]
 
@@ -228,6 +263,9 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
         ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
         note = f", typical of {' or '.join(alike)}: {ends}" if alike else ""
+        changing = [name for name, of in HISTORIES.items() if of == key and getattr(scene.transient, name, None)]
+        if changing:
+            note = f", which changes in time: transient.{changing[0]}"
         for name, *known in scene.ranges:
             if name == key:
                 note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"

@@ -14,7 +14,7 @@ from ..scene import Scene
 from ..sharing import Prepared
 from ..studies import CurveResult
 from ..units import converted, printed, unit_for, worded
-from .describe import FACTS, SECTIONS, inputs
+from .describe import FACTS, SECTIONS, inputs, map_in_words
 
 OF_POINT = ["coefficient", "contact_load", "film_load", "central_film", "film_to_roughness_ratio"]
 OF_POINT += ["real_contact_area_fraction"]
@@ -38,7 +38,7 @@ def report_page(prepared: Prepared, result, record: dict, images: dict[str, byte
         cautions=_list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
         results="" if curve is None else "".join(_points(curve)),
         inputs="".join(_inputs(scene, section) for section in SECTIONS),
-        map=escape(prepared.surface.describe()),
+        map=escape("; ".join(map_in_words(prepared.surface, prepared.strips))),
         notes=_list(prepared.surface.notes),
         sources=_list([] if curve is None else curve.cite().splitlines(), head="<h2>Sources</h2>"),
         made=_rows((), [f"<th>{escape(name)}</th><td>{escape(value)}</td>" for name, value in made]),

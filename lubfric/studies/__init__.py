@@ -1,6 +1,6 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
-from .choose import AUTO
+from .choose import AUTO, CHOSEN, span
 from .codec import classes_of, fits
 from .curve import CurveResult, csv_bytes
 from .executor import MOST_WORKERS, pool, processors

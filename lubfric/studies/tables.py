@@ -140,14 +140,16 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
         return
     known = np.isfinite(columns.get("model_error", unknown))
     band = BAND + ("" if known.all() else " (where known)" if known.any() else " (not known)")
-    over, low, high = figures.widened(x, y * (1 + low), y * (1 + high))
-    ax.fill_between(over, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=band)
+    ends = y * (1 + low), y * (1 + high)
+    ax.fill_between(*figures.widened(x, *ends), color=figures.BLUE, alpha=0.2, lw=0, label=band)
     for name, times, dashes in OF_INTERVAL:
         error = at(times * columns.get(name, unknown))
         if np.nanmax(error, initial=0.0) > 0:
             thin = {"color": figures.BLUE, "lw": 0.6, "ls": dashes}
-            ax.plot(x, y * (1 - error), **thin)
-            ax.plot(x, y * (1 + error), **thin, label=f"of it: {name.partition('_')[0].replace('sampling', 'surface')}")
+            within = np.maximum(y * (1 - error), ends[0]), np.minimum(y * (1 + error), ends[1])  # a part of the whole
+            wide, *sides = figures.widened(x, *within)
+            ax.plot(wide, sides[0], **thin)
+            ax.plot(wide, sides[1], **thin, label=f"of it: {name.partition('_')[0].replace('sampling', 'surface')}")
 
 
 def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **style) -> np.ndarray:

@@ -109,7 +109,7 @@ class TransientResult(Shown):
             sampling=error,
             interval=np.stack([f - np.hypot(half, down), f + np.hypot(half, up)], axis=1),
             line_scatter=error * math.sqrt(self.line_length / self.width),
-            participation=unknown,
+            spots=unknown,
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
             model=unknown,

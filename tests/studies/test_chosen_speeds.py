@@ -84,13 +84,6 @@ def test_tables_leave_out_what_was_not_needed(study, tmp_path):
     assert heading.startswith("lubricant.viscosity [Pa s],speed [m/s],coefficient [-]") and len(rows) == study.solved
 
 
-def test_speeds_at_fixed_points_are_interpolated_too():
-    speeds = np.geomspace(1e-3, 1.0, 8)
-    found, alone = lubfric.study(SCENE, {}, speeds), lubfric.stribeck(SCENE, speeds)
-    np.testing.assert_allclose(found.at([0.002, 0.3]), alone.at([0.002, 0.3]), rtol=0.05 * SCENE.numerics.tolerance)
-    assert float(found.lift_off) == pytest.approx(alone.lift_off, rel=1e-3)
-
-
 def test_a_study_shows_itself(study):
     """Lines, points and labels are those of its numbers."""
     plt = pytest.importorskip("matplotlib.pyplot")

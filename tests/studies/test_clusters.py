@@ -33,14 +33,6 @@ def cluster():
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
-def test_dask_gives_the_same_bits(serial, tmp_path):
-    distributed = pytest.importorskip("distributed")
-    with cluster() as workers, distributed.Client(workers) as client:
-        same(lubfric.study(SCENE, VARY, SPEEDS, executor=client.get_executor(), store=tmp_path), serial)
-
-
-@pytest.mark.slow
-@pytest.mark.filterwarnings("ignore")
 def test_killed_dask_workers_lose_nothing(serial, tmp_path):
     """Twenty workers killed at random moments, over as many runs of the study as that takes: at most the point that was
     being solved is lost with a worker, and none is solved twice. The other worker lives: a Dask that has lost all of

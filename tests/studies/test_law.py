@@ -81,13 +81,6 @@ def test_text_json_and_formula_say_the_same(law):
     assert f"{100 * law.largest:.2g} % at most" in law.text and "333.15 to 353.15 K" in law.text
 
 
-def test_its_viscosity_is_that_of_the_oil(law):
-    oil = SCENE.with_(lubricant=OIL).lubricant.oil
-    for T in (333.15, 343.15, 353.15):
-        eta = 1e-3 * (10**10 ** (law.numbers["A"] - law.numbers["B"] * math.log10(T)) - 0.7)
-        assert eta == pytest.approx(oil.viscosity(T), rel=2e-3)
-
-
 def test_outside_it_refuses_or_extrapolates_where_asked(law):
     for given in ((4.0,), (0.1, 300.0), (0.1, 343.0, 1e9)):
         with pytest.raises(lubfric.InputError, match="allowed: .* to .*; .*extrapolate=True"):

@@ -3,7 +3,6 @@
 import csv
 import os
 import signal
-import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
@@ -220,14 +219,17 @@ def test_an_interrupt_keeps_what_is_done_and_progress_counts_it(tmp_path):
 # what can be varied
 
 
-def test_keys_that_go_together_and_samples():
-    drawn = lubfric.sample([lubfric.Between(1.0, 10.0), lubfric.Between(0.01, 1.0, "log")], 8, seed=3)
-    plan = lubfric.plan_study(
-        SCENE, {("bodies.load", "lubricant.viscosity"): drawn, "contact.region": ["hertz", "box"]}, [0.1]
-    )
-    assert plan.shape == (8, 2, 1) and [axis.name for axis in plan.axes] == ["case", "contact.region"]
-    scene = plan.scenes[np.ravel_multi_index((5, 1), (8, 2))]
-    assert (scene.bodies.load, scene.lubricant.viscosity) == drawn[5] and scene.contact.region == "box"
+def test_a_range_with_units_is_that_of_its_key():
+    drawn = lubfric.sample([lubfric.Between("1 N", "0.01 kN"), lubfric.Between("20 °C", "60 °C")], 4, seed=3)
+    plain = lubfric.sample([lubfric.Between(1.0, 10.0), lubfric.Between(20.0, 60.0)], 4, seed=3)
+    oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 40}
+    scene, keys = SCENE.with_(lubricant=oil), ("bodies.load", "lubricant.temperature_celsius")
+    (axis,), (same,) = (lubfric.plan_study(scene, {keys: values}, [0.1]).axes for values in (drawn, plain))
+    assert np.array(axis.values) == pytest.approx(np.array(same.values), rel=1e-12)
+    with pytest.raises(lubfric.InputError, match="another kind"):
+        lubfric.Between("1 N", "2 m")
+    with pytest.raises(lubfric.InputError, match="another kind"):
+        lubfric.plan_study(SCENE, {"bodies.radius": [v for v, _ in drawn]}, [0.1])
 
 
 def test_samples_fill_their_ranges():
@@ -344,12 +346,6 @@ def test_netcdf_and_parquet_round_trips(serial, tmp_path):
         np.testing.assert_array_equal(again.coefficient, serial["coefficient"])
     serial.to_parquet(tmp_path / "study.parquet")
     assert pandas.read_parquet(tmp_path / "study.parquet")["coefficient"].tolist() == list(serial["coefficient"].flat)
-
-
-def test_a_missing_tool_is_named_with_its_extra(serial, monkeypatch):
-    monkeypatch.setitem(sys.modules, "xarray", None)
-    with pytest.raises(lubfric.InputError, match=r"needs the package xarray: pip install 'lubfric\[study\]'"):
-        serial.to_xarray()
 
 
 def test_folders_that_are_no_store(tmp_path):

@@ -103,5 +103,5 @@ def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) 
 
 def held(line, result, gap) -> np.ndarray:
     """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure, mean over y (nx,)."""
-    law = Fluid(1.0, density_law=line.lubricant.density_law.replace("-", "_")).rho
+    law = Fluid(1.0, density_law=line.lubricant.density_law).rho
     return (result.fill * law(result.pressure) * gap).mean(axis=1)
