@@ -93,8 +93,7 @@ class LineContact:
         speed = validate.number("entrainment_speed", self.entrainment_speed, "m/s")
         if speed == 0.0:
             raise InputError("entrainment_speed = 0 m/s carries no steady film; give another speed")
-        if not isinstance(self.lubricant, Lubricant):
-            raise InputError(f"lubricant = {self.lubricant!r} is not a Lubricant; allowed: lubfric.Lubricant")
+        validate.instance("lubricant", self.lubricant, Lubricant, "a lubfric.Lubricant")
         object.__setattr__(self, "entrainment_speed", speed)
         if self.sliding is not None:
             object.__setattr__(self, "sliding", validate.number("sliding", self.sliding, "m/s"))
