@@ -28,7 +28,7 @@ from ..scene import (
     typical,
 )
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
-from ..studies import AUTO, CHOSEN, in_words, span
+from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
 from ..units import converted, worded
@@ -47,9 +47,8 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
         surface = contact_map(scene) if strips is None else strips.stack(strips.first)
         check_grid(scene, surface)
     whole, own = map_of(surface, strips), scene.motion.entrainment_speed
-    if speeds == AUTO:
-        speeds = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist()
-    speeds = tuple(speeds) or scene.motion.speeds or (own,)
+    asked = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
+    speeds = tuple(asked) or scene.motion.speeds or (own,)
     told, over = [], counted(len(speeds), "speeds")
     if scene.transient is not None:
         speeds, over = tuple(speeds_of_run(scene)) or (0.0,), "a run in time"
@@ -190,14 +189,14 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
     and what the sample costs."""
     head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (nm)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
     rows = ["  film of the whole load by closed forms, and whether it clears the summits", head]
-    sampled = strips is not None and scene.transient is None
-    if strips is not None and sampled:
+    strips = strips if scene.transient is None else None  # a run in time has one sample for all
+    if strips is not None:
         dx, dy = strips.cells.coarse
         asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} µm"
         rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
         rows[-1] += f" {'strips':>8} {'one gap':>8} {'length (mm)':>12} {'time (s)':>9}"
-    own = () if scene.transient is not None else (scene.motion.entrainment_speed,)
-    nothing = "no entrainment" if scene.transient is not None else "no entrainment: all contact"
+    own = (scene.motion.entrainment_speed,) if scene.transient is None else ()
+    nothing = "no entrainment" + ": all contact" * len(own)
     for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], *own, speeds[-1]}):
         one, film = forecast(scene, strips, surface, speed), f"{nothing:<38}"
         if speed != 0:
@@ -205,7 +204,7 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
             film = f"{line.M:9.3g} {line.L:8.3g} {line.expected_film * 1e9:10.4g} {ratio:8.3g}"
         row = f"  {speed:<12.4g} {film}  {one.touching:<22} {one.clearance:>14.2g}"
-        if sampled:
+        if strips is not None:
             row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
         rows.append(row)
     return rows
@@ -231,10 +230,7 @@ def _map_rows(scene: Scene, surface: Surface, solved: int) -> list[str]:
     the cells ``solved`` first."""
     (dx, dy), b = surface.spacing, scene.bodies.half_width
     along_x, along_y, total = rms_slope(surface)
-    in_um, in_cells = (
-        ["-", "-"],
-        ["-", "-"],
-    )  # of a map that has none: flat, one cell, or shorter than twice that length
+    in_um, in_cells = [["-", "-"] for _ in range(2)]  # of a map that has none: flat, one cell, or too short
     for axis, step in enumerate((dx, dy)):
         with suppress(InputError):
             length = correlation_length(surface, axis)
