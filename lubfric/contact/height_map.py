@@ -19,24 +19,27 @@ TOO_SHORT = (
 )
 
 
-def contact_map(scene: Scene, surface: Surface | None = None) -> Surface:
+def contact_map(scene: Scene) -> Surface:
+    """The first of `contact_maps`."""
+    return contact_maps(scene)[0]
+
+
+def contact_maps(scene: Scene, given: tuple[Surface, ...] = ()) -> tuple[Surface, ...]:
     """Generate the heights of ``scene``, or read, turn, scale and cut them and make them periodic; those of both bodies
-    become one map. A given ``surface`` is taken as it is.
+    become one map, which each body follows alone (`together`). Maps that are ``given`` are taken as they are.
 
     Under a cylinder a measured map is cut, about its middle, to the length of ``contact.shape`` (default: 6 Hertz
     half-widths on each side), and goes on along y as it is, as a given one does. A flat contact is periodic along both
     axes, and mirrors it. The notes of the surface tell everything that was done.
     """
-    if surface is None:
-        surface = whole_map(scene)
-        if measured(scene):
-            surface = _cut_to_contact(scene, surface)
-    validate.instance("surface", surface, Surface, "a lubfric.Surface")
-    if not np.isfinite(surface.heights).all():
-        missing = f"{100 * surface.missing_fraction:.3g} % of the heights are unmeasured (NaN)"
+    maps = given or whole_maps(scene)
+    if not given and measured(scene):
+        maps = tuple(_cut_to_contact(scene, one) for one in maps)
+    if not np.isfinite(maps[0].heights).all():
+        missing = f"{100 * maps[0].missing_fraction:.3g} % of the heights are unmeasured (NaN)"
         raise InputError(f"surface: {missing}; call level() and fill() first")
-    check_grid(scene, surface)
-    return surface
+    check_grid(scene, maps[0])
+    return maps
 
 
 def rough_bodies(scene: Scene) -> list[tuple[Roughness, str]]:
@@ -55,10 +58,10 @@ def extended(scene: Scene) -> bool:
     return any(rough.extension == "mirror" for rough, _ in rough_bodies(scene))
 
 
-def whole_map(scene: Scene) -> Surface:
-    """The heights of both bodies as one map: measured ones whole and on their own grid, generated ones on the contact
-    grid. A generated one that faces a measured one is made as large as that. If it were repeated instead, a few of its
-    summits would stand for all."""
+def whole_maps(scene: Scene) -> tuple[Surface, ...]:
+    """The heights of both bodies `together`, or of the only one: measured ones whole and on their own grid, generated
+    ones on the contact grid. A generated one that faces a measured one is made as large as that. If it were repeated
+    instead, a few of its summits would stand for all."""
     bodies, domain, found = rough_bodies(scene), scene.contact, {}
     for rough, name in bodies:
         if rough.file is not None:
@@ -70,7 +73,13 @@ def whole_map(scene: Scene) -> Surface:
             with named(name):
                 found[name] = generated_map(rough, domain, name)
     maps = [found[name] for _, name in bodies]
-    return maps[0] if len(maps) == 1 else maps[0].combined(_beside(scene, maps[1]))
+    return (maps[0],) if len(maps) == 1 else together(maps[0], _beside(scene, maps[1]))
+
+
+def together(first: Surface, second: Surface) -> tuple[Surface, ...]:
+    """The maps of two bodies as one (`Surface.combined`), and each alone as part of that, with the other one flat."""
+    flat = [replace(one, heights=np.zeros(one.shape)) for one in (first, second)]
+    return first.combined(second), first.combined(flat[1]), flat[0].combined(second)
 
 
 def _beside(scene: Scene, second: Surface) -> Surface:

@@ -17,7 +17,7 @@ from ..errors import InputError
 from ..scene import Scene
 from ..surface import Surface
 from .half_space import BOUNDARY
-from .height_map import contact_map, measured, whole_map
+from .height_map import contact_maps, measured, whole_maps
 from .operator import HalfSpace, half_space
 from .solve import solve_contact
 
@@ -157,12 +157,13 @@ def _whole(scene: Scene, surface: Surface | None) -> Surface:
                 "counterface: dents of two rough bodies that pass each other are not those of their sum; run in one "
                 "body against a smooth one (a scene without counterface), or give a map as surface"
             )
-        surface = whole_map(scene)
+        surface = whole_maps(scene)[0]
         if measured(scene):
             spacing = scene.contact.spacing
             surface = surface if spacing is None else surface.resampled(spacing=spacing)
             surface = surface.periodic(axes=(scene.contact.geometry == "flat", True))
-    surface, half_width = contact_map(scene, surface), scene.bodies.half_width
+    validate.instance("surface", surface, Surface, "a lubfric.Surface")
+    surface, half_width = contact_maps(scene, (surface,))[0], scene.bodies.half_width
     if surface.spacing[0] > half_width:
         raise InputError(
             f"spacing of the map = {surface.spacing[0]:.3g} m along x does not resolve the Hertz strip; allowed: at "

@@ -11,15 +11,16 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from .._base import FieldsOnly, validate
 from ..errors import InputError
 from ..quantities import counted
-from ..scene import Roughness, Scene
+from ..scene import ROUGH, Roughness, Scene
 from ..surface import Surface, surface_generator
-from .height_map import extended, measured, rough_bodies, statistics, whole_map
+from .height_map import extended, measured, rough_bodies, statistics, whole_maps
 from .rough_contract import centred_axis
 from .strip_cells import (
     EVEN,
@@ -53,7 +54,8 @@ class Strips:
     ``lengths`` [m]: correlation lengths at 1/e along x and y; ``length`` [m]: what one strip adds to a stack;
     ``first``, ``available``: number of strips that are solved first, and that there are; ``pieces``: number of pieces.
     ``windows``: whether each strip is a window of a measured map, which may differ from place to place. ``exact_sq``:
-    whether every strip has the Sq of the surface; ``whole``: whether a piece is all that there is.
+    whether every strip has the Sq of the surface; ``whole``: whether a piece is all that there is. ``bodies``: of a
+    measured map, or of a patch, that two bodies make up, the part of each.
     """
 
     scene: Scene
@@ -66,6 +68,7 @@ class Strips:
     windows: bool = False
     exact_sq: bool = False
     whole: bool = False
+    bodies: tuple[Surface, ...] = ()
 
     def joined(self, indices: Sequence[int]) -> Surface:
         """The strips of these numbers joined along y, the last to the first: periodic, on ``cells``."""
@@ -191,10 +194,19 @@ class OnePatch(Strips):
 
 def strips_of(scene: Scene) -> Strips:
     """Strips of the scene's surface, generated or measured; on the scene's own cells if ``numerics.grid`` is given."""
-    found: Strips = measured_strips(scene, whole_map(scene)) if measured(scene) else generated_strips(scene)
+    found: Strips = measured_strips(scene, *whole_maps(scene)) if measured(scene) else generated_strips(scene)
     while scene.numerics.grid == "given" and not found.cells.own:
         found = found.halved()
     return found
+
+
+def alone(strips: Strips, body: int) -> Strips:
+    """The same strips of one of two rough bodies, number 0 or 1, with the other one flat."""
+    if isinstance(strips, (MeasuredStrips, OnePatch)):
+        return replace(strips, surface=strips.bodies[body])
+    other = ROUGH[1 - body]
+    smooth = replace(getattr(strips.scene, other), sq=0.0)
+    return replace(strips, scene=replace(strips.scene, **{other: smooth}))
 
 
 def generated_strips(scene: Scene) -> GeneratedStrips:
@@ -218,18 +230,21 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     return GeneratedStrips(scene, cells, lengths, length, first, available, available, exact_sq=len(bodies) == 1)
 
 
-def measured_strips(scene: Scene, surface: Surface, lengths: tuple[float, float] | None = None) -> MeasuredStrips:
+def measured_strips(
+    scene: Scene, surface: Surface, *bodies: Surface, lengths: tuple[float, float] | None = None
+) -> MeasuredStrips:
     """Windows of a measured map under the cylinder of ``scene``. The map is levelled and filled, with x along the
-    motion. ``lengths``: its correlation lengths [m] along x and y, where they are known.
+    motion. ``bodies``: the part of each of two. ``lengths``: its correlation lengths [m] along x and y, where they are
+    known.
 
     A map with fewer than eight whole windows gets further ones, which reach over its ends, where it is continued by its
     mirror image. The Hertz strip of every window lies on the map itself: beyond it only single high summits touch.
     """
+    maps = surface, *bodies
     if scene.contact.spacing is not None:
-        surface = surface.resampled(spacing=scene.contact.spacing)
-    reach = reach_of(scene, surface.sq)
-    if extended(scene):
-        surface = surface.continued(reach)
+        maps = tuple(one.resampled(spacing=scene.contact.spacing) for one in maps)
+    reach = reach_of(scene, maps[0].sq)
+    surface, *parts = (one.continued(reach) for one in maps) if extended(scene) else maps
     half_width, (dx, _) = scene.bodies.half_width, surface.spacing
     lengths = lengths or (length_or_half(surface, 0), length_or_half(surface, 1))
     if scene.contact.shape is not None:
@@ -255,18 +270,18 @@ def measured_strips(scene: Scene, surface: Surface, lengths: tuple[float, float]
     most = max(1, min(count, int(MOST_CELLS * cells.coarse[1] / (cells.count * length))))
     first = min(most, max(1, math.ceil(FIRST * lengths[1] / length * (1 - 1e-9))))
     starts = [starts[i] for i in spread(count)]
-    return MeasuredStrips(
-        scene, cells, lengths, length, first, most, count, windows=True, surface=surface, starts=tuple(starts)
-    )
+    own: dict[str, Any] = {"surface": surface, "bodies": tuple(parts), "starts": tuple(starts), "windows": True}
+    return MeasuredStrips(scene, cells, lengths, length, first, most, count, **own)
 
 
-def one_patch(scene: Scene, surface: Surface, lengths: tuple[float, float]) -> OnePatch:
-    """The patch ``surface`` of ``scene``, of correlation ``lengths`` [m], on cells that divide its own."""
+def one_patch(scene: Scene, lengths: tuple[float, float], surface: Surface, *bodies: Surface) -> OnePatch:
+    """The patch ``surface`` of ``scene``, of correlation ``lengths`` [m], on cells that divide its own. ``bodies``: the
+    part of each of two."""
     first = float(centred_axis(surface.shape[0], surface.spacing[0])[0])
     cells = cells_of_a_box(surface.spacing, lengths, scene.bodies.half_width, surface.shape, first)
     while scene.numerics.grid == "given" and not cells.own:
         cells = cells.halved()
-    return OnePatch(scene, cells, lengths, surface.size[1], whole=True, surface=surface)
+    return OnePatch(scene, cells, lengths, surface.size[1], whole=True, surface=surface, bodies=bodies)
 
 
 def _seed_of(*words: int) -> int:

@@ -52,8 +52,8 @@ class DeterministicResult:
     - load_at, friction_at [N/m] (ny,): load and friction of every column of cells along x, with those upstream. Their
       means are ``load`` and ``coefficient`` times that.
     - spot_length [m]: area of all spots per length. top_pressure [Pa]: the largest in the film.
-    - drawn: of the lubricant in the film, the share that touching cells of the strip give off, because their floor is
-      kept full; the rest enters from upstream.
+    - given [m]: film at U that touching cells of the strip give off, because their floor is kept full; drawn: their
+      share of the lubricant in the film. The rest enters from upstream.
     - approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
     """
 
@@ -85,12 +85,17 @@ class DeterministicResult:
     spot_length: float
     top_pressure: float
     plastic_fraction: float
-    drawn: float
+    given: float
     central_gap: float
     approach: float
     inlet_load: float
     report: Report
     state: State = field(repr=False)
+
+    @property
+    def drawn(self) -> float:
+        """See above. In motion of the means over time: at moments nothing enters."""
+        return self.given / (self.given + max(self.flow_film, 0.0)) if self.given > 0 else 0.0
 
 
 @dataclass(frozen=True)
@@ -171,17 +176,12 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         spot_length=float(spots.sum()) * dx / p.shape[1],
         top_pressure=float(p[fluid & ~rubs.thin].max(initial=0.0)),
         plastic_fraction=float((state.yielded & (state.dent > 0))[strip].mean()),
-        drawn=_drawn(at, touching, strip),
+        given=float(np.where(touching, np.maximum(at.residual, 0.0), 0.0)[strip].sum())
+        * dx
+        / (p.shape[1] * problem.speed),
         central_gap=float(np.interp(0.0, problem.x, h.mean(axis=1))),
         approach=state.approach,
         inlet_load=float(inlet.load.mean()),
         report=report,
         state=state,
     )
-
-
-def _drawn(at: Iterate, touching, strip) -> float:
-    source = np.where(touching, np.maximum(at.residual, 0.0), 0.0)[strip]
-    given = float(source.sum()) * at.problem.spacing[0] / source.shape[1]
-    entering = max(float(at.balance.inlet.flow.mean()), 0.0)
-    return given / (given + entering) if given > 0 else 0.0

@@ -1,7 +1,7 @@
 """A scene in words: its inputs with their units, regime numbers, and what will be solved."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
@@ -9,15 +9,10 @@ import numpy as np
 
 from ..contact import MeasuredStrips, Strips, check_grid, contact_map, strips_of
 from ..errors import InputError
-from ..film import hertz
-from ..oil import estimate_in_words
-from ..quantities import KEYS, counted
+from ..quantities import counted
 from ..sampling import MOST_WORK, forecast
 from ..scene import (
     CHANGING,
-    FRICTION,
-    FRICTION_OVER,
-    HISTORIES,
     Harmonic,
     History,
     Scene,
@@ -25,15 +20,13 @@ from ..scene import (
     gap_not_resolved,
     moves,
     told_doubts,
-    typical,
 )
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
-from ..units import converted, worded
+from .inputs import FACTS, input_rows
 
-SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 STEP_TOLERANCE, SWING, START = 3e-5, 80.0, 30.0  # of a step; with it, steps in a period of a history; at the start
 FILM_STEP, CELL_STEP = 6e-3, 1.5e-7  # s of a step in time: its film, and a cell of its contact
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
@@ -61,7 +54,7 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     return "\n".join(
         [
             f"scene {scene.name}",
-            *(row for name in FACTS for row in _section(name, [*_inputs(scene, name), *FACTS[name](scene)])),
+            *(row for name in FACTS for row in _section(name, [*input_rows(scene, name), *FACTS[name](scene)])),
             *_section("transient", told),
             *_section("surface", [*map_in_words(surface, strips), *(n for n in whole.notes if "nm as it is" in n)]),
             *_map_rows(scene, whole, surface.heights.size),
@@ -244,66 +237,3 @@ def _map_rows(scene: Scene, surface: Surface, solved: int) -> list[str]:
         ("length / 2b", f"{surface.size[0] / (2 * b):.3g}", "cells solved first", f"{solved}, {memory}"),
     ]
     return [f"    {left:<12} {value:<11} {right:<19} {text}" for left, value, right, text in rows]
-
-
-def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
-    """(what it is, the value with its unit, the key, and its range, its table, or the range of typical values) of every
-    input in a section of the scene."""
-    for key, quantity in KEYS.items():
-        value = getattr(getattr(scene, section, None), key.removeprefix(f"{section}."), None)
-        if not key.startswith(f"{section}.") or value is None or value == ():
-            continue
-        text = worded(value, quantity.unit)
-        if key == "lubricant.temperature":
-            text = f"{converted(value, 'K', '°C'):.4g} °C"
-        alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
-        ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
-        note = f", typical of {' or '.join(alike)}: {ends}" if alike else ""
-        changing = [name for name, of in HISTORIES.items() if of == key and getattr(scene.transient, name, None)]
-        if changing:
-            note = f", which changes in time: transient.{changing[0]}"
-        for name, *known in scene.ranges:
-            if name == key:
-                note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"
-        table = scene.bodies.boundary_friction_table
-        if table is not None and key == FRICTION:
-            unit = FRICTION_OVER[table.over]
-            points = (f"{value:.4g} at {worded(at, unit)}" for at, value in zip(table.at, table.values))
-            note = f", by a table over {table.over}: {', '.join(points)}"
-        yield quantity.label, text, key, note
-
-
-def _inputs(scene: Scene, section: str) -> list[str]:
-    return [f"{label}: {text}  ({key}){note}" for label, text, key, note in inputs(scene, section)]
-
-
-def _bodies(scene: Scene) -> list[str]:
-    b = scene.bodies
-    peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
-    return [
-        f"Hertz: half-width {worded(b.half_width, 'm')}, mean pressure {worded(b.mean_hertz_pressure, 'Pa')}, "
-        f"peak {worded(peak, 'Pa')}; {worded(b.load / b.width, 'N/m')}",
-        *(["contact spots: elastic (no bodies.hardness)"] if b.hardness is None else []),
-    ]
-
-
-def _lubricant(scene: Scene) -> list[str]:
-    oil, rows = scene.lubricant, []
-    if oil.oil is not None and oil.temperature is not None:
-        rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
-    rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
-    if oil.newtonian:
-        rows.append("shear: Newtonian at any stress (no eyring_stress, no limiting_stress_coefficient)")
-    known = oil.heats and oil.temperature_coefficient is not None
-    why = "isothermal, how the viscosity falls with the temperature is not given"
-    return [*rows, f"heat: {scene.numerics.heat if known else why}"]
-
-
-def _motion(scene: Scene) -> list[str]:
-    u, ratio = scene.motion.entrainment_speed, scene.motion.slide_roll_ratio
-    u1, u2 = u * (1 - ratio / 2), u * (1 + ratio / 2)
-    surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
-    return [] if scene.transient is not None else [surfaces]
-
-
-FACTS = {"bodies": _bodies, "lubricant": _lubricant, "motion": _motion}  # what follows from the inputs of a section

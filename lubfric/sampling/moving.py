@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from ..contact import HalfSpaceContact, Strips
+from ..contact import HalfSpaceContact, Strips, alone
 from ..deterministic import RoughBody, Strip, moving_work, reach, solve_moving_strip, solve_strip
 from ..scene import Scene, moves, moving_bodies
 from ..sharing import Prepared, on_strip
@@ -45,16 +45,9 @@ def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
     """Of strip ``index`` the map of each rough body, by its section."""
     found, strips = [name for name, _ in moving_bodies(prepared.scene)], prepared.strips
     assert strips is not None
-    if len(found) < 2:
-        return dict.fromkeys(found, strip_surface(prepared, index))
-    return {name: _alone(strips, name).strip(index) for name in found}
-
-
-def _alone(strips: Strips, name: str) -> Strips:
-    """The ``strips`` of one of two rough bodies."""
-    other = "counterface" if name == "surface" else "surface"
-    smooth = replace(getattr(strips.scene, other), sq=0.0)
-    return replace(strips, scene=replace(strips.scene, **{other: smooth}))
+    if len(found) < 2 or prepared.joint:  # of a joint map all is that of surface 1
+        return dict.fromkeys(found[:1], strip_surface(prepared, index))
+    return {name: alone(strips, k).strip(index) for k, name in enumerate(found)}
 
 
 def moving_strip_work(scene: Scene, strips: Strips, sq: float, speed: float, factors: tuple[int, int]) -> float:

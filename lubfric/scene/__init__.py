@@ -14,7 +14,7 @@ from .scene import (
     moving_bodies,
     value_of,
 )
-from .sections import SECTIONS
+from .sections import ROUGH, SECTIONS
 from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
 from .transient import HISTORIES, Transient, checked_history, read_history
 from .transient import UNITS as CHANGING

@@ -221,7 +221,7 @@ def as_ranges(found: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
 
 def gap_not_resolved(scene: Scene, given: bool = False) -> str:
     """The first key of ``scene`` that the deterministic model does not take, and what it takes, in words; "" if it
-    takes all. ``given``: its map was given to `lubfric.prepare`."""
+    takes all. ``given``: one map was given to `lubfric.prepare`, for all its bodies."""
     found = _not_taken(scene, given)
     return next((f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in found), "")
 
@@ -253,9 +253,8 @@ def _not_taken(scene: Scene, given: bool) -> Iterator[tuple[str, Any, str]]:
         if value not in allowed:
             yield name, value, f"{', '.join(map(repr, allowed))}{why}"
     bodies = moving_bodies(scene)
-    measured = [name for name, _ in bodies if getattr(scene, name).file is not None]
-    if len({u for _, u in bodies}) > 1 and (given or measured or scene.numerics.sampling == "patch"):
-        yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 none, or two generated ones"
+    if len({u for _, u in bodies}) > 1 and given:
+        yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 a map of its own"
     lubricant = scene.lubricant
     if lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset == 0:
         yield "lubricant.limiting_stress_offset", 0.0, "a value above 0, some 1e6 Pa (else no film flows at p = 0)"

@@ -16,7 +16,7 @@ from ..contact import (
     RoughContact,
     Strips,
     asperities_under_cylinder,
-    contact_map,
+    contact_maps,
     correlation_lengths,
     flat_contact,
     half_space,
@@ -26,6 +26,7 @@ from ..contact import (
     one_patch,
     rough_bodies,
     strips_of,
+    together,
 )
 from ..contact import check_grid as check_map
 from ..errors import InputError
@@ -64,6 +65,11 @@ class Prepared(FieldsOnly, Shown):
         """Whether the rough contact is one of lubfric's own."""
         return isinstance(self.contact, OWN)
 
+    @property
+    def joint(self) -> bool:
+        """Whether one map was given for all bodies, and nobody knows what of it is whose."""
+        return self.given and not (self.strips and self.strips.bodies)
+
     @cached_property
     def memo(self) -> dict[Any, Any]:
         """What was `remembered`; neither compared nor pickled."""
@@ -90,6 +96,7 @@ def prepare(
     scene: Scene,
     surface: Surface | None = None,
     *,
+    counterface: Surface | None = None,
     like: Prepared | None = None,
     contact: RoughContact | None = None,
 ) -> Prepared:
@@ -101,6 +108,8 @@ def prepare(
     surface : a height map to use as it is, with its grid, instead of the scene's own. Under a cylinder it is taken as
         periodic along y, for a flat contact along x and y (`Surface.periodic` makes it so). Without one, a scene with
         ``numerics.sampling = "strips"`` gets strips of its roughness (docs/uncertainty.md)
+    counterface : the map of the other body, measured out of it, for a scene whose [counterface] is rough
+        (`Surface.combined`). Without it, ``surface`` is what the roughness of both bodies makes up
     like : another prepared scene with the same surface, contact and E', whose map is used again
     contact : a rough contact other than lubfric's own (`lubfric.contact.RoughContact`)
 
@@ -113,33 +122,49 @@ def prepare(
     InputError : the map does not fit the scene, or ``like`` does not
     """
     validate.instance("scene", scene, Scene, "a Scene, such as lubfric.load_scene returns")
+    maps = _given(scene, surface, counterface)
     if scene.numerics.model == "deterministic":
-        check_resolved_gap(scene, surface is not None or isinstance(like, Prepared) and like.given)
+        check_resolved_gap(scene, len(maps) == 1 or isinstance(like, Prepared) and like.joint)
     if like is not None:
         validate.instance("like", like, Prepared, "what lubfric.prepare returned")
-        _check_likeness(scene, like.scene, surface, contact)
+        _check_likeness(scene, like.scene, maps, contact)
         if _same_contact(scene, like.scene):
             kept = {key: value for key, value in like.memo.items() if key[0] != "reference"}
             strips = None if like.strips is None else replace(like.strips, scene=scene)
             made = replace(like, scene=scene, known=beforehand(scene, like.surface), strips=strips)
             made.memo.update(kept)
             return made
-        surface = like.surface if like.given else None
+        maps = (like.surface, *(like.strips.bodies if like.strips else ())) if like.given else ()
         contact = None if like.own else like.contact
-    given = surface is not None or contact is not None
+    given = bool(maps) or contact is not None
     with told_doubts(scene):
         if not given and takes_strips(scene):
             strips = strips_of(scene)
             return _on_strips(scene, strips, given)
-        surface = contact_map(scene, surface)
+        surface, *bodies = contact_maps(scene, maps)
         if contact is not None:
             return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
         if scene.contact.geometry == "cylinder" and scene.contact.model == "half-space":
-            return _on_strips(scene, one_patch(scene, surface, _lengths(scene, surface, given)), given, surface)
+            strips = one_patch(scene, _lengths(scene, surface, given), surface, *bodies)
+            return _on_strips(scene, strips, given, surface)
         heights = surface.heights - surface.heights.mean()
         flat = scene.contact.geometry == "flat"
         contact = (flat_contact if flat else asperities_under_cylinder)(scene, heights, surface.spacing)
         return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
+
+
+def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -> tuple[Surface, ...]:
+    """The maps that were given to `prepare`, `together`."""
+    for name, one in (("surface", surface), ("counterface", counterface)):
+        if one is not None:
+            validate.instance(name, one, Surface, "a lubfric.Surface")
+    if surface is None or counterface is None:
+        if counterface is not None:
+            raise InputError("counterface is given without surface; give the maps of both bodies, or of none")
+        return () if surface is None else (surface,)
+    if scene.counterface is None or scene.counterface.sq == 0:
+        raise InputError("counterface is given, but that of the scene is smooth; give its [counterface] an sq")
+    return together(surface, counterface)
 
 
 def takes_strips(scene: Scene) -> bool:
@@ -246,8 +271,8 @@ def _without_friction(bodies: Bodies) -> Bodies:
     return replace(bodies, boundary_friction_coefficient=0.0, boundary_friction_table=None)
 
 
-def _check_likeness(scene: Scene, old: Scene, surface, contact) -> None:
-    if surface is not None or contact is not None:
+def _check_likeness(scene: Scene, old: Scene, maps, contact) -> None:
+    if maps or contact is not None:
         raise InputError("like brings its own surface and contact; give like, or surface and contact, not both")
     for name, a, b in (
         ("surface", scene.surface, old.surface),

@@ -36,7 +36,7 @@ from ..deterministic import (
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
 from ..quantities import OF_MOMENT
 from ..sampling import block_error, maps_of, numbers_of, strip_of
-from ..scene import Constant, Scene
+from ..scene import Constant, Scene, moving_bodies
 from ..sharing import Prepared, Validity, of_motion, of_thickness, prepare
 from .film_setting import WET
 from .march import Memory, Progress, Step
@@ -210,8 +210,8 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
     surface, factors = strip_of(prepared, 0)
     maps = maps_of(prepared, 0)
-    if len(maps) > 1 and plan.sliding is not None and (strips.whole or strips.windows):
-        raise InputError(" moves two rough bodies apart", "transient.sliding", "two generated ones, by strips")
+    if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:
+        raise InputError(" moves two rough bodies apart", "transient.sliding", "a map of each (lubfric.prepare)")
     if not maps:  # smooth
         surface, factors = replace(surface, heights=surface.heights[:, :1], mask=None), (factors[0], 1)
     speed = plan.speed or Constant(scene.motion.entrainment_speed)

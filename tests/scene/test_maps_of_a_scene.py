@@ -6,7 +6,7 @@ from instrument_files import write_sdf, write_sur
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
-from lubfric.contact import contact_map, whole_map
+from lubfric.contact import contact_map, whole_maps
 from lubfric.output import main
 from lubfric.scene import ContactDomain, Roughness
 
@@ -92,7 +92,7 @@ def test_a_sample_that_was_measured_turned_by_a_right_angle_slides_the_same(tmp_
 @pytest.mark.parametrize("turned", [("counterface",), ("surface",), ("surface", "counterface")])
 def test_unmeasured_points_of_a_turned_sample_lie_where_they_lie_on_the_body(tmp_path, turned):
     """The pair turned is the pair itself or its mirror image in y, heights and unmeasured points alike."""
-    as_it_lies, after = (whole_map(scene) for scene in pair_and_turned(tmp_path, turned, holes=True))
+    as_it_lies, after = (whole_maps(scene)[0] for scene in pair_and_turned(tmp_path, turned, holes=True))
     sides = slice(None), slice(None, None, -1)
     (side,) = [y for y in sides if np.allclose(after.heights, as_it_lies.heights[:, y], rtol=0, atol=1e-10)]
     assert np.count_nonzero(~as_it_lies.mask) == 60
@@ -110,12 +110,12 @@ def test_a_generated_body_that_faces_a_measured_map_is_as_large_as_that(tmp_path
     text = GENERATED.replace("[surface]", f"[{generated}]") + f"[{other}]\nfile = 'large.npy'\nspacing = {GRID}\n"
     scene = loaded(tmp_path, text)
     nx, ny = scene.contact.shape
-    z = whole_map(scene).heights
+    z = whole_maps(scene)[0].heights
     assert z.shape == large.shape and z.std() == pytest.approx(1e-7, rel=0.1)
     for first, second in ((z[:-nx], z[nx:]), (z[:, :-ny], z[:, ny:])):
         assert abs(np.corrcoef(first.ravel(), second.ravel())[0, 1]) < 0.3
     unlimited = scene.with_(contact={"shape": None, "spacing": None})  # the map has a grid for both
-    assert whole_map(unlimited).shape == large.shape
+    assert whole_maps(unlimited)[0].shape == large.shape
 
 
 def test_a_map_shorter_than_the_strip_leads_to_what_can_be_done(maps):

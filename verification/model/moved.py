@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import RoughBody, moments, solve_strip, travelling
+from lubfric.deterministic import TOUCHING, Iterate, RoughBody, evaluated, moments, solve_strip, travelling
 
 from ..fem.fluid import Fluid
 
@@ -23,16 +23,16 @@ BALANCES = "mass", "load", "gap", "bounds"
 def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
     """Means over one pass of the fastest of ``bodies`` (at rest: of the steady film): ``f``, ``central`` and ``mean``
     gap [m], ``shares`` of the load on gaps below each of `FILMS`, and ``drawn``, the share of the lubricant that
-    touching cells are said to give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are
-    from 0."""
+    touching cells give off; the same at rest, from which it starts; ``off``: how far the `BALANCES` are from 0."""
     heights = np.sum([body.surface.heights for body in bodies], axis=0)
     whole = lubfric.Surface(heights, bodies[0].surface.spacing, periodic_axes=(True, True))
     upper = next((body.surface for body in bodies if body.upper), None)
     rest = solve_strip(scene, whole, speed, upper=upper)
-    problem, first = rest.problem, row(rest.problem, rest.result)
+    problem = rest.problem
+    first = row(problem, rest.result, given(evaluated(problem, rest.result.state)))
     fastest = max(abs(body.speed) for body in bodies)
     if fastest == 0:
-        return first | {"rest": first, "off": balances(problem, rest.result, [], 0.0), "steps": 0}
+        return first | {"rest": first, "off": balances(problem, rest.result, [], 0.0, first["given"]), "steps": 0}
     line, dx = problem.contact, problem.spacing[0]
     step, width = dx / fastest, max(line.half_width, math.sqrt(2 * line.radius * line.moes_film))
     start, count = math.ceil(SWEEP * width / (line.entrainment_speed * step)), whole.shape[0]
@@ -43,27 +43,34 @@ def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
         tolerance=EXACT * problem.x.size,
         carried=int(line.half_width > 8 * dx),
     )
-    found = [moment.result for moment in islice(moving, start, start + count + 1)]
-    rows = [row(problem, result) for result in found[1:]]
+    found, out = zip(*((moment.result, given(moment.at)) for moment in islice(moving, start, start + count + 1)))
+    rows = [row(problem, *both) for both in zip(found[1:], out[1:])]
     mean: dict[str, Any] = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
-    at = travelling(problem, bodies)((start + count) * step)
-    return mean | {"rest": first, "off": balances(at, found[-1], found, step), "steps": start + count}
+    mean["drawn"] = mean["given"] / max(mean["given"] + mean["enters"], mean["given"])
+    at, out = travelling(problem, bodies)((start + count) * step), float(np.mean(out[2:]))
+    return mean | {"rest": first, "off": balances(at, found[-1], found, step, out), "steps": start + count}
 
 
-def row(problem, result) -> dict[str, Any]:
-    """The numbers of one moment."""
-    p, h = result.pressure, result.gap
+def row(problem, result, out: float) -> dict[str, Any]:
+    """The numbers of one moment, in which touching cells give off ``out`` [m²/s]."""
+    p, h, enters = result.pressure, result.gap, result.flow_film * result.speed
     shares = [float(p[h < film].sum() / p.sum()) for film in FILMS]
-    numbers = {"f": result.coefficient, "central": result.central_gap, "mean": result.mean_gap, "drawn": result.drawn}
-    return numbers | {"shares": shares}
+    numbers = {"f": result.coefficient, "central": result.central_gap, "mean": result.mean_gap, "given": out}
+    return numbers | {"enters": enters, "drawn": out / max(out + enters, out), "shares": shares}
 
 
-def balances(problem, result, passing: Sequence, step: float) -> dict[str, float]:
+def given(at: Iterate) -> float:
+    """What touching cells give off [m²/s]: their outflow less their inflow, and what they gain."""
+    source = np.where(at.state.kind == TOUCHING, at.residual, 0.0)
+    return float(source.sum()) * at.problem.spacing[0] / source.shape[1]
+
+
+def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) -> dict[str, float]:
     """How far fields are from what they must obey.
 
-    - mass: what enters, less what leaves behind the rupture (U times what is there, at the end of the grid) and what is
-      gained, in the steps of ``step`` [s] between ``passing`` results, over what enters; of a steady film (none) at
-      once.
+    - mass: what enters and what touching cells give off (``out`` [m²/s], mean over all but two), less what leaves
+      behind the rupture (U times what is there, at the end of the grid) and what is gained, in the steps of ``step``
+      [s] between ``passing`` results, over the former; of a steady film (none) at once.
     - load: ∫ p less the load, relative.
     - gap: mean over y of the gap, less parabola, heights and -4/(pi E') ∫ p ln|x - s| ds, up to a constant, over the
       mean gap between the ends of the contact.
@@ -74,8 +81,9 @@ def balances(problem, result, passing: Sequence, step: float) -> dict[str, float
     lost = [U * (one.flow_film - held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1]) for one in results]
     first, second, *_, before, last = (float(held(line, one, one.gap).sum()) * dx for one in results)
     gained = (3 * (last - second) - (before - first)) / (2 * step) if passing else 0.0  # the sum of BDF2 over all steps
-    missing = float(np.sum(lost[2:])) - gained
-    enters = U * float(np.sum([one.flow_film for one in results[2:]]))
+    source = out * len(results[2:])
+    missing = float(np.sum(lost[2:])) + source - gained
+    enters = U * float(np.sum([one.flow_film for one in results[2:]])) + source
     p = result.pressure.mean(axis=1)
     face = x[:, None] - x[None, :]
     a, b = face + dx / 2, face - dx / 2
