@@ -116,10 +116,10 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
             "  (not where heat turns out to matter: these are isothermal)",
         ]
     if strip := max((one.moving for one in found), default=0.0):
-        rows += [
-            f"the roughness moves: one strip with one gap and one pressure takes about {in_words(strip)}; beyond "
-            f"{MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
-        ]
+        unseen = ", which Eq. (8) does not see" * (asked == "load-sharing")
+        beyond = f"; beyond {MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
+        takes = f"one strip with one gap and one pressure takes about {in_words(strip)}"
+        rows.append(f"the roughness moves{unseen}: {takes}{beyond * (asked == 'auto')}")
     if found:
         seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
         count = counted(len(moving), "speeds")
