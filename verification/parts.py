@@ -2,10 +2,12 @@
 result and of a model that a study counts on. A part that is missing ends the study in words."""
 
 import math
+from collections.abc import Callable
 from typing import TypeVar
 
 from lubfric.contact import ContactResult, ContactState, HalfSpaceContact
-from lubfric.film import EHLResult
+from lubfric.film import EHLResult, LineContact
+from lubfric.oil import Lubricant
 from lubfric.sampling import FrictionResult
 from lubfric.sharing import Prepared
 
@@ -40,6 +42,26 @@ def half_space(model: Prepared) -> HalfSpaceContact:
     if not isinstance(model.contact, HalfSpaceContact):
         raise TypeError(f"this study needs a contact of half-spaces, not {type(model.contact).__name__}")
     return model.contact
+
+
+def line_contact(case: dict) -> LineContact:
+    """The contact of arguments of `solve_ehl`, which may have an ``eyring_stress`` as well."""
+    laws = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law", "eyring_stress")
+    oil = Lubricant(**{name: case[name] for name in laws if name in case})
+    return LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], oil)
+
+
+def moes_unit(speed: float) -> float:
+    """The film [m] that is 1 in Moes' units at this entrainment ``speed``, in the cases of `case_of`."""
+    return math.sqrt(2 * VISCOSITY * speed / (E_PRIME * RADIUS)) * RADIUS
+
+
+def halved(low: float, high: float, below: Callable[[float], bool], times: int = 60) -> float:
+    """The value between two positive ones up to which ``below`` holds, by bisection of its logarithm."""
+    for _ in range(times):
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if below(middle) else (low, middle)
+    return low
 
 
 def case_of_scene(scene, load: float, speed: float) -> dict:

@@ -13,6 +13,7 @@ from lubfric.deterministic import (
     animate_moments,
     lay_out,
     moments,
+    moving,
     plot_moments,
     plot_passing,
     solve_moving_strip,
@@ -176,6 +177,22 @@ def scene_of(**motion):
     )
 
 
+def test_a_step_that_newtons_method_does_not_solve_is_taken_in_parts(monkeypatch):
+    """Four Euler steps in the place of each: nearly the same film."""
+    surface = rough(3, sq=0.05e-6)
+    problem, bodies = laid(surface), [RoughBody(surface, 0.15)]
+    whole, real = after(problem, bodies, 6), moving.newton
+
+    def of_parts_only(*given, past, **how):
+        found = real(*given, past=past, **how)
+        return found if past[1] < 0.5 * CELL / 0.15 else replace(found, residuals={"mass": 1.0})
+
+    monkeypatch.setattr(moving, "newton", of_parts_only)
+    parts = after(problem, bodies, 6)
+    assert 1e-4 < np.abs(parts.at.gap - whole.at.gap).max() / whole.at.gap.mean() < 0.03
+    assert parts.result.coefficient == pytest.approx(whole.result.coefficient, rel=0.015)
+
+
 def waves(steps_a_cell: float, count: float = 0.5):
     """The gap under a wave that has moved by ``count`` wavelengths, in pure rolling, on one row of cells."""
     b = LINE.half_width
@@ -205,6 +222,8 @@ def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
     strip = solve_moving_strip(scene, [RoughBody(surface, 0.225)], 0.3, slope=True)
     f, discarded = strip.series["coefficient"], strip.discarded
     assert f.size - discarded == 32 and strip.result.coefficient == pytest.approx(f[discarded:].mean(), rel=1e-12)
+    share = strip.series["share"][discarded:]
+    assert strip.result.split.spots / strip.result.load == pytest.approx(share.mean()) and share[-1] < share.mean()
     assert strip.times[discarded - 1] * 0.3 >= 2.5 * scene.bodies.half_width
     assert strip.work > strip.rest.work and "after" in strip.result.report.notes[0]
     assert strip.deviations.mean() == pytest.approx(0.0, abs=1e-9 * strip.result.load)

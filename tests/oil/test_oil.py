@@ -1,7 +1,5 @@
 """Oils against the standards' numbers and an independent package's; measured oils are a part of the verification."""
 
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -22,8 +20,6 @@ INDICES = [
     (70, 11.1, 150.18753158026385),
     (68, 8.6, 96.79460143399413),
 ]
-# D341: m, n -> nu [mm²/s] at 40, 70, 100 °C
-# Stachowiak & Batchelor, Engineering Tribology, Table 2.3: eta [mPa s] and alpha [1/GPa] at 30, 60, 100 °C
 
 
 @pytest.mark.parametrize("nu40, nu100, index", INDICES)
@@ -71,17 +67,6 @@ def test_table_is_d341_between_its_points_and_ends_there():
         assert table.temperature_coefficient(t) == pytest.approx(whole.temperature_coefficient(t), rel=1e-3)
     with pytest.raises(InputError, match="290"):
         table.kinematic_viscosity(280.0)
-
-
-def test_density_and_dynamic_viscosity():
-    made = oil.from_grade("ISO VG 68", 95, density=870)
-    assert made.density_at(288.15) == 870
-    assert made.density_at(343.15) == pytest.approx(870 - 55 * 0.64)
-    assert made.viscosity(343.15) == made.kinematic_viscosity(343.15) * made.density_at(343.15)
-    assert made.with_(density_slope=0.0).density_at(343.15) == 870
-    assert made.index == pytest.approx(95, abs=1e-6)
-    slope = (math.log(made.viscosity(343.15)) - math.log(made.viscosity(342.15))) / -1.0
-    assert made.temperature_coefficient(342.65) == pytest.approx(slope, rel=1e-4)
 
 
 def test_given_coefficient_is_used_and_has_no_estimate():

@@ -45,7 +45,7 @@ class Balanced(HTMLParser):
 def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("run")
     (folder / "s.toml").write_text(SCENE.replace("[bodies]", "name = 'a < b & c'\n[bodies]"))
-    assert main(["run", str(folder / "s.toml"), "--out", str(folder / "out"), "--vtk"]) == 0
+    assert main(["run", str(folder / "s.toml"), "--out", str(folder / "out"), "--vtk", "--report"]) == 0
     return folder / "out"
 
 

@@ -83,18 +83,12 @@ def test_bad_study_files_are_one_line(tmp_path, capsys, change, words):
     assert words in error and error.count("\n") == 1 and not (tmp_path / "out").exists()
 
 
-def test_broken_streams_do_not_stop_a_study(tmp_path):
-    process = command("study", written(tmp_path), "--out", tmp_path / "out", stderr=subprocess.PIPE)
-    process.stderr.close()
-    assert process.wait() == 0 and (tmp_path / "out" / "study.csv").is_file()
-
-
 @pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
     many = STUDY.replace("[3.0, 5.5]", str([3.0 + 0.001 * i for i in range(1500)]))
     path, out = written(tmp_path, many), tmp_path / "out"
     process = command("study", path, "--out", out, "--workers", 2, stderr=subprocess.PIPE, text=True)
-    while process.poll() is None and not any(path.stat().st_size for path in out.glob("points/*.bin")):
+    while process.poll() is None and not any(path.stat().st_size for path in out.glob(f"points/{'?' * 40}.bin")):
         time.sleep(0.05)
     process.send_signal(sent)
     said = process.communicate()[1].splitlines()

@@ -317,27 +317,6 @@ def test_options_that_do_not_apply_are_refused(tmp_path):
 # --- form -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("holes", [0.0, 0.2])
-def test_second_order_form_is_taken_off(tmp_path, holes):
-    """Roughness orthogonal to every quadratic (by a fit of its own) comes back from under a cylinder at an angle,
-    a thousand times as high, to rounding; a plane alone leaves the cylinder."""
-    rng, shape, step = np.random.default_rng(5), (40, 31), (1e-6, 2e-6)
-    x, y = np.meshgrid(*(s * np.arange(n) for n, s in zip(shape, step)), indexing="ij")
-    measured_points = rng.random(shape) >= holes
-    u, v = x / x.max(), y / y.max()
-    terms = np.stack([np.ones_like(u), u, v, u * u, u * v, v * v], axis=-1)
-    rough = 1e-8 * rng.standard_normal(shape)
-    orthonormal = np.linalg.qr(terms[measured_points])[0]
-    rough[measured_points] -= orthonormal @ (orthonormal.T @ rough[measured_points])
-    form = 3e-6 + 0.1 * x - (0.8 * (x - 1e-5) + 0.6 * y) ** 2 / (2 * 5e-5)
-    np.save(tmp_path / "a.npy", np.where(measured_points, rough + form, np.nan))
-    surface = read_surface(tmp_path / "a.npy", spacing=step, form="quadratic", fill=False)
-    assert np.abs(surface.heights - rough)[measured_points].max() < 1e-11 * np.abs(form).max()
-    assert surface.notes[0].startswith("levelled") and "curvatures -1.280e+04, -7.200e+03 1/m" in surface.notes[0]
-    assert np.allclose(surface.level("quadratic").measured, surface.measured, atol=1e-17)
-    assert read_surface(tmp_path / "a.npy", spacing=step, fill=False).sq > 50 * surface.sq
-
-
 def test_second_order_form_of_short_and_thin_maps():
     thin = Surface(np.arange(6.0)[:, None] ** 2, 1.0)
     assert not thin.level("quadratic").heights.round(12).any() and thin.level().heights.round(12).any()

@@ -61,7 +61,6 @@ def solve_contact(
     limit: float | None = None,
     tolerance: float = 1e-8,
     max_iterations: int = 300,
-    raise_on_failure: bool = True,
 ) -> Contact:
     """Pressure of a rigid counterface on an elastic surface under a given load, optionally capped.
 
@@ -91,7 +90,7 @@ def solve_contact(
     Raises
     ------
     InputError : before any work, also for a load no smaller than the limit can carry
-    SolveError : a residual above ``tolerance``, unless ``raise_on_failure`` is False
+    SolveError : a residual above ``tolerance``
     """
     problem = checked(displacement, weights, gap0, load, limit, tolerance)
     force = np.full(problem.gap0.size, load / problem.gap0.size)
@@ -105,9 +104,7 @@ def solve_contact(
         force, more = active_set(problem, force, touching, saturated, max_iterations)
         steps = (steps[0] + more[0], [*steps[1], *more[1]], more[2])
     found = finish(problem, force, steps)
-    if raise_on_failure:
-        found.report.raise_if_failed(found)
-    return found
+    return found.report.checked(found)
 
 
 def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:

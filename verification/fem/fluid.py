@@ -6,7 +6,9 @@ derivative.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +16,7 @@ from .report import InputError
 
 ROELANDS_PRESSURE = 1.96e8
 VISCOSITY_LAWS = ("constant", "barus", "roelands")
-DENSITY_LAWS = ("constant", "linear", "dowson_higginson")
+DENSITY_LAWS = ("constant", "linear", "dowson-higginson")
 STEP = 1e-40
 
 
@@ -28,7 +30,7 @@ class Fluid:
     pressure_viscosity_coefficient : alpha, 1/Pa
     roelands_index : z, 1; None takes ``alpha p0/(ln viscosity + 9.67)``
     density_law : relative density "constant" 1; "linear" ``1 + p/bulk_modulus`` (an isothermal ideal gas has
-        its ambient pressure for bulk modulus); "dowson_higginson"
+        its ambient pressure for bulk modulus); "dowson-higginson"
         ``(5.9e8 + 1.34 p)/(5.9e8 + p)`` (Dowson & Higginson 1966, p in Pa)
     bulk_modulus : Pa, for "linear"
     eyring_stress : Pa; the shear stress is its asinh of the Newtonian one in its units (infinite: Newtonian)
@@ -60,6 +62,19 @@ class Fluid:
             raise InputError(f"roelands_index = {self.index}; allowed: > 0")
         if not self.bulk_modulus > 0:
             raise InputError(f"bulk_modulus = {self.bulk_modulus} Pa; allowed: > 0")
+
+    @classmethod
+    def of(cls, oil: Mapping[str, Any]) -> "Fluid":
+        """The fluid of an oil that is told in the words of a scene, or of the arguments of ``lubfric.solve_ehl``."""
+        alpha, limit = oil.get("pressure_viscosity_coefficient", 0.0), oil.get("limiting_stress_coefficient")
+        return cls(
+            oil["viscosity"],
+            oil.get("viscosity_law", "roelands") if alpha else "constant",
+            alpha,
+            density_law=oil.get("density_law", "constant"),
+            eyring_stress=oil.get("eyring_stress") or math.inf,
+            limiting_stress=None if limit is None else (oil.get("limiting_stress_offset", 0.0), limit),
+        )
 
     @property
     def index(self) -> float:

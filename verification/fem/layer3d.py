@@ -194,13 +194,11 @@ def multigrid(layer: Layer3D, modes: np.ndarray | None = None) -> Multigrid:
     return Multigrid(layer, matrix, hierarchy)
 
 
-def solve(
-    grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: int = 100, raise_on_failure: bool = True
-) -> Solved:
+def solve(grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: int = 100) -> Solved:
     """Displacement of the assembled layer under nodal surface forces (nx, ny) in N, downwards.
 
     The stopping test, made here on the returned displacement and not taken from the iteration: ``|f - K u|/|f|`` in the
-    2-norm <= tolerance. Raises `SolveError` with report and result otherwise, unless ``raise_on_failure`` is False.
+    2-norm <= tolerance. Raises `SolveError` with report and result otherwise.
     """
     layer = grid.layer
     force = np.asarray(force, dtype=float)
@@ -218,7 +216,4 @@ def solve(
     solver, past = "smoothed aggregation, conjugate gradients", tuple(r / scale for r in history)
     notes = (f"pyamg info {info}", f"{layer.unknowns} unknowns")
     report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past, notes)
-    solved = Solved(found.reshape(layer.planes, *layer.shape, 3), report)
-    if raise_on_failure:
-        report.raise_if_failed(solved)
-    return solved
+    return report.checked(Solved(found.reshape(layer.planes, *layer.shape, 3), report))

@@ -2,11 +2,13 @@
 
 import math
 from dataclasses import dataclass
+from typing import TypeVar
 
 CONVERGED = "converged"
 ITERATION_LIMIT = "iteration_limit"
 STAGNATED = "stagnated"
 DIVERGED = "diverged"
+T = TypeVar("T")
 
 
 class InputError(ValueError):
@@ -64,7 +66,8 @@ class SolveReport:
             f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
         )
 
-    def raise_if_failed(self, result=None) -> None:
-        """Raise `SolveError` with this report and ``result`` unless the solve converged."""
+    def checked(self, result: T) -> T:
+        """``result``, if the solve converged; else `SolveError` with this report and the ``result``."""
         if not self.converged:
             raise SolveError(self.message, self, result)
+        return result

@@ -201,24 +201,19 @@ def solve_reynolds(
     start: np.ndarray | None = None,
     tolerance: float = 1e-8,
     max_iterations: int = 100,
-    raise_on_failure: bool = True,
 ) -> Solution:
-    """Solve for the pressure.
+    """Solve for the pressure from ``start`` (at the degrees of freedom; None: 0).
 
     Stops when the largest of these is <= ``tolerance``:
 
-    - mass: ``sum |r_i|/flow_i`` over free nodes, with r the weak residual and flow_i = U h (times the width
-    of a
+    - mass: ``sum |r_i|/flow_i`` over free nodes, with r the weak residual and flow_i = U h (times the width of a
       surface mesh) there, or ``sum |(f, v_i)|`` where that is larger
     - tension: ``max(-p)/max |p|``, with cavitation
     - overlap: ``max p`` where p should be 0 because ``r_i/J_ii > p_i`` / ``max |p|``: pressure and lost flow
       together at one node
     - suction: ``sum max(-r_i, 0)/flow_i`` over nodes held at p = 0 by cavitation
 
-    Parameters
-    ----------
-    start : first pressure at the degrees of freedom, default 0
-    raise_on_failure : raise `SolveError`, with report and last solution, where the residual stays too large
+    Raises `SolveError`, with report and last solution, where the residual stays too large.
     """
     basis = Basis(problem.mesh, problem.element(), intorder=2 * problem.degree + 4)
     held = boundary_dofs(problem, basis)
@@ -254,10 +249,7 @@ def solve_reynolds(
         p = p + newton_step(problem, matrix, r, p, held, cavitated)
     steps = len(history) - 1
     report = SolveReport("Reynolds finite elements", status, steps, tolerance, residuals, tuple(history))
-    solution = Solution(problem, basis, p, r, report)
-    if raise_on_failure:
-        report.raise_if_failed(solution)
-    return solution
+    return report.checked(Solution(problem, basis, p, r, report))
 
 
 def solve_refined(problem: Problem, refinements: int, **options) -> list[Solution]:

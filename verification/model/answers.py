@@ -20,6 +20,7 @@ from lubfric.scene import Roughness
 
 from ..check import ABSOLUTE, TOLD, Check, Figure, Item, Table
 from ..kept import Run
+from ..parts import halved
 from ..plotting import finish, panels
 
 SEED = 884  # so that the first few differ in surface and load
@@ -87,12 +88,8 @@ class Case:
 
     def speed(self, scene) -> float:
         """Speed [m/s] at which Moes' film of the whole load is so many Sq."""
-        low, high, sq = 1e-7, 1e3, CONTACTS[self.contact][0].get("surface", {}).get("sq", 100e-9)
-        for _ in range(60):
-            middle = math.sqrt(low * high)
-            thin = scene.line_contact(middle).moes_film < self.ratio * sq
-            low, high = (middle, high) if thin else (low, middle)
-        return low
+        sq = CONTACTS[self.contact][0].get("surface", {}).get("sq", 100e-9)
+        return halved(1e-7, 1e3, lambda u: scene.line_contact(u).moes_film < self.ratio * sq)
 
 
 def heights(kind: str, seed: int) -> np.ndarray:

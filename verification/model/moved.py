@@ -47,8 +47,8 @@ def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
     rows = [row(problem, *both) for both in zip(found[1:], out[1:])]
     mean: dict[str, Any] = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
     mean["drawn"] = mean["given"] / max(mean["given"] + mean["enters"], mean["given"])
-    at, out = travelling(problem, bodies)((start + count) * step), float(np.mean(out[2:]))
-    return mean | {"rest": first, "off": balances(at, found[-1], found, step, out), "steps": start + count}
+    at, off = travelling(problem, bodies)((start + count) * step), float(np.mean(out[2:]))
+    return mean | {"rest": first, "off": balances(at, found[-1], found, step, off), "steps": start + count}
 
 
 def row(problem, result, out: float) -> dict[str, Any]:
@@ -103,5 +103,5 @@ def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) 
 
 def held(line, result, gap) -> np.ndarray:
     """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure, mean over y (nx,)."""
-    law = Fluid(1.0, density_law=line.lubricant.density_law.replace("-", "_")).rho
+    law = Fluid(1.0, density_law=line.lubricant.density_law).rho
     return (result.fill * law(result.pressure) * gap).mean(axis=1)

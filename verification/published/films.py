@@ -13,7 +13,7 @@ from lubfric.surface import Surface
 from .. import plotting, references
 from ..check import Check, Figure, Item
 from ..exact import Parabola
-from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of
+from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of, moes_unit
 from . import against
 
 MOES = ((5, 5), (20, 5), (100, 5), (10, 10), (50, 10), (200, 16))  # M, L
@@ -73,7 +73,7 @@ def own(found: lubfric.EHLResult) -> float:
 
 def unit(found: lubfric.EHLResult) -> float:
     """The film that is 1 in Moes' units, m."""
-    return math.sqrt(2 * VISCOSITY * found.entrainment_speed / (E_PRIME * RADIUS)) * RADIUS
+    return moes_unit(found.entrainment_speed)
 
 
 def numbers(found: lubfric.EHLResult) -> tuple[float, float, float]:

@@ -7,13 +7,11 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.film import LineContact
-from lubfric.oil import Lubricant
 
 from .. import plotting, references
 from ..check import Check, Figure, Item
-from ..parts import case_of
-from ..waves import Smooth, at_rest, history, laid_out, response
+from ..parts import case_of, line_contact
+from ..waves import at_rest, history, laid_out, response
 from . import against
 
 DENSE = "dowson-higginson"
@@ -62,20 +60,12 @@ def reduced(m: float, l: float, length: float, height: float, cells: float) -> t
     """Half the range of the gap at x = 0 over a period, over the height of the waves, and its relative error."""
     values = []
     for n in (cells, cells / 2):
-        at = smooth(case_of(m, l, density=DENSE), 1.0, n)
+        at = laid_out(line_contact(case_of(m, l, density=DENSE)), 1.0, n)
         tall = height * at.film.gap[at.middle, 0]
         _, gaps, _ = history(at, 2 * math.pi / (length * at.half_width), tall)
         values.append(np.ptp(gaps[:, at.middle]) / 2 / tall)
     step = float(values[0] - values[1]) / 3
     return float(values[0]) + step, abs(step / values[0])
-
-
-def smooth(case: dict, speed: float, cells: float, **laws) -> Smooth:
-    """A contact from the arguments of `solve_ehl`."""
-    laws = {"viscosity_law": case["viscosity_law"], "density_law": case["density_law"]} | laws
-    oil = Lubricant(case["viscosity"], case["pressure_viscosity_coefficient"], **laws)
-    line = LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], oil)
-    return laid_out(line, speed, cells)
 
 
 def steady(name: str) -> Iterator[Check]:
@@ -104,7 +94,7 @@ def ripples(alpha: float, film: float, lengths: float) -> tuple[float, float]:
     }
     for _ in range(4):
         case["entrainment_speed"] *= (film / lubfric.solve_ehl(**case, tolerance=1e-3).central_film) ** (1 / 0.7)
-    at = smooth(case, 0.0, 40 * lengths / 2)
+    at = laid_out(line_contact(case), 0.0, 40 * lengths / 2)
     found, near = at_rest(at, k, height), np.abs(at.film.x) < 2.5 * w["wavelength"]
     x = at.film.x[near]
     columns = np.stack([x**0, x / b, (x / b) ** 2, np.cos(k * x), np.sin(k * x)], axis=1)
@@ -124,7 +114,7 @@ def sliding(speed: float, length: float) -> Check:
     case |= {"load_per_width": m * math.sqrt(u1) * scale, "entrainment_speed": u1 * scale / (2 * case["viscosity"])}
     values = []
     for cells in (40 * max(1.0, speed) / length, 20 * max(1.0, speed) / length):
-        at = smooth(case, speed, cells, eyring_stress=g["eyring"])
+        at = laid_out(line_contact(case | {"eyring_stress": g["eyring"]}), speed, cells)
         gap, p = at.film.gap[at.middle, 0], at.film.pressure[at.middle, 0]
         k, near = 2 * math.pi / (length * at.half_width), np.abs(at.film.x) < 0.6 * at.half_width
         slid = 2 * abs(speed - 1) * case["entrainment_speed"]

@@ -111,7 +111,7 @@ def same_gap(cells: int, speed: float):
     gap = 0.5 * (found.gap + found.gap[:, ::-1])
     spots = pressure > SPOT
     given = GivenGap(found.x, case.spacing[1], gap, pressure, spots, RADIUS, case.edge_log)
-    judge = rough_film(given, Fluid(VISCOSITY, "roelands", ALPHA), speed, cells=cells, refinements=0)
+    judge = rough_film(given, Fluid(VISCOSITY, "roelands", ALPHA), speed, cells=cells)
     half = pressure.shape[1] // 2
     free, cell = ~spots[:, :half], case.spacing[0] / half
     load = pressure[:, :half][free].sum() * cell + found.inlet_load
