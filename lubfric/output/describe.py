@@ -40,13 +40,8 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
         surface = contact_map(scene) if strips is None else strips.stack(strips.first)
         check_grid(scene, surface)
     whole, own = map_of(surface, strips), scene.motion.entrainment_speed
-<<<<<<< HEAD
-    asked = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
-    speeds = tuple(asked) or scene.motion.speeds or (own,)
-=======
     chosen = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
     speeds = tuple(chosen) or scene.motion.speeds or (own,)
->>>>>>> main
     told, over = [], counted(len(speeds), "speeds")
     if scene.transient is not None:
         speeds, over = tuple(speeds_of_run(scene)) or (0.0,), "a run in time"

@@ -70,11 +70,7 @@ def _picture(path: Path, result: studies.StudyResult) -> None:
     numbers = all(values.dtype.kind == "f" and np.unique(values).size == values.size for _, values in longer)
     keys = [key for key, _ in longer]
     if numbers and len(keys) == 2 and "speed" not in keys and len(result.dims) == 3:
-<<<<<<< HEAD
-        studies.plot_map(path, result, keys[0], keys[1], figures.plain_words(result.plan["name"]))
-=======
         studies.plot_map(path, result, keys[0], keys[1], figures.plain_words(result.plan.scene.name))
->>>>>>> main
         return
     figure = figures.new_figure(figsize=(7, 4.5))
     axes = figure.subplots()
