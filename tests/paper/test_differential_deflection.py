@@ -26,7 +26,8 @@ def numbers(result):
 
 
 def test_the_answer_does_not_depend_on_the_band(monkeypatch):
-    kw, runs = moes(50, 10, nodes=401, tolerance=0.1), []
+    kw = moes(50, 10, nodes=401, tolerance=0.1)
+    runs = []
     for m in (0, 2, 8, 40, 400):
         monkeypatch.setattr(differential_equations, "BANDWIDTH", m)
         runs.append(solve_differential_deflection(**kw))
