@@ -93,9 +93,10 @@ def _of_run(result) -> list[str]:
     error = 100 * mean.sampling
     film, peak = worded(float(result.min_film.min()), "m"), int(np.abs(f).argmax())
     low, high = result.uncertainty.interval[peak]
+    when = "the" if mean.in_motion == 1 else f"the {100 * mean.in_motion:.3g} % in motion of the"
     ends = f" ({low:.3g} to {high:.3g} with the range of f_b)" if np.any(result.inputs) else ""
     return [
-        f"f is {mean.coefficient:.4g} on average over {result.time[-1]:.4g} s.",
+        f"f is {mean.coefficient:.4g} on average over {when} {result.time[-1]:.4g} s.",
         f"Its standard error is {error:.2g} %, as the surface is finite; {UNKNOWN}.",
         f"f is at most {f[peak]:.4g}{ends}; the film is at least {film}.",
     ]

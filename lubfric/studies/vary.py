@@ -77,8 +77,7 @@ class Axis:
 
 def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
     """The dimensions of ``vary`` (see `lubfric.study`), with each value put into the scene once as a check."""
-    if not isinstance(vary, dict):
-        raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
+    validate.instance("vary", vary, dict, 'a dict such as {"bodies.load": [5.0, 10.0]}')
     seen: set[str] = set()
     axes, cases = [], 0
     points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1) != 0)
