@@ -62,8 +62,7 @@ def read_surface(
     spacing : (dx, dy) or one length [m], only for files that do not carry their own
     unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in .xyz); only where the file names none
     decimal : "." or ",", the decimal mark of a text file in which commas can be either
-    missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN always
-        does
+    missing_value : number for "not measured" in a .npy or text file, in the unit of the file, beside NaN
 
     Returns a `Surface`.
 
