@@ -1,6 +1,10 @@
 """What a solver says about its own work, and every exception that the library raises on purpose."""
 
+import math
 from dataclasses import asdict, dataclass, field
+from typing import Any, TypeVar
+
+T = TypeVar("T", bound=Any)  # a result with a report
 
 
 class LubfricError(Exception):
@@ -89,6 +93,11 @@ ADVICE = {
 }
 
 
+def worst(residuals: dict[str, float]) -> float:
+    """The largest of them; infinite if one is no finite number."""
+    return max(residuals.values()) if all(map(math.isfinite, residuals.values())) else math.inf
+
+
 @dataclass(frozen=True)
 class Report:
     """The outcome of an iterative solve.
@@ -149,3 +158,11 @@ class Report:
     def as_dict(self) -> dict:
         """Plain types only, ready for JSON."""
         return asdict(self) | {"converged": self.converged}
+
+
+def returned(result: T, raise_on_failure: bool = True) -> T:
+    """``result``, which has a ``report``; where that failed and it is asked for, the `ConvergenceError` that carries
+    both."""
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result

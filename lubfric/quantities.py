@@ -145,9 +145,7 @@ class UncertaintyQuantities(Generic[T]):
     line_scatter: T = quantity(
         "-", "relative standard deviation of f between lines as wide as that of the scene", default=math.nan
     )
-    participation: T = quantity(
-        "-", "number of equally loaded spots that would carry the load as unevenly", default=math.nan
-    )
+    spots: T = quantity("-", "effective number of contact spots: alike, they would scatter as much", default=math.nan)
     length: T = quantity("m", "length of the line of rough surface", column="line_length", default=math.nan)
     area_needed: T = quantity(
         "-", "how many times more of a measured map would be needed", note="1: enough", default=1.0

@@ -67,7 +67,8 @@ def unit_for(values: Any, unit: str) -> str:
     """The unit of people for numbers in the SI ``unit``: the largest in which a number of middle size is 1 or more."""
     units, sizes = PEOPLE.get(unit, (unit,)), [abs(v) for v in values if v and abs(v) < math.inf]  # not NaN
     middle = median(sizes) if sizes else 0.0
-    return next((name for name in reversed(units) if middle >= UNITS[unit][name] * (1 - 1e-9)), units[0])
+    large = (name for name in reversed(units[1:]) if middle >= UNITS[unit][name] * (1 - 1e-9))
+    return next(large, units[0])
 
 
 def printed(unit: str) -> str:
@@ -125,6 +126,13 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         return float(converted(Decimal(found[1]), given, unit))
     except ArithmeticError:
         raise InputError(f" = {shown!r} is out of range", name, allowed) from None
+
+
+def in_si(name: str, text: str) -> tuple[float, str]:
+    """The number that ``text`` with a unit gives, in SI, and that SI unit. Raises `InputError`, as `without_unit`."""
+    found = NUMBER.fullmatch(text)
+    unit = next((si for si, row in UNITS.items() if found and spelled(found[2]) in row), "-")
+    return without_unit(name, text, unit), unit
 
 
 def number_of(name: str, text: str, unit: str) -> float:

@@ -52,6 +52,7 @@ def test_words_for_columns_axes_tables_and_lines():
         (2000.0, "N", "2 kN"),
         (0.3, "N", "0.3 N"),
         (0.0, "m", "0 nm"),
+        ((0.0, 0.0, 2e-3), "m", "0 and 0 and 2 mm"),
         (float("nan"), "m", "nan nm"),
         (3.6e6, "J/(m3 K)", "3.6 MJ/(m³ K)"),
         (0.05, "-", "0.05"),

@@ -2,12 +2,18 @@
 result and of a model that a study counts on. A part that is missing ends the study in words."""
 
 import math
+from collections.abc import Callable
 from typing import TypeVar
 
-from lubfric.contact import ContactResult, ContactState, HalfSpaceContact
-from lubfric.film import EHLResult
+import numpy as np
+
+from lubfric.contact import ContactResult, ContactState, HalfSpaceContact, solve_contact
+from lubfric.film import EHLResult, LineContact
+from lubfric.oil import Lubricant
 from lubfric.sampling import FrictionResult
 from lubfric.sharing import Prepared
+
+from . import exact_contact
 
 T = TypeVar("T")
 ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
@@ -40,6 +46,38 @@ def half_space(model: Prepared) -> HalfSpaceContact:
     if not isinstance(model.contact, HalfSpaceContact):
         raise TypeError(f"this study needs a contact of half-spaces, not {type(model.contact).__name__}")
     return model.contact
+
+
+def line_contact(case: dict) -> LineContact:
+    """The contact of arguments of `solve_ehl`, which may have an ``eyring_stress`` as well."""
+    laws = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law", "eyring_stress")
+    oil = Lubricant(**{name: case[name] for name in laws if name in case})
+    return LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], oil)
+
+
+def moes_unit(speed: float) -> float:
+    """The film [m] that is 1 in Moes' units at this entrainment ``speed``, in the cases of `case_of`."""
+    return math.sqrt(2 * VISCOSITY * speed / (E_PRIME * RADIUS)) * RADIUS
+
+
+def halved(low: float, high: float, below: Callable[[float], bool], times: int = 60) -> float:
+    """The value between two positive ones up to which ``below`` holds, by bisection of its logarithm."""
+    for _ in range(times):
+        middle = math.sqrt(low * high)
+        low, high = (middle, high) if below(middle) else (low, middle)
+    return low
+
+
+def pressed_cylinder(
+    line: exact_contact.Line, across: float, hardness: float | None = None
+) -> tuple[np.ndarray, ContactResult]:
+    """x [m], and a cylinder pressed dry by `solve_contact` in a box four half-widths wide, with ``across`` cells in
+    one."""
+    dx, n = line.half_width / across, 2 * int(2 * across)
+    x = (np.arange(n) - (n - 1) / 2) * dx
+    asked = {"mean_pressure": line.load / (n * dx), "boundary": ("free", "periodic"), "tolerance": 1e-8}
+    gap0 = np.tile(x[:, None] ** 2 / (2 * line.radius), (1, 4))
+    return x, solve_contact(gap0, dx, line.e_prime, hardness=hardness, **asked)
 
 
 def case_of_scene(scene, load: float, speed: float) -> dict:

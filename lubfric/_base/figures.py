@@ -50,7 +50,8 @@ def friction_lines(axes, x, parts, **style) -> None:
     f, contact, film = parts
     axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
     for part, color, label in ((contact, RED, "from the contact spots"), (film, GREEN, "from the film")):
-        axes.plot(x, part, color=color, lw=1, ls=(0, (4, 4)), label=label)  # f shows through where a part is all of it
+        lone = {"marker": "_", "ms": 20} if np.size(x) == 1 else {}
+        axes.plot(x, part, color=color, lw=1, ls=(0, (4, 4)), label=label, **lone)  # f shows through where it is all
 
 
 def widened(x, *values):
@@ -68,12 +69,14 @@ def load_shares(axes, x, share) -> None:
 
 def plain_ticks(axis) -> None:
     """Numbers such as 0.2 and 0.5 on a logarithmic ``axis`` (``ax.xaxis``) of less than two decades, where matplotlib
-    would write every tick as a product, so that they overlap. Ticks that were set by hand stay."""
-    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullFormatter
+    would write every tick as a product, so that they overlap, or none around a lone point. Ticks set by hand stay."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
     low, high = sorted(axis.get_view_interval())
     if axis.get_scale() == "log" and 0 < low and high < 100 * low and isinstance(axis.get_major_locator(), LogLocator):
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high > 5 * low else (1, 1.5, 2, 3, 4, 5, 7)))
+        fine = LogLocator(subs=(1, 2, 5) if high > 5 * low else (1, 1.5, 2, 3, 4, 5, 7))
+        axis.set_major_locator(fine if high > 2 * low else MaxNLocator(5))
+        axis.set_minor_locator(axis.get_minor_locator() if high > 2 * low else NullLocator())
         axis.set_major_formatter(FormatStrFormatter("%g"))
         axis.set_minor_formatter(NullFormatter())
 
@@ -94,7 +97,7 @@ def speed_label(speed: np.ndarray) -> str:
 def key_above(axes, columns: int = 3) -> int:
     """The key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has room
     for; returns the number of rows."""
-    labels, room = axes.get_legend_handles_labels()[1], 72 * 0.88 * axes.figure.get_figwidth() / LETTER
+    labels, room = axes.get_legend_handles_labels()[1], 72 * 0.8 * axes.figure.get_figwidth() / LETTER
     rows = -(-len(labels) // columns)
     while (
         rows < len(labels) and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, len(labels), rows)) > room

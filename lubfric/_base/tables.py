@@ -46,21 +46,14 @@ def plain(value):
 
 def read_json(path, remedy: str) -> Any:
     """What is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut off,
-    nested too deeply or binary, or if it says a key twice."""
+    nested too deeply or binary."""
     if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
         raise InputError(f"{path} is no file; {remedy}")
     try:
-        return json.loads(Path(path).read_bytes().decode("utf-8"), object_pairs_hook=_once)
+        return json.loads(Path(path).read_bytes().decode("utf-8"))
     except (OSError, ValueError, RecursionError, MemoryError) as problem:
         why = problem.strerror if isinstance(problem, OSError) else type(problem).__name__
         raise InputError(f"{path} is damaged, or no such record ({why}); {remedy}") from None
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        raise ValueError("a key twice")
-    return found
 
 
 def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:
@@ -178,7 +171,7 @@ def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
     """(line number, fields) of the rows that are neither empty nor comments, from that on which has most of the
     ``names``; decimal marks made points."""
     lines = [
-        (n, line) for n, line in enumerate(_text(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
+        (n, line) for n, line in enumerate(text_of(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
     ]
     if len(lines) < 2:
         raise InputError(f"file {path.name} has {len(lines)} rows; it needs a heading and rows of numbers")
@@ -223,12 +216,14 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
     return value
 
 
-def _text(path: Path) -> str:
+def text_of(path: Path, most: float = MOST_BYTES) -> str:
+    """What is in a file of text of at most so many bytes, in UTF-8 (with or without a byte-order mark), in UTF-16 with
+    one, or in Windows-1252. Raises `InputError` for anything else."""
     try:
         if not path.is_file():
             raise InputError(f"file {str(path)!r} does not exist; give a CSV file")
-        if path.stat().st_size > MOST_BYTES:
-            raise InputError(f"file {path.name} has {path.stat().st_size} bytes; allowed: up to {MOST_BYTES}")
+        if path.stat().st_size > most:
+            raise InputError(f"file {path.name} has {path.stat().st_size:.3g} bytes; allowed: up to {most:.3g}")
         content = path.read_bytes()
     except (OSError, ValueError) as problem:
         raise InputError(f"file {shown(str(path))} cannot be read ({problem})") from None
@@ -240,4 +235,4 @@ def _text(path: Path) -> str:
             continue
         if "\0" not in text:
             return text
-    raise InputError(f"file {path.name} is not text; give CSV in UTF-8, UTF-16 or Windows-1252")
+    raise InputError(f"file {path.name} is not text; give it in UTF-8, UTF-16 or Windows-1252")

@@ -4,12 +4,14 @@ import difflib
 import math
 import os
 import re
+import warnings
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from decimal import Decimal
+from importlib import import_module
 from numbers import Real
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from ..errors import InputError
 from ..quantities import CHOICES, KEYS
 from ..units import SANE, UNITS, spelled, without_unit
 
+T = TypeVar("T")
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
 LEAST, LARGEST = 1e-100, 1e100  # of any number: beyond it powers of it overflow
@@ -259,6 +262,17 @@ def nearest(word: Any, options: Iterable, cutoff: float = 0.4) -> str:
     return f" (did you mean {found[0]!r}?)" if found else ""
 
 
+def installed(name: str, extra: str) -> Any:
+    """The optional package ``name``, imported, of that ``extra``; `InputError` where it is not installed."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of other packages, at their import
+            return import_module(name)
+    except ImportError as problem:
+        said = f"this needs the package {name}: pip install 'lubfric[{extra}]' ({problem})"
+        raise InputError(said) from None
+
+
 def keys(where: str, given: Iterable, allowed: Iterable[str], other: Callable[[], dict[str, str]] = dict) -> None:
     """Raise `InputError` for a key of ``given`` that is none of ``allowed``. ``other`` gives other words for keys, and
     what to write instead; the likeness of the letters tells where a word is not among them."""
@@ -270,11 +284,16 @@ def keys(where: str, given: Iterable, allowed: Iterable[str], other: Callable[[]
             raise InputError(f"unknown key {shown(key)} in {where}{near}; allowed: {', '.join(options)}")
 
 
-def spacing(name: str, value: Any) -> tuple[float, float]:
-    """(dx, dy) in metres; one number means equal spacing."""
+def pair(name: str, value: Any, check: Callable[[str, Any], T], what: str) -> tuple[T, T]:
+    """Both parts of a pair for x and y, as ``check(name, part)`` returns them; one value stands for both. ``what``: one
+    of them in words."""
     several = isinstance(value, (list, tuple)) or isinstance(value, np.ndarray) and value.ndim == 1
     if several and len(value) != 2:
-        raise InputError(f" = {shown(value)} must be one length or a pair (dx, dy) in m", name)
-    pair = tuple(value) if several else (value, value)
-    dx, dy = (positive(f"{name}[{axis}]", step, "m", minimum=1e-15, maximum=1e3) for axis, step in enumerate(pair))
-    return dx, dy
+        raise InputError(f" = {shown(value)} must be {what} or a pair of them, for x and y", name)
+    first, second = (check(f"{name}[{i}]", part) for i, part in enumerate(value if several else (value, value)))
+    return first, second
+
+
+def spacing(name: str, value: Any) -> tuple[float, float]:
+    """(dx, dy) in metres; one number means equal spacing."""
+    return pair(name, value, lambda n, step: positive(n, step, "m", minimum=1e-15, maximum=1e3), "one length in m")

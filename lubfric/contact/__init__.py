@@ -14,4 +14,4 @@ from .rounds import ContactResult, Found, State, concluded, contact_residuals, l
 from .run_in import RunIn, run_in
 from .solve import solve_contact
 from .strip_cells import correlation_lengths, length_or_half
-from .strips import Strips, alone, one_patch, strips_of
+from .strips import MeasuredStrips, Strips, alone, one_patch, strips_of

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .._base import increasing_root, validate
-from ..errors import CONVERGED, STAGNATED, InputError, Report
+from ..errors import CONVERGED, STAGNATED, InputError, Report, returned
 from .asperity_find import FINDERS
 
 DEFINITIONS = tuple(FINDERS)
@@ -57,11 +57,9 @@ def find_asperities(
     validate.choice("definition", definition, DEFINITIONS)
     if hardness is not None:
         hardness = validate.positive("hardness", hardness, "Pa")
-    pair = (periodic, periodic) if isinstance(periodic, (bool, np.bool_)) else periodic
-    if not isinstance(pair, (list, tuple)) or len(pair) != 2:
-        raise InputError(f" = {validate.shown(periodic)}", "periodic", "True, False, or one of them for each axis")
+    closed = validate.pair("periodic", periodic, validate.boolean, "True or False")
     spacing = validate.spacing("spacing", spacing)
-    find = FINDERS[definition](heights, spacing, (bool(pair[0]), bool(pair[1])))
+    find = FINDERS[definition](heights, spacing, closed)
     whole = heights.size * spacing[0] * spacing[1]
 
     def at(separation) -> AsperityResult:
@@ -183,10 +181,7 @@ def separation_for_load(
         evaluations=scanned + len(history),
         advice=advice,
     )
-    best = replace(best, report=report)
-    if raise_on_failure:
-        report.raise_if_failed(best)
-    return best
+    return returned(replace(best, report=report), raise_on_failure)
 
 
 def _closest(found, top: float, span: float, target: float, tolerance: float):

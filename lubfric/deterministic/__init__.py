@@ -28,4 +28,4 @@ from .point import (
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
 from .solve import dry_contact, solve_point
-from .state import RUPTURED, TOUCHING, Iterate, State, evaluated, residuals
+from .state import RUPTURED, TOUCHING, Iterate, Past, State, evaluated, residuals

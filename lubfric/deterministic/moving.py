@@ -3,9 +3,8 @@
     div( U rho θ h - rho h³ Φ/(12 eta) grad p ) + d(rho θ h)/dt = 0
 
 The first step is implicit Euler, all others are BDF2, of second order: (3 m - 4 m' + m'')/(2 dt), with m' and m'' the
-mass rho θ h of the last two moments. That is an Euler step of 2/3 dt from (4 m' - m'')/3, which Newton's method takes
-as it is. (By Euler's method alone short waves die away on their journey.) In a step the fastest rough body moves by one
-cell.
+mass rho θ h of the last two moments, limited where a summit closes a cell (`state.stored`). (By Euler's method alone
+short waves die away on their journey.) In a step the fastest rough body moves by one cell.
 
 f is that of surface 2, the upper one, against its sliding u2 - u1, or against U in pure rolling (`Problem.sense`).
 """
@@ -29,7 +28,7 @@ from .point import Strip, solve_strip, work_of_steps
 from .problem import Problem, shifted
 from .result import DeterministicResult, LoadSplit, assemble
 from .solve import solve_point
-from .state import RUPTURED, Iterate, State, evaluated, residuals
+from .state import RUPTURED, Iterate, State, evaluated, kept, residuals
 
 EXACT = 1e-3  # tolerance of the residuals of a step
 LOOSE = 5e-4  # and of a strip, times its cells along x: f moves by .1 %
@@ -90,7 +89,7 @@ def moments(
     while True:
         count += 1
         work, problem = Work(MOST), problem_at(count * step)
-        past = (at.mass, step) if count == 1 else ((4 * at.mass - before.mass) / 3, 2 * step / 3)
+        past = (at.mass, step, None) if count == 1 else (kept(at.mass, before.mass), step, (at.mass, 0.5))
         near = (_carried(at.state, before.state, carried, smooth),) if carried else ()
         for state in (*near, at.state):
             found = newton(problem, state, work, tolerance=tolerance, most=MOST // 4, past=past)
@@ -116,7 +115,7 @@ def moments(
 def _in_parts(problem_at, at: Iterate, time: float, step: float, work: Work, tolerance: float) -> Found:
     """The step after ``time`` in `PARTS` Euler steps."""
     for part in range(1, PARTS + 1):
-        problem, past = problem_at(time + part * step / PARTS), (at.mass, step / PARTS)
+        problem, past = problem_at(time + part * step / PARTS), (at.mass, step / PARTS, None)
         found = newton(problem, at.state, work, tolerance=tolerance, most=MOST // 4, past=past)
         at = found.at
     return found

@@ -134,7 +134,7 @@ def march(problem: Problem, state: State, work: Work, *, most: int) -> State:
         goal = max(SETTLED, min(LOOSE, PART * left))
         begun = work.factorisations
         most = min(INNER, last - begun)
-        found = newton(problem, at.state, work, tolerance=goal, most=most, past=(at.mass, step))
+        found = newton(problem, at.state, work, tolerance=goal, most=most, past=(at.mass, step, None))
         work.steps += 1
         if found.residual <= goal:
             at = evaluated(problem, found.at.state)

@@ -79,8 +79,13 @@ def run(arguments) -> None:
 def info(arguments) -> None:
     """Say what a scene is."""
     from .describe import describe_scene
+    from .run_curve import parse_speeds
 
-    put(sys.stdout, describe_scene(_scene(arguments)) + "\n")
+    scene, speeds = _scene(arguments), arguments.speeds
+    if speeds is not None and scene.transient is not None:
+        raise InputError("--speeds is for a curve, and this is a scene with [transient]; leave it out")
+    told = describe_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))
+    put(sys.stdout, told + "\n")
 
 
 def study(arguments) -> None:

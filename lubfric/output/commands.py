@@ -25,6 +25,7 @@ from ..scene import Scene
 from ..sharing import Prepared, Validity, prepare
 from ..studies import Store, fits
 from ..surface import rms_slope
+from .describe import map_in_words
 
 INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them
 SAY_EVERY = 1.0  # s between two lines of progress
@@ -110,7 +111,8 @@ def ready(scene: Scene) -> Prepared:
     """``scene`` made ready, which is said."""
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
-    say(prepared.surface.describe())
+    for row in map_in_words(prepared.surface, prepared.strips):
+        say(row)
     return prepared
 
 

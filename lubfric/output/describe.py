@@ -1,63 +1,63 @@
 """A scene in words: its inputs with their units, regime numbers, and what will be solved."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import replace
 
-from ..contact import Strips, contact_map, measured, strips_of
+import numpy as np
+
+from ..contact import MeasuredStrips, Strips, check_grid, contact_map, strips_of
 from ..errors import InputError
-from ..film import hertz
-from ..oil import estimate_in_words
-from ..quantities import KEYS, counted
+from ..quantities import counted
 from ..sampling import MOST_WORK, forecast
 from ..scene import (
     CHANGING,
-    FRICTION,
-    FRICTION_OVER,
     Harmonic,
     History,
     Scene,
     Table,
     gap_not_resolved,
+    moves,
     told_doubts,
-    typical,
 )
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
-from ..studies import in_words
+from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
-from ..units import converted, worded
+from .inputs import FACTS, input_rows
 
-SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 STEP_TOLERANCE, SWING, START = 3e-5, 80.0, 30.0  # of a step; with it, steps in a period of a history; at the start
 FILM_STEP, CELL_STEP = 6e-3, 1.5e-7  # s of a step in time: its film, and a cell of its contact
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
 
 
-def describe_scene(scene: Scene) -> str:
-    """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved."""
+def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
+    """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved.
+    ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
     with told_doubts(scene):
         strips = strips_of(scene) if takes_strips(scene) else None
-        first = None if strips is None else strips.stack(strips.first)
-        surface = contact_map(scene) if first is None or measured(scene) else first
-    speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
+        surface = contact_map(scene) if strips is None else strips.stack(strips.first)
+        check_grid(scene, surface)
+    whole, own = map_of(surface, strips), scene.motion.entrainment_speed
+    chosen = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
+    speeds = tuple(chosen) or scene.motion.speeds or (own,)
     told, over = [], counted(len(speeds), "speeds")
     if scene.transient is not None:
         speeds, over = tuple(speeds_of_run(scene)) or (0.0,), "a run in time"
-        told = [*_histories(scene), _cost(scene, strips, surface, max(speeds))]
-    at = expected(scene, surface if first is None else first, sorted(set(speeds)))  # None: of bodies and map
+        told, own = [*_histories(scene), *_cost(scene, strips, surface, speeds)], max(speeds)
+    at = expected(scene, surface, sorted(set(speeds)))  # None: of bodies and map
     known = [entry.text for speed, entry in at if speed is None]
     known += gathered([(speed, (entry,)) for speed, entry in at if speed is not None])
-    own = scene.motion.entrainment_speed
-    left_out = [f"  {lack_in_words(lack)}" for lack in lacking(scene, surface.sq, own)]
+    left_out = [f"  {lack_in_words(lack)}" for lack in lacking(scene, whole.sq, own)]
     left_out = left_out and [f"likely changes of f at {own:g} m/s, by closed forms:", *left_out]
     return "\n".join(
         [
             f"scene {scene.name}",
-            *(row for name in FACTS for row in _section(name, [*_inputs(scene, name), *FACTS[name](scene)])),
+            *(row for name in FACTS for row in _section(name, [*input_rows(scene, name), *FACTS[name](scene)])),
             *_section("transient", told),
-            *_section("surface", [surface.describe(), *(note for note in surface.notes if "nm as it is" in note)]),
-            *_map_rows(scene, surface),
+            *_section("surface", [*map_in_words(surface, strips), *(n for n in whole.notes if "nm as it is" in n)]),
+            *_map_rows(scene, whole, surface.heights.size),
             *_section("contact", [f"{_plan(scene, surface)}; {over}"]),
             *_section("model", _model(scene, strips, surface, speeds)),
             *_section("left out", left_out or ["nothing that would change f by its tolerance"]),
@@ -74,28 +74,32 @@ def _section(name: str, rows) -> list[str]:
 def _plan(scene: Scene, surface: Surface) -> str:
     cells = "{} x {} cells".format(*surface.shape)
     if scene.numerics.model == "deterministic":
-        what = "one gap and one pressure, on grids of the map halved and doubled"
+        how = "one strip, whose cells are not corrected" if scene.transient else "grids of the map halved and doubled"
+        what = f"one gap and one pressure, on {how}"
     elif scene.contact.geometry == "flat":
         what = f"periodic contact curve on {cells}, once, then read at every speed"
     elif takes_strips(scene):
-        what = "semi-periodic contact on strips of the roughness (below) under the film at every speed"
+        what = "semi-periodic contact on strips of the roughness under the film at every speed"
     else:
         what = f"semi-periodic contact on {cells} under the film at every speed"
-    return f"{what}; f within {100 * scene.numerics.tolerance:g} %"
+    return f"{what}; f within {100 * scene.numerics.tolerance:g} % by the numerics"
 
 
 def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
     """Which model will answer at the ``speeds`` [m/s], why, and what all of them cost (`lubfric.sampling.friction`)."""
     asked, why = scene.numerics.model, gap_not_resolved(scene)
+    unknown = "its error is not known, and not in the interval"
+    if scene.transient is not None and asked == "deterministic":
+        return ["one gap and one pressure (the deterministic model) at all times, as asked"]
+    if scene.transient is not None:
+        more = "; it does not see that the roughness moves, as numerics.model = 'deterministic' does" * moves(scene)
+        return [f"load sharing, Eq. (8), at all times; {unknown}{more}"]
     moving = sorted({abs(u) for u in speeds if u != 0})
     some = moving[:: max(1, len(moving) // 25)]
     found = [forecast(scene, strips, surface, speed) for speed in some]
     resolved = [one.speed for one in found if one.resolved]
-    unknown = "its error is not known, and not in the interval"
     if asked == "deterministic":
         rows = ["one gap and one pressure (the deterministic model), as asked"]
-    elif scene.transient is not None:
-        rows = [f"load sharing, Eq. (8), at all times; {unknown}"]
     elif asked == "load-sharing":
         rows = [f"load sharing, Eq. (8), as asked: the fast way; {unknown if why else 'its interval is wide'}"]
     elif why:
@@ -112,11 +116,11 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
             "  (not where heat takes more than a fifth of f, or three tenths of the film)",
         ]
     if strip := max((one.moving for one in found), default=0.0):
-        rows += [
-            f"the roughness moves: one strip with one gap and one pressure takes about {in_words(strip)}; beyond "
-            f"{MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
-        ]
-    if found and scene.transient is None:
+        unseen = ", which Eq. (8) does not see" * (asked == "load-sharing")
+        beyond = f"; beyond {MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
+        takes = f"one strip with one gap and one pressure takes about {in_words(strip)}"
+        rows.append(f"the roughness moves{unseen}: {takes}{beyond * (asked == 'auto')}")
+    if found:
         seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
         count = counted(len(moving), "speeds")
         rows.append(f"cost: about {seconds} of processor time for {count} (an order of magnitude)")
@@ -148,22 +152,29 @@ def _laps(history: History, duration: float) -> float:
     return duration / history.times[-1] if isinstance(history, Table) and history.repeat else 0.0
 
 
-def _cost(scene: Scene, strips: Strips | None, surface: Surface, fastest: float) -> str:
-    """Steps and time of a run, by what runs of the paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
+def _cost(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
+    """Steps, time and sample of a run, whose film is judged at the ``speeds`` [m/s]; by what runs of the paper's scene
+    took (8 to 17 ms a step on 200 x 200 cells)."""
     assert (plan := scene.transient) is not None
     tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
     swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
     steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
-    one = forecast(scene, strips, surface, fastest)
-    cells = surface.heights.size
-    if strips is not None and not strips.whole:
-        cells = round(strips.cells.count * one.length / strips.cells.coarse[1])
-    seconds = one.seconds + steps * (FILM_STEP + CELL_STEP * cells)
+    found = [forecast(scene, strips, surface, speed) for speed in speeds]
+    most, fastest = max(found, key=lambda one: one.strips), max(speeds)
+    cells, sample = surface.heights.size, []
+    if strips is not None and scene.numerics.model != "deterministic":
+        cells = round(strips.cells.count * most.length / strips.cells.coarse[1])
+        asked = f"f within {100 * scene.numerics.sampling_tolerance:g} %"
+        sample = [
+            f"sample: {counted(most.strips, 'strips')} of the roughness, {1e3 * most.length:.2g} mm, at all times: for "
+            f"{asked} at {most.speed:.3g} m/s, which needs most"
+        ]
+    seconds = sum(one.seconds for one in found) + steps * (FILM_STEP + CELL_STEP * cells)
     if scene.numerics.model == "deterministic":
         steps, seconds = work_of_run(scene)
     top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
     course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs"
-    return f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)"
+    return [f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", *sample]
 
 
 def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
@@ -171,13 +182,14 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
     and what the sample costs."""
     head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (nm)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
     rows = ["  film of the whole load by closed forms, and whether it clears the summits", head]
+    strips = strips if scene.transient is None else None  # a run in time has one sample for all
     if strips is not None:
         dx, dy = strips.cells.coarse
         asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} µm"
         rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
         rows[-1] += f" {'strips':>8} {'one gap':>8} {'length (mm)':>12} {'time (s)':>9}"
-    own = () if scene.transient is not None else (scene.motion.entrainment_speed,)
-    nothing = "no entrainment" if scene.transient is not None else "no entrainment: all contact"
+    own = (scene.motion.entrainment_speed,) if scene.transient is None else ()
+    nothing = "no entrainment" + ": all contact" * len(own)
     for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], *own, speeds[-1]}):
         one, film = forecast(scene, strips, surface, speed), f"{nothing:<38}"
         if speed != 0:
@@ -191,85 +203,37 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
     return rows
 
 
-def _map_rows(scene: Scene, surface: Surface) -> list[str]:
+def map_of(surface: Surface, strips: Strips | None) -> Surface:
+    """The map that the scene has: measured, the whole of it; else ``surface``, which is solved first."""
+    return strips.surface if isinstance(strips, MeasuredStrips) else surface
+
+
+def map_in_words(surface: Surface, strips: Strips | None) -> list[str]:
+    """The map that the scene has; and where ``strips`` of it are solved, ``surface``, the first of them."""
+    if strips is None or strips.whole:
+        return [surface.describe()]
+    made = "" if strips.windows else f"{surface.source}: as many strips as are needed"
+    first = replace(surface, source="").describe()
+    joined = f"{counted(strips.first, 'strips')} of it, joined along the line" if strips.first > 1 else "a strip of it"
+    return [made or map_of(surface, strips).describe(), f"solved first: {joined}: {first}"]
+
+
+def _map_rows(scene: Scene, surface: Surface, solved: int) -> list[str]:
     """Statistics of the map on its own grid, how well that grid resolves them, and the memory of a contact solve on
-    it."""
-    (nx, ny), (dx, dy), b = surface.shape, surface.spacing, scene.bodies.half_width
+    the cells ``solved`` first."""
+    (dx, dy), b = surface.spacing, scene.bodies.half_width
     along_x, along_y, total = rms_slope(surface)
-    in_um, in_cells = (
-        ["-", "-"],
-        ["-", "-"],
-    )  # of a map that has none: flat, one cell, or shorter than twice that length
+    in_um, in_cells = [["-", "-"] for _ in range(2)]  # of a map that has none: flat, one cell, or too short
     for axis, step in enumerate((dx, dy)):
         with suppress(InputError):
             length = correlation_length(surface, axis)
             in_um[axis], in_cells[axis] = f"{length * 1e6:.3g}", f"{length / step:.3g}"
     lengths = f"{' x '.join(in_um)} µm = {' x '.join(in_cells)} cells  (along x and y, to 1/e)"
-    memory = f"about {SOLVE_FIELDS * 8 * nx * ny / 2**20:.3g} MiB at a contact solve on all of them"
+    memory = f"about {SOLVE_FIELDS * 8 * solved / 2**20:.3g} MiB at a contact solve"
     slopes = f"{total:.3g}  ({along_x:.3g} along x, {along_y:.3g} along y)"
     rows = [
         ("Sq", f"{surface.sq * 1e9:.4g} nm", "rms slope", slopes),
         ("cells per b", f"{b / dx:.3g}", "correlation length", lengths),
-        ("length / 2b", f"{nx * dx / (2 * b):.3g}", "cells", f"{nx * ny}, {memory}"),
+        ("length / 2b", f"{surface.size[0] / (2 * b):.3g}", "cells solved first", f"{solved}, {memory}"),
     ]
     return [f"    {left:<12} {value:<11} {right:<19} {text}" for left, value, right, text in rows]
-
-
-def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
-    """(what it is, the value with its unit, the key, and its range, its table, or the range of typical values) of every
-    input in a section of the scene."""
-    for key, quantity in KEYS.items():
-        value = getattr(getattr(scene, section, None), key.removeprefix(f"{section}."), None)
-        if not key.startswith(f"{section}.") or value is None or value == ():
-            continue
-        text = worded(value, quantity.unit)
-        if key == "lubricant.temperature":
-            text = f"{converted(value, 'K', '°C'):.4g} °C"
-        alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
-        ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
-        note = f", typical of {' or '.join(alike)}: {ends}" if alike else ""
-        for name, *known in scene.ranges:
-            if name == key:
-                note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"
-        table = scene.bodies.boundary_friction_table
-        if table is not None and key == FRICTION:
-            unit = FRICTION_OVER[table.over]
-            points = (f"{value:.4g} at {worded(at, unit)}" for at, value in zip(table.at, table.values))
-            note = f", by a table over {table.over}: {', '.join(points)}"
-        yield quantity.label, text, key, note
-
-
-def _inputs(scene: Scene, section: str) -> list[str]:
-    return [f"{label}: {text}  ({key}){note}" for label, text, key, note in inputs(scene, section)]
-
-
-def _bodies(scene: Scene) -> list[str]:
-    b = scene.bodies
-    peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
-    return [
-        f"Hertz: half-width {worded(b.half_width, 'm')}, mean pressure {worded(b.mean_hertz_pressure, 'Pa')}, "
-        f"peak {worded(peak, 'Pa')}; {worded(b.load / b.width, 'N/m')}",
-        *(["contact spots: elastic (no bodies.hardness)"] if b.hardness is None else []),
-    ]
-
-
-def _lubricant(scene: Scene) -> list[str]:
-    oil, rows = scene.lubricant, []
-    if oil.oil is not None and oil.temperature is not None:
-        rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
-    rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
-    if oil.newtonian:
-        rows.append("shear: Newtonian at any stress (no eyring_stress, no limiting_stress_coefficient)")
-    known = oil.heats and oil.temperature_coefficient is not None
-    why = "isothermal, how the viscosity falls with the temperature is not given"
-    return [*rows, f"heat: {scene.numerics.heat if known else why}"]
-
-
-def _motion(scene: Scene) -> list[str]:
-    u, ratio = scene.motion.entrainment_speed, scene.motion.slide_roll_ratio
-    u1, u2 = u * (1 - ratio / 2), u * (1 + ratio / 2)
-    surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
-    return [] if scene.transient is not None else [surfaces]
-
-
-FACTS = {"bodies": _bodies, "lubricant": _lubricant, "motion": _motion}  # what follows from the inputs of a section

@@ -14,6 +14,7 @@ from ..units import worded
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
 FRAMES = 150  # of an animation at most, spread over the run
+SLENDER = 1.5  # times as long along y as along x: a narrow picture
 NEAR = 4.0  # half-widths of the Hertz strip around which a gap is drawn
 
 
@@ -158,9 +159,9 @@ def _partly(y: np.ndarray, part: slice) -> str:
 def _two_pressures(prepared, point):
     """Map of the contact pressure; beside it film and surfaces on a section through the highest pressure.
 
-    The section shows what the paper's Fig. 10 shows: the smooth film h, the separation h_s = h - epsilon as the other
-    surface, and the rough surface, deformed (z - u) and undeformed (z). epsilon and u are known up to one constant. It
-    is chosen so that u has zero mean over the section.
+    The section shows what the paper's Fig. 10 shows: the smooth film h, the separation h_s = h - epsilon as the
+    counterface, and the rough surface, deformed (z - u) and undeformed (z). epsilon and u are known up to one constant.
+    It is chosen so that u has zero mean over the section.
     """
     heights = prepared.surface.heights if point.heights is None else point.heights
     heights, x = heights - heights.mean(), point.balance.contact.x
@@ -168,12 +169,14 @@ def _two_pressures(prepared, point):
     row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
     in_section = film is not None and heights.shape[0] == x.size
     panels = [contact is not None or not in_section, in_section]
-    figure = figures.new_figure(figsize=(5.5 * sum(panels), 5.0))
-    axes = list(figure.subplots(1, sum(panels), squeeze=False).flat)
+    part = slice(None) if contact is None else _part(x, point.y, row)
+    slender = contact is not None and np.ptp(point.y[part]) > SLENDER * np.ptp(x)
+    ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
+    figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0))
+    axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
     both = worded(point.contact_load, "N"), worded(point.film_load, "N")
     loads = "U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
     if contact is not None:
-        part = _part(x, point.y, row)
         figures.field_image(
             axes[0], x, point.y[part], point.pressure[:, part] / 1e9, "magma_r", "contact pressure (GPa)", vmin=0
         )
@@ -209,7 +212,7 @@ def _section(axes, micro, surface, smooth, contact, row: int) -> None:
         deflection = contact.displacement[:, row]
         drawn.append(surface - deflection + deflection.mean())
         axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, pressed")
-        axes.plot(micro, (contact.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="other surface")
+        axes.plot(micro, (contact.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="counterface, as if smooth")
     low, high = 1e9 * min(z.min() for z in drawn), 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
     room = 0.15 * (high - low)
     axes.set(ylim=(low - room, high + room), ylabel="height (nm)")

@@ -14,7 +14,8 @@ from ..scene import Scene
 from ..sharing import Prepared
 from ..studies import CurveResult
 from ..units import converted, printed, unit_for, worded
-from .describe import FACTS, SECTIONS, inputs
+from .describe import map_in_words
+from .inputs import FACTS, SECTIONS, inputs
 
 OF_POINT = ["coefficient", "contact_load", "film_load", "central_film", "film_to_roughness_ratio"]
 OF_POINT += ["real_contact_area_fraction"]
@@ -38,7 +39,7 @@ def report_page(prepared: Prepared, result, record: dict, images: dict[str, byte
         cautions=_list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
         results="" if curve is None else "".join(_points(curve)),
         inputs="".join(_inputs(scene, section) for section in SECTIONS),
-        map=escape(prepared.surface.describe()),
+        map=escape("; ".join(map_in_words(prepared.surface, prepared.strips))),
         notes=_list(prepared.surface.notes),
         sources=_list([] if curve is None else curve.cite().splitlines(), head="<h2>Sources</h2>"),
         made=_rows((), [f"<th>{escape(name)}</th><td>{escape(value)}</td>" for name, value in made]),
@@ -92,9 +93,10 @@ def _of_run(result) -> list[str]:
     error = 100 * mean.sampling
     film, peak = worded(float(result.min_film.min()), "m"), int(np.abs(f).argmax())
     low, high = result.uncertainty.interval[peak]
+    when = "the" if mean.in_motion == 1 else f"the {100 * mean.in_motion:.3g} % in motion of the"
     ends = f" ({low:.3g} to {high:.3g} with the range of f_b)" if np.any(result.inputs) else ""
     return [
-        f"f is {mean.coefficient:.4g} on average over {result.time[-1]:.4g} s.",
+        f"f is {mean.coefficient:.4g} on average over {when} {result.time[-1]:.4g} s.",
         f"Its standard error is {error:.2g} %, as the surface is finite; {UNKNOWN}.",
         f"f is at most {f[peak]:.4g}{ends}; the film is at least {film}.",
     ]

@@ -6,17 +6,19 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
+
 from .. import studies
 from .._base import figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
-from ..quantities import KEYS
+from ..quantities import COLUMNS, KEYS, axis_label
 from ..scene import Scene
-from ..units import number_of
+from ..units import number_of, worded
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
 
 
 def run_study(arguments) -> None:
-    """Plan, solve and write study.csv (and study.nc, study.parquet)."""
+    """Plan, solve, write study.csv, study.png (and study.nc, study.parquet), and say the least and the largest f."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
     plan = studies.load_study(arguments.study)
     if arguments.explain:
@@ -25,8 +27,7 @@ def run_study(arguments) -> None:
     studies.check_tools(arguments.netcdf, arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
-    check_outputs(arguments, arguments.out, names)
-    studies.check_plan(arguments.out)
+    check_outputs(arguments, arguments.out, [*names, "study.png"])
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), studies.pool(workers) as executor:
@@ -34,19 +35,67 @@ def run_study(arguments) -> None:
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:
         folder.contents |= {name: made(name, writers[name.partition(".")[2]]) for name in names}
+        if np.isfinite(result["coefficient"]).any():
+            folder.draw("study.png", _picture, result)
         if result.cautioned:
             say(f"{result.cautioned} of {result.solved} points have cautions: column validity of study.csv")
         folder.put()
+    for row in _answer(result):
+        say(row)
     if result.failed:
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
         said = f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}"
         raise ConvergenceError(said, report, result)
 
 
+def _answer(result: studies.StudyResult) -> list[str]:
+    """The least and the largest f of a study, each with its interval and where it is."""
+    f, rows = result["coefficient"], []
+    ends = {"least": np.nanargmin, "largest": np.nanargmax} if np.isfinite(f).any() else {}
+    for word, find in ends.items():
+        index = np.unravel_index(int(find(f)), f.shape)
+        at = [] if "speed" not in result.columns else [f"speed {worded(float(result['speed'][index]), 'm/s')}"]
+        for key, (dim, values) in result.coords.items():
+            value = values[index[result.dims.index(dim)]].item()
+            at.append(f"{key} {worded(value, COLUMNS[key].unit if key in COLUMNS else '-')}")
+        low, high = (result[f"uncertainty_{end}"][index] for end in ("low", "high"))
+        within = f", {low:.3g} to {high:.3g} at 95 %" if np.isfinite(low) else ", error not known"
+        rows.append(f"{word} f = {f[index]:.3g}{within}, at {', '.join(at)}")
+    return rows
+
+
+def _picture(path: Path, result: studies.StudyResult) -> None:
+    """f over speed; of one speed over what is varied: one number, or two, as a map; else point by point."""
+    longer = [(key, values) for key, (_, values) in result.coords.items() if values.size > 1]
+    numbers = all(values.dtype.kind == "f" and np.unique(values).size == values.size for _, values in longer)
+    keys = [key for key, _ in longer]
+    if numbers and len(keys) == 2 and "speed" not in keys and len(result.dims) == 3:
+        studies.plot_map(path, result, keys[0], keys[1], figures.plain_words(result.plan.scene.name))
+        return
+    figure = figures.new_figure(figsize=(7, 4.5))
+    axes = figure.subplots()
+    if "speed" in keys or result.chosen:
+        result.plot(axes)
+    else:
+        f = result["coefficient"].ravel()
+        one = numbers and len(keys) == 1
+        over, label = (longer[0][1], axis_label(keys[0])) if one else (np.arange(1, f.size + 1), "row of study.csv")
+        low, high = (result[f"uncertainty_{end}"].ravel() for end in ("low", "high"))
+        axes.vlines(over, low, high, color=figures.BLUE, alpha=0.4, lw=4, label="95 %")
+        axes.plot(over, f, "o", color=figures.BLUE, label="friction coefficient")
+        axes.set(xlabel=label, ylabel=figures.FRICTION)
+        figures.log_if_wide(axes, "x", over)
+        figures.plain_ticks(axes.xaxis)
+        figures.key_above(axes)
+        figure.suptitle(figures.plain_words(result.plan.scene.name))
+    figure.savefig(path, dpi=150)
+
+
 def _kept(folder: Path) -> str:
-    if not (folder / studies.PLAN).is_file():
+    try:
+        found = studies.open_study(folder)
+    except InputError:
         return "nothing is solved yet"
-    found = studies.open_study(folder)
     left = f"{found.missing} {'curves' if found.chosen else 'points'} are left"
     return f"{found.solved} points are kept in {folder}, {left}"
 

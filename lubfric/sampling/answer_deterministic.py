@@ -143,7 +143,8 @@ def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]
     scene, speed, film = prepared.scene, numbers["speed"], numbers["central_film"]
     yield from prepared.known
     yield from of_motion(scene, speed, film)
-    yield from of_inlet(scene, speed, mean(result.flow_film for result in results))
+    flow = mean(result.flow_film for result in results)
+    yield from of_inlet(scene, flow, scene.line_contact(speed).moes_film)
     for entry in of_pressure(scene, max(result.top_pressure for result in results)):
         yield replace(entry, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
     yield from of_thickness(scene, film)

@@ -77,7 +77,7 @@ def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
         sampling=sampling,
         interval=interval(forces.coefficient, relative, sampling, error.freedom, *of_model),
         line_scatter=sampling * math.sqrt(scatter.length / scene.bodies.width),
-        participation=scatter.spots,
+        spots=scatter.spots,
         length=scatter.length,
         freedom=float(error.freedom),
         tolerance=scene.numerics.sampling_tolerance,

@@ -22,7 +22,7 @@ FEWEST_WINDOWS = 3
 MOST_BLOCKS, ENOUGH_BLOCKS, LEAST_BLOCKS = 32, 8, 5
 WIDE, BLOCK = 9.0, 5.0  # correlation lengths of the surface along y in a block: wanted, and at least
 ENDS = 1 / math.sqrt(math.pi)  # correlation lengths of a block that are as its neighbours, for a Gaussian correlation
-SPOT = 1.75  # correlation lengths along y in a block over which the participation is counted
+SPOT = 1.75  # correlation lengths along y in a block that counts as one contact spot
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def _means(values, count: int) -> np.ndarray:
     return values[: size * count].reshape(count, size).mean(axis=1)
 
 
-def participation(line_load, step: float, correlation_length: float) -> float:
+def effective_spots(line_load, step: float, correlation_length: float) -> float:
     """(sum P)²/sum P² over short blocks, about one contact spot each: the number of equally loaded spots that would
     carry the load as unevenly as these."""
     size = max(1, round(SPOT * correlation_length / step))
@@ -97,7 +97,8 @@ def participation(line_load, step: float, correlation_length: float) -> float:
 @dataclass(frozen=True)
 class Scatter:
     """Standard errors of what a sample of ``length`` [m] stands for: at given load of its mean gap [m], its contact
-    area fraction of A [-] and its contact area per length [m]; in balance, of f, relative. ``spots``: `participation`.
+    area fraction of A [-] and its contact area per length [m]; in balance, of f, relative. ``spots``:
+    `effective_spots`.
     """
 
     length: float
@@ -134,7 +135,7 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips
         at_given_load(contact.weight @ touching / contact.weight.sum(), slopes.area),
         at_given_load(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
         of_friction,
-        participation(by_place, step, strips.lengths[1]),
+        effective_spots(by_place, step, strips.lengths[1]),
     )
 
 

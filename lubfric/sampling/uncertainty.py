@@ -11,9 +11,9 @@ CONFIDENCE = 0.95
 OF_SHARE, IN_CONTACT = 0.7, 0.25  # error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
 OF_FILM, MOST_OF_FILM = 3.2, 0.3  # error of the film's shear by load sharing: times (film/Sq)², and at most
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
-FEW = 10.0  # participation below which an interval covers less often than it says
+FEW = 10.0  # effective contact spots below which an interval covers less often than it says
 EVEN = 0.1  # of half an interval: f farther off its middle is told with both ends
-MATTERS = 0.25  # of the sampling tolerance: an error below it needs no participation
+MATTERS = 0.25  # of the sampling tolerance: an error below it needs no more of them
 
 
 @described_in_doc
@@ -40,7 +40,7 @@ class Uncertainty(UncertaintyQuantities[float]):
     @property
     def few_spots(self) -> bool:
         """Whether `too_few` spots carry the load."""
-        return too_few(self.participation, self.sampling, self.tolerance)
+        return too_few(self.spots, self.sampling, self.tolerance)
 
     @property
     def text(self) -> str:
@@ -68,10 +68,10 @@ class Uncertainty(UncertaintyQuantities[float]):
         return f"f = {coefficient:.{digits}f}{within} at 95 % ({parts})"
 
 
-def too_few(participation: float, reached: float, asked: float) -> bool:
+def too_few(spots: float, reached: float, asked: float) -> bool:
     """Whether so few spots carry the load that an interval is too narrow more often than it says, and the standard
     error ``reached`` is not small beside the one ``asked``. 0 spots: nothing touches."""
-    return 0 < participation < FEW and reached > MATTERS * asked
+    return 0 < spots < FEW and reached > MATTERS * asked
 
 
 def load_sharing_error(

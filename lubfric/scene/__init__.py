@@ -16,5 +16,5 @@ from .scene import (
 )
 from .sections import ROUGH, SECTIONS
 from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
+from .transient import HISTORIES, Transient, checked_history, read_history
 from .transient import UNITS as CHANGING
-from .transient import Transient, checked_history, read_history

@@ -7,7 +7,7 @@ from typing import ClassVar, TypeVar
 import numpy as np
 
 from .._base import Shown, table_bytes, validate
-from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError
+from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError, returned
 from ..quantities import NUMBERS, OF_UNCERTAINTY, counted, heading
 from ..sampling import FrictionResult, UncertaintyCurve, curve_of, together
 from ..sharing import Validity, entries_of, gathered, in_a_cell
@@ -113,16 +113,19 @@ def judged(result: R, raise_on_failure: bool) -> R:
         raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.entries), result)
     if errors:
         raise ConvergenceError(f"{result.report.message}; first: {errors[min(errors)]}", result.report, result)
-    result.report.raise_if_failed(result)
-    return result
+    return returned(result)
 
 
-def csv_bytes(curve: CurveResult) -> bytes:
-    """The table of a curve: one row a point, one column a quantity, the unit in the heading; then how sure f is, and in
-    words which assumptions are violated there."""
+def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
+    """The columns of numbers of a curve by name: its quantities, then how sure f is."""
     found, swept = curve.uncertainty, {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
     low, high = found.interval.T
     columns = swept | columns_of(curve.points) | swept | {"interval_low": low, "interval_high": high}
-    columns |= {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}
-    named = {heading(name): values for name, values in columns.items()}
-    return table_bytes(named | {"validity": curve.told, "uncertainty": list(found.text)})
+    return columns | {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}
+
+
+def csv_bytes(curve: CurveResult) -> bytes:
+    """The table of a curve: one row a point, one column a quantity, the unit in the heading; then in words which
+    assumptions are violated there, and how sure f is."""
+    named = {heading(name): values for name, values in numbers_of(curve).items()}
+    return table_bytes(named | {"validity": curve.told, "uncertainty": list(curve.uncertainty.text)})

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ from .._base import validate
 from ..errors import InputError
 from ..quantities import KEYS
 from ..scene import SOURCES, Roughness, Scene, short_keys, typical
-from ..units import without_unit
+from ..units import in_si, without_unit
 
 SAMPLERS = ("sobol", "random")
 SCALES = ("linear", "log")
@@ -24,14 +24,21 @@ CASE = "case"  # name of the dimension of keys that go together
 
 @dataclass(frozen=True)
 class Between:
-    """A range [low, high] of a key, in the unit of the key. scale "linear": sampled evenly in its value; "log": in its
-    logarithm."""
+    """A range [low, high] of a key, in the unit of the key, or both with a unit: "1 N". scale "linear": sampled evenly
+    in its value; "log": in its logarithm. ``unit``: in SI, that of ends that have one."""
 
     low: float
     high: float
     scale: str = "linear"
+    unit: str = field(default="", init=False)
 
     def __post_init__(self):
+        if isinstance(self.low, str) and isinstance(self.high, str):
+            (low, unit), (high, other) = in_si("low", self.low), in_si("high", self.high)
+            if unit != other:
+                raise InputError(f" = {self.high!r} is of another kind than low, which is in {unit}", "high")
+            for name, value in (("low", low), ("high", high), ("unit", unit)):
+                object.__setattr__(self, name, value)
         validate.choice("scale", self.scale, SCALES)
         low = validate.number("low", self.low, "(of the key)", above=0.0 if self.scale == "log" else -math.inf)
         validate.number("high", self.high, "(of the key)", above=low)
@@ -70,8 +77,7 @@ class Axis:
 
 def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
     """The dimensions of ``vary`` (see `lubfric.study`), with each value put into the scene once as a check."""
-    if not isinstance(vary, dict):
-        raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
+    validate.instance("vary", vary, dict, 'a dict such as {"bodies.load": [5.0, 10.0]}')
     seen: set[str] = set()
     axes, cases = [], 0
     points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1) != 0)
@@ -95,7 +101,7 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
 def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
     """Points of a box, as values for keys that `lubfric.study` varies together.
 
-    ``vary={("bodies.load", "lubricant.viscosity"): sample([Between(1, 10), Between(0.01, 1, "log")], 64)}``
+    ``vary={("bodies.load", "lubricant.viscosity"): sample([Between("1 N", "10 N"), Between(0.01, 1, "log")], 64)}``
 
     Parameters
     ----------
@@ -107,7 +113,7 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
 
     Returns
     -------
-    list of tuples, one value for each range
+    list of tuples, one value for each range: a number, or text with the SI unit where the range has one
 
     Raises
     ------
@@ -128,8 +134,9 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
         shares = qmc.Sobol(len(parts), seed=seed).random(count)
     else:
         shares = np.random.default_rng(seed).random((count, len(parts)))
-    columns = [part.at(share) for part, share in zip(parts, shares.T)]
-    return [tuple(float(v) for v in row) for row in zip(*columns)]
+    columns = [part.at(share).tolist() for part, share in zip(parts, shares.T)]
+    told = [[f"{v!r} {part.unit}" for v in column] if part.unit else column for part, column in zip(parts, columns)]
+    return list(zip(*told))
 
 
 def _check_key(scene: Scene, key, seen: set) -> None:

@@ -32,10 +32,13 @@ ROUNDING = 1e-13  # relative: times that are closer are one time; below that of 
 
 @dataclass(frozen=True)
 class Memory:
-    """What an implicit step needs of the past: y' = rate (y - film), in 1/s; rate = 0: steady."""
+    """What an implicit step needs of the past: y' = rate (y - film), in 1/s; rate = 0: steady. Of BDF2 also the y
+    ``then``, at the last level, and the length of the ``step`` [s]."""
 
     rate: float
     film: np.ndarray
+    then: np.ndarray | None = None
+    step: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -218,7 +221,8 @@ def _bdf2(now: Progress, end: float, solver) -> Attempt | None:
     step, before = end - last.time, last.time - old.time
     ratio = step / before
     weight = ratio**2 / (1.0 + 2.0 * ratio)
-    memory = Memory((1.0 + 2.0 * ratio) / ((1.0 + ratio) * step), last.film + weight * (last.film - old.film))
+    rate, film = (1.0 + 2.0 * ratio) / ((1.0 + ratio) * step), last.film + weight * (last.film - old.film)
+    memory = Memory(rate, film, last.film, step)
     guess = last.z + ratio * (last.z - old.z)  # zeros stay zero, positive unknowns positive
     guess[:-1] = np.where(last.z[:-1] > 0.0, np.maximum(guess[:-1], LEAST_LEFT * last.z[:-1]), 0.0)
     solution = _solved(solver, end, memory, guess, now.payload) or _solved(solver, end, memory, last.z, now.payload)

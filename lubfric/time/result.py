@@ -27,7 +27,8 @@ MASS = 1e-3  # largest residual of a step's mass
 
 @dataclass(frozen=True)
 class TimeAverage:
-    """The mean of f over a run in time, and relative standard deviations.
+    """The mean of f over the time in which the surfaces of a run move (at a standstill there is no f), the share
+    ``in_motion`` of that time, and relative standard deviations.
 
     - ``sampling``: of ``coefficient``, because one finite line of rough surface stands for all of it. The line is the
       same at all times, so a longer run does not make this smaller.
@@ -41,6 +42,7 @@ class TimeAverage:
     sampling: float
     fixed_scatter: float
     moving_scatter: float
+    in_motion: float = 1.0
 
 
 @dataclass(frozen=True, repr=False)
@@ -83,15 +85,22 @@ class TransientResult(Shown):
     renewal: float = math.nan
 
     def average(self) -> TimeAverage:
-        """The average of f over the run, by trapezes between the outputs (which have to be dense enough to show f); its
-        error; and its scatter for fixed and for moving roughness."""
-        half = 0.5 * np.diff(self.time)
+        """The average of f over the time in motion, by trapezes between the outputs (which have to be dense enough to
+        show f; one at a standstill counts nothing); its error; and its scatter for fixed and for moving roughness."""
+        half, moving = 0.5 * np.diff(self.time), in_motion(self.columns)
         weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
-        mean = float(np.average(self.coefficient, weights=weight))
-        sampling = float(np.average(self.sampling_error * np.abs(self.coefficient), weights=weight)) / abs(mean)
+        share = float(weight[moving].sum() / weight.sum())
+        if not share:
+            return TimeAverage(math.nan, math.nan, math.nan, math.nan, share)
+        f, error, speed = (
+            self.columns[name][moving] for name in ("coefficient", "sampling_error", "entrainment_speed")
+        )
+        weight = weight[moving]
+        mean = float(np.average(f, weights=weight))
+        sampling = float(np.average(error * np.abs(f), weights=weight)) / abs(mean)
         fixed = sampling * math.sqrt(self.line_length / self.width)
-        moved = float(np.sum(weight * np.abs(self.entrainment_speed)))
-        return TimeAverage(mean, sampling, fixed, fixed / math.sqrt(max(1.0, moved / self.renewal)))
+        moved = float(np.sum(weight * np.abs(speed)))
+        return TimeAverage(mean, sampling, fixed, fixed / math.sqrt(max(1.0, moved / self.renewal)), share)
 
     @property
     def validity(self) -> tuple[str, ...]:
@@ -109,7 +118,7 @@ class TransientResult(Shown):
             sampling=error,
             interval=np.stack([f - np.hypot(half, down), f + np.hypot(half, up)], axis=1),
             line_scatter=error * math.sqrt(self.line_length / self.width),
-            participation=unknown,
+            spots=unknown,
             length=np.full(f.size, self.line_length),
             area_needed=unknown,
             model=unknown,
@@ -131,7 +140,7 @@ class TransientResult(Shown):
         """Friction over speed, the hysteresis loop with its start marked, on ``ax`` or new axes, which are returned.
         At a standstill no friction coefficient is defined, and none is drawn."""
         axes, speed = figures.axes_or_new(ax), self.entrainment_speed
-        moving = (speed != 0) | (self.sliding_speed != 0)
+        moving = in_motion(self.columns)
         friction, begin = np.where(moving, self.coefficient, np.nan), np.flatnonzero(moving)[:1]
         axes.plot(speed, friction, color=figures.BLUE)
         axes.plot(speed[begin], friction[begin], "o", color=figures.GREY, label="start")
@@ -192,13 +201,18 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
     )
 
 
+def in_motion(c: dict[str, np.ndarray]) -> np.ndarray:
+    """The times (bools) of the ``c`` of a `lubfric.TransientResult` at which a surface moves."""
+    return (c["entrainment_speed"] != 0) | (c["sliding_speed"] != 0)
+
+
 def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
     """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`. At rest there is none."""
     sense = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
     sense = np.where(sense < 0, -1.0, 1.0)  # of the coefficient
     scale, unit = time_scale(c["time"][-1])
     film = (c["couette_force"] + c["rolling_force"]) * sense / c["load"]
-    moving = (c["entrainment_speed"] != 0) | (c["sliding_speed"] != 0)
+    moving = in_motion(c)
     parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film
     figures.friction_lines(axes, c["time"] * scale, [np.where(moving, part, np.nan) for part in parts])
     if not moving.all():

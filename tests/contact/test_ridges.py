@@ -16,37 +16,11 @@ FLAT = lubfric.load_scene("flat").with_(
 N = 48
 
 
-def ball(size=N):
-    x = np.arange(size) - size / 2
-    return -(x[:, None] ** 2 + x**2)
-
-
 def ridge(slope=0, axis=1):
     """A ridge that rises by ``slope`` of its period over one period along ``axis``."""
     i, j = np.indices((N, N))
     z = np.cos(2 * np.pi * (i - slope * j) / N)
     return z if axis == 1 else z.T
-
-
-@pytest.mark.parametrize(
-    "heights, periodic, count",
-    [
-        (ball(), (True, True), 0),
-        (ridge(), (True, True), 1),
-        (ridge(), (True, False), 0),
-        (ridge(axis=0), (True, True), 1),
-        (ridge(axis=0), (False, True), 0),
-        (ridge(slope=1), (True, True), 1),
-        (np.tile(ridge()[::2], (2, 1)), (False, True), 2),
-        (np.eye(N), (True, True), 1),
-        (ridge(slope=1), (False, True), 0),
-        (np.tile(ridge(slope=1), (3, 1)), (False, True), 0),
-        (ridge(slope=2), (True, False), 0),
-        (np.where(np.arange(N) == 5, -2.0, ridge()), (True, True), 0),
-    ],
-)
-def test_ridges_of_simple_maps_are_counted(heights, periodic, count):
-    assert ridges(heights, 0.1, periodic) == count
 
 
 @pytest.mark.parametrize("periodic", [(True, True), (False, True), (True, False), (False, False)])

@@ -13,7 +13,6 @@ from lubfric.deterministic.flow import balance, derivatives
 from lubfric.deterministic.inlet import inlet
 from lubfric.deterministic.linear import Patterns
 from lubfric.deterministic.rheology import mean_fluidity, thinning
-from lubfric.deterministic.state import _opened
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
 from lubfric.surface import Surface
@@ -176,20 +175,6 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
     begin = brentq(mean_slope, 40e-6, narrowest)
     assert x[second[0]] == pytest.approx(begin, abs=3 * step) and x[second[-1]] == pytest.approx(end, abs=3 * step)
     assert (fill[second[0] - 10 : second[0] - 2] < 1).all() and fill.min() > 0
-
-
-def test_touching_cells_open_as_far_as_the_surplus_reaches():
-    """Against a furrow followed cell by cell: what enters the first cell opens the next ones until it is used up."""
-    random = np.random.default_rng(5)
-    touching = random.random((60, 8)) < 0.8
-    surplus = random.standard_normal((60, 8)) - 0.3
-    found = _opened(touching, surplus, 0.5)
-    for j in range(8):
-        handed = 0.0
-        for i in range(60):
-            handed = surplus[i, j] + handed if touching[i, j] else 0.0
-            assert found[i, j] == (handed > 0.5)
-            handed = handed if handed > 0.5 else 0.0
 
 
 ETA, U, DX, DY = 0.1, 0.4, 4e-6, 9e-6

@@ -29,7 +29,7 @@ def films(solution: Solution) -> tuple[float, float]:
 
 
 @settings(deadline=None, max_examples=15)
-@given(st.integers(0, 10**6), st.floats(0, 1), st.sampled_from(["constant", "dowson_higginson"]))
+@given(st.integers(0, 10**6), st.floats(0, 1), st.sampled_from(["constant", "dowson-higginson"]))
 def test_tangent_is_the_derivative(seed, upwind, density):
     mesh, layout = graded_mesh(Layout(60.0, -4.0, 3.0, (-1.0, 1.0), 0.5, 0.8))
     line = make_body(mesh, layout).line

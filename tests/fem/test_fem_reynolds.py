@@ -55,7 +55,7 @@ def test_rupture_under_a_parabola(degree):
 
 def test_slopes_are_derivatives():
     p, d = np.linspace(0, 5e8, 7), 1e3
-    compressible, linear = Fluid(0.04, density_law="dowson_higginson"), Fluid(0.04, density_law="linear")
+    compressible, linear = Fluid(0.04, density_law="dowson-higginson"), Fluid(0.04, density_law="linear")
     viscous = (Fluid(0.04, law, 2e-8).log_viscosity for law in ("barus", "roelands"))
     for law in (*viscous, compressible.rho, linear.rho):
         assert np.allclose(slope(law, p), (law(p + d) - law(p - d)) / (2 * d), rtol=1e-5, atol=1e-18)
@@ -72,7 +72,7 @@ def test_a_runaway_oil_is_not_solved():
 
 def test_laws_at_one_gigapascal():
     """Numbers worked out by hand from the published formulas."""
-    assert np.isclose(Fluid(0.1, density_law="dowson_higginson").rho(1e9), (0.59 + 1.34) / 1.59)
+    assert np.isclose(Fluid(0.1, density_law="dowson-higginson").rho(1e9), (0.59 + 1.34) / 1.59)
     assert np.isclose(Fluid(0.1, density_law="linear", bulk_modulus=2e9).rho(1e9), 1.5)
     assert np.isclose(Fluid(0.1, "barus", 1e-8).eta(1e9), 0.1 * np.exp(10))
     thick = 9.67 + np.log(0.1)  # Roelands: ln eta + 9.67 grows like (1 + p/p0)^z

@@ -11,7 +11,7 @@ from scipy.integrate import solve_bvp
 
 import lubfric
 from lubfric.film import Surroundings, heated_film, heated_stress, hertz, isothermal_heat
-from lubfric.film.heat import flash_matrix, limiting_stress_at, viscosity_at
+from lubfric.film.heat import limiting_stress_at, viscosity_at
 from lubfric.oil import Lubricant, shear_stress
 from verification import references
 
@@ -87,14 +87,6 @@ def test_roelands_temperature_law_follows_an_oil():
     )
     for t in (323.15, 353.15, 373.15):
         assert np.exp(viscosity_at(lubricant, 0.0, t)[0]) == pytest.approx(made.viscosity(t), rel=0.04)
-
-
-def test_flash_of_uniform_and_linear_heat_is_exact():
-    x = np.concatenate([[0.0], np.cumsum(np.random.default_rng(1).uniform(0.5, 2, 60))]) * 1e-6
-    matrix = flash_matrix(x, 3.0)
-    assert matrix @ np.full(x.size, 5.0) == pytest.approx(5.0 * 2 * np.sqrt(x / np.pi) / 3.0, rel=1e-11)
-    assert matrix @ x == pytest.approx(4 / 3 * x**1.5 / np.sqrt(np.pi) / 3.0, rel=1e-9, abs=1e-20)
-    assert np.all(np.triu(matrix, 1) == 0)
 
 
 @pytest.mark.parametrize("ratio", [0.02, 0.3, 2.0])

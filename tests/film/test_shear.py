@@ -10,7 +10,7 @@ from scipy.integrate import quad
 import lubfric
 from lubfric.contact import ContactState
 from lubfric.film import shear_force
-from lubfric.film.shear import _upstream, rolling_error, spike_error
+from lubfric.film.shear import rolling_error, spike_error
 from lubfric.oil import Lubricant
 
 R, ETA, U, B = 2e-3, 0.36, 1.0, 6e-3
@@ -80,15 +80,6 @@ def test_streamers_add_shear_behind_the_rupture():
     result = film()
     dry, wet = force(result), force(result, cavitated="striated")
     assert 0.02 < wet.couette / dry.couette - 1 < 0.5 and wet.rolling == dry.rolling
-
-
-@pytest.mark.parametrize("floor", [1e-6, -1e-5, 0.0, 1e-12])
-def test_upstream_integrals_against_quadrature(floor):
-    distance, radius = 1e-3, 2e-3
-    first, second = _upstream(floor + distance**2 / (2 * radius), distance, radius)
-    for power, value in ((1, first), (2, second)):
-        exact = quad(lambda t: (floor + 1 / t**2 / (2 * radius)) ** -power / t**2, 0, 1 / distance)[0]
-        assert value == pytest.approx(exact, rel=1e-6)
 
 
 def test_the_share_in_contact_is_that_of_each_cell_of_the_film():

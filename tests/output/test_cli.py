@@ -3,8 +3,6 @@
 import csv
 import json
 import shutil
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -66,12 +64,6 @@ def test_fields_belong_to_the_chosen_speed(run):
         assert fields["contact_pressure_0"].max() <= 6e9
 
 
-def test_plot_redraws_from_the_csv(run):
-    before = (run / "stribeck.png").stat().st_mtime_ns
-    assert main(["plot", str(run)]) == 0
-    assert (run / "stribeck.png").stat().st_mtime_ns > before
-
-
 def test_info_names_the_regime(capsys):
     assert main(["info", "paper"]) == 0
     text = capsys.readouterr().out
@@ -121,11 +113,6 @@ def test_bad_input_ends_with_2_and_one_line(arguments, word, capsys):
     assert word in error and error.count("\n") == 1
 
 
-def test_python_dash_m_is_the_same_command():
-    done = subprocess.run([sys.executable, "-m", "lubfric", "info", "flat"], capture_output=True, text=True)
-    assert done.returncode == 0 and "816 x 816" in done.stdout
-
-
 def test_a_failed_speed_ends_with_1_and_keeps_the_rest(tmp_path, monkeypatch, capsys):
     from lubfric.studies import points
 
@@ -163,19 +150,6 @@ def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys):
     assert any("not valid" in text for text in accepted["validity"])
     assert (tmp_path / "a" / "stribeck.png").stat().st_size > 10_000
     assert main(["plot", str(tmp_path / "a")]) == 0
-
-
-def test_nothing_of_an_earlier_run_stays(tmp_path, capsys):
-    (tmp_path / "small.toml").write_text(SCENE)
-    out = tmp_path / "o"
-    out.mkdir()
-    (out / "notes.txt").write_text("old")
-    command = ["run", str(tmp_path / "small.toml"), "--out", str(out), "--speeds", "0.3", "--fields", "0.3"]
-    assert main([*command, "--vtk"]) == 0 and (out / "report.html").is_file()
-    assert main([*command, "--report"]) == 0  # once needed for the report, and still taken
-    assert (out / "notes.txt").read_text() == "old" and (out / "contact.png").stat().st_size > 10_000
-    assert "notes.txt" not in capsys.readouterr().err
-    assert main(["run", str(tmp_path / "small.toml"), "--out", str(out / "notes.txt")]) == 2
 
 
 def test_a_table_and_a_record_of_different_runs_are_not_drawn_together(run, tmp_path, capsys):

@@ -96,6 +96,17 @@ def test_a_curve_is_drawn_by_its_table(figures):
     assert "(m/s)" in bottom.get_xlabel() and "(nm)" in bottom.get_ylabel() and "(-)" in middle.get_ylabel()
 
 
+def test_one_speed_has_numbers_on_its_axis_and_a_part_is_no_more_than_the_whole(figures):
+    one = {name: column[:1] for name, column in COLUMNS.items()} | {"model_error": np.array([0.9])}
+    plot_stribeck("x.png", one, "title", [()])
+    top, *_, bottom = figures[0].axes
+    figures[0].canvas.draw()
+    inside = [t for t in bottom.get_xticklabels() if 0.097 <= t.get_position()[0] <= 0.103 and t.get_text()]
+    assert len(inside) >= 2
+    low, high = (line.get_ydata() for line in top.lines if line.get_linestyle() == "--" and line.get_linewidth() < 0.7)
+    assert min(low) == pytest.approx(0.04) and max(high) == pytest.approx(0.06)
+
+
 def test_a_traction_curve_is_drawn_by_its_table(figures):
     columns = COLUMNS | {"ratio": COLUMNS["speed"]}
     plot_traction("x.png", columns, "title", [()] * 4)
@@ -149,7 +160,7 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     np.testing.assert_allclose(film, 1e9 * point.balance.film.film_at(x * 1e-6))
     _, surface = data(section, "rough surface, not pressed")
     np.testing.assert_allclose(surface, 1e9 * (prepared.surface.heights[:, row] - prepared.surface.heights.mean()))
-    _, under = data(section, "other surface")
+    _, under = data(section, "counterface, as if smooth")
     _, deformed = data(section, "rough surface, pressed")
     np.testing.assert_allclose(under - deformed, 1e9 * point.gap[:, row], atol=1e-6)
     assert "(nm)" in section.get_ylabel()

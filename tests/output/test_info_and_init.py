@@ -1,5 +1,6 @@
 """`lubfric info` names every input with its unit and tells what will be refused; `lubfric init` writes what runs."""
 
+import numpy as np
 import pytest
 from instrument_files import write_x3p
 
@@ -145,6 +146,34 @@ def test_info_tells_the_history_of_a_run_and_what_it_costs(plan, words):
     assert "no entrainment" not in told and "surface speeds" not in told
     steps = float(told.partition(" in about ")[2].partition(" steps")[0])
     assert 1 / 2.5 < steps / lubfric.transient(scene).report.iterations < 2.5
+
+
+def test_info_of_a_run_in_time_is_one_story():
+    """One sample for all times, no table of what single speeds would take, and what changes is told as changing."""
+    plan = lubfric.Transient(0.02, outputs=10, speed=Harmonic(amplitude=0.05, frequency=100.0))
+    told = describe_scene(lubfric.load_scene("paper").with_(transient=plan, motion={"slide_roll_ratio": 0.1}))
+    head = told.partition("U (m/s)")[2].partition("\n")[0]
+    assert "strips" not in head and "time (s)" not in head and "(below)" not in told and "alone" not in told
+    assert "which changes in time: transient.speed" in told and told.count("of the roughness, ") == 1
+    assert "does not see that the roughness moves" in told
+
+
+def test_info_takes_the_speeds_of_a_run(capsys, tmp_path):
+    for speeds, rows in (("1 mm/s:1 m/s:4", 4), ("auto", 6)):
+        assert main(["info", "paper", "--speeds", speeds]) == 0
+        told = capsys.readouterr().out
+        assert f"; {4 if rows == 4 else 12} speeds" in told and len(told.partition("U (m/s)")[2].splitlines()) > rows
+    (tmp_path / "scene.toml").write_text(TRANSIENT.to_toml())
+    assert main(["info", str(tmp_path / "scene.toml"), "--speeds", "1"]) == 2
+    assert "--speeds is for a curve" in capsys.readouterr().err
+
+
+def test_the_map_that_was_given_comes_before_its_strips(tmp_path):
+    heights = 1e-7 * np.random.default_rng(1).normal(size=(60, 40)).cumsum(axis=0)
+    path = write_x3p(tmp_path / "mine.x3p", heights, steps=(2e-6, 2e-6))
+    rough = {"file": path, "sq": None, "correlation_length": None}
+    told = describe_scene(lubfric.load_scene("paper").with_(surface=rough, contact={"shape": None, "spacing": None}))
+    assert "mine.x3p: 60 x 40 points, 120 x 80 µm" in told and "solved first: " in told
 
 
 def test_info_of_a_squeeze_says_that_nothing_is_entrained():

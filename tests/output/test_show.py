@@ -10,7 +10,6 @@ from small_study import SCENE
 
 import lubfric
 from lubfric._base import figures
-from lubfric.sampling import percent
 from lubfric.scene import Harmonic, Ramp, Table, builtin_scenes
 from lubfric.time import friction_over_time
 
@@ -90,14 +89,6 @@ def test_a_lone_point_shows_the_shares_of_its_load():
     boxes = [area.get_paths()[0].get_extents() for area in drawn.collections]
     assert [(box.y0, box.y1) for box in boxes] == [(0.0, 0.25), (0.25, 1.0)]
     assert all(box.x0 < 2.0 < box.x1 for box in boxes)
-
-
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [(1.12, "112 %"), (0.9951, "100 %"), (0.031, "3.1 %"), (1e-6, "< 0.001 %"), (np.nan, "not known")],
-)
-def test_percents_are_written_without_powers_of_ten(value, text):
-    assert percent(value) == text
 
 
 def test_a_history_and_its_loop_are_drawn(history):

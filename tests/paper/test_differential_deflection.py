@@ -6,23 +6,14 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.film import LineContact, Problem, hat_kernel
-from lubfric.oil import Lubricant
-from lubfric.paper import solve_differential_deflection
-from lubfric.paper.differential import cold_start
-from lubfric.paper.differential_equations import convolve, evaluate, make_mesh, measure
-from lubfric.paper.differential_newton import newton
-from verification.parts import ALPHA, VISCOSITY, case_of
+from lubfric.film import hat_kernel
+from lubfric.paper import differential_equations, solve_differential_deflection
 from verification.parts import E_PRIME as E
 from verification.parts import RADIUS as R
+from verification.parts import case_of
 
-PAPER = {
-    "load_per_width": 5.5 / 6e-3,
-    "radius": 2e-3,
-    "e_prime": 231e9,
-    "viscosity": 0.36,
-    "pressure_viscosity_coefficient": 25e-9,
-}
+PAPER = {"load_per_width": 5.5 / 6e-3, "radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36}
+PAPER |= {"pressure_viscosity_coefficient": 25e-9}
 
 
 def moes(M, L, **options):
@@ -34,24 +25,12 @@ def numbers(result):
     return np.array([result.min_film, result.central_film, result.flow_film]) / unit
 
 
-# The deflection
-
-
-def test_weights_are_the_second_difference_of_the_full_integral():
-    mesh = make_mesh(-3.0, 2.0, 201, 8, True)
-    s = (mesh.X + 0.5) / 2
-    P = (1 - s**2) ** 2 * (np.abs(s) < 1)
-    full = hat_kernel(mesh.X, mesh.X) @ P
-    np.testing.assert_allclose(convolve(mesh.log_transform, P), full, atol=1e-13)
-    bend = convolve(mesh.far_transform, P)
-    for k in range(-mesh.bandwidth, mesh.bandwidth + 1):
-        bend += mesh.weights[abs(k)] * np.roll(P, k)  # P = 0 near the ends
-    np.testing.assert_allclose(bend[1:-1], np.diff(full, 2), atol=1e-13)
-
-
-def test_the_answer_does_not_depend_on_the_band():
+def test_the_answer_does_not_depend_on_the_band(monkeypatch):
     kw = moes(50, 10, nodes=401, tolerance=0.1)
-    runs = [solve_differential_deflection(**kw, bandwidth=m) for m in (0, 2, 8, 40, 400)]
+    runs = []
+    for m in (0, 2, 8, 40, 400):
+        monkeypatch.setattr(differential_equations, "BANDWIDTH", m)
+        runs.append(solve_differential_deflection(**kw))
     films = np.array([numbers(r) for r in runs])
     assert np.max(np.abs(films / films[-1] - 1)) < 2e-5
     solves = [r.report.evaluations for r in runs]
@@ -121,25 +100,6 @@ def test_reversed_motion_mirrors(heavy):
     assert back.flux == -heavy.flux and back.rupture == -heavy.rupture
 
 
-@pytest.mark.parametrize(
-    "name, spoil",
-    [
-        ("film", lambda P, H: (P, H * (1 + 1e-3 * (np.arange(H.size) == 300)))),
-        ("mass", lambda P, H: (P * (1 + 1e-3 * (np.arange(H.size) == 300)), H)),
-        ("load", lambda P, H: (1.001 * P, H)),
-        ("complementarity", lambda P, H: (P - 1e-2 * P.max() * (np.arange(H.size) == 5), H)),
-    ],
-)
-def test_residuals_find_a_wrong_answer(name, spoil):
-    kw = moes(5, 5)
-    problem = Problem(LineContact(kw["load_per_width"], R, E, kw["entrainment_speed"], Lubricant(VISCOSITY, ALPHA)))
-    mesh = make_mesh(-20.0, 6.0, 401, 8, True)
-    s = newton(mesh, problem, *cold_start(mesh, problem), 1e-8, 60)
-    assert max(s.residuals.values()) <= 1e-8
-    P, H = spoil(s.P, s.H)
-    assert measure(evaluate(mesh, problem, P, H), P, H)[name] > 5e-4
-
-
 def test_a_failed_solve_says_so():
     with pytest.raises(lubfric.ConvergenceError) as failure:
         solve_differential_deflection(**moes(20, 5), max_iterations=1)
@@ -159,7 +119,6 @@ def test_a_domain_that_ends_before_rupture_says_so():
     "bad, name",
     [
         ({"nodes": 20}, "nodes"),
-        ({"bandwidth": -1}, "bandwidth"),
         ({"domain": (0, 1e-3)}, "domain"),
         ({"inlet_length": 1e-9}, "inlet_length"),
         ({"domain": (-1e-3, 1e-3), "inlet_length": 1e-3}, "domain"),

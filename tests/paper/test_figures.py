@@ -7,11 +7,9 @@ import math
 import numpy as np
 import pytest
 
-import lubfric
-from lubfric.contact import asperity_curve, contact_curve
 from lubfric.contact.solve import solve_contact
 from verification.__main__ import main
-from verification.figures import FIGURES, flat_model, spheres
+from verification.figures import FIGURES, deviation, spheres
 
 pytest.importorskip("PIL")
 
@@ -47,52 +45,12 @@ def test_both_gauges_of_the_sphere_array():
     assert np.allclose(left_out, expected, rtol=0.03)
 
 
-@pytest.fixture(scope="module")
-def small():
-    scene = flat_model.at_mean_pressure(lubfric.load_scene("flat"), 1e8).with_(
-        surface={"correlation_length": 40e-6, "acf": "gaussian"},
-        contact={"shape": (96, 96), "spacing": 8e-6},
-        numerics={"tolerance": 1e-3},
-    )
-    heights = lubfric.prepare(scene).surface.heights
-    return scene, heights - heights.mean()
-
-
-@pytest.mark.parametrize("model", ["half-space", "summits"])
-def test_tables_give_what_friction_gives(small, model):
-    scene, heights = small
-    pressure = scene.bodies.mean_hertz_pressure
-    assert pressure == pytest.approx(1e8, rel=1e-12)
-    if model == "half-space":
-        curve = contact_curve(heights, 8e-6, scene.bodies.e_prime, heaviest=pressure)
-    else:
-        curve = asperity_curve(
-            heights, 8e-6, scene.bodies.e_prime, heaviest=pressure, definition=model, reading="volume"
-        )
-    for speed, scaled in ((3e-3, False), (3e-2, True)):
-        (table,) = flat_model.film_tables(scene, speed, scaled=scaled, laws=[{}])
-        found = flat_model.share(table, flat_model.tabulated(curve), pressure, 0.09)
-        direct = lubfric.friction(
-            scene.with_(contact={"model": model}, numerics={"film_deflection": "scaled" if scaled else "hydrodynamic"}),
-            speed,
-        )
-        assert found[0] == pytest.approx(direct.coefficient, rel=5e-3)
-        assert found[1] == pytest.approx(direct.film_load / scene.bodies.load, rel=1e-2)
-
-
-def test_deviation_is_eq_13():
-    d, at = flat_model.deviation([0.1, 0.08, 0.02], [0.1, 0.05, 0.015])
+def test_deviation_is_eq_13_with_the_sign_of_the_asperities():
+    d, at = deviation.signed_deviation(np.array([0.1, 0.08, 0.02]), np.array([0.1, 0.05, 0.015]))
     assert d == pytest.approx(0.03 / 0.08) and at == 1
-    d, at = flat_model.deviation([math.nan, 0.1], [0.1, 0.09])
-    assert d == pytest.approx(0.1) and at == 1
-    assert flat_model.deviation([math.nan], [1.0])[1] == -1
-
-
-def test_a_load_the_model_cannot_carry_is_not_a_number(small):
-    scene, heights = small
-    curve = flat_model.tabulated(contact_curve(heights, 8e-6, scene.bodies.e_prime, heaviest=1e6))
-    (table,) = flat_model.film_tables(scene, 1e-4, scaled=False, laws=[{}])
-    assert math.isnan(flat_model.share(table, curve, 1e8, 0.09)[0])
+    d, at = deviation.signed_deviation(np.array([math.nan, 0.08]), np.array([0.1, 0.1]))
+    assert d == pytest.approx(-0.02 / 0.08) and at == 1
+    assert deviation.signed_deviation(np.array([math.nan]), np.array([1.0]))[1] == -1
 
 
 @pytest.mark.parametrize("name", ["fig2", "fig4", "fig9", "fig10"])

@@ -50,7 +50,7 @@ def test_the_error_asked_is_reached_and_more_strips_are_used():
     assert tight.uncertainty.sampling <= 0.02 < loose.uncertainty.sampling <= 0.1
     assert tight.decision.strips > loose.decision.strips == 2
     assert tight.uncertainty.length / loose.uncertainty.length == pytest.approx(tight.decision.strips / 2)
-    assert "few spots" not in tight.uncertainty.text and tight.uncertainty.participation >= 10
+    assert "few spots" not in tight.uncertainty.text and tight.uncertainty.spots >= 10
     scatter = tight.uncertainty.sampling * math.sqrt(tight.uncertainty.length / PAPER.bodies.width)
     assert tight.uncertainty.line_scatter == pytest.approx(scatter)
 
@@ -200,5 +200,5 @@ def test_ridges_that_yield_are_solved_though_no_spots_can_be_counted(tmp_path):
     surface = {"file": tmp_path / "ridges.npy", "spacing": 0.45e-6}
     scene = PAPER.with_(surface=surface, bodies={"hardness": 6e8}, numerics={"sampling": "patch"})
     point = lubfric.friction(scene, 0.003)
-    assert point.plastic_area_fraction > 0 and point.uncertainty.participation == 0
+    assert point.plastic_area_fraction > 0 and point.uncertainty.spots == 0
     assert 0 <= point.errors.plastic_area_fraction < 1

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lubfric.sampling.scatter import BlockError, block_error, participation
+from lubfric.sampling.scatter import BlockError, block_error, effective_spots
 
 
 def correlated(rng, count, length):
@@ -51,12 +51,12 @@ def test_a_line_too_short_for_five_blocks_tells_nothing():
 
 
 @pytest.mark.parametrize("count", [1, 7, 50])
-def test_participation_counts_equal_loads(count):
+def test_effective_spots_count_equal_loads(count):
     """Loads 4 cells apart, each of a spot: 1.75 correlation lengths."""
     loads = np.zeros(400)
     loads[: 4 * count : 4] = 3.0
-    assert participation(loads, 1.0, 4 / 1.75) == pytest.approx(count)
-    assert participation(np.zeros(4), 1.0, 1.0) == 0.0
+    assert effective_spots(loads, 1.0, 4 / 1.75) == pytest.approx(count)
+    assert effective_spots(np.zeros(4), 1.0, 1.0) == 0.0
 
 
 def test_there_are_no_more_blocks_than_places():

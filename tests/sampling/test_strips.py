@@ -5,20 +5,9 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.contact.strip_cells import cells_of_a_box, choose_cells
 from lubfric.contact.strips import measured_strips
 
 PAPER = paper_scene()
-
-
-def test_cells_resolve_correlation_length_and_strip():
-    cells = choose_cells((0.5e-6, 0.25e-6), (8e-6, 16e-6), 4.5e-6, 90e-6)
-    assert cells.factors == (4, 16) and cells.coarse == (2e-6, 4e-6)
-    assert 90e-6 <= cells.count * cells.coarse[0] < 90e-6 + 4 * cells.coarse[0]
-    assert choose_cells((0.5e-6, 0.5e-6), (8e-6, 8e-6), 1.0e-6, 90e-6).factors == (1, 4)  # the contact asks
-    assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (52, 64)).count * 2 == 52
-    assert cells_of_a_box((1e-6, 1e-6), (8e-6, 8e-6), 1.0, (48, 50), -24e-6).factors == (2, 1)
-    assert cells.halved().factors == (2, 8) and cells.halved().count == 2 * cells.count
 
 
 def test_a_strip_is_always_the_same_and_like_no_other():

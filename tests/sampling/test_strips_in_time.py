@@ -52,10 +52,16 @@ def test_an_average_over_time_is_as_unsure_as_its_line(held):
 def test_an_average_is_the_integral_over_time(held):
     """f rises, stays and falls along straight lines: 0.75 of its height, whatever the outputs."""
     columns = held.columns | {"time": np.array([0.0, 1.0, 3.0, 4.0]), "coefficient": np.array([0.0, 0.1, 0.1, 0.0])}
-    columns |= {"sampling_error": np.full(4, 0.02), "entrainment_speed": np.full(4, 0.03)}
+    columns |= {"sampling_error": np.full(4, 0.02), "entrainment_speed": np.full(4, 0.03), "sliding_speed": np.zeros(4)}
     mean = dataclasses.replace(held, columns=columns, renewal=1e-3).average()
     assert mean.coefficient == pytest.approx(0.075) and mean.sampling == pytest.approx(0.02)
-    assert mean.moving_scatter == pytest.approx(mean.fixed_scatter / math.sqrt(0.03 * 4.0 / 1e-3))
+    assert (
+        mean.moving_scatter == pytest.approx(mean.fixed_scatter / math.sqrt(0.03 * 4.0 / 1e-3)) and mean.in_motion == 1
+    )
+    speed, error = np.array([[0.0, 0.03, 0.03, 0.0], [np.nan, 0.02, 0.02, np.nan]])
+    still = {"entrainment_speed": speed, "sampling_error": error}
+    mean = dataclasses.replace(held, columns=columns | still).average()
+    assert (mean.coefficient, mean.sampling, mean.in_motion) == pytest.approx((0.1, 0.02, 0.75))
 
 
 def test_a_run_in_time_takes_cells_that_do_not_move_its_friction():

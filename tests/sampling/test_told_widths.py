@@ -8,8 +8,9 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric.sampling import Uncertainty
 from lubfric.sampling.missed import missed_load, summit_radius
-from lubfric.sampling.scatter import BlockError, add_errors, block_error
+from lubfric.sampling.scatter import BlockError, add_errors
 from lubfric.sampling.uncertainty import interval, load_sharing_error
 
 E_PRIME, WIDTH, RX, RY, SQ = 2.3e11, 6e-3, 40e-6, 90e-6, 1e-7
@@ -78,17 +79,6 @@ def test_an_interval_has_two_sides_and_the_farther_one_lies_away_from_0():
     assert interval(-0.05, 0.03, 0.0, 30, 0.04, 0.4) == pytest.approx((-0.05 * (1 + math.hypot(0.03, 0.4)), -0.0475))
 
 
-def test_a_mean_of_correlated_places_is_not_surer_than_it_tells():
-    """Noise with the correlation exp(-(y/l)²) on lines of 80 l: the standard errors told, and the scatter of the
-    means that they stand for."""
-    rng, l, n = np.random.default_rng(5), 8.0, 640
-    kernel = np.exp(-2 * (np.arange(-40, 41) / l) ** 2)
-    lines = [np.convolve(rng.standard_normal(n + 80), kernel, "valid") for _ in range(300)]
-    told = [block_error(line, 1.0, l).error for line in lines]
-    scatter = np.std([line.mean() for line in lines], ddof=1)
-    assert math.sqrt(np.mean(np.square(told))) == pytest.approx(scatter, rel=0.08)
-
-
 def test_freedom_of_a_sum_is_no_more_than_that_of_its_largest_part():
     """Welch and Satterthwaite: 9²/(8.1²/5 + .9²/50) = 6.2, cut to 6."""
     found = add_errors(BlockError(3 * math.sqrt(0.9), 5), BlockError(math.sqrt(0.9), 50))
@@ -111,3 +101,31 @@ def test_the_parts_of_the_error_of_f_belong_together(point):
     assert told.line_scatter == pytest.approx(told.sampling * math.sqrt(told.length / scene.bodies.width))
     assert found.errors.coefficient == pytest.approx(math.hypot(told.numerical, told.sampling))
     assert 1e-4 < told.numerical < 0.01 and 0.01 < told.sampling < 0.2
+
+
+# how they are printed: ± only where both sides are alike, and never as if they held a model that is not known
+
+KNOWN = {"numerical": 0.001, "sampling": 0.01, "model": 0.05}
+CASES = [
+    (KNOWN, (0.045, 0.055), "f = 0.0500 ± 0.005 at 95 % (numerical 0.1 %, surface 1 %, model 5 %)"),
+    (
+        KNOWN | {"inputs": 0.3},
+        (0.035, 0.054),
+        "f = 0.0500, 0.0350 to 0.0540 at 95 % (numerical 0.1 %, surface 1 %, model 5 %, inputs 30 %)",
+    ),
+    (KNOWN | {"inputs": math.nan}, (0.045, 0.055), "model 5 %, inputs not known)"),
+    (
+        KNOWN | {"model": math.nan},
+        (0.049, 0.051),
+        "± 0.001 at 95 % (numerical 0.1 %, surface 1 %, model not known and not in it)",
+    ),
+    (KNOWN | {"sampling": math.nan}, (math.nan, math.nan), "f = 0.05 (numerical 0.1 %, surface not known, model 5 %)"),
+]
+
+
+@pytest.mark.parametrize("parts, interval, words", CASES)
+def test_an_interval_in_words(parts, interval, words):
+    known = Uncertainty(**parts, interval=interval)
+    assert known.short(0.05).endswith(words)
+    if math.isnan(known.model):
+        assert "model not known and not in it" in known.text

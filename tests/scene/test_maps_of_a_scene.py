@@ -172,8 +172,6 @@ def test_a_given_map_with_unmeasured_points_is_refused_as_one():
 
 
 def test_the_same_by_call():
-    with pytest.raises(lubfric.InputError, match="surface.seed"):
-        Roughness(file="a.npy", seed=3)
     with pytest.raises(lubfric.InputError, match="surface.s_filter"):
         Roughness(sq=1e-7, correlation_length=1e-6, s_filter=1e-5)
     paper = paper_scene()

@@ -20,13 +20,8 @@ def write(folder, text):
 def toml(**changes):
     """A small valid scene; ``section__key=text`` replaces or adds a line, None removes it."""
     sections = {
-        "bodies": {
-            "radius": "2e-3",
-            "width": "6e-3",
-            "load": "5.5",
-            "e_prime": "231e9",
-            "boundary_friction_coefficient": "0.09",
-        },
+        "bodies": {"radius": "2e-3", "width": "6e-3", "load": "5.5", "e_prime": "231e9"}
+        | {"boundary_friction_coefficient": "0.09"},
         "lubricant": {"viscosity": "0.36", "pressure_viscosity_coefficient": "25e-9"},
         "motion": {"entrainment_speed": "0.01"},
         "surface": {"sq": "1e-7", "correlation_length": "8e-6"},
@@ -52,39 +47,17 @@ def test_paper_tables():
     assert flat.bodies.hardness is None and flat.surface.sq == 240e-9 and flat.contact.shape == (816, 816)
 
 
-def test_a_file_equals_its_short_forms(tmp_path):
-    plain = lubfric.load_scene(write(tmp_path, toml(motion__entrainment_speed="0.3", motion__slide_roll_ratio="2.0")))
-    short = lubfric.load_scene(
-        write(tmp_path, toml(motion__entrainment_speed=None, motion__surface_speeds="[0.0, 0.6]"))
-    )
-    assert short.motion == plain.motion
-    nu, e = 0.3, 210e9
-    moduli = lubfric.load_scene(
-        write(
-            tmp_path,
-            toml(bodies__e_prime=None, bodies__young_modulus=f"[{e}, {e}]", bodies__poisson_ratio=f"[{nu}, {nu}]"),
-        )
-    )
-    assert moduli.bodies.e_prime == pytest.approx(e / (1 - nu**2))
-    ranged = lubfric.load_scene(write(tmp_path, toml(motion__speed_range="[1e-3, 1.0, 4]")))
-    np.testing.assert_allclose(ranged.motion.speeds, [1e-3, 1e-2, 1e-1, 1.0])
-
-
 @pytest.mark.parametrize(
     "changes, words",
     [
-        ({"bodies__laod": "5.5"}, ["laod", "did you mean 'load'", "[bodies]"]),
         ({"bodis__load": "5.5"}, ["bodis", "did you mean 'bodies'"]),
         ({"bodies__load": "-1.0"}, ["bodies.load", "-1", "[1e-12", " N"]),
         ({"bodies__load": "'heavy'"}, ["bodies.load", "'heavy'"]),
-        ({"bodies__load": None}, ["[bodies] needs 'load'"]),
         ({"bodies__hardness": "1e8"}, ["bodies.load", "hardness", "allowed: below", " N"]),
-        ({"bodies__young_modulus": "[1e9, 1e9]"}, ["e_prime", "poisson_ratio"]),
         ({"lubricant__viscosity": "0.0"}, ["viscosity", "0", "Pa s"]),
         ({"lubricant__pressure_viscosity_coefficient": "0.0"}, ["pressure_viscosity_coefficient", "constant"]),
         ({"lubricant__viscosity_law": "'rolands'"}, ["did you mean 'roelands'"]),
         ({"surface__correlation_length": "-1e-6"}, ["correlation_length", "m"]),
-        ({"surface__file": "'nowhere.npy'", "surface__correlation_length": None}, ["nowhere.npy", "no such file"]),
         ({"contact__geometry": "'cylindre'"}, ["did you mean 'cylinder'"]),
         ({"contact__shape": "[0, 64]"}, ["contact.shape", "0"]),
         ({"contact__shape": "200"}, ["contact.shape", "pair"]),
@@ -195,7 +168,6 @@ def test_with_replaces_one_value_and_is_strict():
     "sections, words",
     [
         ({"motion": {"slide_ratio": 1}}, ["did you mean 'slide_roll_ratio'", "speeds"]),
-        ({"bodies": {"young_modulus": [2e11, 2e11]}}, ["needs poisson_ratio"]),
         ({"transient": {"duration": 1.0}}, ["transient", "allowed: a Transient"]),
         ({"transient": 3}, ["transient = 3", "Transient"]),
         ({"name": {"x": 1}}, ["name", "a str"]),

@@ -82,6 +82,7 @@ def test_all_sections_with_units_are_those_with_plain_numbers(tmp_path):
         ("lubricant", OIL | {"nu40": "68 mm2/s", "viscosity_index": 95, "grade": None}, "viscosity", 0.016775),
         ("lubricant", OIL | {"temperature": "343.15 K", "density": "0.88 g/cm³"}, "viscosity", 0.016775),
         ("lubricant", OIL, "temperature", 343.15),
+        ("lubricant", {"pressure_viscosity_coefficient": "20 GPa^-1"}, "pressure_viscosity_coefficient", 2e-8),
         ("lubricant", {"eyring_stress": "mineral"}, "eyring_stress", 5e6),
         ("lubricant", {"limiting_stress_coefficient": "pao"}, "limiting_stress_coefficient", 0.045),
         ("motion", {"surface_speeds": ["0.9 m/s", "110 cm/s"]}, "slide_roll_ratio", 0.2),

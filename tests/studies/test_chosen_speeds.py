@@ -62,7 +62,7 @@ def test_the_same_bits_on_a_pool_and_after_a_cut(study, tmp_path, monkeypatch, c
     with ProcessPoolExecutor(2) as executor:
         same(lubfric.study(SCENE, VARY, "auto", executor=executor, store=tmp_path), study)
     same(lubfric.open_study(tmp_path), study)
-    assert len(list((tmp_path / "points").iterdir())) == study.solved + 2  # the points, and the speeds of each curve
+    assert len(list((tmp_path / "points").iterdir())) == study.solved + 3  # points, speeds of each curve, plan
     monkeypatch.setattr(points, "prepare", None)  # nothing is left to do
     same(lubfric.study(SCENE, VARY, "auto", store=tmp_path), study)
 
@@ -82,13 +82,6 @@ def test_tables_leave_out_what_was_not_needed(study, tmp_path):
     study.to_csv(tmp_path / "study.csv")
     heading, *rows = (tmp_path / "study.csv").read_text().splitlines()
     assert heading.startswith("lubricant.viscosity [Pa s],speed [m/s],coefficient [-]") and len(rows) == study.solved
-
-
-def test_speeds_at_fixed_points_are_interpolated_too():
-    speeds = np.geomspace(1e-3, 1.0, 8)
-    found, alone = lubfric.study(SCENE, {}, speeds), lubfric.stribeck(SCENE, speeds)
-    np.testing.assert_allclose(found.at([0.002, 0.3]), alone.at([0.002, 0.3]), rtol=0.05 * SCENE.numerics.tolerance)
-    assert float(found.lift_off) == pytest.approx(alone.lift_off, rel=1e-3)
 
 
 def test_a_study_shows_itself(study):

@@ -33,14 +33,6 @@ def cluster():
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")
-def test_dask_gives_the_same_bits(serial, tmp_path):
-    distributed = pytest.importorskip("distributed")
-    with cluster() as workers, distributed.Client(workers) as client:
-        same(lubfric.study(SCENE, VARY, SPEEDS, executor=client.get_executor(), store=tmp_path), serial)
-
-
-@pytest.mark.slow
-@pytest.mark.filterwarnings("ignore")
 def test_killed_dask_workers_lose_nothing(serial, tmp_path):
     """Twenty workers killed at random moments, over as many runs of the study as that takes: at most the point that was
     being solved is lost with a worker, and none is solved twice. The other worker lives: a Dask that has lost all of
@@ -67,7 +59,7 @@ def test_killed_dask_workers_lose_nothing(serial, tmp_path):
             same(lubfric.study(SCENE, VARY, SPEEDS, executor=client.get_executor(), store=store), serial)
             ended.set()
             killer.join()
-        assert len(list((store / "points").iterdir())) == serial.status.size
+        assert len(list((store / "points").iterdir())) == serial.status.size + 1  # and the plan
         if len(killed) >= 20:
             break
     assert len(killed) == 20

@@ -179,13 +179,6 @@ def test_an_interrupt_is_one_line_that_says_what_is_kept(tmp_path, whole, monkey
     same(out, whole)
 
 
-def test_processes_share_a_run_to_the_same_bits(tmp_path, whole):
-    out = tmp_path / "out"
-    assert main(["run", written(tmp_path), "--out", str(out), "--workers", "2"]) == 0
-    complete(out)
-    same(out, whole)
-
-
 def test_a_killed_worker_loses_nothing(tmp_path, whole):
     out = tmp_path / "out"
     process = start(written(tmp_path), out, "worker", code=SHARED)

@@ -1,26 +1,21 @@
-"""Stribeck curves: shape, any order and executor to the same bits, and nothing lost to a failing point."""
+"""Stribeck curves: shape, and nothing lost to a failing point or job; any order: test_purity; executors: test_study."""
 
-import os
 import pickle
-import signal
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from scene_text import paper_scene
+from small_study import SCENE
 
 import lubfric
 from lubfric.quantities import NUMBERS
 from lubfric.studies import points
 from lubfric.studies.store import digest
 
-SCENE = paper_scene(
-    contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"}
-)
 STRIATED = {"model": "deterministic", "cavitated_shear": "striated"}
 SPEEDS = np.geomspace(1e-4, 1.0, 9)
-PARENT, FRICTION = os.getpid(), lubfric.friction
+FRICTION = lubfric.friction
 
 
 @pytest.fixture(scope="module")
@@ -76,12 +71,6 @@ def test_the_curve_has_the_shape_of_stribeck(curve):
     np.testing.assert_allclose(curve.mean_gap[separated], curve.central_film[separated], rtol=0.02)
 
 
-@pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
-def test_any_executor_gives_the_same_curve(curve, pool):
-    with pool(2) as executor:
-        same(lubfric.stribeck(SCENE, SPEEDS, executor), curve)
-
-
 def test_a_failing_point_loses_nothing(monkeypatch, model, curve):
     def failing(model, speed, **options):
         if speed == SPEEDS[4]:
@@ -111,18 +100,9 @@ class LosingExecutor(ThreadPoolExecutor):
         return super().submit(*args)
 
 
-def killed_in_a_worker(model, speed, **options):
-    if speed < 1e-2 and os.getpid() != PARENT:
-        os.kill(os.getpid(), signal.SIGKILL)
-    return FRICTION(model, speed, **options)
-
-
-def test_lost_workers_lose_nothing_and_change_nothing(monkeypatch, curve, tmp_path):
+def test_a_lost_job_loses_nothing_and_changes_nothing(curve):
     with LosingExecutor(1) as executor:
         same(lubfric.stribeck(SCENE, SPEEDS, executor), curve)
-    monkeypatch.setattr(points, "friction", killed_in_a_worker)
-    with ProcessPoolExecutor(2) as executor:
-        same(lubfric.stribeck(SCENE, SPEEDS, executor, store=tmp_path), curve)
 
 
 def test_a_fault_of_the_program_is_no_failed_point(monkeypatch, model):
@@ -162,22 +142,3 @@ def test_a_cut_sweep_goes_on_to_the_same_bits(model, tmp_path, monkeypatch, cut,
 def test_fields_of_a_speed_that_is_not_solved_are_refused():
     with pytest.raises(lubfric.InputError, match="not all among the speeds"):
         lubfric.stribeck(SCENE, SPEEDS, fields=[SPEEDS[1], 1.1 * SPEEDS[2]])
-
-
-def test_zero_speed_belongs_to_a_sweep(model):
-    curve = lubfric.stribeck(model, [0.0, 1e-3, -1e-3])
-    assert curve.coefficient[0] == pytest.approx(0.09) and curve.coefficient[2] < 0.09
-
-
-@pytest.mark.parametrize("speeds", [[], [[0.1]], [np.nan], "abc", [0.1, "x"]])
-def test_bad_speeds_are_errors_before_any_work(speeds):
-    with pytest.raises(lubfric.InputError, match="speeds"):
-        lubfric.stribeck(SCENE, speeds)
-
-
-def test_a_bad_executor_or_scene_is_an_error():
-    with pytest.raises(lubfric.InputError, match="Executor"):
-        lubfric.stribeck(SCENE, SPEEDS, "process")
-    for call in (lubfric.stribeck, lubfric.friction, lubfric.study):
-        with pytest.raises(lubfric.InputError, match="load_scene"):
-            call("paper")

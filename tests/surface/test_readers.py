@@ -76,8 +76,6 @@ HOSTILE = {
     "huge but plausible size": {"size": (100_000, 1_000)},
     "size with 30 digits": {"size": ("9" * 30, 5)},
     "negative size": {"size": (-7, -5)},
-    "data checksum": {"point_md5": "0" * 32},
-    "document checksum": {"main_md5": "0" * 32},
     "linked elsewhere": {"stored_name": "bindata/other.bin"},
     "entity expansion": {"xml": swap("<p:ISO5436_2", BOMB + "<p:ISO5436_2")},
     "entity expansion in UTF-16": {
@@ -107,6 +105,17 @@ def test_x3p_refuses(tmp_path, case):
     with pytest.raises(InputError) as error:
         read_surface(path)
     assert "allowed" in str(error.value) or "not a complete" in str(error.value)
+
+
+@pytest.mark.parametrize("name", ["main.xml", "bindata/data.bin"])
+def test_x3p_refuses_what_was_damaged_on_its_way(tmp_path, name):
+    """A byte that changed: by the checksum that the archive has of every member."""
+    path = write_x3p(tmp_path / "a.x3p", heights())
+    content = bytearray(path.read_bytes())
+    content[content.find(name.encode()) + len(name) + 40] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(InputError, match="not a complete"):
+        read_surface(path)
 
 
 def test_x3p_refuses_a_bomb_before_unpacking_it(tmp_path):
@@ -317,27 +326,6 @@ def test_options_that_do_not_apply_are_refused(tmp_path):
 # --- form -------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("holes", [0.0, 0.2])
-def test_second_order_form_is_taken_off(tmp_path, holes):
-    """Roughness orthogonal to every quadratic (by a fit of its own) comes back from under a cylinder at an angle,
-    a thousand times as high, to rounding; a plane alone leaves the cylinder."""
-    rng, shape, step = np.random.default_rng(5), (40, 31), (1e-6, 2e-6)
-    x, y = np.meshgrid(*(s * np.arange(n) for n, s in zip(shape, step)), indexing="ij")
-    measured_points = rng.random(shape) >= holes
-    u, v = x / x.max(), y / y.max()
-    terms = np.stack([np.ones_like(u), u, v, u * u, u * v, v * v], axis=-1)
-    rough = 1e-8 * rng.standard_normal(shape)
-    orthonormal = np.linalg.qr(terms[measured_points])[0]
-    rough[measured_points] -= orthonormal @ (orthonormal.T @ rough[measured_points])
-    form = 3e-6 + 0.1 * x - (0.8 * (x - 1e-5) + 0.6 * y) ** 2 / (2 * 5e-5)
-    np.save(tmp_path / "a.npy", np.where(measured_points, rough + form, np.nan))
-    surface = read_surface(tmp_path / "a.npy", spacing=step, form="quadratic", fill=False)
-    assert np.abs(surface.heights - rough)[measured_points].max() < 1e-11 * np.abs(form).max()
-    assert surface.notes[0].startswith("levelled") and "curvatures -1.280e+04, -7.200e+03 1/m" in surface.notes[0]
-    assert np.allclose(surface.level("quadratic").measured, surface.measured, atol=1e-17)
-    assert read_surface(tmp_path / "a.npy", spacing=step, fill=False).sq > 50 * surface.sq
-
-
 def test_second_order_form_of_short_and_thin_maps():
     thin = Surface(np.arange(6.0)[:, None] ** 2, 1.0)
     assert not thin.level("quadratic").heights.round(12).any() and thin.level().heights.round(12).any()
@@ -360,19 +348,14 @@ HUGE_NPY = (
     "name, content, options",
     [
         ("missing.npy", None, {"spacing": 1e-6}),
-        ("a.npy", b"", {"spacing": 1e-6}),
         ("a.npy", HUGE_NPY, {"spacing": 1e-6}),
-        ("a.txt", b"", {"spacing": 1e-6}),
         ("a.txt", b"\xff\xfe\x00\x81", {"spacing": 1e-6}),
-        ("a.csv", b"1,,3\n4,5\n", {"spacing": 1e-6}),
         ("a.txt", b"1 2\n3 inf\n", {"spacing": 1e-6}),
         ("a.txt", b"nan nan\nnan nan\n", {"spacing": 1e-6}),
         ("a.txt", b"1 2\n3 4\n", {}),
         ("a.txt", b"1 2\n3 4\n", {"spacing": 1e-6, "unit": "inch"}),
         ("a.txt", b"# spacing = 1e-6 1e-6\n1 2\n3 4\n", {"spacing": 1e-6}),
         ("a.xyz", b"0 0 1\n0 1 1\n1 0 1\n1 1 1\n", {"spacing": 1e-6}),
-        ("a.bmp", b"BM", {"spacing": 1e-6}),
-        ("a.x3p", b"PK", {}),
         ("a.x3p", b"PK", {"spacing": 1e-6}),
     ],
 )

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from lubfric import Surface, generate_surface, read_surface
+from lubfric import Surface, generate_surface
 from lubfric.surface.statistics import autocorrelation, correlation_length, rms_slope
 
 DX, DY = 1e-6, 2.5e-6
@@ -130,13 +130,3 @@ def test_transposing_turns_cells_mask_and_ends():
     assert (other.spacing, other.periodic_axes) == ((DY, DX), (False, True))
     np.testing.assert_array_equal(other.heights, by_hand.heights)
     np.testing.assert_array_equal(other.mask, by_hand.mask)
-
-
-def test_a_list_of_points_lies_along_its_own_axes(tmp_path):
-    points = [(3e-6 * i, 7e-6 * j, 1e-9 * (i - 2 * j * j)) for j in range(5) for i in range(8)]
-    (tmp_path / "a.xyz").write_text("\n".join(f"{x:.6e} {y:.6e} {z:.6e}" for x, y, z in points))
-    surface = read_surface(tmp_path / "a.xyz", unit="m", level=False)
-    assert surface.shape == (8, 5) and surface.spacing == pytest.approx((3e-6, 7e-6))
-    np.testing.assert_allclose(
-        surface.heights, [[1e-9 * (i - 2 * j * j) for j in range(5)] for i in range(8)], atol=1e-18
-    )

@@ -1,7 +1,6 @@
 """Smooth contact in time: exact squeeze, orders, reference table, similarity, reversal, jumps, failures."""
 
 import math
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -9,18 +8,14 @@ import pytest
 
 import lubfric
 from lubfric.film import solve_ehl
-from lubfric.oil import Lubricant
-from lubfric.scene import Constant, Harmonic, Ramp, Table
+from lubfric.scene import Harmonic, Ramp, Table
 from lubfric.time import (
-    ContactHistory,
     Memory,
     make_fixed_grid,
-    make_setting,
     solve_transient_ehl,
     symmetric_nodes,
 )
 from lubfric.time.film_equations import Spring, StepEquations, outside, outside_shear
-from lubfric.time.film_setting import Setting, steady_start
 from verification.check import Check
 from verification.studies import transient as study
 from verification.studies.transient import contact as moes
@@ -89,17 +84,6 @@ def test_a_radius_that_grows_ends_in_the_steady_state():
     assert found.min_film[-1] == pytest.approx(steady.min_film, rel=5e-3)
 
 
-def test_the_first_step_does_not_matter():
-    keywords, _, unit = moes(10, 5)
-    keywords["entrainment_speed"] = jump(keywords["entrainment_speed"], 0.5)
-    films = [
-        solve_transient_ehl(**keywords, times=unit * np.array([0.3, 2.0]), tolerance=3e-3, first_step=first * unit)
-        for first in (1e-6, 1e-4, 1e-2)
-    ]
-    np.testing.assert_allclose(films[0].min_film, films[1].min_film, rtol=1e-3)
-    np.testing.assert_allclose(films[2].min_film, films[1].min_film, rtol=1e-3)
-
-
 def test_reversal_passes_with_the_film_trapped_by_squeeze():
     keywords, problem, unit = moes(20, 5)
     speed, period = keywords["entrainment_speed"], 12 * unit
@@ -154,48 +138,6 @@ def test_the_tail_is_the_integral_of_reynolds_equation():
     reach, shear = outside_shear(a, film, c, nu, speed, flow, rate)
     assert reach == pytest.approx(quad(lambda s: 1 / h(s), a, np.inf)[0], rel=1e-8)
     assert shear == pytest.approx(quad(lambda s: 0.5 * h(s) * slope(s), a, np.inf)[0], rel=1e-8)
-
-
-def test_a_step_balances_mass_and_keeps_complementarity():
-    keywords, _, unit = moes(20, 5)
-    speed = keywords["entrainment_speed"]
-    contact = ContactHistory(
-        load=Constant(keywords["load_per_width"]),
-        radius=Constant(0.01),
-        e_prime=keywords["e_prime"],
-        speed=jump(speed, 0.5, at=0.01 * unit),
-        viscosity=Constant(keywords["viscosity"]),
-        lubricant=Lubricant(0.0358, 2.2e-8),
-        duration=10 * unit,
-    )
-    setting = make_setting(contact, 1e-3)
-    start = steady_start(setting)
-    step = 0.05 * unit
-    found = setting.solve(step, Memory(1 / step, start.film), start.z)
-    t = found.terms
-    assert found.status == "converged" and np.all(t.P >= 0) and np.all(t.r[1:-1] >= -1e-6)
-    assert np.max(np.abs((t.P * t.r)[1:-1])) < 1e-5 * t.P.max()
-    wet = np.flatnonzero(t.P > 0)
-    inside = slice(wet[0] + 1, wet[-1])
-    stored = t.stored[inside].sum()
-    assert stored == pytest.approx(t.flux[wet[0]] - t.flux[wet[-1] - 1], abs=1e-5 * abs(stored))
-
-
-def test_a_failed_step_is_reported_with_what_was_computed(monkeypatch):
-    keywords, _, unit = moes(10, 5)
-    keywords["entrainment_speed"] = jump(keywords["entrainment_speed"], 0.5)
-    real = Setting.solve
-
-    def failing(setting, time, *rest):
-        found = real(setting, time, *rest)
-        return replace(found, status="diverged") if time > 0.02 * unit else found
-
-    monkeypatch.setattr(Setting, "solve", failing)
-    times = unit * np.array([0.0, 0.01, 50.0])
-    with pytest.raises(lubfric.ConvergenceError, match="stagnated") as caught:
-        solve_transient_ehl(**keywords, times=times, tolerance=3e-3)
-    assert caught.value.result.time.tolist() == times[:2].tolist()
-    assert not solve_transient_ehl(**keywords, times=times, tolerance=3e-3, raise_on_failure=False).report.converged
 
 
 @pytest.mark.parametrize(

@@ -1,8 +1,5 @@
 """Load sharing in time: the steady limit, cycles, hysteresis, rest, balances, checkpoint, command line."""
 
-import signal
-import subprocess
-import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -163,38 +160,6 @@ def test_starts_that_contradict_or_are_missing_are_refused():
         Transient(1e-3, initial="steady", initial_film=1e-6)
     with pytest.raises(lubfric.InputError, match="initial_film"):
         lubfric.transient(SCENE.with_(surface={"sq": 0.0}, transient=Transient(1.0, speed=Ramp(end=1.0))))
-
-
-SCRIPT = """
-import os, signal, sys
-sys.path[:0] = [sys.argv[1], os.path.dirname(sys.argv[1])]
-import test_transient_mixed as here
-count = [0]
-def on_step(now, duration, row):
-    count[0] += 1
-    if count[0] == 13:
-        os.kill(os.getpid(), signal.SIGKILL)
-here.swing(checkpoint=sys.argv[2], on_step=on_step)
-"""
-
-
-def swing(**options):
-    plan = Transient(3e-3, outputs=8, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0))
-    return run(plan, **options)
-
-
-def test_a_killed_run_goes_on_where_it_was(tmp_path):
-    folder, calls = tmp_path / "killed", []
-    command = [sys.executable, "-c", SCRIPT, str(Path(__file__).parent), str(folder)]
-    assert subprocess.run(command, cwd=Path(__file__).parents[2]).returncode == -signal.SIGKILL
-    assert any((folder / "points").iterdir())
-    resumed = swing(checkpoint=folder, on_step=lambda *now: calls.append(now))
-    assert not folder.exists()
-    whole = swing()
-    assert len(calls) == whole.report.iterations - 13
-    assert np.array_equal(resumed.pressure, whole.pressure) and resumed.entries == whole.entries
-    for name, values in whole.columns.items():
-        np.testing.assert_array_equal(resumed.columns[name], values)
 
 
 class Killed(Exception):

@@ -10,8 +10,8 @@ from lubfric import EHLResult, solve_differential_deflection, solve_ehl
 from lubfric.film import moes_film
 
 from ..fem import ehl as fem
-from ..fem.fluid import Fluid
-from ..parts import case_of
+from ..fem.report import SolveError
+from ..parts import case_of, moes_unit
 from .measure import interleaved, point
 
 POINTS = ((1, 5), (10, 10), (20, 5), (100, 20), (1000, 20))
@@ -61,20 +61,17 @@ def runs(case: dict, M: float, L: float, quick: bool) -> Iterator[tuple]:
             yield "differential deflection", f"{nodes} nodes", quantities(film), seconds, nodes
     if M <= 100:  # beyond, its meshes cost minutes
         yield from finite_elements(case, quick)
-    speed = 2 * case["viscosity"] * case["entrainment_speed"] / (case["e_prime"] * case["radius"])
     value, seconds = interleaved({"": partial(moes_film, M, L)}, 21)[""]
-    yield "Moes formula (flow film)", "", (math.nan, value * case["radius"] * math.sqrt(speed)), seconds, 1
+    yield "Moes formula (flow film)", "", (math.nan, value * moes_unit(case["entrainment_speed"])), seconds, 1
 
 
 def finite_elements(case: dict, quick: bool) -> Iterator[tuple]:
     """The full system by finite elements on its nested meshes. The time of each includes that of the coarser ones."""
-    laws = {name: case[name] for name in ("viscosity_law", "pressure_viscosity_coefficient")}
-    fluid = Fluid(case["viscosity"], **laws)
-    contact = fem.LineContact(case["load_per_width"], case["radius"], case["e_prime"], case["entrainment_speed"], fluid)
+    contact = fem.LineContact.of(case)
     for refinements in (0,) if quick else (0, 1):
-        call = partial(fem.solve_ehl, contact, refinements=refinements, raise_on_failure=False)
-        solutions, seconds = interleaved({"": call}, 1)[""]
+        try:
+            solutions, seconds = interleaved({"": partial(fem.solve_ehl, contact, refinements=refinements)}, 1)[""]
+        except SolveError:
+            continue
         last = solutions[-1]
-        if last.report.converged and len(solutions) == refinements + 1:
-            films = (last.min_film, last.flow_film)
-            yield "finite elements", f"{refinements} refinements", films, seconds, last.P.size
+        yield "finite elements", f"{refinements} refinements", (last.min_film, last.flow_film), seconds, last.P.size

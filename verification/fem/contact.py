@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, InputError, SolveReport
+from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, SolveReport, require
 
 SOLVER = "primal-dual active set"
 FREE_SHARE = 0.2  # of the load off the saturated nodes that one step leaves at least on the others
@@ -61,7 +61,6 @@ def solve_contact(
     limit: float | None = None,
     tolerance: float = 1e-8,
     max_iterations: int = 300,
-    raise_on_failure: bool = True,
 ) -> Contact:
     """Pressure of a rigid counterface on an elastic surface under a given load, optionally capped.
 
@@ -91,7 +90,7 @@ def solve_contact(
     Raises
     ------
     InputError : before any work, also for a load no smaller than the limit can carry
-    SolveError : a residual above ``tolerance``, unless ``raise_on_failure`` is False
+    SolveError : a residual above ``tolerance``
     """
     problem = checked(displacement, weights, gap0, load, limit, tolerance)
     force = np.full(problem.gap0.size, load / problem.gap0.size)
@@ -105,25 +104,20 @@ def solve_contact(
         force, more = active_set(problem, force, touching, saturated, max_iterations)
         steps = (steps[0] + more[0], [*steps[1], *more[1]], more[2])
     found = finish(problem, force, steps)
-    if raise_on_failure:
-        found.report.raise_if_failed(found)
-    return found
+    return found.report.checked(found)
 
 
 def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
     """The problem, or `InputError`."""
     weights, gap0 = np.array(weights, dtype=float), np.array(gap0, dtype=float)
-    if gap0.ndim != 1 or gap0.size == 0 or not np.all(np.isfinite(gap0)):
-        raise InputError(f"gap0 has shape {gap0.shape} or is not finite; allowed: one finite length in m per node")
-    if weights.shape != gap0.shape or not np.all(weights > 0):
-        raise InputError(f"weights have shape {weights.shape}; allowed: one value > 0 for each of {gap0.size} nodes")
-    if not (np.isfinite(load) and load > 0):
-        raise InputError(f"load = {load}; allowed: finite, > 0, N or N/m")
-    if not 0 < tolerance < 1:
-        raise InputError(f"tolerance = {tolerance}; allowed: (0, 1)")
+    fits = gap0.ndim == 1 and gap0.size > 0 and bool(np.all(np.isfinite(gap0)))
+    require(fits, f"gap0 has shape {gap0.shape} or is not finite", "one finite length in m per node")
+    fits = weights.shape == gap0.shape and bool(np.all(weights > 0))
+    require(fits, f"weights have shape {weights.shape}", f"one value > 0 for each of {gap0.size} nodes")
+    require(0 < tolerance < 1, f"tolerance = {tolerance}", "(0, 1)")
     most = np.inf if limit is None else limit
-    if not (most > 0 and load < most * weights.sum()):
-        raise InputError(f"load = {load:g} cannot be carried below limit = {most:g} Pa on {weights.sum():g} m or m^2")
+    carried = f"> 0, < what limit = {most:g} Pa carries on {weights.sum():g} m or m^2"
+    require(most > 0 and 0 < load < most * weights.sum(), f"load = {load:g} N or N/m", carried)
     return Problem(displacement, weights, gap0, float(load), most * weights, tolerance)
 
 

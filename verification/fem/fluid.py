@@ -6,15 +6,17 @@ derivative.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from .report import InputError
+from .report import require
 
 ROELANDS_PRESSURE = 1.96e8
 VISCOSITY_LAWS = ("constant", "barus", "roelands")
-DENSITY_LAWS = ("constant", "linear", "dowson_higginson")
+DENSITY_LAWS = ("constant", "linear", "dowson-higginson")
 STEP = 1e-40
 
 
@@ -28,7 +30,7 @@ class Fluid:
     pressure_viscosity_coefficient : alpha, 1/Pa
     roelands_index : z, 1; None takes ``alpha p0/(ln viscosity + 9.67)``
     density_law : relative density "constant" 1; "linear" ``1 + p/bulk_modulus`` (an isothermal ideal gas has
-        its ambient pressure for bulk modulus); "dowson_higginson"
+        its ambient pressure for bulk modulus); "dowson-higginson"
         ``(5.9e8 + 1.34 p)/(5.9e8 + p)`` (Dowson & Higginson 1966, p in Pa)
     bulk_modulus : Pa, for "linear"
     eyring_stress : Pa; the shear stress is its asinh of the Newtonian one in its units (infinite: Newtonian)
@@ -45,21 +47,28 @@ class Fluid:
     limiting_stress: tuple[float, float] | None = None
 
     def __post_init__(self):
-        if self.viscosity_law not in VISCOSITY_LAWS or self.density_law not in DENSITY_LAWS:
-            raise InputError(
-                f"viscosity_law = {self.viscosity_law!r}, density_law = {self.density_law!r}; "
-                f"allowed: {VISCOSITY_LAWS} and {DENSITY_LAWS}"
-            )
-        if not (math.isfinite(self.viscosity) and self.viscosity > 0):
-            raise InputError(f"viscosity = {self.viscosity} Pa s; allowed: > 0")
-        if not 0 <= self.pressure_viscosity_coefficient < math.inf:
-            raise InputError(
-                f"pressure_viscosity_coefficient = {self.pressure_viscosity_coefficient} 1/Pa; allowed: >= 0"
-            )
-        if self.viscosity_law == "roelands" and not self.index > 0:
-            raise InputError(f"roelands_index = {self.index}; allowed: > 0")
-        if not self.bulk_modulus > 0:
-            raise InputError(f"bulk_modulus = {self.bulk_modulus} Pa; allowed: > 0")
+        laws = f"viscosity_law = {self.viscosity_law!r}, density_law = {self.density_law!r}"
+        known = self.viscosity_law in VISCOSITY_LAWS and self.density_law in DENSITY_LAWS
+        require(known, laws, f"{VISCOSITY_LAWS} and {DENSITY_LAWS}")
+        require(0 < self.viscosity < math.inf, f"viscosity = {self.viscosity} Pa s", "> 0")
+        alpha = self.pressure_viscosity_coefficient
+        require(0 <= alpha < math.inf, f"pressure_viscosity_coefficient = {alpha} 1/Pa", ">= 0")
+        if self.viscosity_law == "roelands":
+            require(self.index > 0, f"roelands_index = {self.index}", "> 0")
+        require(self.bulk_modulus > 0, f"bulk_modulus = {self.bulk_modulus} Pa", "> 0")
+
+    @classmethod
+    def of(cls, oil: Mapping[str, Any]) -> "Fluid":
+        """The fluid of an oil that is told in the words of a scene, or of the arguments of ``lubfric.solve_ehl``."""
+        alpha, limit = oil.get("pressure_viscosity_coefficient", 0.0), oil.get("limiting_stress_coefficient")
+        return cls(
+            oil["viscosity"],
+            oil.get("viscosity_law", "roelands") if alpha else "constant",
+            alpha,
+            density_law=oil.get("density_law", "constant"),
+            eyring_stress=oil.get("eyring_stress") or math.inf,
+            limiting_stress=None if limit is None else (oil.get("limiting_stress_offset", 0.0), limit),
+        )
 
     @property
     def index(self) -> float:

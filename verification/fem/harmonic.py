@@ -20,34 +20,30 @@ from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri
 
 from .compliance import Elastic
 from .contact import Contact, solve_contact
-from .report import InputError
+from .report import require
 from .triangles import factorised, graded
+
+SIDE = 12  # that of the square body is dx 2^SIDE
+GROWTH = 0.5  # of the cells, per distance from the patch
 
 
 @dataclass(frozen=True)
 class Strip:
     """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, centred on x = 0 and repeated along y. nx is even.
 
-    side : that of the square body is dx 2^side
     fineness : each cell along x is 2^fineness facets
-    growth : cell length per distance from the patch
     """
 
     shape: tuple[int, int]
     spacing: tuple[float, float]
     body: Elastic
-    side: int = 12
     fineness: int = 1
-    growth: float = 0.5
 
     def __post_init__(self):
-        if self.shape[0] % 2 or min(self.shape) < 2 or min(self.spacing) <= 0:
-            raise InputError(f"shape = {self.shape}, spacing = {self.spacing} m; allowed: nx even, >= 2 cells, > 0 m")
-        if not 1 << self.side >= 8 * self.shape[0] or not 0 <= self.fineness <= 4 or not 0 < self.growth <= 1:
-            raise InputError(
-                f"side = {self.side}, fineness = {self.fineness}, growth = {self.growth}; allowed: at least "
-                "8 patches, 0 to 4, (0, 1]"
-            )
+        said = f"shape = {self.shape}, spacing = {self.spacing} m, fineness = {self.fineness}"
+        fits = not self.shape[0] % 2 and min(self.shape) >= 2 and min(self.spacing) > 0
+        require(fits and 8 * self.shape[0] <= 1 << SIDE, said, f"nx even, 2 to {(1 << SIDE) // 8} cells, > 0 m")
+        require(0 <= self.fineness <= 4, said, "fineness 0 to 4")
 
     @property
     def half(self) -> float:
@@ -79,28 +75,21 @@ def press(
     load_per_width: float,
     *,
     hardness: float = math.inf,
-    raise_on_failure: bool = True,
     **options,
 ) -> Contact:
     """`contact.solve_contact` of the strip: ``gap0`` and the fields of the result are (nx, ny), the load is in N/m."""
     (nx, ny), (dx, dy) = compliance.strip.shape, compliance.strip.spacing
-    if gap0.shape != (nx, ny) or not 0 < load_per_width < hardness * nx * dx:
-        raise InputError(
-            f"gap0 has shape {gap0.shape}, load_per_width = {load_per_width} N/m; allowed: {(nx, ny)}, "
-            f"0 to {hardness * nx * dx:g}"
-        )
+    most = hardness * nx * dx
+    fits = gap0.shape == (nx, ny) and 0 < load_per_width < most
+    require(fits, f"gap0 has shape {gap0.shape}, {load_per_width = } N/m", f"{(nx, ny)}, 0 to {most:g}")
 
     def displacement(force: np.ndarray) -> np.ndarray:
         return compliance.apply(force.reshape(nx, ny) / (dx * dy)).ravel()
 
     limit, cells = hardness if math.isfinite(hardness) else None, np.full(gap0.size, dx * dy)
-    asked = {"limit": limit, "raise_on_failure": False} | options
-    found = solve_contact(displacement, cells, gap0.ravel(), load_per_width * ny * dy, **asked)
+    found = solve_contact(displacement, cells, gap0.ravel(), load_per_width * ny * dy, limit=limit, **options)
     fields = ("pressure", "gap", "displacement", "touching", "saturated")
-    result = replace(found, **{name: getattr(found, name).reshape(nx, ny) for name in fields})
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result
+    return replace(found, **{name: getattr(found, name).reshape(nx, ny) for name in fields})
 
 
 def compliance(strip: Strip) -> Compliance:
@@ -121,13 +110,13 @@ def compliance(strip: Strip) -> Compliance:
 def graded_mesh(strip: Strip) -> MeshTri:
     """Triangles, none longer than ``hypot(diagonal of the finest, growth * distance from the patch)``."""
     dx = strip.spacing[0]
-    side = dx * 2**strip.side
+    side = dx * 2**SIDE
     mesh = MeshTri.init_tensor(np.linspace(-side / 2, side / 2, 9), np.linspace(-side, 0, 9))
     fine = 1.001 * np.sqrt(2) * dx / 2**strip.fineness
 
     def allowed(corners):
         aside = np.maximum(np.abs(corners[0]) - strip.half, 0)
-        return np.hypot(fine, strip.growth * np.hypot(aside, corners[1]).min(axis=0))
+        return np.hypot(fine, GROWTH * np.hypot(aside, corners[1]).min(axis=0))
 
     return graded(mesh, allowed)
 

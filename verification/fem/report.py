@@ -2,15 +2,23 @@
 
 import math
 from dataclasses import dataclass
+from typing import TypeVar
 
 CONVERGED = "converged"
 ITERATION_LIMIT = "iteration_limit"
 STAGNATED = "stagnated"
 DIVERGED = "diverged"
+T = TypeVar("T")
 
 
 class InputError(ValueError):
     """An input outside its allowed range, raised before any work."""
+
+
+def require(fits: bool, said: str, allowed: str) -> None:
+    """`InputError` with what was ``said`` and what is ``allowed``, where it does not fit."""
+    if not fits:
+        raise InputError(f"{said}; allowed: {allowed}")
 
 
 class SolveError(RuntimeError):
@@ -35,7 +43,6 @@ class SolveReport:
     tolerance : dimensionless, as the residuals
     residuals : final value of each measured residual by name
     history : largest residual after each iteration
-    notes : choices made on the way that a reader of the result should know
     """
 
     solver: str
@@ -44,7 +51,6 @@ class SolveReport:
     tolerance: float
     residuals: dict[str, float]
     history: tuple[float, ...] = ()
-    notes: tuple[str, ...] = ()
 
     @property
     def residual(self) -> float:
@@ -64,7 +70,8 @@ class SolveReport:
             f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
         )
 
-    def raise_if_failed(self, result=None) -> None:
-        """Raise `SolveError` with this report and ``result`` unless the solve converged."""
+    def checked(self, result: T) -> T:
+        """``result``, if the solve converged; else `SolveError` with this report and the ``result``."""
         if not self.converged:
             raise SolveError(self.message, self, result)
+        return result

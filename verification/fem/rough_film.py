@@ -1,5 +1,4 @@
-"""The film in a rough gap that is given on cells: Reynolds' equation on triangles, which are fine where the gap is
-narrow.
+"""The film in a rough gap that is given on cells: Reynolds' equation on triangles.
 
 The gap comes as numbers at the centres of cells (x along the motion, y periodic and symmetric about its ends and its
 middle). It is linear between them, and goes on upstream as a parabola. Spots of contact may come with their pressure,
@@ -13,7 +12,7 @@ import skfem
 from scipy.interpolate import LinearNDInterpolator
 
 from .fluid import Fluid
-from .report import InputError
+from .report import require
 from .reynolds import Problem, Solution, solve_reynolds
 
 FAR = 30.0  # length upstream that is meshed, in lengths of the given gap upstream
@@ -40,8 +39,8 @@ class GivenGap:
     log: float
 
     def __post_init__(self):
-        if np.abs(self.gap - self.gap[:, ::-1]).max() > SYMMETRY * self.gap.max():
-            raise InputError("gap is not symmetric along y; allowed: one that is its own mirror image")
+        off = np.abs(self.gap - self.gap[:, ::-1]).max()
+        require(off <= SYMMETRY * self.gap.max(), "gap is not symmetric along y", "one that is its own mirror image")
 
     @property
     def width(self) -> float:
@@ -79,25 +78,14 @@ class GivenGap:
         )
 
 
-def mesh_of(given: GivenGap, cells: int, refinements: int) -> skfem.MeshTri:
-    """Triangles with about ``cells`` of them across the period.
-
-    Where the gap is narrower than half its mean over the section, or the pressure above a tenth of its largest, they
-    are halved ``refinements`` times.
-    """
+def mesh_of(given: GivenGap, cells: int) -> skfem.MeshTri:
+    """Triangles with about ``cells`` of them across the period."""
     step = 2 * given.width / cells
     first, last = given.x[0], given.x[-1]
     inner = np.linspace(first, last, int(round((last - first) / step)) + 1)
     far = first * np.geomspace(FAR, 1.0, COARSE + 1)[:-1]
     y = np.linspace(0.0, given.width, cells // 2 + 1)
-    mesh = skfem.MeshTri.init_tensor(np.concatenate([far, inner]), y)
-    mean = given.gap.mean(axis=1)
-    for _ in range(refinements):
-        middle = mesh.p[:, mesh.t].mean(axis=1)
-        narrow = given.film(middle) < 0.5 * np.interp(middle[0], given.x, mean, left=np.inf)
-        pressed = given.guess(middle) > 0.1 * given.pressure.max()
-        mesh = mesh.refined(np.flatnonzero((narrow | pressed) & (middle[0] > first)))
-    return mesh
+    return skfem.MeshTri.init_tensor(np.concatenate([far, inner]), y)
 
 
 @dataclass(frozen=True)
@@ -114,15 +102,14 @@ class RoughFilm:
     solution: Solution
 
 
-def rough_film(given: GivenGap, fluid: Fluid, speed: float, *, cells: int, refinements: int, degree=1) -> RoughFilm:
+def rough_film(given: GivenGap, fluid: Fluid, speed: float, *, cells: int) -> RoughFilm:
     """Solve for the pressure in ``given`` at the entrainment ``speed`` [m/s]. The film ruptures where it would pull."""
     width = given.width
     problem = Problem(
-        mesh_of(given, cells, refinements),
+        mesh_of(given, cells),
         given.film,
         fluid,
         speed,
-        degree=degree,
         open_boundary=lambda middle: (middle[1] < 1e-9 * width) | (middle[1] > width * (1 - 1e-9)),
         given=given.prescribed if given.contact.any() else None,
         cavitation=True,

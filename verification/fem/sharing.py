@@ -153,7 +153,6 @@ def share_load(
     refinements: int = 1,
     tolerance: float = 1e-5,
     max_evaluations: int = 40,
-    raise_on_failure: bool = True,
 ) -> Shared:
     """The division of the load at which |residual| <= ``tolerance``.
 
@@ -174,10 +173,7 @@ def share_load(
     status = CONVERGED if min(history) <= tolerance else ITERATION_LIMIT
     residuals = {"volume": min(history)}
     report = SolveReport("load sharing by finite elements", status, len(history), tolerance, residuals, history)
-    found = replace(best(tried), report=report)
-    if raise_on_failure:
-        report.raise_if_failed(found)
-    return found
+    return report.checked(replace(best(tried), report=report))
 
 
 def best(tried: dict) -> Shared:

@@ -87,7 +87,7 @@ def solve_thinned(contact: LineContact, law: Law, sliding: float, *, refinements
             plain.line, plain.fluid, plain.hertz_pressure, plain.speed_parameter, plain.penalty, **units, law=stage
         )
         end, flow, report = newton(body, film, end, 1e-7, 40)
-        report.raise_if_failed(None)
+        report.checked(None)
     fields = (end.u, end.P, film_thickness(body, end), end.H0)
     thinned = Solution(contact, newtonian.layout, body, film, *fields, flow * contact.film_unit, report)
     return newtonian, thinned

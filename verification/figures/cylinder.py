@@ -1,6 +1,7 @@
 """Figs. 8, 9 and 10: the cylinder of Tables 1 and 2, on an ensemble of surfaces and on a real ground one."""
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +12,10 @@ import lubfric
 from lubfric.scene.roughness import Roughness
 
 from .. import parts
-from ..check import AT_LEAST, AT_MOST, Check
+from ..check import AT_LEAST, AT_MOST, Check, Item, Table
 from ..kept import Run
 from ..plotting import axes, image
-from .page import PaperFigure
+from .page import picture
 
 OWN = {  # the model, the grid and the film of the paper
     **{"model": "load-sharing", "grid": "given"},
@@ -63,8 +64,9 @@ def film_load(case: tuple) -> float:
     return lubfric.friction(scene_of(*case), 0.001).film_load
 
 
-def stribeck_curves(quick: bool, run: Run) -> PaperFigure:
+def stribeck_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     """Fig. 8: three models with mean and band, the real surface, and F_H at 0.001 m/s over L."""
+    quick = level == "quick"
     speeds, seeds = np.geomspace(1e-3, 1.0, 5 if quick else 11), range(1, 3 if quick else 9)
     cases = {f"{kind}, {seed}": ((*kind, seed), speeds, "") for kind in KINDS for seed in seeds}
     if real_surface() and not quick:
@@ -93,15 +95,12 @@ def stribeck_curves(quick: bool, run: Run) -> PaperFigure:
     headings = ("surface", "L [m]", "model", "speed [m/s]", "f mean [-]", "f lowest [-]", "f highest [-]")
     of_loads = ("L, Gaussian, 1/e [m]", "F_H mean [N]", "sd [N]", "lowest [N]", "highest [N]")
     words, source = "f of the plastic surface against the elastic one: largest change", "the paper: it changes little"
-    return PaperFigure(
-        "fig8",
-        "Fig. 8: the cylinder, three contact models",
-        _agrees(speeds, most, real, table),
-        _differs(curves),
-        _draw_stribeck(speeds, curves, real, lengths, loads),
-        {"fig8": (headings, rows), "fig8_film_load": (of_loads, table)},
-        (Check(words, most, 0.05, 0.0, source, AT_MOST),),
-    )
+    yield Check(words, most, 0.05, 0.0, source, AT_MOST)
+    title = "Fig. 8: the cylinder, three contact models"
+    yield Table("fig8", title, headings, rows)
+    yield Table("fig8_film_load", title, of_loads, table)
+    canvas = _draw_stribeck(speeds, curves, real, lengths, loads)
+    yield picture("fig8", title, _agrees(speeds, most, real, table), _differs(curves), canvas)
 
 
 def _draw_stribeck(speeds, curves, real, lengths, loads):
@@ -164,7 +163,7 @@ def _differs(curves) -> str:
     )
 
 
-def pressure_map(quick: bool, run: Run) -> PaperFigure:
+def pressure_map(level: str, run: Run = Run()) -> Iterator[Item]:
     """Fig. 9: the elastic-plastic contact pressure at 0.001 m/s, with F_C and F_H."""
     canvas, panels = axes(1, 2, width=9.4, height=4.2)
     rows: list[tuple] = []
@@ -189,24 +188,18 @@ def pressure_map(quick: bool, run: Run) -> PaperFigure:
     fractions = ("contact area fraction of the strip", "plastic area fraction")
     headings = ("acf", "F_C [N]", "F_H [N]", *fractions, "highest pressure [Pa]", "contact spots in 90 um")
     hardness = parts.the(PAPER.bodies.hardness, "hardness")
-    return PaperFigure(
-        "fig9",
-        "Fig. 9: contact pressure at 0.001 m/s",
-        f"Almost all of the load is carried by few, small contact spots: F_C = {c1:.3f} and {c2:.3f} N, F_H = "
-        f"{h1:.3f} and {h2:.3f} N (paper: 5.275 and 0.225 N), {spots1} and {spots2} spots. "
-        f"{reached if top2 >= 6e9 else ''}",
-        f"On the smooth (Gaussian) surface the highest pressure is {top1 / 1e9:.1f} GPa. Only the sharper summits of "
-        "the exponential one yield. Contact reaches beyond the Hertz strip (dashed).",
-        canvas,
-        {"fig9": (headings, rows)},
-        (
-            Check("F_C + F_H, Gaussian", c1 + h1, PAPER.bodies.load, 1e-9, "load balance", unit="N"),
-            Check("highest pressure", max(top1, top2), hardness, 0.0, "hardness", AT_MOST, "Pa"),
-        ),
-    )
+    yield Check("F_C + F_H, Gaussian", c1 + h1, PAPER.bodies.load, 1e-9, "load balance", unit="N")
+    yield Check("highest pressure", max(top1, top2), hardness, 0.0, "hardness", AT_MOST, "Pa")
+    title = "Fig. 9: contact pressure at 0.001 m/s"
+    yield Table("fig9", title, headings, rows)
+    agrees = f"Almost all of the load is carried by few, small contact spots: F_C = {c1:.3f} and {c2:.3f} N, F_H = "
+    agrees += f"{h1:.3f} and {h2:.3f} N (paper: 5.275 and 0.225 N), {spots1} and {spots2} spots. {reached}"
+    differs = f"On the smooth (Gaussian) surface the highest pressure is {top1 / 1e9:.1f} GPa. Only the sharper "
+    differs += "summits of the exponential one yield. Contact reaches beyond the Hertz strip (dashed)."
+    yield picture("fig9", title, agrees, differs, canvas)
 
 
-def sections(quick: bool, run: Run) -> PaperFigure:
+def sections(level: str, run: Run = Run()) -> Iterator[Item]:
     """Fig. 10: film h, separation h - epsilon and surface z through a contact spot, at 0.001 and 0.3 m/s."""
     canvas, panels = axes(1, 2, width=9.4, height=4.0)
     model, rows, words = lubfric.prepare(PAPER), [], []
@@ -234,15 +227,10 @@ def sections(quick: bool, run: Run) -> PaperFigure:
             f"At {speed:g} m/s the film is {weight @ h * 1e9:.0f} nm over the strip, F_H = {point.film_load:.3g} N, "
             f"and {100 * point.real_contact_area_fraction:.1f} % of it are in contact."
         )
-    return PaperFigure(
-        "fig10",
-        "Fig. 10: film, separation and surface at 0.001 and 0.3 m/s",
-        "In boundary lubrication the separation cuts through the summits. In full film it clears them.\n\n- "
-        + "\n- ".join(words)
-        + "\n",
-        "Where the surface is drawn above h_s, the contact deflects it: the gap h_s - z + u is zero there. u is known "
-        "up to a constant, so the distance between h_s and z depends on it, and the gap does not.",
-        canvas,
-        {"fig10": (("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)},
-        (Check("smallest gap over Sq", min(r[5] for r in rows) / 100e-9, 0.0, 0.01, "no penetration", AT_LEAST),),
-    )
+    yield Check("smallest gap over Sq", min(r[5] for r in rows) / 100e-9, 0.0, 0.01, "no penetration", AT_LEAST)
+    title = "Fig. 10: film, separation and surface at 0.001 and 0.3 m/s"
+    yield Table("fig10", title, ("speed [m/s]", "x [m]", "h [m]", "h_s [m]", "z [m]", "gap [m]"), rows)
+    agrees = "In boundary lubrication the separation cuts through the summits. In full film it clears them.\n\n- "
+    differs = "Where the surface is drawn above h_s, the contact deflects it: the gap h_s - z + u is zero there. u is "
+    differs += "known up to a constant, so the distance between h_s and z depends on it, and the gap does not."
+    yield picture("fig10", title, agrees + "\n- ".join(words) + "\n", differs, canvas)

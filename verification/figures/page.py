@@ -3,44 +3,23 @@
 import re
 import textwrap
 from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from .. import plotting
-from ..check import Check, Figure
+from ..check import Figure
 from ..tables.pages import source
 
 SECTION = re.compile(r"(?<=<!-- figures -->\n).*(?=<!-- end of figures -->)", re.DOTALL)
 
 
-@dataclass(frozen=True)
-class PaperFigure:
-    """What a figure hands over.
-
-    name, title : stem of its files, and its heading
-    agrees, differs : what agrees with the paper; what does not, and why
-    canvas : the drawn figure
-    tables : {stem: (headings with units, rows)}, each written as a CSV file
-    checks : what has to hold whatever the paper shows
-    """
-
-    name: str
-    title: str
-    agrees: str
-    differs: str
-    canvas: Any
-    tables: dict[str, tuple[tuple[str, ...], list[tuple]]]
-    checks: tuple[Check, ...]
-
-
-def picture(figure: PaperFigure) -> Figure:
-    """The picture, small enough for the documents, with its section of the page as caption."""
+def picture(name: str, title: str, agrees: str, differs: str, canvas) -> Figure:
+    """The drawn figure, small enough for the documents, with its section of the page as caption: what agrees with the
+    paper, and what does not, and why."""
     section = (
-        f"### {figure.title}\n\n![{figure.name}](images/{figure.name}.png)\n\n"
-        f"{wrapped(f'**Agrees.** {figure.agrees}')}\n\n{wrapped(f'**Differs, and why.** {figure.differs}')}\n"
+        f"### {title}\n\n![{name}](images/{name}.png)\n\n"
+        f"{wrapped(f'**Agrees.** {agrees}')}\n\n{wrapped(f'**Differs, and why.** {differs}')}\n"
     )
-    return plotting.compact(plotting.finish(figure.name, figure.canvas, section, "png", dpi=90), 144)
+    return plotting.compact(plotting.finish(name, canvas, section, "png", dpi=90), 144)
 
 
 def write(folder: Path, figures: Iterable[Figure]) -> None:

@@ -1,16 +1,17 @@
 """Figs. 3 and 4: a square array of spherical asperities against a flat. Load per asperity over separation."""
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from lubfric.contact import find_asperities
 from lubfric.contact.solve import solve_contact
 
-from ..check import AT_LEAST, AT_MOST, Check
+from ..check import AT_LEAST, AT_MOST, Check, Item, Table
 from ..kept import Run
 from ..plotting import axes, image
-from .page import PaperFigure
+from .page import picture
 
 RADIUS, HEIGHT, E_PRIME = 30e-6, 500e-9, 231e9
 SPACINGS = (14e-6, 20e-6, 30e-6, 40e-6)
@@ -48,10 +49,10 @@ def hertz_load(approach):
     return 2 / 3 * E_PRIME * np.sqrt(RADIUS) * np.asarray(approach) ** 1.5
 
 
-def sphere_array(quick: bool, run: Run) -> PaperFigure:
+def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
     """Load per asperity against the approach below first touch, by both models and with both conventions."""
-    loads = np.geomspace(5e-4, 2e-2, 4 if quick else 9)
-    cell = 4 * CELL if quick else CELL
+    count, cell = (4, 4 * CELL) if level == "quick" else (9, CELL)
+    loads = np.geomspace(5e-4, 2e-2, count)
     canvas, grid = axes(2, 2, width=9.0, height=7.6)
     (sketch, asperities), (left_out, kept) = grid
     heights, step = unit_cell(20e-6, cell)
@@ -83,27 +84,19 @@ def sphere_array(quick: bool, run: Run) -> PaperFigure:
     both = ("approach, mean left out [m]", "approach, mean kept [m]")
     last = "asperity model at the approach with the mean left out [N]"
     headings = ("spacing [m]", "load per asperity [N]", *both, last)
-    return PaperFigure(
-        "fig4",
-        "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart",
-        f"The asperity model does not depend on the spacing, and is Hertz to {100 * worst:.1f} %. In the half-space "
-        "model, *when the mean deflection of the box is kept*, the load at a given separation falls as the spheres "
-        f"come closer: {', '.join(f'{r:.2f}' for r in falls)} of Hertz at 14, 20, 30, 40 µm, as in Fig. 4.",
-        "In a periodic cell the mean deflection is a convention. When it is left out, the same solutions give "
-        f"{', '.join(f'{r:.2f}' for r in grows)}: closer spheres carry slightly *more*. When it is kept, it grows with "
-        "the box (here 2.24 p a/E', Love's kernel summed over 230 µm). So Fig. 4 measures the size of the box as much "
-        "as the interaction. In the friction model Eq. (8) removes the mean.",
-        canvas,
-        {"fig4": (headings, rows)},
-        (
-            Check("asperity model against Hertz, any spacing", worst, 0.02, 0.0, "Hertz 1882", AT_MOST),
-            Check(
-                "load over Hertz with the mean kept falls as spheres come closer: smallest step",
-                float(np.min(np.diff(falls))),
-                0.0,
-                0.0,
-                "Fig. 4 of the paper",
-                AT_LEAST,
-            ),
-        ),
+    yield Check("asperity model against Hertz, any spacing", worst, 0.02, 0.0, "Hertz 1882", AT_MOST)
+    name, step = "load over Hertz with the mean kept falls as spheres come closer: smallest step", np.diff(falls).min()
+    yield Check(name, step, 0.0, 0.0, "Fig. 4 of the paper", AT_LEAST)
+    title = "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart"
+    yield Table("fig4", title, headings, rows)
+    kept_words, free_words = (", ".join(f"{r:.2f}" for r in ratios) for ratios in (falls, grows))
+    agrees = f"The asperity model does not depend on the spacing, and is Hertz to {100 * worst:.1f} %. In the "
+    agrees += (
+        "half-space model, *when the mean deflection of the box is kept*, the load at a given separation falls as the "
     )
+    agrees += f"spheres come closer: {kept_words} of Hertz at 14, 20, 30, 40 µm, as in Fig. 4."
+    differs = "In a periodic cell the mean deflection is a convention. When it is left out, the same solutions give "
+    differs += f"{free_words}: closer spheres carry slightly *more*. When it is kept, it grows with the box (here "
+    differs += "2.24 p a/E', Love's kernel summed over 230 µm). So Fig. 4 measures the size of the box as much as the "
+    differs += "interaction. In the friction model Eq. (8) removes the mean."
+    yield picture("fig4", title, agrees, differs, canvas)

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from ..stability.film_check import viscosity_ratio
+from ..fem.fluid import Fluid
 from .soak_heat import heated_stress, heats, inlet_viscosity
 
 MOSTLY = 0.5  # of the isothermal force: below it the heated one is summed by itself
@@ -77,13 +77,8 @@ def _couette(scene, x, p, h, free, contact_load, speed, hot=True) -> float:
     as at its first node. That of a film that heats itself is taken from fewer nodes."""
     oil, slide = scene.lubricant, abs(scene.motion.slide_roll_ratio * speed)
     upstream = oil.viscosity * slide * _upstream(x[0], h[0], scene.bodies.radius) if slide else 0.0
-    log_ratio = viscosity_ratio(oil.viscosity_law, oil.viscosity, oil.pressure_viscosity_coefficient, p)
-    eta = oil.viscosity * np.exp(log_ratio)
-    tau = eta * slide / h
-    if oil.eyring_stress is not None:
-        tau = oil.eyring_stress * np.arcsinh(tau / oil.eyring_stress)
-    if oil.limiting_stress_coefficient is not None:
-        tau = np.minimum(tau, oil.limiting_stress_offset + oil.limiting_stress_coefficient * p)
+    fluid, pressed = Fluid.of(vars(oil)), np.maximum(p, 0.0)
+    log_ratio, eta, tau = fluid.log_viscosity(pressed), fluid.eta(pressed), fluid.stress(pressed, slide / h)
     force = float(np.trapezoid(free * tau, x))
     if oil.eyring_stress is None and oil.limiting_stress_coefficient is None:
         rate = free * slide / h

@@ -8,6 +8,8 @@ import math
 
 import numpy as np
 
+from ..parts import halved
+
 ACROSS, STEPS, KEPT = 25, 1000, 0.8  # nodes of half the film; steps of the fixed point, what they keep of the last
 SETTLED = 1e-5  # of the largest stress: what a step still moves
 
@@ -42,11 +44,8 @@ def inlet_viscosity(scene, speed: float) -> float:
     def film(eta):
         return moes(bodies.load / bodies.width, bodies.radius, bodies.e_prime, u, eta, alpha)
 
-    low, high = oil.viscosity * 1e-9, oil.viscosity
-    for _ in range(80):
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if film(middle) < thinner * film(oil.viscosity) else (low, middle)
-    return high
+    whole = thinner * film(oil.viscosity)
+    return halved(1e-9 * oil.viscosity, oil.viscosity, lambda eta: film(eta) < whole, 80)
 
 
 def heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed) -> np.ndarray:

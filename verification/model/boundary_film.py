@@ -12,6 +12,7 @@ from lubfric.deterministic import BOUNDARY_FILM, solve_strip
 from .. import plotting
 from ..check import TOLD, Check, Figure, Item, Table
 from ..kept import Run
+from ..parts import case_of_scene
 from ..references import load_share_band
 
 RATIOS = (2.0, 1.4, 1.0, 0.7, 0.4, 0.2)  # smooth central film over Sq
@@ -109,18 +110,7 @@ def rough(kind: str) -> lubfric.Surface:
 
 def speed_of(scene, film: float) -> float:
     """U [m/s] at which the smooth central film is ``film`` [m] thick, by two films and a power law between them."""
-    lubricant, bodies = scene.lubricant, scene.bodies
     slow, fast = 0.1, 1.0
-    first, last = (
-        lubfric.solve_ehl(
-            load_per_width=bodies.load / bodies.width,
-            radius=bodies.radius,
-            e_prime=bodies.e_prime,
-            entrainment_speed=speed,
-            viscosity=lubricant.viscosity,
-            pressure_viscosity_coefficient=lubricant.pressure_viscosity_coefficient,
-            density_law=lubricant.density_law,
-        ).central_film
-        for speed in (slow, fast)
-    )
+    cases = (case_of_scene(scene, scene.bodies.load, speed) for speed in (slow, fast))
+    first, last = (lubfric.solve_ehl(**case).central_film for case in cases)
     return fast * (film / last) ** (math.log(fast / slow) / math.log(last / first))

@@ -43,11 +43,11 @@ def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
         tolerance=EXACT * problem.x.size,
         carried=int(line.half_width > 8 * dx),
     )
-    found, out = zip(*((moment.result, given(moment.at)) for moment in islice(moving, start, start + count + 1)))
-    rows = [row(problem, *both) for both in zip(found[1:], out[1:])]
+    found, sources = zip(*((moment.result, given(moment.at)) for moment in islice(moving, start, start + count + 1)))
+    rows = [row(problem, *both) for both in zip(found[1:], sources[1:])]
     mean: dict[str, Any] = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
-    mean["drawn"] = mean["given"] / max(mean["given"] + mean["enters"], mean["given"])
-    at, out = travelling(problem, bodies)((start + count) * step), float(np.mean(out[2:]))
+    mean["drawn"] = share(mean["given"], mean["enters"])
+    at, out = travelling(problem, bodies)((start + count) * step), float(np.mean(sources[2:]))
     return mean | {"rest": first, "off": balances(at, found[-1], found, step, out), "steps": start + count}
 
 
@@ -56,7 +56,12 @@ def row(problem, result, out: float) -> dict[str, Any]:
     p, h, enters = result.pressure, result.gap, result.flow_film * result.speed
     shares = [float(p[h < film].sum() / p.sum()) for film in FILMS]
     numbers = {"f": result.coefficient, "central": result.central_gap, "mean": result.mean_gap, "given": out}
-    return numbers | {"enters": enters, "drawn": out / max(out + enters, out), "shares": shares}
+    return numbers | {"enters": enters, "drawn": share(out, enters), "shares": shares}
+
+
+def share(out: float, enters: float) -> float:
+    """Of the lubricant that is given off, in all of it."""
+    return out / (out + max(enters, 0.0)) if out > 0 else 0.0
 
 
 def given(at: Iterate) -> float:
@@ -78,9 +83,13 @@ def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) 
     """
     line, dx, x = problem.contact, problem.spacing[0], result.x
     results, U = passing or (result,) * 4, line.entrainment_speed
-    lost = [U * (one.flow_film - held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1]) for one in results]
-    first, second, *_, before, last = (float(held(line, one, one.gap).sum()) * dx for one in results)
-    gained = (3 * (last - second) - (before - first)) / (2 * step) if passing else 0.0  # the sum of BDF2 over all steps
+    lost = [
+        U * (one.flow_film - held(line, one, 1.5 * one.gap - 0.5 * np.roll(one.gap, 1, 0))[-1].mean())
+        for one in results
+    ]
+    first, second, *_, before, last = (held(line, one, one.gap) for one in results)
+    kept = [np.maximum(1.5 * now - 0.5 * then, 0.5 * now) for now, then in ((last, before), (second, first))]
+    gained = float((kept[0] - kept[1]).mean(axis=1).sum()) * dx / step if passing else 0.0  # limited BDF2, all steps
     source = out * len(results[2:])
     missing = float(np.sum(lost[2:])) + source - gained
     enters = U * float(np.sum([one.flow_film for one in results[2:]])) + source
@@ -102,6 +111,6 @@ def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) 
 
 
 def held(line, result, gap) -> np.ndarray:
-    """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure, mean over y (nx,)."""
-    law = Fluid(1.0, density_law=line.lubricant.density_law.replace("-", "_")).rho
-    return (result.fill * law(result.pressure) * gap).mean(axis=1)
+    """rho h [m] of the lubricant in this ``gap``, over the density at ambient pressure (nx, ny)."""
+    law = Fluid(1.0, density_law=line.lubricant.density_law).rho
+    return result.fill * law(result.pressure) * gap

@@ -6,6 +6,7 @@ and -s are two cases.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -30,27 +31,30 @@ CONTACTS: dict[str, tuple[float, dict, float, float]] = {  # pressure [Pa], bodi
     "light, 0.25 GPa": (0.25e9, {}, 100e-9, 8e-6),
 }
 SHAPE, PER_LENGTH = (64, 16), 2.5  # cells of a map, and in a correlation length
+KINDS = "gaussian", "exponential", "plateau", "ridges across", "ridges along"
+RIDGE, CUT = 4.0, 0.3  # length of ridges over their width; height over Sq at which summits are cut off
 HOLDS, SURE = 0.95, 0.99  # share of points within the stated bound; and the quantile that is told
 
 
 def cases(level: str) -> dict[str, tuple]:
-    """The cases of ``level`` by name: (contact, acf, film/Sq, slide-roll ratio). Two contacts are mapped."""
+    """The cases of ``level`` by name: (contact, kind of surface, film/Sq, slide-roll ratio). Two are mapped."""
     mapped, others = list(CONTACTS)[:2], list(CONTACTS)[2:]
     found = [(name, "gaussian", ratio, slip) for name in mapped for ratio in RATIOS for slip in SLIPS]
     if level == "quick":
         found = [one for one in found[: len(found) // 2] if one[2] >= 1 and abs(one[3]) == 0.1]
     else:
         more = [(name, "exponential") for name in (mapped[0], others[-1])] + [(name, "gaussian") for name in others]
-        found += [(*one, ratio, slip) for one in more for ratio in RATIOS[1::2] for slip in (-0.1, 0.5)]
+        more += [(mapped[0], kind) for kind in KINDS[2:]]
+        found = [(*one, ratio, slip) for one in more for ratio in RATIOS[1::2] for slip in (-0.1, 0.5)] + found
     return {"; ".join(map(str, one)): one for one in found}
 
 
 def solved(case: tuple) -> dict[str, Any]:
     """Both models at one case; or why there is no answer."""
-    contact, acf, ratio, slip = case
+    contact, kind, ratio, slip = case
     pressure, bodies, sq, length = CONTACTS[contact]
     scene = roller(pressure).with_(bodies=bodies, motion={"slide_roll_ratio": slip}, numerics={"accept": True})
-    surface = lubfric.generate_surface(SHAPE, length / PER_LENGTH, sq=sq, correlation_length=length, acf=acf, seed=11)
+    surface = rough(kind, sq, length)
     speed = speed_of(scene, ratio * sq)
     fast = lubfric.friction(lubfric.prepare(scene.with_(numerics={"model": "load-sharing"}), surface), speed)
     load = scene.bodies.load
@@ -60,6 +64,15 @@ def solved(case: tuple) -> dict[str, Any]:
         return {"speed": speed, "fast": numbers} | passed(scene, [RoughBody(surface, speed * (1 - slip / 2))], speed)
     except lubfric.ConvergenceError as error:
         return {"speed": speed, "fast": numbers, "failure": str(error)[:200]}
+
+
+def rough(kind: str, sq: float, length: float) -> lubfric.Surface:
+    """The map of one of `KINDS`, with this Sq and correlation length [m], of ridges across them."""
+    lengths = {"ridges across": (length, RIDGE * length), "ridges along": (RIDGE * length, length)}.get(kind, length)
+    cell, acf = length / PER_LENGTH, "exponential" if kind == "exponential" else "gaussian"
+    cells = (cell, RIDGE * cell) if kind == "ridges across" else cell
+    found = lubfric.generate_surface(SHAPE, cells, sq=sq, correlation_length=lengths, acf=acf, seed=11)
+    return replace(found, heights=np.minimum(found.heights, CUT * sq)).scaled(sq=sq) if kind == "plateau" else found
 
 
 def rolling(level: str, run: Run = Run()) -> Iterator[Item]:

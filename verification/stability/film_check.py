@@ -9,24 +9,9 @@ import math
 
 import numpy as np
 
+from ..fem.fluid import Fluid
+
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
-
-
-def viscosity_ratio(law: str, viscosity: float, alpha: float, pressure) -> np.ndarray:
-    """ln(eta/eta0) of the constant, Barus and Roelands laws."""
-    p = np.maximum(pressure, 0.0)
-    if law == "constant":
-        return np.zeros_like(p)
-    if law == "barus":
-        return alpha * p
-    log0 = math.log(viscosity) + 9.67
-    z = alpha * 1.96e8 / log0
-    return log0 * np.expm1(z * np.log1p(p / 1.96e8))
-
-
-def density_ratio(law: str, pressure) -> np.ndarray:
-    """rho/rho0 of the constant and Dowson-Higginson laws."""
-    return np.ones_like(pressure) if law == "constant" else (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
 
 
 def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float, reference: float) -> np.ndarray:
@@ -52,14 +37,13 @@ def film_deviations(result, case: dict) -> dict[str, float]:
     - gap: film deficit behind the rupture point
     - flow: root mean square over the cells before rupture of (flow - q)/max(film, q), q the flow at rupture
     """
-    law = case.get("viscosity_law", "roelands")
     sign = math.copysign(1.0, case["entrainment_speed"])
     order = slice(None) if sign > 0 else slice(None, None, -1)
     x, p, h = (sign * result.x)[order], result.pressure[order], result.film_thickness[order]
     radius, e_prime = case["radius"], case["e_prime"]
     shape = result.approach + deflection(x, x, p, e_prime, result.half_width) + x**2 / (2 * radius)
     before = x <= sign * result.rupture + 1e-12 * result.half_width
-    flow = cell_flow(x, p, result, case, law)
+    flow = cell_flow(x, p, result, case)
     q, wet = result.flow_film, before[1:]
     mid = 0.5 * (h[1:] + h[:-1])
     tail = 0.0 if case.get("inlet_length") else 0.5 * abs(x[0]) * p[0]
@@ -74,17 +58,13 @@ def film_deviations(result, case: dict) -> dict[str, float]:
     }
 
 
-def cell_flow(x, p, result, case, law) -> np.ndarray:
+def cell_flow(x, p, result, case) -> np.ndarray:
     """Mass flow through the middle of each cell over rho0 |U| [m]."""
     centre, dx = 0.5 * (x[1:] + x[:-1]), np.diff(x)
     inside = 0.5 * (p[1:] + p[:-1])
-    h = (
-        result.approach
-        + deflection(centre, x, p, case["e_prime"], result.half_width)
-        + centre**2 / (2 * case["radius"])
-    )
+    fluid, bent = Fluid.of(case), deflection(centre, x, p, case["e_prime"], result.half_width)
+    h = result.approach + bent + centre**2 / (2 * case["radius"])
     steps = 0.5 * np.diff(p)[:, None] * POINTS
-    log_eta = viscosity_ratio(law, case["viscosity"], case["pressure_viscosity_coefficient"], inside[:, None] + steps)
-    fluidity = np.exp(-log_eta) @ (0.5 * WEIGHTS)
+    fluidity = np.exp(-fluid.log_viscosity(np.maximum(inside[:, None] + steps, 0.0))) @ (0.5 * WEIGHTS)
     poiseuille = h**3 * fluidity * np.diff(p) / dx / (12 * case["viscosity"] * abs(case["entrainment_speed"]))
-    return density_ratio(case.get("density_law", "constant"), inside) * (h - poiseuille)
+    return fluid.rho(inside) * (h - poiseuille)

@@ -11,7 +11,7 @@ import numpy as np
 from lubfric import LubfricError, solve_differential_deflection, solve_ehl
 from lubfric.film.formulas import moes_film
 
-from ..parts import E_PRIME, RADIUS, VISCOSITY, case_of
+from ..parts import E_PRIME, RADIUS, case_of, moes_unit
 from .cell import Cell
 from .film_check import film_deviations
 
@@ -40,14 +40,9 @@ def solve(cell: Cell):
     if cell.method == DIFFERENTIAL:
         return solve_differential_deflection(**film.case, most_nodes=NODES)
     if cell.method == MOES:
-        return moes_film(cell.x, cell.y) * unit(film.case)
+        return moes_film(cell.x, cell.y) * moes_unit(film.case["entrainment_speed"])
     start = None if film.start is None else solve_ehl(**case_of(*film.start))
     return solve_ehl(**film.case, tolerance=film.tolerance, start=start)
-
-
-def unit(case: dict) -> float:
-    """Length [m] in which Moes' formula gives the film."""
-    return RADIUS * math.sqrt(2 * VISCOSITY * case["entrainment_speed"] / (E_PRIME * RADIUS))
 
 
 def deviations(cell: Cell, result) -> dict[str, float]:
@@ -146,5 +141,7 @@ def starved(quick: bool) -> Iterator[Cell]:
         for share in (0.5, 5) if quick else (0.3, 0.5, 1, 2, 5, 20):
             case = case_of(M, 10)
             half_width = math.sqrt(8 * case["load_per_width"] * RADIUS / (math.pi * E_PRIME))
-            case["inlet_length"] = half_width + share * math.sqrt(2 * RADIUS * moes_film(M, 10) * unit(case))
+            case["inlet_length"] = half_width + share * math.sqrt(
+                2 * RADIUS * moes_film(M, 10) * moes_unit(case["entrainment_speed"])
+            )
             yield Cell("film: starved inlet", "L = 10", M, share, Film(case), "solve_ehl")

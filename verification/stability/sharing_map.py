@@ -5,7 +5,6 @@ The judge closes load and volume anew (`verification.hostile.soak_judge`). Allow
 that the scene asks for (1 %), on the coefficient and on F_C/F_T.
 """
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,7 +14,7 @@ import numpy as np
 import lubfric
 
 from ..hostile.soak_judge import verdict
-from ..parts import case_of_scene
+from ..parts import case_of_scene, halved
 from .cell import Cell
 
 
@@ -56,24 +55,16 @@ def solve(cell: Cell) -> tuple:
         def below(u):
             return lubfric.solve_ehl(**case_of_scene(model.scene, load, u), tolerance=0.05).central_film < p.film
 
-        speed = _halved(1e-12, 1e4, 14, below)
+        speed = halved(1e-12, 1e4, below, 14)
     elif p.share:
         carried = p.share * model.scene.bodies.load
-        speed = _halved(1e-14, 1e2, p.halvings, lambda u: lubfric.friction(model, u).contact_load > carried)
+        speed = halved(1e-14, 1e2, lambda u: lubfric.friction(model, u).contact_load > carried, p.halvings)
     return model, lubfric.friction(model, speed)
 
 
 def deviations(cell: Cell, solved: tuple) -> dict[str, float]:
     """Sums of the result itself, and friction and contact load against the judge, over what is allowed."""
     return verdict(*solved)
-
-
-def _halved(low: float, high: float, times: int, below) -> float:
-    """The speed [m/s] up to which ``below(speed)`` holds, by bisection of its logarithm."""
-    for _ in range(times):
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if below(middle) else (low, middle)
-    return math.sqrt(low * high)
 
 
 def cells(quick: bool) -> Iterator[Cell]:

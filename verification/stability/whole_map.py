@@ -16,6 +16,7 @@ from lubfric.deterministic import Problem, lay_out, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
 
+from ..fem.fluid import Fluid
 from .cell import Cell
 
 RADIUS, E_PRIME, WIDTH, HARDNESS, FRICTION = 1e-2, 231e9, 60e-6, 6e9, 0.1
@@ -23,6 +24,7 @@ ETA, ALPHA, COEFFICIENT, OFFSET = 0.04, 22e-9, 0.09, 2e6
 OIL = Lubricant(
     ETA, ALPHA, density_law="dowson-higginson", limiting_stress_coefficient=COEFFICIENT, limiting_stress_offset=OFFSET
 )
+FLUID = Fluid.of(vars(OIL))
 ALLOWED = {"load": 1e-3, "gap": 1e-3, "signs": 1e-6, "flow": 0.03}
 ACROSS = 48  # cells; on 24 the quadratures of the judge differ by 4 % from sums over cells at 1e5 N/m
 
@@ -80,7 +82,7 @@ def flow_error(found) -> float:
         return 0.0
     p, h, fill = found.pressure[: last + 1], found.gap[: last + 1], found.fill[: last + 1]
     flow, open_ = _pressure_flow(p, h, speed, dx)
-    mass = _density(p) * h
+    mass = FLUID.rho(p) * h
     step = np.clip(mass[1:last] - mass[: last - 1], -mass[1:last], mass[1:last])  # a film that is never negative
     carried = speed * fill[1:last] * (mass[1:last] + 0.5 * step)  # second-order upwind
     through = speed * found.flow_film
@@ -104,13 +106,7 @@ def _pressure_flow(p, h, speed: float, dx: float) -> tuple[np.ndarray, np.ndarra
 def _mean_fluidity(p, film, speed: float, points: int) -> np.ndarray:
     """Mean of rho/eta_eff between neighbours along x, p linear between them, by Simpson's rule."""
     between = p[:-1, :, None] + (p[1:] - p[:-1])[:, :, None] * np.linspace(0.0, 1.0, points)
-    index = ALPHA * 1.96e8 / (np.log(ETA) + 9.67)
-    log_ratio = ALPHA * 1.96e8 / index * ((1 + between / 1.96e8) ** index - 1)
-    fluidity = np.exp(-log_ratio) / ETA + 2 * speed / (film[..., None] * (OFFSET + COEFFICIENT * between))
+    fluidity = 1 / FLUID.eta(between) + 2 * speed / (film[..., None] * (OFFSET + COEFFICIENT * between))
     weights = np.ones(points)
     weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
-    return _density(between) * fluidity @ (weights / weights.sum())
-
-
-def _density(p) -> np.ndarray:
-    return (5.9e8 + 1.34 * p) / (5.9e8 + p)
+    return FLUID.rho(between) * fluidity @ (weights / weights.sum())

@@ -12,7 +12,6 @@ from ..convergence import Series, convergence, picture
 from ..fem.ehl import LineContact, Solution, solve_ehl
 from ..fem.ehl_body import POISSON
 from ..fem.ehl_film import PENALTY
-from ..fem.fluid import Fluid
 from ..fem.thinned_film import Law, solve_thinned
 from ..fem.triangles import von_mises
 from ..meshes import mesh_field
@@ -104,7 +103,7 @@ def thinned():
     for M, L, law, ratio in THINNED:
         c = case_of(M, L)
         sliding = ratio * c["entrainment_speed"]
-        _, fem = solve_thinned(make_contact(M, L), law, sliding)
+        _, fem = solve_thinned(LineContact.of(c), law, sliding)
         eyring = law.critical if law.exponent is None else None
         carreau = None if law.exponent is None else (law.critical, law.exponent)
         own = lubfric.solve_ehl(**c, tolerance=1e-3, sliding=sliding, eyring_stress=eyring, carreau=carreau)
@@ -112,27 +111,18 @@ def thinned():
             ("flow film", "m", fem.flow_film, own.flow_film, 1e-3),
             ("smallest film", "m", fem.min_film, own.min_film, 1e-2),
         ]
-        name = (
-            f"Eyring {law.critical:g} Pa" if law.exponent is None else f"Carreau {law.critical:g} Pa, {law.exponent:g}"
-        )
+        name = f"Eyring {law.critical:g} Pa" if carreau is None else f"Carreau {law.critical:g} Pa, {law.exponent:g}"
         yield from compared(f"M = {M}, L = {L}, {name}, slide-roll ratio {ratio:g}", rows, "lubfric.solve_ehl, 1e-3")
-
-
-def make_contact(M: float, L: float, density_law: str = CONSTANT) -> LineContact:
-    """A steel contact with Moes' numbers M and L > 0, Roelands oil."""
-    c = case_of(M, L)
-    alpha = c["pressure_viscosity_coefficient"]
-    fluid = Fluid(c["viscosity"], "roelands", alpha, density_law=density_law.replace("-", "_"))
-    return LineContact(c["load_per_width"], c["radius"], c["e_prime"], c["entrainment_speed"], fluid)
 
 
 def solved(point: tuple[float, float, str], refinements: int) -> Pair:
     """Both solvers on one contact."""
     M, L, density = point
+    case = case_of(M, L, density=density)
     start = time.perf_counter()
-    solutions = solve_ehl(make_contact(*point), refinements=refinements)
+    solutions = solve_ehl(LineContact.of(case), refinements=refinements)
     seconds = time.perf_counter() - start
-    return Pair(point, solutions, lubfric.solve_ehl(**case_of(M, L, density=density), tolerance=3e-5), seconds)
+    return Pair(point, solutions, lubfric.solve_ehl(**case, tolerance=3e-5), seconds)
 
 
 def point_checks(pair: Pair, level: str):
@@ -168,10 +158,10 @@ def summary(pairs: list[Pair]) -> Table:
         solve = (line.x.size, line.report.iterations, line.report.residual)
         films = (line.flow_film / k, line.min_film / k)
         rows.append((pair.label, "", "lubfric", *solve, *films, "", "", f"{pair.seconds:.1f} s"))
-    caption = "Films in Moes' units (h/R)/sqrt(U1) on every mesh and by lubfric; differences relative to lubfric; "
-    caption += "film: "
-    caption += "root mean square over the contact in flow films; in the row of lubfric the time that finite elements "
-    caption += "took."
+    caption = (
+        "Films in Moes' units (h/R)/sqrt(U1) on every mesh and by lubfric; differences relative to lubfric; film: "
+    )
+    caption += "root mean square over the contact in flow films; in the row of lubfric the time of finite elements."
     return Table("ehl", caption, (*SOLVED, *FILMS), rows)
 
 
@@ -211,7 +201,7 @@ def differences(pairs: list[Pair], level: str):
 
 def ringing():
     """Plain Galerkin and slope penalty on one coarse mesh at 2.6 GPa."""
-    contact = make_contact(200, 10)
+    contact = LineContact.of(case_of(200, 10))
     variation = {}
     for label, penalty in (("Galerkin", 0.0), ("slope penalty", PENALTY)):
         s = solve_ehl(contact, refinements=0, fineness=1.0, penalty=penalty)[0]
@@ -226,7 +216,7 @@ def ringing():
 def finite_body():
     """What a body of side D costs against a half-space: the same mesh near the contact, with D doubled."""
     sides = np.array([60.0, 120.0, 240.0, 480.0])
-    found = [solve_ehl(make_contact(20, 5), refinements=1, side=side)[-1] for side in sides]
+    found = [solve_ehl(LineContact.of(case_of(20, 5)), refinements=1, side=side)[-1] for side in sides]
     films = np.array([[s.flow_film, s.min_film] for s in found])
     errors = np.abs(films / (films[-1] + (films[-1] - films[-2]) / 3) - 1)
     series = []

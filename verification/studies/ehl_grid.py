@@ -5,12 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
-import lubfric
-
 from ..check import AT_LEAST, Table, bound, compared
 from ..convergence import Series, convergence
 from ..exact import Parabola
-from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of
+from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY
+from ..published.films import film, own, unit
 
 # (M, L): smallest film and flow film in Moes' units, constant density
 TABLE = {
@@ -45,21 +44,11 @@ def ehl_grid(level: str):
     yield from starved()
 
 
-def film(M: float, L: float, tolerance: float, law: str = "roelands", **options) -> lubfric.EHLResult:
-    """A film with Moes' numbers M and L. L sets the speed also where the law is "constant"."""
-    return lubfric.solve_ehl(**case_of(M, L, law), tolerance=tolerance, **options)
-
-
-def unit(f: lubfric.EHLResult) -> float:
-    """The film that is 1 in Moes' units, m."""
-    return math.sqrt(2 * VISCOSITY * f.entrainment_speed / (E_PRIME * RADIUS)) * RADIUS
-
-
 def table():
     """Films of the table."""
     for (M, L), (smallest, flow) in TABLE.items():
         half_width = RADIUS * (L / (ALPHA * E_PRIME)) * math.sqrt(8 * M / math.pi)
-        f = film(M, L, 1e-4, inlet_length=6 * half_width)
+        f = film(M, L, tolerance=1e-4, inlet_length=6 * half_width)
         rows = [
             ("smallest film", "1", f.min_film / unit(f), smallest, 1e-3),
             ("flow film", "1", f.flow_film / unit(f), flow, 1e-3),
@@ -75,11 +64,11 @@ def rigid(level: str):
     """
     cells, errors, estimates, films = np.array(CELLS[level]), [], [], []
     for n in cells:
-        f = film(RIGID_LOAD, 5.0, 0.1, "constant", least_cells=int(n))
+        f = film(RIGID_LOAD, 5.0, law="constant", tolerance=0.1, least_cells=int(n))
         scale = RIGID_LOAD / unit(f)
         films.append(f.min_film)
         errors.append(max(abs(f.min_film * scale / 2.447484 - 1), abs(f.flow_film * scale / 3 - 1)))
-        estimates.append(f.report.residuals["discretisation"] + f.report.residuals["domain"])
+        estimates.append(own(f))
     allowed = 1e-4 if level == "quick" else 2e-5
     yield bound("rigid limit: film error on the finest grid", errors[-1], allowed, "closed form, Martin 1916")
     yield Series("", 1 / cells[1:], np.abs(np.diff(films)), 2.0, "rigid limit: order in the cells", *SECOND).judged()
@@ -94,10 +83,10 @@ def elastic(level: str):
     """Elastic, piezoviscous films against the solution on a grid of its own at the finest tolerance."""
     series, rows = [], []
     for M, L in ((20, 5),) if level == "quick" else ((0.5, 5), (20, 5), (50, 10)):
-        finest = film(M, L, 1e-5)
+        finest = film(M, L, tolerance=1e-5)
         cells, errors = [], []
         for tolerance in TOLERANCES[level]:
-            f = film(M, L, tolerance)
+            f = film(M, L, tolerance=tolerance)
             if f.state.pressure.size >= finest.state.pressure.size or f.state.pressure.size in cells:
                 continue
             cells.append(f.state.pressure.size)
@@ -115,9 +104,10 @@ def elastic(level: str):
 def starved():
     """A starved inlet at light load: the load of the closed form with the same inlet."""
     losses, inlets = [], np.array([1.5, 3.0, 6.0, 12.0, 24.0])
-    flooded = film(RIGID_LOAD, 5.0, 1e-4, "constant")
+    flooded = film(RIGID_LOAD, 5.0, law="constant", tolerance=1e-4)
     for inlet in inlets:
-        f = film(RIGID_LOAD, 5.0, 1e-4, "constant", inlet_length=inlet * math.sqrt(2 * RADIUS * flooded.min_film))
+        begins = inlet * math.sqrt(2 * RADIUS * flooded.min_film)
+        f = film(RIGID_LOAD, 5.0, law="constant", tolerance=1e-4, inlet_length=begins)
         own = inlet * math.sqrt(flooded.min_film / f.min_film)  # in units of sqrt(2 R h) of this film
         load = Parabola(VISCOSITY, f.entrainment_speed, RADIUS, f.min_film, -own).load
         rows = [("load", "N/m", f.load, load, 1e-3)]

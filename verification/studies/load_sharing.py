@@ -14,7 +14,6 @@ from ..check import AT_LEAST, Field, Table, compared
 from ..convergence import Series, convergence
 from ..fem.compliance import Elastic
 from ..fem.ehl import LineContact
-from ..fem.fluid import Fluid
 from ..fem.harmonic import Compliance, Strip, compliance
 from ..fem.sharing import Bodies, Shared, share_load
 
@@ -108,15 +107,24 @@ def rough(finest: int, cells: int) -> np.ndarray:
 def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) -> Point:
     """One speed by both methods. The finite-element root starts from no knowledge of the other's."""
     s, cell = scene(), LENGTH / heights.shape[0]
-    b, oil, sliding = s.bodies, s.lubricant, s.motion.slide_roll_ratio * speed
-    fluid = Fluid(oil.viscosity, oil.viscosity_law, oil.pressure_viscosity_coefficient)
-    line = LineContact(b.load / b.width, b.radius, b.e_prime, speed, fluid)
-    bodies = Bodies(line, b.width, body, heights, b.hardness or math.inf, b.boundary_friction_coefficient, sliding)
+    bodies = cylinder(s, speed, body, heights)
     found = share_load(bodies, refinements=min(refinements, 1))
     if refinements > 1:
         found = share_load(bodies, refinements=refinements, guess=found.split, step=0.01)
     model = averaged(prepare(s, lubfric.Surface(heights, (cell, cell))))
     return Point(heights.shape[0], speed, found, lubfric.friction(model, speed, fields=True))
+
+
+def cylinder(s: lubfric.Scene, speed: float, body: Compliance, heights: np.ndarray) -> Bodies:
+    """The scene for the finite elements, which get nothing of it but its numbers."""
+    b, sliding = s.bodies, s.motion.slide_roll_ratio * speed
+    hardness = b.hardness or math.inf
+    return Bodies(whole(s, speed), b.width, body, heights, hardness, b.boundary_friction_coefficient, sliding)
+
+
+def whole(s: lubfric.Scene, speed: float) -> LineContact:
+    """The smooth contact under the whole load."""
+    return LineContact.of(parts.case_of_scene(s, s.bodies.load, speed) | vars(s.lubricant))
 
 
 def averaged(model: Prepared) -> Prepared:

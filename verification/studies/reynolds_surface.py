@@ -32,7 +32,7 @@ def reynolds_surface(level: str):
 class Manufactured:
     """``P sin(pi x/L) sin(pi y/B)`` (a line has no second factor), in an oil that thickens and compresses."""
 
-    fluid = Fluid(VISCOSITY, "roelands", 2e-8, 0.65, "dowson_higginson")
+    fluid = Fluid(VISCOSITY, "roelands", 2e-8, 0.65, "dowson-higginson")
     peak = 1.5e8
 
     def __init__(self, dimension: int):

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lubfric import ConvergenceError
-from lubfric.film import LineContact, Problem, solve_ehl
+from lubfric.film import Problem, solve_ehl
 from lubfric.oil import Lubricant
 from lubfric.scene import Constant, Harmonic, Ramp
 from lubfric.scene import Table as History
@@ -26,7 +26,7 @@ from lubfric.time import (
 
 from ..check import AT_LEAST, Check, Table, bound, compared
 from ..convergence import Series, convergence
-from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY, case_of, the
+from ..parts import E_PRIME, RADIUS, VISCOSITY, case_of, line_contact, the
 
 SQUEEZE: dict[str, Any] = dict(
     load_per_width=100.0,
@@ -76,10 +76,8 @@ def transient(level: str):
 def contact(M: float, L: float, density: str = "constant"):
     """Keywords, `Problem` and time b/U (at least 3 film lengths) of a contact with these Moes numbers."""
     keywords = case_of(M, L, density=density)
-    oil = Lubricant(VISCOSITY, ALPHA, "roelands", density)
-    speed = keywords["entrainment_speed"]
-    problem = Problem(LineContact(keywords["load_per_width"], RADIUS, E_PRIME, speed, oil))
-    return keywords, problem, max(problem.half_width, 3.0) * problem.length_unit / speed
+    problem = Problem(line_contact(keywords))
+    return keywords, problem, max(problem.half_width, 3.0) * problem.length_unit / keywords["entrainment_speed"]
 
 
 def step_history(value: float, factor: float) -> History:

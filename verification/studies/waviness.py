@@ -9,20 +9,18 @@ the film over the middle of the contact. They are compared with the linear respo
 """
 
 import itertools
-import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from lubfric.film import LineContact
-from lubfric.oil import Lubricant
 
 from ..check import ABSOLUTE, Check, Item, Table
 from ..fem import ehl
-from ..fem.fluid import Fluid
 from ..fem.moving import march
 from ..fem.ripple import ripple
+from ..parts import line_contact
 from ..waves import history, laid_out, response
 
 CELLS, HEIGHT = 40, 0.002  # a wave; of the film
@@ -34,39 +32,36 @@ COLUMNS = ("case", "speed/U", "wavelength/b", "surface: lubfric", "elements", "i
 
 @dataclass(frozen=True)
 class Case:
-    """A smooth line contact in SI units; ``coefficient``: of pressure and viscosity (None: constant); ``eyring``: its
-    Eyring stress [Pa] (None: Newtonian)."""
+    """A smooth line contact by the arguments of `solve_ehl`, and its Eyring stress [Pa] (None: Newtonian)."""
 
     name: str
-    load: float
-    radius: float
-    e_prime: float
-    speed: float
-    viscosity: float
-    coefficient: float | None
-    eyring: float | None = None
-
-    @property
-    def law(self) -> str:
-        """The law of its viscosity."""
-        return "constant" if self.coefficient is None else "roelands"
+    values: dict
 
     @property
     def line(self) -> LineContact:
         """For lubfric."""
-        oil = Lubricant(self.viscosity, self.coefficient or 0.0, self.law, eyring_stress=self.eyring)
-        return LineContact(self.load, self.radius, self.e_prime, self.speed, oil)
+        return line_contact(self.values)
 
     def elements(self, speed: float = 0.0) -> ehl.LineContact:
         """For the finite elements, with waves of this ``speed`` over the entrainment speed."""
-        fluid = Fluid(self.viscosity, self.law, self.coefficient or 0.0, eyring_stress=self.eyring or math.inf)
-        sliding = 2 * abs(speed - 1) * self.speed
-        return ehl.LineContact(self.load, self.radius, self.e_prime, self.speed, fluid, sliding)
+        return ehl.LineContact.of(self.values, 2 * abs(speed - 1) * self.values["entrainment_speed"])
+
+    def but(self, name: str = "", **values) -> "Case":
+        """The same with other ``values``."""
+        return Case(name or self.name, self.values | values)
 
 
-SOFT = Case("soft, isoviscous", 2e4, 1e-2, 2e9, 0.5, 0.05, None)
-STEEL = Case("steel, Roelands", 2e5, 1e-2, 2.3e11, 1.0, 0.04, 18e-9)
-SHEARED = replace(STEEL, name="steel, Eyring 5 MPa", eyring=5e6)
+SOFT = Case(
+    "soft, isoviscous",
+    {"load_per_width": 2e4, "radius": 1e-2, "e_prime": 2e9, "entrainment_speed": 0.5, "viscosity": 0.05}
+    | {"viscosity_law": "constant"},
+)
+STEEL = Case(
+    "steel, Roelands",
+    {"load_per_width": 2e5, "radius": 1e-2, "e_prime": 2.3e11, "entrainment_speed": 1.0, "viscosity": 0.04}
+    | {"pressure_viscosity_coefficient": 18e-9},
+)
+SHEARED = STEEL.but("steel, Eyring 5 MPa", eyring_stress=5e6)
 CASES: dict[str, tuple[tuple[Case, float, float], ...]] = {  # case, speed of the waves, wavelength in half-widths
     "quick": ((STEEL, 1.0, 1.0),),
     "default": (
@@ -146,7 +141,10 @@ def in_time() -> Iterator[Check]:
     pick, mine = at.body.line.probes(smooth.film.x[None, near] / b), gaps[:, near]
     whole = list(itertools.islice(march(at, waves, 1 / count), 5 * count))[-count:]
     judge = np.array([pick @ m.H for m in whole]) * unit
-    turns = np.exp(2j * np.pi * times * STEEL.speed / b), np.exp(2j * np.pi * np.array([m.time for m in whole]))
+    turns = (
+        np.exp(2j * np.pi * times * STEEL.line.entrainment_speed / b),
+        np.exp(2j * np.pi * np.array([m.time for m in whole])),
+    )
     one, two = (2 / turn.size / height * turn @ film for turn, film in zip(turns, (mine, judge)))
     source = "full-system finite elements in time"
     size = float(np.sqrt(np.mean(np.abs(two) ** 2)))

@@ -9,6 +9,7 @@ import lubfric
 
 from .. import parts
 from ..check import Check, compared
+from ..fem.fluid import Fluid
 
 OTHER = "differential deflection, called by itself"
 OWN = "own integral over the film that was found"
@@ -21,6 +22,7 @@ FIXED = {
     "sampling": "patch",
     "grid": "given",
 }
+PAPER = {"viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9}
 LAWS: dict[str, dict[str, Any]] = {
     "Roelands": {},
     "Barus": {"viscosity_law": "barus"},
@@ -64,14 +66,8 @@ def film(name: str, oil: dict) -> Iterator[Check]:
     s = smooth(oil)
     b = s.bodies
     found = lubfric.friction(s, 0.3)
-    laws: dict[str, Any] = {
-        "pressure_viscosity_coefficient": 25e-9,
-        "viscosity_law": "roelands",
-        "density_law": "constant",
-    } | oil
     body: dict[str, Any] = {"load_per_width": 300.0 / b.width, "radius": b.radius, "e_prime": b.e_prime}
-    motion: dict[str, Any] = {"entrainment_speed": 0.3, "viscosity": 0.36}
-    other = lubfric.solve_differential_deflection(**body, **motion, **laws, tolerance=3e-3)
+    other = lubfric.solve_differential_deflection(**body, entrainment_speed=0.3, **PAPER | oil, tolerance=3e-3)
     rows = [
         ("flow film", "m", parts.film(found).flow_film, other.flow_film, 5e-3),
         ("smallest film", "m", found.min_film, other.min_film, 6e-3),
@@ -105,7 +101,7 @@ def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
     inside = (column >= 0) & (column < contact.x.size)
     pressed = (fields.pressure > 0).mean(axis=1)
     wet = 1 - np.where(inside, pressed[np.clip(column, 0, contact.x.size - 1)], 0.0)
-    couette = s.bodies.width * float(np.sum(stress(oil, p, rate) * wet * dx))
+    couette = s.bodies.width * float(np.sum(Fluid.of(PAPER | oil).stress(p, rate) * wet * dx))
     couette += s.bodies.width * 0.36 * s.motion.slide_roll_ratio * speed * upstream(line, s.bodies.radius)
     boundary = 0.09 * fields.pressure.mean() * fields.pressure.shape[0] * 1.4e-6 * s.bodies.width
     f = (boundary + couette + found.rolling_force) / 20.0
@@ -114,17 +110,6 @@ def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
         ("coefficient", "1", found.coefficient, f, 2e-3),
     ]
     yield from compared(name, rows, OWN)
-
-
-def stress(oil: dict, p: np.ndarray, rate: np.ndarray) -> np.ndarray:
-    """Shear stress of the paper's oil (Roelands) with the shear laws of ``oil``."""
-    z = 25e-9 * 1.96e8 / (np.log(0.36) + 9.67)
-    tau = 0.36 * np.exp((np.log(0.36) + 9.67) * ((1 + p / 1.96e8) ** z - 1)) * rate
-    if "eyring_stress" in oil:
-        tau = oil["eyring_stress"] * np.arcsinh(tau / oil["eyring_stress"])
-    if "limiting_stress_coefficient" in oil:
-        tau = np.minimum(tau, oil["limiting_stress_offset"] + oil["limiting_stress_coefficient"] * p)
-    return tau
 
 
 def upstream(line, radius: float) -> float:

@@ -1,6 +1,5 @@
-"""The density of an oil that is described follows Dowson and Higginson; heat that is left out is told with its size."""
+"""The density of an oil that is described follows Dowson and Higginson."""
 
-import numpy as np
 import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH, paper_scene
 
@@ -9,7 +8,6 @@ from lubfric.oil import named_oil
 from lubfric.scene import write_template
 
 PAPER = paper_scene()
-AT_70 = {"temperature_celsius": 70}
 OILS = (
     {"grade": "ISO VG 68", "viscosity_index": 95},
     {"nu40": 68e-6, "nu100": 8.6e-6},
@@ -61,32 +59,3 @@ def test_the_caution_on_a_pressure_spike_names_the_density(bearing):
     assert not told("dowson-higginson")
     (text,) = told("constant")
     assert "a spike over the 0.51 GPa of Hertz" in text and "lubricant.density_law = 'dowson-higginson'" in text
-
-
-def test_heat_that_is_left_out_is_told_with_its_size():
-    """A gear at 1.2 GPa: the same oil as numbers without a temperature loses the heat, and the caution says how much
-    that is, within a third; where there is none to speak of, or on request, nothing is said."""
-    gear = PAPER.with_(
-        bodies={"radius": 0.02, "width": 0.01, "hertz_pressure": 1.2e9, "hardness": None},
-        lubricant=OILS[0] | AT_70 | {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
-        motion={"slide_roll_ratio": 0.1},
-        surface={"sq": 2e-8, "correlation_length": 30e-6},
-        contact={"shape": (160, 48), "spacing": 8e-6},
-        numerics={"sampling": "patch", "tolerance": 0.05, "film_deflection": "scaled"},
-    )
-    numbers = {"oil": None, "viscosity": gear.lubricant.viscosity, "temperature": None, "temperature_coefficient": None}
-    plain = gear.with_(lubricant=numbers)
-
-    def told(scene, speed=5.0):
-        point = lubfric.friction(scene, speed)
-        return point, [entry for entry in point.validity if "heat" in entry.what]
-
-    hot, none = told(gear)
-    cold, (entry,) = told(plain)
-    lost = 1 - hot.coefficient / cold.coefficient
-    assert not none and lost > 0.08 and entry.value / 100 == pytest.approx(lost, rel=1 / 3)
-    assert not entry.severe and "temperature_coefficient" in entry.remedy and "3.5 % per K" in entry.consequence
-    assert told(plain.with_(numerics={"heat": "off"}))[1] == told(plain, 1e-3)[1] == []
-    assert told(plain.with_(motion={"slide_roll_ratio": 0.0}))[1] == []
-    point, none = told(plain.with_(lubricant={"temperature_coefficient": 0.0}))  # said not to fall
-    assert not none and np.isclose(point.coefficient, cold.coefficient, rtol=1e-9)
