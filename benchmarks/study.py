@@ -18,7 +18,7 @@ import sys
 import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -70,12 +70,9 @@ def main() -> None:
     arguments = parser.parse_args()
     folder = arguments.out or Path(tempfile.mkdtemp())
     whole = plan(arguments.points)
-    few = replace(
-        whole,
-        axes=(lubfric.plan_study(whole.scene, {"surface.seed": list(range(len(whole.scenes[::FEW])))}).axes),
-        scenes=whole.scenes[::FEW],
-        keys=whole.keys[::FEW],
-    )
+    together = list(product(*(axis.values for axis in whole.axes)))[::FEW]
+    keys = tuple(key for axis in whole.axes for key in axis.keys)
+    few = lubfric.plan_study(whole.scene, {keys: [sum(row, ()) for row in together]}, whole.speeds)
     used = time.process_time()
     lubfric.study(few, store=folder / "few")
     here = (time.process_time() - used) / few.points

@@ -1,5 +1,6 @@
 """What a solver says about its own work, and every exception that the library raises on purpose."""
 
+import math
 from dataclasses import asdict, dataclass, field
 
 
@@ -87,6 +88,11 @@ ADVICE = {
     STAGNATED: "the residual stopped falling: loosen the tolerance or refine the grid",
     DIVERGED: "the iteration left the physical range: check the input, or start closer",
 }
+
+
+def worst(residuals: dict[str, float]) -> float:
+    """The largest of them; infinite if one is no finite number."""
+    return max(residuals.values()) if all(map(math.isfinite, residuals.values())) else math.inf
 
 
 @dataclass(frozen=True)

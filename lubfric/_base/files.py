@@ -155,7 +155,8 @@ class FolderLock:
                 self.path.parent.mkdir(parents=True, exist_ok=True)
                 if self.path.is_symlink():
                     raise InputError(f"{self.path} is a link; remove it, or give another folder")
-                self._file = open(self.path, "a+", encoding="ascii", errors="replace", opener=_no_link)
+                handle = os.open(self.path, os.O_RDWR | os.O_APPEND | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o666)
+                self._file = open(handle, "a+", encoding="ascii", errors="replace")
             self._take()
             if not self._still_there():  # that of a run which ended, and removed it, meanwhile
                 self.drop()
@@ -207,10 +208,6 @@ class FolderLock:
             return os.path.samestat(os.fstat(self._file.fileno()), self.path.stat())
         except FileNotFoundError:
             return False
-
-
-def _no_link(path: str, flags: int) -> int:
-    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0), 0o666)
 
 
 def _drop_in_child() -> None:

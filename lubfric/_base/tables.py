@@ -178,7 +178,7 @@ def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
     """(line number, fields) of the rows that are neither empty nor comments, from that on which has most of the
     ``names``; decimal marks made points."""
     lines = [
-        (n, line) for n, line in enumerate(_text(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
+        (n, line) for n, line in enumerate(text_of(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
     ]
     if len(lines) < 2:
         raise InputError(f"file {path.name} has {len(lines)} rows; it needs a heading and rows of numbers")
@@ -223,12 +223,14 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
     return value
 
 
-def _text(path: Path) -> str:
+def text_of(path: Path, most: float = MOST_BYTES) -> str:
+    """What is in a file of text of at most so many bytes, in UTF-8 (with or without a byte-order mark), in UTF-16 with
+    one, or in Windows-1252. Raises `InputError` for anything else."""
     try:
         if not path.is_file():
             raise InputError(f"file {str(path)!r} does not exist; give a CSV file")
-        if path.stat().st_size > MOST_BYTES:
-            raise InputError(f"file {path.name} has {path.stat().st_size} bytes; allowed: up to {MOST_BYTES}")
+        if path.stat().st_size > most:
+            raise InputError(f"file {path.name} has {path.stat().st_size:.3g} bytes; allowed: up to {most:.3g}")
         content = path.read_bytes()
     except (OSError, ValueError) as problem:
         raise InputError(f"file {shown(str(path))} cannot be read ({problem})") from None
@@ -240,4 +242,4 @@ def _text(path: Path) -> str:
             continue
         if "\0" not in text:
             return text
-    raise InputError(f"file {path.name} is not text; give CSV in UTF-8, UTF-16 or Windows-1252")
+    raise InputError(f"file {path.name} is not text; give it in UTF-8, UTF-16 or Windows-1252")

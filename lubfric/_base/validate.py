@@ -9,7 +9,7 @@ from contextlib import suppress
 from decimal import Decimal
 from numbers import Real
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from ..errors import InputError
 from ..quantities import CHOICES, KEYS
 from ..units import SANE, UNITS, spelled, without_unit
 
+T = TypeVar("T")
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
 LEAST, LARGEST = 1e-100, 1e100  # of any number: beyond it powers of it overflow
@@ -270,11 +271,16 @@ def keys(where: str, given: Iterable, allowed: Iterable[str], other: Callable[[]
             raise InputError(f"unknown key {shown(key)} in {where}{near}; allowed: {', '.join(options)}")
 
 
-def spacing(name: str, value: Any) -> tuple[float, float]:
-    """(dx, dy) in metres; one number means equal spacing."""
+def pair(name: str, value: Any, check: Callable[[str, Any], T], what: str) -> tuple[T, T]:
+    """Both parts of a pair for x and y, as ``check(name, part)`` returns them; one value stands for both. ``what``: one
+    of them in words."""
     several = isinstance(value, (list, tuple)) or isinstance(value, np.ndarray) and value.ndim == 1
     if several and len(value) != 2:
-        raise InputError(f" = {shown(value)} must be one length or a pair (dx, dy) in m", name)
-    pair = tuple(value) if several else (value, value)
-    dx, dy = (positive(f"{name}[{axis}]", step, "m", minimum=1e-15, maximum=1e3) for axis, step in enumerate(pair))
-    return dx, dy
+        raise InputError(f" = {shown(value)} must be {what} or a pair of them, for x and y", name)
+    first, second = (check(f"{name}[{i}]", part) for i, part in enumerate(value if several else (value, value)))
+    return first, second
+
+
+def spacing(name: str, value: Any) -> tuple[float, float]:
+    """(dx, dy) in metres; one number means equal spacing."""
+    return pair(name, value, lambda n, step: positive(n, step, "m", minimum=1e-15, maximum=1e3), "one length in m")

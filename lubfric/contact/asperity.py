@@ -57,11 +57,9 @@ def find_asperities(
     validate.choice("definition", definition, DEFINITIONS)
     if hardness is not None:
         hardness = validate.positive("hardness", hardness, "Pa")
-    pair = (periodic, periodic) if isinstance(periodic, (bool, np.bool_)) else periodic
-    if not isinstance(pair, (list, tuple)) or len(pair) != 2:
-        raise InputError(f" = {validate.shown(periodic)}", "periodic", "True, False, or one of them for each axis")
+    closed = validate.pair("periodic", periodic, validate.boolean, "True or False")
     spacing = validate.spacing("spacing", spacing)
-    find = FINDERS[definition](heights, spacing, (bool(pair[0]), bool(pair[1])))
+    find = FINDERS[definition](heights, spacing, closed)
     whole = heights.size * spacing[0] * spacing[1]
 
     def at(separation) -> AsperityResult:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, wraps
+from functools import cached_property, partial, wraps
 
 import numpy as np
 from scipy import fft
@@ -135,16 +135,10 @@ def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), worke
     Free axes are padded with zeros: no images. Positive definite (semi-definite when periodic in
     both, the mean being lost), and reciprocal (Maxwell-Betti: q·Kp = p·Kq). Raises `InputError`.
     """
-    shape = tuple(shape)
-    if len(shape) != 2:
-        raise InputError(f"shape = {shape} has {len(shape)} axes; allowed: (nx, ny)")
-    shape = tuple(validate.integer(f"shape[{axis}]", n, minimum=1) for axis, n in enumerate(shape))
+    shape = validate.pair("shape", shape, partial(validate.integer, minimum=1), "a whole number")
     spacing = validate.spacing("spacing", spacing)
     e_prime = validate.positive("e_prime", e_prime, "Pa")
-    boundary = (boundary, boundary) if isinstance(boundary, str) else boundary
-    if not isinstance(boundary, (tuple, list)) or len(boundary) != 2:
-        raise InputError(f"boundary = {validate.shown(boundary)} must name two axes, each 'periodic' or 'free'")
-    boundary = tuple(validate.choice(f"boundary[{axis}]", kind, KINDS) for axis, kind in enumerate(boundary))
+    boundary = validate.pair("boundary", boundary, partial(validate.choice, options=KINDS), "'periodic' or 'free'")
     if workers is not None:
         workers = validate.integer("workers", workers, minimum=1)
     padded = (_padded_length(shape[0], boundary[0]), _padded_length(shape[1], boundary[1]))

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._base import Shown
-from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, Report, worst
 from .cells import Cells
 from .problem import dot, rescaled, zero_level
 from .search import FIRST_PACE, Search
@@ -204,11 +204,10 @@ def concluded(problem, found: Found, control: dict[str, float], failed: str) -> 
     """The result of a solve, judged by the residuals of its state and of its ``control``, that of what was prescribed.
     If it ended for another reason than a limit with one of them above the tolerance, its status is ``failed``."""
     state, residuals = found.state, found.state.residuals | control
-    pressure, worst = state.pressure, max(residuals.values())
-    status = CONVERGED if worst <= problem.tolerance else failed if found.status == CONVERGED else found.status
-    worst = worst if math.isfinite(worst) else math.inf
+    pressure, residual = state.pressure, worst(residuals)
+    status = CONVERGED if residual <= problem.tolerance else failed if found.status == CONVERGED else found.status
     cost, notes = (tuple(found.history), found.convolutions), tuple(found.notes)
-    report = Report(found.solver, status, found.iterations, worst, problem.tolerance, residuals, *cost, notes)
+    report = Report(found.solver, status, found.iterations, residual, problem.tolerance, residuals, *cost, notes)
     return ContactResult(
         pressure=pressure,
         gap=state.gap,

@@ -129,7 +129,8 @@ def _one_body(rough: Roughness, name: str, stream: int, spacing, shape) -> Calla
     make = surface_generator((shape[0] * rough.oversize, shape[1]), spacing, **statistics(rough))
 
     def made(index: int) -> Surface:
-        surface = make(_seed_of(rough.seed, stream, index, *(() if name == "surface" else (1,))))
+        words = (rough.seed, stream, index, *(() if name == "surface" else (1,)))  # far apart for neighbouring numbers
+        surface = make(int(np.random.SeedSequence(words).generate_state(1)[0]))
         return surface if rough.oversize == 1 else surface.cropped(shape).scaled(sq=rough.sq or 0.0)
 
     return made
@@ -230,12 +231,9 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     return GeneratedStrips(scene, cells, lengths, length, first, available, available, exact_sq=len(bodies) == 1)
 
 
-def measured_strips(
-    scene: Scene, surface: Surface, *bodies: Surface, lengths: tuple[float, float] | None = None
-) -> MeasuredStrips:
+def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> MeasuredStrips:
     """Windows of a measured map under the cylinder of ``scene``. The map is levelled and filled, with x along the
-    motion. ``bodies``: the part of each of two. ``lengths``: its correlation lengths [m] along x and y, where they are
-    known.
+    motion. ``bodies``: the part of each of two.
 
     A map with fewer than eight whole windows gets further ones, which reach over its ends, where it is continued by its
     mirror image. The Hertz strip of every window lies on the map itself: beyond it only single high summits touch.
@@ -246,7 +244,7 @@ def measured_strips(
     reach = reach_of(scene, maps[0].sq)
     surface, *parts = (one.continued(reach) for one in maps) if extended(scene) else maps
     half_width, (dx, _) = scene.bodies.half_width, surface.spacing
-    lengths = lengths or (length_or_half(surface, 0), length_or_half(surface, 1))
+    lengths = length_or_half(surface, 0), length_or_half(surface, 1)
     if scene.contact.shape is not None:
         reach = scene.contact.shape[0] * dx
     cells = choose_cells(surface.spacing, lengths, half_width, min(reach, surface.size[0]))
@@ -282,8 +280,3 @@ def one_patch(scene: Scene, lengths: tuple[float, float], surface: Surface, *bod
     while scene.numerics.grid == "given" and not cells.own:
         cells = cells.halved()
     return OnePatch(scene, cells, lengths, surface.size[1], whole=True, surface=surface, bodies=bodies)
-
-
-def _seed_of(*words: int) -> int:
-    """One seed from several numbers; far apart for neighbouring numbers."""
-    return int(np.random.SeedSequence(words).generate_state(1)[0])

@@ -6,8 +6,9 @@ heavy piezoviscous contacts. ``shear_force(film, lubricant, ...)`` is its force 
 force that the film knows. The closed forms (`formulas`, `hertz`) are checks and starts.
 """
 
+from .assemble import in_si
 from .ehl import solve_ehl, solve_line_contact
-from .ehl_result import EHLResult, cubic, smallest
+from .ehl_result import EHLResult, central_film, cubic, smallest
 from .formulas import flooded_inlet, moes_film, starved_inlet
 from .grid import hat_kernel, node_positions, trapezoidal
 from .heat import (

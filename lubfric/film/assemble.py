@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from ..errors import CONVERGED, ITERATION_LIMIT, Report
-from .ehl_result import EHLResult, cubic, smallest
+from ..errors import CONVERGED, ITERATION_LIMIT, Report, worst
+from .ehl_result import EHLResult, central_film, smallest
 from .grid import hat_kernel
 from .problem import Problem
 from .reynolds import Solution
@@ -24,11 +24,6 @@ def grid_error(levels: list[Solution]) -> float:
         return math.inf
     changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
     return float(changes[0] / 1.5 if changes.size == 1 else max(changes[1], changes[0] / 3.0) / 2.0)
-
-
-def _central_film(X: np.ndarray, H: np.ndarray) -> float:
-    """Film at X = 0. Only the deflection is interpolated; the parabola is known."""
-    return float(cubic(X, H - 0.5 * X * X, np.zeros(1))[0])
 
 
 def domain_error(problem: Problem, solution: Solution) -> float:
@@ -89,12 +84,10 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
     last, solutions = levels[-1], first + levels
     history = tuple(e for solution in solutions for e in solution.history)
     steps = len(history) - len(solutions)
-    residual = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else math.inf
-    status = last.status
-    if status == CONVERGED and not residual <= tolerance:
-        status = ITERATION_LIMIT
+    residual = worst(residuals)
+    status = ITERATION_LIMIT if last.status == CONVERGED and residual > tolerance else last.status
     inlet = last.terms.X[0] / problem.half_width
-    centre = [_central_film(level.terms.X, level.terms.H) for level in levels[-2:]]
+    centre = [central_film(level.terms.X, level.terms.H) for level in levels[-2:]]
     change = abs(centre[0] / centre[-1] - 1.0)
     if change > 2.0 * tolerance:
         notes += (f"central_film changed by {change:.1e} between the last two grids",)
@@ -108,9 +101,8 @@ def assemble(
     problem: Problem, levels: list[Solution], first: list[Solution], notes: tuple[str, ...], tolerance: float
 ) -> EHLResult:
     """The result in SI units from solutions on nested grids, seen along +x."""
-    last, contact = levels[-1], problem.contact
-    sign = math.copysign(1.0, contact.entrainment_speed)
-    t, M = last.terms, problem.M
+    last, M = levels[-1], problem.M
+    t = last.terms
     X_out, H_out = _outlet(problem, last)
     X, H = np.concatenate([t.X, X_out]), np.concatenate([t.H, H_out])
     P = np.concatenate([t.P, np.zeros_like(X_out)])
@@ -125,8 +117,27 @@ def assemble(
     }
     if problem.fed is not None:
         residuals["supply"] = abs(t.q / problem.fed - 1.0)
-    report = _report(problem, levels, first, tolerance, residuals, notes)
-    b, length, film = problem.half_width, problem.length_unit, problem.film_unit
+    return in_si(
+        problem,
+        (X, P, H),
+        load=last.grid.weights @ t.P,
+        films=(smallest(X, H), central_film(X, H)),
+        flow=float(t.q),
+        rupture=float(last.z[-1]),
+        constant=float(last.z[-3]),
+        report=_report(problem, levels, first, tolerance, residuals, notes),
+        state=solution_state(problem, last, error),
+        rolling=rolling_resistance(problem, levels),
+    )
+
+
+def in_si(
+    problem: Problem, at, *, load: float, films, flow: float, rupture: float, constant: float, **known
+) -> EHLResult:
+    """The result in SI units, seen along +x. ``at``: (X, P, H) at the nodes; ``load``: ∫ P dX between them;
+    ``films``: the smallest, and that at X = 0; ``constant``: H00; ``known``: what has no unit to change."""
+    (X, P, H), contact, b = at, problem.contact, problem.half_width
+    sign, length, film = math.copysign(1.0, contact.entrainment_speed), problem.length_unit, problem.film_unit
     with np.errstate(over="ignore"):  # Barus far above its range: infinite beyond e^709
         viscosity = contact.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
     order = slice(None) if sign > 0 else slice(None, None, -1)
@@ -136,16 +147,14 @@ def assemble(
         film_thickness=(H * film)[order],
         viscosity=viscosity[order],
         density_ratio=problem.density(P)[0][order],
-        min_film=smallest(X, H) * film,
-        central_film=_central_film(X, H) * film,
-        flow_film=float(t.q) * film,
-        flux=float(t.q) * film * contact.entrainment_speed,
-        rupture=float(last.z[-1]) * length * sign,
-        approach=(float(last.z[-3]) - 4.0 / math.pi * (last.grid.weights @ t.P) * math.log(b)) * film,
+        min_film=films[0] * film,
+        central_film=films[1] * film,
+        flow_film=flow * film,
+        flux=flow * film * contact.entrainment_speed,
+        rupture=rupture * length * sign,
+        approach=(constant - 4.0 / math.pi * load * math.log(b)) * film,
         half_width=b * length,
-        hertz_pressure=2.0 * M / (math.pi * b) * problem.pressure_unit,
+        hertz_pressure=2.0 * problem.M / (math.pi * b) * problem.pressure_unit,
         contact=contact,
-        report=report,
-        state=solution_state(problem, last, error),
-        rolling=rolling_resistance(problem, levels),
+        **known,
     )

@@ -120,6 +120,11 @@ def cubic(nodes: np.ndarray, values: np.ndarray, x: np.ndarray) -> np.ndarray:
     )
 
 
+def central_film(X: np.ndarray, H: np.ndarray) -> float:
+    """Film at X = 0. Only the deflection is interpolated; the parabola is known."""
+    return float(cubic(X, H - 0.5 * X * X, np.zeros(1))[0])
+
+
 def smallest(x: np.ndarray, values: np.ndarray) -> float:
     """Minimum of the parabola through the smallest value and its neighbours."""
     i = int(np.clip(np.argmin(values), 1, values.size - 2))

@@ -139,11 +139,6 @@ class LineContact:
         return float(line_half_width(self.load_per_width, self.radius, self.e_prime))
 
     @cached_property
-    def peak_pressure(self) -> float:
-        """Hertz pressure 2 w/(pi b) [Pa] at the centre of the dry contact."""
-        return float(line_peak_pressure(self.load_per_width, self.radius, self.e_prime))
-
-    @cached_property
     def moes_film(self) -> float:
         """Moes' film h [m] where dp/dx = 0, a regression within some 5 to 10 % (`lubfric.film.formulas.moes_film`)."""
         return self.film_unit * formulas.moes_film(self.M, self.L)

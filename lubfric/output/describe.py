@@ -28,7 +28,7 @@ from ..scene import (
     typical,
 )
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
-from ..studies import AUTO, CHOSEN, in_words, span
+from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
 from ..units import converted, worded
@@ -47,9 +47,8 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
         surface = contact_map(scene) if strips is None else strips.stack(strips.first)
         check_grid(scene, surface)
     whole, own = map_of(surface, strips), scene.motion.entrainment_speed
-    if speeds == AUTO:
-        speeds = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist()
-    speeds = tuple(speeds) or scene.motion.speeds or (own,)
+    chosen = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
+    speeds = tuple(chosen) or scene.motion.speeds or (own,)
     told, over = [], counted(len(speeds), "speeds")
     if scene.transient is not None:
         speeds, over = tuple(speeds_of_run(scene)) or (0.0,), "a run in time"

@@ -28,7 +28,6 @@ def run_study(arguments) -> None:
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
     check_outputs(arguments, arguments.out, [*names, "study.png"])
-    studies.check_plan(arguments.out)
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), studies.pool(workers) as executor:
@@ -71,7 +70,7 @@ def _picture(path: Path, result: studies.StudyResult) -> None:
     numbers = all(values.dtype.kind == "f" and np.unique(values).size == values.size for _, values in longer)
     keys = [key for key, _ in longer]
     if numbers and len(keys) == 2 and "speed" not in keys and len(result.dims) == 3:
-        studies.plot_map(path, result, *keys, figures.plain_words(result.plan["name"]))
+        studies.plot_map(path, result, keys[0], keys[1], figures.plain_words(result.plan.scene.name))
         return
     figure = figures.new_figure(figsize=(7, 4.5))
     axes = figure.subplots()
@@ -88,14 +87,15 @@ def _picture(path: Path, result: studies.StudyResult) -> None:
         figures.log_if_wide(axes, "x", over)
         figures.plain_ticks(axes.xaxis)
         figures.key_above(axes)
-        figure.suptitle(figures.plain_words(result.plan["name"]))
+        figure.suptitle(figures.plain_words(result.plan.scene.name))
     figure.savefig(path, dpi=150)
 
 
 def _kept(folder: Path) -> str:
-    if not (folder / studies.PLAN).is_file():
+    try:
+        found = studies.open_study(folder)
+    except InputError:
         return "nothing is solved yet"
-    found = studies.open_study(folder)
     left = f"{found.missing} {'curves' if found.chosen else 'points'} are left"
     return f"{found.solved} points are kept in {folder}, {left}"
 

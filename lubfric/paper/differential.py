@@ -5,14 +5,16 @@ import math
 import numpy as np
 
 from .._base import validate
-from ..errors import CONVERGED, STAGNATED, InputError, Report
+from ..errors import CONVERGED, STAGNATED, InputError, Report, worst
 from ..film import (
     Effort,
     EHLResult,
     LineContact,
     Problem,
     State,
+    central_film,
     cubic,
+    in_si,
     make_problem,
     moes_film,
     node_positions,
@@ -44,7 +46,6 @@ def solve_differential_deflection(
     max_iterations: int = 60,
     nodes: int | None = None,
     domain: tuple[float, float] | None = None,
-    bandwidth: int = 8,
     most_nodes: int = FINEST + 1,
     raise_on_failure: bool = True,
 ) -> EHLResult:
@@ -62,7 +63,6 @@ def solve_differential_deflection(
     nodes : at least 65; None: doubled until ``discretisation`` <= tolerance, to at most ``most_nodes``
     domain : (first, last) node in the direction of motion [m], the line of centres at 0; it must hold the dry contact.
         None: two Hertz half-widths and 20 inlet lengths sqrt(2 R h) upstream. Not together with inlet_length
-    bandwidth : largest distance in nodes whose pressures are implicit, >= 0; it changes only the time
     most_nodes : largest number of nodes that is tried
     raise_on_failure : False returns an unconverged result with its report
 
@@ -80,11 +80,10 @@ def solve_differential_deflection(
     if nodes is not None:
         validate.integer("nodes", nodes, minimum=COARSEST + 1)
     validate.integer("most_nodes", most_nodes, minimum=COARSEST + 1)
-    validate.integer("bandwidth", bandwidth, minimum=0)
     problem = make_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, oil))
     ends = domain_ends(problem, domain)
     cells = _cells(problem, ends, nodes, most_nodes)
-    levels = _ascend(problem, ends, cells, bandwidth, tolerance, max_iterations, doubled=nodes is None)
+    levels = _ascend(problem, ends, cells, tolerance, max_iterations, doubled=nodes is None)
     result = assemble(problem, levels, tolerance)
     if raise_on_failure:
         result.report.raise_if_failed(result)
@@ -122,12 +121,12 @@ def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None, most_
 
 
 def _ascend(
-    problem: Problem, ends: tuple[float, float], cells: list[int], bandwidth: int, tolerance, max_iterations, doubled
+    problem: Problem, ends: tuple[float, float], cells: list[int], tolerance, max_iterations, doubled
 ) -> list[Solution]:
     """Solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the tolerance."""
     levels: list[Solution] = []
     for n in cells:
-        mesh = make_mesh(*ends, n + 1, bandwidth, problem.inlet is None)
+        mesh = make_mesh(*ends, n + 1, problem.inlet is None)
         P, H = cold_start(mesh, problem)
         if levels:  # pressure (linear) and film (cubic) of the mesh before
             X, last = levels[-1].mesh.X, levels[-1]
@@ -158,30 +157,21 @@ def grid_error(levels: list[Solution]) -> float:
     """Largest relative change of minimum, central and flow film between the last two grids, or a quarter of the change
     before that. This is some three times the error, because the rupture point is always at a node, which makes the
     error uneven."""
-    films = np.array([[smallest(s.mesh.X, s.H), _at_centre(s), s.terms.q] for s in levels[-3:]])
+    films = np.array([[smallest(s.mesh.X, s.H), central_film(s.mesh.X, s.H), s.terms.q] for s in levels[-3:]])
     if len(films) < 2:
         return math.inf
     changes = np.max(np.abs(np.diff(films, axis=0) / films[-1]), axis=1)
     return float(max(changes[-1], changes[0] / 4 ** (changes.size - 1)))
 
 
-def _at_centre(solution: Solution) -> float:
-    X = solution.mesh.X
-    return float(cubic(X, solution.H - 0.5 * X**2, np.zeros(1))[0])
-
-
 def _report(problem: Problem, levels: list[Solution], tolerance: float) -> Report:
     last = levels[-1]
-    a = -last.mesh.X[
-        0
-    ]  # the effect of a finite inlet: the tail's share of the load times its departure from a parabola
+    a = -last.mesh.X[0]  # of a finite inlet: the tail's share of the load times its departure from a parabola
     tail = float(0.5 * a * last.P[0] / problem.M * abs(2.0 * last.H[0] / a**2 - 1.0))
     residuals = {"discretisation": grid_error(levels), "domain": tail if problem.inlet is None else 0.0}
     residuals |= last.residuals
-    residual = max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else math.inf
-    status = last.status
-    if status == CONVERGED and not residual <= tolerance:
-        status = STAGNATED
+    residual = worst(residuals)
+    status = STAGNATED if last.status == CONVERGED and residual > tolerance else last.status
     history = tuple(e for level in levels for e in level.history)
     first, end = last.mesh.X[[0, -1]] / problem.half_width
     notes: tuple[str, ...] = (f"{last.mesh.size} nodes from {first:.4g} to {end:.4g} half-widths",)
@@ -218,29 +208,17 @@ def _state(problem: Problem, solution: Solution, rupture: float, error: float) -
 
 def assemble(problem: Problem, levels: list[Solution], tolerance: float) -> EHLResult:
     """The result in SI units, seen along +x."""
-    last, contact = levels[-1], problem.contact
-    sign = math.copysign(1.0, contact.entrainment_speed)
-    rupture, X, P, H = _with_rupture(last)
-    mesh, q = last.mesh, last.terms.q
-    b, length, film = problem.half_width, problem.length_unit, problem.film_unit
-    constant = last.H[0] - 0.5 * mesh.X[0] ** 2 - mesh.log_kernel @ last.P
-    order = slice(None) if sign > 0 else slice(None, None, -1)
-    report = _report(problem, levels, tolerance)
-    return EHLResult(
-        x=(sign * X * length)[order],
-        pressure=(P * problem.pressure_unit)[order],
-        film_thickness=(H * film)[order],
-        viscosity=contact.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])[order],
-        density_ratio=problem.density(P)[0][order],
-        min_film=smallest(mesh.X, last.H) * film,
-        central_film=_at_centre(last) * film,
-        flow_film=q * film,
-        flux=q * film * contact.entrainment_speed,
-        rupture=rupture * length * sign,
-        approach=float(constant - 4.0 / math.pi * mesh.step * last.P.sum() * math.log(b)) * film,
-        half_width=b * length,
-        hertz_pressure=2.0 * problem.M / (math.pi * b) * problem.pressure_unit,
-        contact=contact,
+    last = levels[-1]
+    rupture, *nodes = _with_rupture(last)
+    report, mesh = _report(problem, levels, tolerance), last.mesh
+    return in_si(
+        problem,
+        nodes,
+        load=mesh.step * last.P.sum(),
+        films=(smallest(mesh.X, last.H), central_film(mesh.X, last.H)),
+        flow=last.terms.q,
+        rupture=rupture,
+        constant=float(last.H[0] - 0.5 * mesh.X[0] ** 2 - mesh.log_kernel @ last.P),
         report=report,
         state=_state(problem, last, rupture, report.residuals["discretisation"]),
     )

@@ -31,6 +31,7 @@ import numpy as np
 
 from ..film import Problem, log_mean_fluidity, moes_film
 
+BANDWIDTH = 8  # largest distance in nodes whose pressures are implicit: it changes only the time
 NEAR = 20  # distance in nodes from which the second difference of the kernel is a series
 
 
@@ -62,16 +63,16 @@ class Mesh:
         return self.X.size
 
 
-def make_mesh(first: float, last: float, nodes: int, bandwidth: int, flooded: bool) -> Mesh:
+def make_mesh(first: float, last: float, nodes: int, flooded: bool) -> Mesh:
     """``nodes`` positions from ``first`` to ``last`` with the kernels between them."""
     X, step = np.linspace(first, last, nodes, retstep=True)
     second = _second_difference(nodes + 1)
     log_kernel = -4.0 / math.pi * step * (second[:-1] + math.log(step) - 1.5)
     weights = -4.0 / math.pi * step * np.diff(np.append(second[1], second), 2)
     far = weights.copy()
-    far[: bandwidth + 1] = 0.0
+    far[: BANDWIDTH + 1] = 0.0
     return Mesh(
-        X, step, log_kernel, weights, min(bandwidth, nodes - 1), _transform(log_kernel), _transform(far), flooded
+        X, step, log_kernel, weights, min(BANDWIDTH, nodes - 1), _transform(log_kernel), _transform(far), flooded
     )
 
 

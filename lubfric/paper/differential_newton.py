@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, worst
 from ..film import Problem, step_length
 from . import differential_equations as equations
 from .differential_equations import Mesh, Terms
@@ -132,7 +132,7 @@ def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance
     for step in range(max_steps + 1):
         t = equations.evaluate(mesh, problem, P, H)
         residuals = equations.measure(t, P, H)
-        history.append(max(residuals.values()) if np.all(np.isfinite(list(residuals.values()))) else np.inf)
+        history.append(worst(residuals))
         ruptured = t.last < mesh.size - 2 and P[t.last] > 0.0 and not np.any(P[t.last + 1 :])
         if history[-1] <= tolerance and ruptured:
             status = CONVERGED

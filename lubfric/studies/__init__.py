@@ -9,7 +9,7 @@ from .fit import explain_fit, fit
 from .fit_input import Measured, read_measured
 from .fit_result import FitResult
 from .plan import StudyPlan, load_study, plan_study
-from .result import PLAN, StudyResult, check_plan, open_study, study
+from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, opened
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import check_tools, friction_over_speed, interval_band, plot_map

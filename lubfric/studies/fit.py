@@ -1,15 +1,15 @@
 """`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
 import time
-from collections.abc import Iterator
 from functools import partial
 from itertools import product
+from typing import Any
 
 import numpy as np
 
 from .._base import validate
-from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, InputError, Report
-from ..sampling import FrictionResult, friction
+from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, InputError, LubfricError, Report
+from ..sampling import FrictionResult
 from ..scene import Scene
 from ..sharing import Prepared, prepare
 from .curve import without_rolling
@@ -17,6 +17,8 @@ from .executor import checked_executor, spread
 from .explain import curve_seconds, in_words
 from .fit_input import SLIP, SPEED, Measured, parameters_of, values_at
 from .fit_result import FitResult
+from .points import at_ratios, key_of, solved
+from .store import opened
 from .vary import Between, unit_of
 
 STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
@@ -28,7 +30,9 @@ STEPS = 5  # curves of a search, about, beside two for each parameter
 CORNERS = 16  # of the ranges, at which the work of a curve is counted
 
 
-def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=None, on_progress=None) -> FitResult:
+def fit(
+    scene: Scene, measured: Measured, parameters, *, start=None, executor=None, store=None, on_progress=None
+) -> FitResult:
     """Find the values of ``parameters`` with which the friction of a scene is nearest to a measured curve.
 
     The fit minimises ``sum ((f - measured)/deviation)²``, with relative deviations if none are given. The method is a
@@ -46,9 +50,10 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
     start : {"section.key": value} to begin with; default: the scene's own if they lie within the bounds, else the
         middle
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
+    store : folder that receives every point at once; the same fit goes on from there
     on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about ``total``
-        curves, about ``left`` seconds to go on one core, and the least root mean square misfit so far (relative, or in
-        deviations if these are given) with the ``values`` {"section.key": value} that have it
+        curves, about ``left`` seconds to go on one core at the rate so far, and the least root mean square misfit so
+        far (relative, or in deviations if these are given) with the ``values`` {"section.key": value} that have it
 
     Returns a `FitResult`.
 
@@ -61,10 +66,11 @@ def fit(scene: Scene, measured: Measured, parameters, *, start=None, executor=No
 
     found = _checked(scene, measured, parameters)
     begin = _begin(scene, found, {} if start is None else start)
-    search = Search(scene, measured, found, checked_executor(executor), on_progress)
-    ends = {"bounds": (0.0, 1.0), "xtol": CLOSE, "ftol": 1e-4, "gtol": 1e-12, "max_nfev": MOST}
-    end = least_squares(search.residuals, begin, lambda unit: search.slopes(unit) / measured.scale[:, None], **ends)
-    result = _result(search, end)
+    ends: dict[str, Any] = {"bounds": (0.0, 1.0), "xtol": CLOSE, "ftol": 1e-4, "gtol": 1e-12, "max_nfev": MOST}
+    with opened(store) as kept:
+        search = Search(scene, measured, found, checked_executor(executor), kept.root, on_progress)
+        end = least_squares(search.residuals, begin, lambda unit: search.slopes(unit) / measured.scale[:, None], **ends)
+        result = _result(search, end)
     result.report.raise_if_failed(result)
     return result
 
@@ -97,7 +103,7 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     search = Search(scene, measured, found)
     corners = list(product((0.0, 1.0), repeat=len(found)))
     places = [_begin(scene, found, {}), *map(np.array, corners[:: -(-len(corners) // CORNERS)])]
-    curves, work = 2 * len(found) + STEPS, [search.foretold(unit)[1] for unit in places]
+    curves, work = 2 * len(found) + STEPS, [search.seconds(unit) for unit in places]
     seconds = in_words(curves * 0.5 * (float(np.mean(work)) + max(work)))
     return "\n".join([*lines, f"  time: about {seconds} on one core (within a factor of about 4): {curves} curves"])
 
@@ -135,28 +141,35 @@ class Search:
     """f of ``scene`` at the points of ``measured``, and its slopes, for any positions of ``parameters`` between their
     bounds, each computed once."""
 
-    def __init__(self, scene: Scene, measured: Measured, parameters, executor=None, on_progress=None):
+    def __init__(self, scene: Scene, measured: Measured, parameters, executor=None, folder=None, on_progress=None):
         self.scene, self.measured, self.parameters = scene, measured, parameters
         told = measured.deviation is not None
         scatter = float(np.median(measured.scale / np.abs(measured.coefficient))) if told else 0.05
         self.tolerance = min(scene.numerics.tolerance, max(0.2 * scatter, 1e-3))  # as tight as the measurement requires
-        self._executor, self._on_progress = executor, on_progress
+        self._executor, self._folder, self._on_progress = executor, folder, on_progress
         self._curves: dict[bytes, tuple[FrictionResult, ...]] = {}
-        self._spent = self._counted = 0.0  # seconds of the points so far, and those that were foretold of them
-        self._nearest = np.inf, np.empty(0), 0.0  # misfit, where, and the seconds that were foretold there
+        self._nearest = np.inf, np.empty(0)  # the least misfit, and where
         self._base, self._slopes = np.full(len(parameters), np.inf), np.empty((0, 0))
         self._ready: Prepared | None = None
 
     def at(self, unit: np.ndarray) -> tuple[FrictionResult, ...]:
         """The points there. Raises `ConvergenceError` when one of them fails."""
         if unit.tobytes() not in self._curves:
-            prepared, counted = self.foretold(unit)
-            work = partial(_point, prepared, self.measured.over == SPEED)
-            jobs = [partial(work, place) for place in enumerate(self.measured.x.tolist())]
-            found = dict(spread(self._executor, jobs))
-            self._curves[unit.tobytes()] = tuple(found[i] for i in range(len(jobs)))
+            prepared, x = self.ready(unit), self.measured.x.tolist()
+            if self.measured.over == SPEED:
+                key = key_of(prepared)
+                places = [(prepared, key, speed) for speed in x]
+            else:
+                speed = prepared.scene.motion.entrainment_speed
+                places = [(model, key_of(model), speed) for model in at_ratios(prepared, x)]
+            jobs = [partial(solved, model, key, (u,), folder=self._folder) for model, key, u in places]
+            outcomes = {(key, u): outcome for key, u, outcome in spread(self._executor, jobs)}
+            points = tuple(outcomes[key, u] for _, key, u in places)
+            for failed in (outcome for outcome in points if isinstance(outcome, LubfricError)):
+                raise failed
+            self._curves[unit.tobytes()] = points
             if self._on_progress:
-                self._tell(unit, counted)
+                self._tell(unit)
         return self._curves[unit.tobytes()]
 
     def coefficient(self, unit: np.ndarray) -> np.ndarray:
@@ -185,38 +198,28 @@ class Search:
         self._base, self._slopes = unit.copy(), np.stack(columns, axis=1)
         return self._slopes
 
-    def foretold(self, unit: np.ndarray) -> tuple[Prepared, float]:
-        """The scene made ready there, with the map of the last one where that is the same; and the processor seconds of
-        a curve, by its counted work."""
-        begun, x = time.process_time(), self.measured.x.tolist()
+    def ready(self, unit: np.ndarray) -> Prepared:
+        """The scene made ready there, with the map of the last one where that is the same."""
         scene = self.scene.with_keys(values_at(self.parameters, np.clip(unit, 0.0, 1.0)))
         scene, last = scene.with_(numerics={"tolerance": self.tolerance}), self._ready
         maps = [(s.surface, s.counterface, s.contact, s.bodies.e_prime) for s in (scene, last.scene if last else scene)]
         self._ready = prepare(scene, like=last if maps[0] == maps[1] else None)
-        speeds = x if self.measured.over == SPEED else [scene.motion.entrainment_speed] * len(x)
-        return self._ready, curve_seconds(self._ready, speeds) + time.process_time() - begun
+        return self._ready
 
-    def _tell(self, unit: np.ndarray, counted: float) -> None:
-        """Tell ``on_progress`` of the curve that was solved last, of which ``counted`` seconds were foretold."""
-        self._spent += sum(point.seconds for point in self.at(unit))
-        self._counted += counted
+    def seconds(self, unit: np.ndarray) -> float:
+        """The processor seconds of a curve there, by its counted work, with those of the map."""
+        begun, x = time.process_time(), self.measured.x.tolist()
+        speeds = x if self.measured.over == SPEED else [self.scene.motion.entrainment_speed] * len(x)
+        return curve_seconds(self.ready(unit), speeds) + time.process_time() - begun
+
+    def _tell(self, unit: np.ndarray) -> None:
+        """Tell ``on_progress`` of the curve that was solved last."""
         misfit = float(np.sqrt(np.mean(self.residuals(unit) ** 2)))
-        if misfit < self._nearest[0]:
-            self._nearest = misfit, unit.copy(), counted
-        done, (least, nearest, each) = len(self._curves), self._nearest
+        self._nearest = min(self._nearest, (misfit, unit.copy()), key=lambda one: one[0])
+        done, (least, nearest) = len(self._curves), self._nearest
         total = max(2 * len(self.parameters) + STEPS, done + 1)
-        left = float((total - done) * each * self._spent / self._counted)
-        self._on_progress(done, total, left, least, values_at(self.parameters, nearest))
-
-
-def _point(prepared: Prepared, speeds: bool, place: tuple[int, float]) -> Iterator[tuple[int, FrictionResult]]:
-    """A point of a curve, with its number: ``place`` has that, and a speed [m/s] or a slide-roll ratio."""
-    index, x = place
-    if speeds:
-        yield index, friction(prepared, x).without_fields()
-    else:
-        moved = prepared.scene.with_(motion={"slide_roll_ratio": x})
-        yield index, friction(prepare(moved, like=prepared)).without_fields()
+        spent = sum(point.seconds for curve in self._curves.values() for point in curve)
+        self._on_progress(done, total, (total - done) * spent / done, least, values_at(self.parameters, nearest))
 
 
 def _result(search: Search, end) -> FitResult:

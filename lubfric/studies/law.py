@@ -11,7 +11,6 @@ import numpy as np
 from .._base import Shown, plain, validate
 from ..errors import InputError
 from ..scene import Scene
-from .codec import fits
 from .interpolate import Interpolant
 
 FINE = 50  # speeds of a curve to which a law is fitted, beside those that were solved
@@ -190,16 +189,14 @@ def law_of(name: str, curves: Iterable[tuple[Any, Interpolant]], f, low, high, m
 def law_of_study(result) -> Law:
     """Friction of a study over speed and, as far as they were varied, temperature of the oil and load, as a formula for
     system simulations (`lubfric.studies.law`). Raises `InputError` where anything else was varied."""
-    others = [key for axis in result.plan["axes"] for key in axis["keys"] if key not in VARIED]
+    others = [key for axis in result.plan.axes for key in axis.keys if key not in VARIED]
     if others:
         raise InputError(f"a law is over speed, temperature and load; this study varies {', '.join(others)} as well")
-    known = result.plan.get("conditions")
-    if not fits(known, list[list[float | None]]) or {len(one) for one in known} != {4}:
-        raise InputError("study.json has no conditions of its scenes; run the study again, which writes it anew")
     found = [result.curve(index) for index in np.ndindex(*result.status.shape[:-1])]
-    curves = [(np.array(at, float), curve) for at, curve in zip(known, found) if curve is not None]
+    scenes = result.plan.scenes
+    curves = [(conditions_of(scene), curve) for scene, curve in zip(scenes, found) if curve is not None]
     columns = (result[name] for name in ("coefficient", *(f"uncertainty_{n}" for n in ("low", "high", "model"))))
-    return law_of(result.plan["name"], curves, *columns)
+    return law_of(result.plan.scene.name, curves, *columns)
 
 
 def _viscosity(T, eta, coefficient) -> dict[str, float]:

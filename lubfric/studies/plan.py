@@ -1,22 +1,18 @@
 """All points of a study, laid out before the first is solved: from arguments, or from a study file, which is read
 strictly."""
 
-import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from itertools import product
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from .._base import __version__, plain, validate
+from .._base import FieldsOnly, validate
 from ..errors import InputError
 from ..scene import Scene, load_scene, read_toml, speeds_of_range
-from .choose import AUTO, CHOSEN, MOST, asked_speeds
-from .codec import fits
+from .choose import CHOSEN, MOST, asked_speeds
 from .explain import explain
-from .law import conditions_of
 from .store import fingerprint
 from .vary import Axis, Between, axes_of, sample, unit_of
 
@@ -25,19 +21,23 @@ SAMPLE_KEYS = ("count", "sampler", "seed")
 
 
 @dataclass(frozen=True)
-class StudyPlan:
+class StudyPlan(FieldsOnly):
     """The plan of a study: curves over the speed, one for each combination of the varied values.
     ``print(plan.explain())`` says what it is and will cost; `lubfric.study` carries it out.
 
-    ``speeds`` [m/s]: none if every curve chooses its own; ``scenes`` of the curves, the last axis fastest, and their
-    ``keys``: hashes of all that their points depend on beside the speed.
+    ``speeds`` [m/s]: none if every curve chooses its own; ``keys`` of the curves: hashes of all that their points
+    depend on beside the speed, the last axis fastest.
     """
 
     scene: Scene
     axes: tuple[Axis, ...]
     speeds: tuple[float, ...]
-    scenes: tuple[Scene, ...]
     keys: tuple[str, ...]
+
+    @cached_property
+    def scenes(self) -> tuple[Scene, ...]:
+        """Those of the curves, in the order of their ``keys``."""
+        return scenes_of(self.scene, self.axes)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -47,9 +47,16 @@ class StudyPlan:
     @property
     def points(self) -> int:
         """Number of points. Where speeds are chosen it is an estimate."""
-        return len(self.scenes) * (len(self.speeds) or CHOSEN)
+        return len(self.keys) * (len(self.speeds) or CHOSEN)
 
     explain = explain
+
+
+def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> tuple[Scene, ...]:
+    """The scenes of all combinations of the values of ``axes``, the last one fastest."""
+    rows = product(*(range(len(axis.values)) for axis in axes))
+    varied = ({k: v for axis, i in zip(axes, row) for k, v in axis.at(i).items()} for row in rows)
+    return tuple(replace(scene.with_keys(values), transient=None) for values in varied)
 
 
 def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
@@ -69,60 +76,18 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
     """
     validate.instance("scene", scene, Scene, "a scene to vary: what lubfric.load_scene returned, not lubfric.prepare")
     axes = axes_of(scene, {} if vary is None else vary)
-    scenes, keys = [], []
+    keys = []
     maps: dict[str, str] = {}  # a map is read once, however many scenes it serves
-    for index in product(*(range(len(axis.values)) for axis in axes)):
-        values = {key: value for axis, i in zip(axes, index) for key, value in axis.at(i).items()}
-        one = replace(scene.with_keys(values), transient=None)
+    for one in scenes_of(scene, axes):
         rough = repr((one.surface, one.counterface))
         if rough not in maps:
             maps[rough] = fingerprint(one.surface, one.counterface)
         others = [getattr(one, f.name) for f in fields(one) if f.name not in ("name", "surface", "counterface")]
-        scenes.append(one)
         keys.append(fingerprint(maps[rough], *others))
     asked = asked_speeds(scene, speeds)
     if len(set(asked)) < len(asked):
         raise InputError("speeds hold a value twice; give each once, in m/s")
-    return StudyPlan(scene, axes, tuple(asked), tuple(scenes), tuple(keys))
-
-
-def plan_as_dict(plan: StudyPlan) -> dict:
-    """A `StudyPlan` in plain JSON types."""
-    return {
-        "format": 2,
-        "lubfric": __version__,
-        "name": plan.scene.name,
-        "scene": plain(asdict(plan.scene)),
-        "axes": [
-            {"name": a.name, "keys": list(a.keys), "values": [[_plain(value) for value in row] for row in a.values]}
-            for a in plan.axes
-        ],
-        "speeds": list(plan.speeds) or AUTO,
-        "shape": list(plan.shape),
-        "keys": list(plan.keys),
-        "conditions": plain([conditions_of(scene) for scene in plan.scenes]),
-    }
-
-
-def is_plan(plan) -> bool:
-    """Whether what was read from a file has the form of `plan_as_dict`, its parts being as many as each other."""
-    axis = {"name": str, "keys": list[str], "values": list[list]}
-    whole = {"name": str, "lubfric": str, "axes": [axis], "keys": list[str], "shape": list[int], "speeds": Any}
-    if not fits(plan, whole):
-        return False
-    axes, speeds = plan["axes"], plan["speeds"]
-    if speeds != AUTO and not (fits(speeds, list[float]) and np.isfinite(speeds).all()):
-        return False
-    shape = [*(len(axis["values"]) for axis in axes), MOST if speeds == AUTO else len(speeds)]
-    names, keys = [axis["name"] for axis in axes], [key for axis in axes for key in axis["keys"]]
-    once = len(set(names)) == len(names) and len(set(keys)) == len(keys)
-    rows = all(len(row) == len(axis["keys"]) for axis in axes for row in axis["values"])
-    return once and rows and plan["shape"] == shape and math.prod(shape[:-1]) == len(plan["keys"])
-
-
-def _plain(value) -> Any:
-    """In JSON types; an oil or a whole section in words."""
-    return repr(value) if is_dataclass(value) else plain(value)
+    return StudyPlan(scene, axes, tuple(asked), tuple(keys))
 
 
 def load_study(path) -> StudyPlan:

@@ -3,7 +3,7 @@ numbers. A point is a function of its scene and speed alone, so one process or m
 several, give the same bits."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from .._base import validate
@@ -93,6 +93,11 @@ def made_ready(scene: Scene | Prepared, tolerance: float | None = None, model: s
         return prepare(scene.with_(numerics=changed))
     asked = scene.scene.with_(numerics=changed)
     return scene if asked == scene.scene else prepare(asked, like=scene)
+
+
+def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:
+    """``base`` at each of the slide-roll ``ratios``, on the same map."""
+    return [prepare(base.scene.with_(motion={"slide_roll_ratio": ratio}), like=base) for ratio in ratios]
 
 
 def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:

@@ -4,28 +4,26 @@ was varied."""
 from __future__ import annotations
 
 import json
-import os
+import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, is_dataclass
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 
-from .._base import Shown, read_json, validate, write_whole
+from .._base import Shown, validate
 from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import Scene
-from .choose import AUTO
 from .executor import checked_executor, spread
 from .interpolate import Interpolant, through
 from .law import law_of_study
-from .plan import StudyPlan, is_plan, plan_as_dict, plan_study
+from .plan import StudyPlan, plan_study
 from .points import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, row_of, solved, stored_rows
-from .store import POINTS, Store, opened
+from .store import PLANNED, Store, opened
 from .tables import plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
-PLAN = "study.json"
+PLAN = "plan"  # its key in the store
 TOGETHER = 8  # speeds of a curve that a process of an executor receives at once, with one preparation of the scene
 POINT = "point"  # the last dimension where speeds are chosen
 
@@ -41,7 +39,7 @@ class StudyResult(Shown):
 
     Attributes
     ----------
-    plan : what was studied, as in study.json
+    plan : what was studied, a `StudyPlan`
     columns : every number of a `FrictionResult` by name; NaN where a point failed
     status : "converged", "not needed" (a place of a curve that chose fewer speeds than another), or why a point has no
         numbers
@@ -49,7 +47,7 @@ class StudyResult(Shown):
         marks the points that are no answers
     """
 
-    plan: dict
+    plan: StudyPlan
     columns: dict[str, np.ndarray]
     status: np.ndarray
     validity: np.ndarray
@@ -59,17 +57,17 @@ class StudyResult(Shown):
     to_xarray, to_netcdf = to_xarray, to_netcdf
 
     @classmethod
-    def of_rows(cls, plan: dict, rows: Rows, ended: set[str]) -> StudyResult:
-        """The result of the ``rows``, in the order of a plan (`plan_as_dict`); ``ended``: as of `stored_rows`."""
-        chosen, shape = plan["speeds"] == AUTO, tuple(plan["shape"])
-        table = (len(plan["keys"]), shape[-1])
+    def of_rows(cls, plan: StudyPlan, rows: Rows, ended: set[str]) -> StudyResult:
+        """The result of the ``rows``, in the order of a plan; ``ended``: as of `stored_rows`."""
+        chosen, shape = not plan.speeds, plan.shape
+        table = (len(plan.keys), shape[-1])
         columns = {name: np.full(table, np.nan) for name in NUMBERS if chosen or name != SPEED}
         status = np.full(table, UNUSED if chosen else MISSING, dtype=object)
         validity = np.full(table, "", dtype=object)
         words = {STATUS: status, VALIDITY: validity}
-        for curve, key in enumerate(plan["keys"]):
+        for curve, key in enumerate(plan.keys):
             own = rows[key]
-            for at, speed in enumerate(own if chosen else plan["speeds"]):
+            for at, speed in enumerate(own if chosen else plan.speeds):
                 for name, value in own.get(speed, {}).items():
                     if name in words:
                         words[name][curve, at] = value
@@ -84,24 +82,23 @@ class StudyResult(Shown):
     @property
     def chosen(self) -> bool:
         """Whether each curve chose its own speeds."""
-        return self.plan["speeds"] == AUTO
+        return not self.plan.speeds
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the axes of the arrays."""
-        return (*(axis["name"] for axis in self.plan["axes"]), POINT if self.chosen else SPEED)
+        return (*(axis.name for axis in self.plan.axes), POINT if self.chosen else SPEED)
 
     @property
     def coords(self) -> dict[str, tuple[str, np.ndarray]]:
         """{key: (dimension, values along it)} of every varied key and, unless chosen, the speed [m/s]."""
         found = {}
-        for axis in self.plan["axes"]:
-            for i, key in enumerate(axis["keys"]):
-                values = [row[i] for row in axis["values"]]
+        for axis in self.plan.axes:
+            for key, values in zip(axis.keys, zip(*axis.values)):
                 numbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
-                words = [v if isinstance(v, str) else json.dumps(v) for v in values]
-                found[key] = axis["name"], np.array(values, dtype=float) if numbers else np.array(words)
-        return found if self.chosen else found | {SPEED: (SPEED, np.array(self.plan["speeds"]))}
+                words = [v if isinstance(v, str) else repr(v) if is_dataclass(v) else json.dumps(v) for v in values]
+                found[key] = axis.name, np.array(values, dtype=float) if numbers else np.array(words)
+        return found if self.chosen else found | {SPEED: (SPEED, np.array(self.plan.speeds))}
 
     @property
     def failures(self) -> tuple[str, ...]:
@@ -211,27 +208,9 @@ def study(
     if plan is scene and (vary is not None or speeds is not None):
         raise InputError("vary and speeds belong to the plan; give a scene with them, or a plan alone")
     executor = checked_executor(executor)
-    if store is not None:
-        check_plan(validate.folder("store", store))
     with opened(store) as kept:
-        described = plan_as_dict(plan)
-        if kept.root is not None:
-            write_whole(Path(kept.root) / PLAN, json.dumps(described, indent=1).encode())
-        return StudyResult.of_rows(described, *_carried_out(plan, executor, kept, on_progress))
-
-
-def check_plan(folder: Path) -> None:
-    """Raise `InputError` for a file in ``folder`` in the place of the plan that is none, which the study would replace.
-    Beside stored points it is a plan, if a damaged one."""
-    path = folder / PLAN
-    if not os.path.lexists(path) or (not path.is_symlink() and (folder / POINTS).is_dir()):
-        return
-    try:
-        known = {} if path.is_symlink() else json.loads(path.read_text(encoding="utf-8"))
-    except (ValueError, OSError, RecursionError):
-        known = {}
-    if not (isinstance(known, dict) and {"format", "lubfric", "keys"} <= known.keys()):
-        raise InputError(f"{path} is no plan of a study, and would be replaced; move it away, or give another folder")
+        kept.add(PLAN, (plan.scene, plan.axes, plan.speeds, plan.keys))
+        return StudyResult.of_rows(plan, *_carried_out(plan, executor, kept, on_progress))
 
 
 def _carried_out(plan: StudyPlan, executor, store: Store, on_progress: Callable | None) -> tuple[Rows, set[str]]:
@@ -278,12 +257,10 @@ def open_study(folder) -> StudyResult:
     ------
     InputError : the folder holds no study
     """
-    path = validate.folder("store", folder) / PLAN
-    if not os.path.lexists(path):
-        raise InputError(f"{folder} holds no {PLAN}; give the folder of a study")
-    again = "run the study again in this folder, which writes it anew"
-    plan = read_json(path, again)
-    if not is_plan(plan):
-        raise InputError(f"{path} is damaged, or not that of a study; {again}")
-    speeds = plan["speeds"]
-    return StudyResult.of_rows(plan, *stored_rows(Store(path.parent), plan["keys"], () if speeds == AUTO else speeds))
+    store = Store(validate.folder("store", folder))
+    found = store.get(PLAN, PLANNED)
+    plan = found and StudyPlan(*found)
+    if plan is None or len(plan.keys) != math.prod(plan.shape[:-1]):
+        way_out = "give the folder of one, or run the study again in this folder, which writes its plan anew"
+        raise InputError(f"{folder} holds no study, or its plan is damaged; {way_out}")
+    return StudyResult.of_rows(plan, *stored_rows(store, plan.keys, plan.speeds))

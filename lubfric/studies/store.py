@@ -16,8 +16,10 @@ from .._base import FolderLock, __version__, clear_checked, clear_parts, files, 
 from ..errors import ConvergenceError, InputError, LubfricError, OutputError, Report, ValidityError
 from ..film import EHLResult
 from ..sampling import FrictionResult
+from ..scene import Scene
 from ..sharing import Validity
 from .codec import classes_of, decode, encode
+from .vary import Axis
 
 POINTS = "points"
 LABELS = {("Scene", "name"), ("Surface", "source"), ("Surface", "notes"), ("Motion", "speeds")}  # no number needs them
@@ -34,9 +36,10 @@ class Failure:
     result: FrictionResult | None = None
 
 
-CLASSES = classes_of(FrictionResult, EHLResult, Failure)
+CLASSES = classes_of(FrictionResult, EHLResult, Failure, Scene, Axis)
 ERRORS = {kind.__name__: kind for kind in (InputError, ConvergenceError, ValidityError)}
 OUTCOME = FrictionResult | Failure  # what is stored of a point
+PLANNED = tuple[Scene, tuple[Axis, ...], tuple[float, ...], tuple[str, ...]]  # the same of the plan of a study
 CHOSEN = tuple[tuple[float, ...], bool]  # the same of a curve: its speeds [m/s] so far, and whether these are all
 
 

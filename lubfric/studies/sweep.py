@@ -10,13 +10,13 @@ from ..errors import ITERATION_LIMIT, InputError, Report
 from ..quantities import PointQuantities, described_in_doc
 from ..sampling import FrictionResult
 from ..scene import FASTEST, LARGEST_RATIO, Scene
-from ..sharing import Prepared, prepare
+from ..sharing import Prepared
 from .choose import asked_speeds, next_speed, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
 from .law import Law, conditions_of, law_of
-from .points import Outcome, key_of, made_ready, outcome_of, solved
+from .points import Outcome, at_ratios, key_of, made_ready, outcome_of, solved
 from .store import opened
 from .tables import curve_axes
 
@@ -254,9 +254,8 @@ def traction(
         speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     base = made_ready(scene, tolerance, model)
     speed = base.scene.motion.entrainment_speed if speed is None else speed
-    models = [prepare(base.scene.with_(motion={"slide_roll_ratio": ratio}), like=base) for ratio in ratios.tolist()]
     outcomes: list[Outcome] = []
-    for prepared, ratio in zip(models, ratios.tolist()):
+    for prepared, ratio in zip(at_ratios(base, ratios.tolist()), ratios.tolist()):
         outcomes.append(outcome_of(prepared, speed))
         if on_point:
             on_point(len(outcomes), ratios.size, ratio, outcomes[-1])

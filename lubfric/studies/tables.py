@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .._base import figures, files, table_bytes, write_whole
+from .._base import __version__, figures, files, table_bytes, write_whole
 from ..errors import InputError
 from ..quantities import KEYS, Quantity, axis_label, described, heading
 from ..units import worded
@@ -26,7 +26,7 @@ def to_xarray(result):
     data[STATUS] = (result.dims, result.status.astype(str), {"long_name": "converged, or why there are no numbers"})
     data[VALIDITY] = (result.dims, result.validity.astype(str), {"long_name": "assumptions that do not hold"})
     coords = {key: (dim, values, described(key)) for key, (dim, values) in result.coords.items()}
-    attributes = {"title": f"friction of {result.plan['name']}", "source": f"lubfric {result.plan['lubfric']}"}
+    attributes = {"title": f"friction of {result.plan.scene.name}", "source": f"lubfric {__version__}"}
     return xarray.Dataset(data, coords, attributes)
 
 
@@ -107,7 +107,7 @@ def plot(result, ax=None, **style):
     figures.plain_ticks(axes.xaxis)
     some = "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves"
     rows = figures.key_above(axes, 2) if few and picked.size > 1 else 0
-    axes.set_title(figures.plain_words(result.plan["name"]) + some, pad=6 + 13 * rows)
+    axes.set_title(figures.plain_words(result.plan.scene.name) + some, pad=6 + 13 * rows)
     return axes
 
 

@@ -33,7 +33,8 @@ class Between:
     unit: str = field(default="", init=False)
 
     def __post_init__(self):
-        for name in ("low", "high") if isinstance(self.low, str) and isinstance(self.high, str) else ():
+        ends: tuple[str, ...] = ("low", "high") if isinstance(self.low, str) and isinstance(self.high, str) else ()
+        for name in ends:
             value, unit = in_si(name, getattr(self, name))
             if self.unit not in ("", unit):
                 raise InputError(f" = {self.high!r} is of another kind than low, which is in {self.unit}", "high")

@@ -53,11 +53,7 @@ class Surface(FrozenArrays, Shown):
         object.__setattr__(self, "heights", heights)
         object.__setattr__(self, "mask", mask)
         object.__setattr__(self, "spacing", validate.spacing("spacing", self.spacing))
-        axes, said = self.periodic_axes, f" = {validate.shown(self.periodic_axes)}"
-        several = isinstance(axes, (tuple, list)) or isinstance(axes, np.ndarray) and axes.ndim == 1
-        if not several or len(axes) != 2:
-            raise InputError(said, "periodic_axes", "a pair of true and false, for x and y")
-        along = tuple(validate.boolean(f"periodic_axes[{i}]", closed) for i, closed in enumerate(axes))
+        along = validate.pair("periodic_axes", self.periodic_axes, validate.boolean, "true or false")
         object.__setattr__(self, "periodic_axes", along)
         object.__setattr__(self, "notes", tuple(self.notes))
         self.freeze()

@@ -19,7 +19,6 @@ from .x3p import read_x3p
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz")
 OWN_GRID = {".x3p": read_x3p}  # formats that carry their grid and their units, and their readers
 SUFFIXES = (".npy", *TEXT, *OWN_GRID)
-MOST_BYTES = 2**30  # of a file of text
 BETTER = 0.9  # of Sq: a form that leaves less than that is worth a word
 # of the formats that SurfaceTopography 1.27 knows; those that lubfric reads itself (.x3p, .xyz, text, .npy) are left
 # out
@@ -123,8 +122,6 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
     scale = UNITS[validate.choice("unit", "m" if unit is None else unit, UNITS)]
     if missing_value is not None:
         missing_value = validate.number("missing_value", missing_value, "(unit of the file)")
-    if path.stat().st_size > MOST_BYTES:
-        raise InputError(f"path = {str(path)!r} has {path.stat().st_size:.3g} bytes; allowed: up to {MOST_BYTES:.3g}")
     if suffix == ".xyz":
         _refuse(suffix, spacing=spacing)
         heights, (dx, dy), notes = read_points(path, decimal, unit)

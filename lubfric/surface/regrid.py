@@ -5,6 +5,7 @@ Functions of a `lubfric.Surface` return a new one.
 
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -16,11 +17,8 @@ SAME = 1e-9  # relative difference of lengths that are equal
 
 
 def pair(name, value) -> tuple[int, int]:
-    """Two whole numbers >= 1."""
-    if np.ndim(value) != 1 or len(value) != 2:
-        raise InputError(f"{name} = {value!r} must be a pair (nx, ny) of whole numbers >= 1")
-    nx, ny = (validate.integer(f"{name}[{i}]", n, minimum=1) for i, n in enumerate(value))
-    return nx, ny
+    """Two whole numbers >= 1; one stands for both."""
+    return validate.pair(name, value, partial(validate.integer, minimum=1), "a whole number >= 1")
 
 
 def points(name: str, shape: tuple[int, ...]) -> None:

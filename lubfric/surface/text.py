@@ -5,12 +5,13 @@ import re
 
 import numpy as np
 
-from .._base import validate
+from .._base import text_of, validate
 from ..errors import InputError
 from ..quantities import counted
 from ..units import UNITS as KINDS
 from ..units import spelled
 
+MOST_BYTES = 2**30
 NEXT_LINE = 0.1  # of the largest gap between coordinates: a larger one leads to the next grid line
 FARTHEST = 1e15  # in the unit of the file
 UNEVEN = 0.02  # of the spacing: the most a coordinate may be off its grid line
@@ -38,13 +39,8 @@ Lines = list[tuple[int, str]]  # (line number in the file, text without blanks a
 
 
 def _lines(path) -> tuple[list[str], list[tuple[int, str]]]:
-    """(comment lines, data lines with their number in the file) of a UTF-8 text file."""
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        raise InputError(f"path = {str(path)!r} is not text (UTF-8)") from None
-    except OSError as problem:
-        raise InputError(f"path = {str(path)!r} cannot be read ({problem})") from None
+    """(comment lines, data lines with their number in the file) of a file of text."""
+    lines = text_of(path, MOST_BYTES).splitlines()
     text = [(number, line.strip(" \r\f\v")) for number, line in enumerate(lines, 1) if line.strip()]
     comments = [line.strip() for _, line in text if line.lstrip()[0] == "#"]
     return comments, [pair for pair in text if pair[1].lstrip()[0] != "#"]

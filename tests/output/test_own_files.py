@@ -33,7 +33,7 @@ NAMES = {  # of files of the user in the folder of the results: (refused with th
         "stribeck.csv animation.gif contact.png .lock .part-x unfinished/notes.bin checkpoint",
     ),
     "study": (
-        "study.csv study.json .lubfric",
+        "study.csv .lubfric",
         "study.nc study.parquet result.json .part-x points/notes.txt .lock fitted.toml",
     ),
     "fit": ("fitted.toml fit.png fit.json", ""),
@@ -97,7 +97,7 @@ INPUTS = [  # (kind, the input that an output of the same command is called like
     *(("history", name) for name in ("history.csv", "result.json")),
     *(("fit", name) for name in ("fitted.toml", "fit.json")),
     *(("measured", name) for name in ("fit.json", "fitted.toml")),
-    *(("study", name) for name in ("study.csv", "study.json")),
+    ("study", "study.csv"),
 ]
 
 
@@ -254,12 +254,3 @@ def test_a_folder_that_was_copied_whole_is_still_ours(tmp_path):
     shutil.copytree(out, tmp_path / "copy")
     assert main([*run[:-1], str(tmp_path / "copy")]) == 0
     assert Path(tmp_path / "copy" / "result.json").is_file()
-
-
-@pytest.mark.parametrize("content", ["my plan", "{}", '{"format": 2}'])
-def test_a_study_from_python_leaves_a_plan_of_others_alone(tmp_path, content):
-    (tmp_path / "study.json").write_text(content)
-    scene = lubfric.load_scene("paper")
-    with pytest.raises(lubfric.InputError, match="study.json is no plan of a study, and would be replaced"):
-        lubfric.study(scene, {"bodies.load": [3.0]}, [1.0], store=tmp_path)
-    assert everything(tmp_path) == {"study.json": content.encode()}

@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.film import hat_kernel
-from lubfric.paper import solve_differential_deflection
+from lubfric.paper import differential_equations, solve_differential_deflection
 from verification.parts import E_PRIME as E
 from verification.parts import RADIUS as R
 from verification.parts import case_of
@@ -30,9 +30,11 @@ def numbers(result):
     return np.array([result.min_film, result.central_film, result.flow_film]) / unit
 
 
-def test_the_answer_does_not_depend_on_the_band():
-    kw = moes(50, 10, nodes=401, tolerance=0.1)
-    runs = [solve_differential_deflection(**kw, bandwidth=m) for m in (0, 2, 8, 40, 400)]
+def test_the_answer_does_not_depend_on_the_band(monkeypatch):
+    kw, runs = moes(50, 10, nodes=401, tolerance=0.1), []
+    for m in (0, 2, 8, 40, 400):
+        monkeypatch.setattr(differential_equations, "BANDWIDTH", m)
+        runs.append(solve_differential_deflection(**kw))
     films = np.array([numbers(r) for r in runs])
     assert np.max(np.abs(films / films[-1] - 1)) < 2e-5
     solves = [r.report.evaluations for r in runs]
@@ -121,7 +123,6 @@ def test_a_domain_that_ends_before_rupture_says_so():
     "bad, name",
     [
         ({"nodes": 20}, "nodes"),
-        ({"bandwidth": -1}, "bandwidth"),
         ({"domain": (0, 1e-3)}, "domain"),
         ({"inlet_length": 1e-9}, "inlet_length"),
         ({"domain": (-1e-3, 1e-3), "inlet_length": 1e-3}, "domain"),

@@ -62,7 +62,7 @@ def test_the_same_bits_on_a_pool_and_after_a_cut(study, tmp_path, monkeypatch, c
     with ProcessPoolExecutor(2) as executor:
         same(lubfric.study(SCENE, VARY, "auto", executor=executor, store=tmp_path), study)
     same(lubfric.open_study(tmp_path), study)
-    assert len(list((tmp_path / "points").iterdir())) == study.solved + 2  # the points, and the speeds of each curve
+    assert len(list((tmp_path / "points").iterdir())) == study.solved + 3  # points, speeds of each curve, plan
     monkeypatch.setattr(points, "prepare", None)  # nothing is left to do
     same(lubfric.study(SCENE, VARY, "auto", store=tmp_path), study)
 

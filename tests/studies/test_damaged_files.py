@@ -1,5 +1,5 @@
-"""A thousand damaged files: records, study.json and result.json. Each is told of, none stops what is sound beside it,
-and none makes Python import anything."""
+"""A thousand damaged files: records, plans of studies and result.json. Each is told of, none stops what is sound
+beside it, and none makes Python import anything."""
 
 import json
 import os
@@ -159,7 +159,8 @@ def test_damaged_studies_are_told_of_and_stop_nothing(stores, tmp_path, imports)
     imports.clear()
     for trial in range(700):
         folder, sound = stores[trial % 3]
-        files = [folder / "study.json"] if trial % 4 == 0 else sorted((folder / "points").iterdir())
+        plan, points = folder / "points" / "plan.bin", sorted((folder / "points").glob("?" * 40 + ".bin"))
+        files = [plan] if trial % 4 == 0 else points
         with damaged(files[rng.integers(len(files))], rng), warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             try:

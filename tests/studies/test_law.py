@@ -47,7 +47,7 @@ def test_it_is_as_close_to_the_points_as_it_says(study, law):
     off = []
     for i, temperature in enumerate(WARM):
         for j, load in enumerate(LOADS):
-            pressure = study.plan["conditions"][2 * i + j][3]
+            pressure = study.plan.scenes[2 * i + j].bodies.mean_hertz_pressure
             half_width = math.sqrt(8 * load / 6e-3 * 2e-3 / (math.pi * 231e9))
             assert pressure == pytest.approx(load / 6e-3 / (2 * half_width), rel=1e-9)
             off.append(law(speeds, temperature, pressure) / f[i, j] - 1)
