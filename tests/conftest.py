@@ -7,10 +7,10 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 from pictures import leave_out
 
-settings.register_profile("lubfric", deadline=None, derandomize=True)
+settings.register_profile("lubfric", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("lubfric")
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:  # in a background job of a shell, and in all that it starts
     signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +31,7 @@ class Command:
     name : "" for the plain command; summary : for ``--help``
     studies : what there is to run; out : default folder of its files
     levels : those it offers, the default one first
-    workers : processes it starts unasked, each for one study; 0: it runs in the process at hand
+    workers : processes it starts unasked: for its studies, or those of a campaign for the cases of a part
     add_options : adds its own options to the parser
     prepared : the studies as the parsed options want them
     finished : writes what else belongs to the report, and returns text for the terminal
@@ -42,7 +43,7 @@ class Command:
     studies: tuple[Study, ...]
     out: str
     levels: tuple[str, ...] = LEVELS
-    workers: int = 0
+    workers: int = 1
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None
     prepared: Callable[[Study, argparse.Namespace], Study] = lambda study, options: study
     finished: Callable[[reports.Report, argparse.Namespace], str] = lambda report, options: ""
@@ -87,7 +88,8 @@ def campaign(
         return replace(study, options=study.options | own(study.name, options))
 
     studies = tuple(Study(part, f"verification.{target}", title, levels, keys) for part, target, title, keys in parts)
-    return Command(name, summary, studies, f"out/{name}", levels, 1, add_options, prepared, campaign=True)
+    folder = f"out/{name}"
+    return Command(name, summary, studies, folder, levels, add_options=add_options, prepared=prepared, campaign=True)
 
 
 def _prepared(command: Command, study: Study, options: argparse.Namespace) -> Study:
@@ -110,8 +112,7 @@ def parser(command: Command) -> argparse.ArgumentParser:
     p.add_argument("--only", nargs="+", metavar="NAME", help="run only these")
     p.add_argument("--out", type=Path, default=Path(command.out), metavar="DIR", help="folder (default: %(default)s)")
     p.add_argument("--list", action="store_true", help="name the parts and stop")
-    if command.workers:
-        p.add_argument("--workers", type=int, default=command.workers, help="processes (default: %(default)s)")
+    p.add_argument("--workers", type=int, default=command.workers, help="processes (default: %(default)s)")
     if command.campaign:
         p.add_argument("--docs", type=Path, metavar="DIR", help="put its tables into the pages there that name them")
     command.add_options(p)
@@ -156,9 +157,9 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
         return report
 
     so_far, interrupted = save(so_far), False
-    workers = options.workers if command.workers and not command.campaign else 0
+    workers = 1 if command.campaign else options.workers
     try:
-        for outcome in run(studies, level, tell_check, lambda s: tell_study(s, so_far.selected), workers):
+        for outcome in run(studies, level, tell_check, partial(tell_study, names=so_far.selected), workers):
             so_far = save(replace(so_far, outcomes=(*so_far.outcomes, reports.save_files(outcome, out))))
             if command.campaign and options.docs and not outcome.error:
                 put_tables(command, outcome, options)

@@ -8,15 +8,12 @@ a folder that is named after the code which solved it, so that rows of other cod
 import hashlib
 import json
 from collections.abc import Callable, Iterator, Mapping
-from concurrent.futures import ProcessPoolExecutor
-from contextlib import contextmanager
 from dataclasses import dataclass
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, TypeVar
 
 from .report import finite
-from .run import end_with_parent
+from .run import mapped
 
 Case = TypeVar("Case")
 
@@ -39,8 +36,8 @@ class Run:
         file = None if self.folder is None else self.folder / code() / f"{name or self.name}.jsonl"
         known = {} if file is None else rows_of(file)
         missing = [key for key in cases if key not in known]
-        with _mapped(min(self.workers, len(missing))) as mapped:
-            new = mapped(solve, [cases[key] for key in missing])
+        with mapped(min(self.workers, len(missing))) as each:
+            new = each(solve, [cases[key] for key in missing])
             for key, case in cases.items():
                 if key not in known:
                     known[key] = finite(next(new))
@@ -48,19 +45,6 @@ class Run:
                         with file.open("a", encoding="utf-8") as stream:
                             stream.write(json.dumps([key, known[key]]) + "\n")
                 yield case, known[key]
-
-
-@contextmanager
-def _mapped(workers: int) -> Iterator[Callable]:
-    """``map`` in this process, or over fresh processes that end with it."""
-    if workers <= 1:
-        yield map
-        return
-    with ProcessPoolExecutor(workers, get_context("spawn"), end_with_parent) as pool:
-        try:
-            yield pool.map
-        finally:
-            pool.shutdown(cancel_futures=True)
 
 
 def code() -> str:

@@ -5,11 +5,15 @@ import math
 from collections.abc import Callable
 from typing import TypeVar
 
-from lubfric.contact import ContactResult, ContactState, HalfSpaceContact
+import numpy as np
+
+from lubfric.contact import ContactResult, ContactState, HalfSpaceContact, solve_contact
 from lubfric.film import EHLResult, LineContact
 from lubfric.oil import Lubricant
 from lubfric.sampling import FrictionResult
 from lubfric.sharing import Prepared
+
+from . import exact_contact
 
 T = TypeVar("T")
 ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
@@ -62,6 +66,18 @@ def halved(low: float, high: float, below: Callable[[float], bool], times: int =
         middle = math.sqrt(low * high)
         low, high = (middle, high) if below(middle) else (low, middle)
     return low
+
+
+def pressed_cylinder(
+    line: exact_contact.Line, across: float, hardness: float | None = None
+) -> tuple[np.ndarray, ContactResult]:
+    """x [m], and a cylinder pressed dry by `solve_contact` in a box four half-widths wide, with ``across`` cells in
+    one."""
+    dx, n = line.half_width / across, 2 * int(2 * across)
+    x = (np.arange(n) - (n - 1) / 2) * dx
+    asked = {"mean_pressure": line.load / (n * dx), "boundary": ("free", "periodic"), "tolerance": 1e-8}
+    gap0 = np.tile(x[:, None] ** 2 / (2 * line.radius), (1, 4))
+    return x, solve_contact(gap0, dx, line.e_prime, hardness=hardness, **asked)
 
 
 def case_of_scene(scene, load: float, speed: float) -> dict:

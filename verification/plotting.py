@@ -49,6 +49,16 @@ def panels(count: int, columns: int, width: float, height: float):
     return canvas, grid.ravel()[:count]
 
 
+def chart(name: str, caption: str, curves, width: float = 6.0, height: float = 3.8, **settings) -> Figure:
+    """One panel of ``curves``, each (x, y, style, label) and perhaps the errors of y, with ``settings`` of its axes."""
+    canvas, ax = axes(width=width, height=height)
+    for x, y, style, label, *error in curves:
+        ax.errorbar(x, y, *error, fmt=style, label=label)
+    ax.set(**settings)
+    canvas.legend(loc="outside lower center", ncols=2, frameon=False)
+    return finish(name, canvas, caption)
+
+
 def image(canvas, ax, field, extent, label: str, **options):
     """A map (nx, ny) with x to the right and a labelled colour bar."""
     shown = ax.imshow(field.T, origin="lower", extent=extent, interpolation="nearest", **options)

@@ -1,4 +1,4 @@
-"""Run studies one after another, or each in a process of its own. A study that raises is a failed check, and stops no
+"""Run studies one after another, or over several processes. A study that raises is a failed check, and stops no
 other."""
 
 import importlib
@@ -10,7 +10,9 @@ import time
 import traceback
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from multiprocessing.connection import wait
 
 from .check import AT_MOST, Check, Field, Figure, Item, Table
@@ -73,33 +75,32 @@ def quiet(check: Check) -> None:
 
 
 def run(
-    studies, level: str, progress: Progress = quiet, announce: Callable[[Study], None] = lambda study: None, workers=0
+    studies, level: str, progress: Progress = quiet, announce: Callable[[Study], None] = lambda study: None, workers=1
 ) -> Iterator[Outcome]:
-    """Yield the `Outcome` of each study in order. ``announce`` is called before each, ``progress`` on each check.
+    """Yield the `Outcome` of each study in order, run in this process or over several ``workers``. ``announce`` is
+    called before each, ``progress`` on each check, where it runs."""
+    with mapped(min(workers, len(studies))) as each:
+        yield from each(partial(run_one, level=level, progress=progress, announce=announce), studies)
 
-    ``workers`` is a number of processes, with a fresh one for each study: the number of threads is read once, when
-    NumPy is loaded, and a broken library must not outlive its trial. With 0 all run here, and each check is told as it
-    comes.
-    """
-    if not workers:
-        for study in studies:
-            announce(study)
-            yield run_one(study, level, progress)
+
+@contextmanager
+def mapped(workers: int) -> Iterator[Callable]:
+    """``map`` in this process, or over fresh processes that end with it."""
+    if workers <= 1:
+        yield map
         return
-    fresh = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(workers, mp_context=fresh, initializer=end_with_parent, max_tasks_per_child=1) as pool:
-        waiting = [pool.submit(run_one, study, level, quiet) for study in studies]
-        for study, future in zip(studies, waiting):
-            announce(study)
-            outcome = future.result()
-            for check in outcome.checks:
-                if check.failed:
-                    progress(check)
-            yield outcome
+    with ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), end_with_parent) as pool:
+        try:
+            yield pool.map
+        finally:
+            pool.shutdown(cancel_futures=True)
 
 
-def run_one(study: Study, level: str, progress: Progress) -> Outcome:
+def run_one(
+    study: Study, level: str, progress: Progress = quiet, announce: Callable[[Study], None] = lambda study: None
+) -> Outcome:
     """Import and run one study. Only an interrupt from the keyboard goes past here."""
+    announce(study)
     found: dict[type, list] = {kind: [] for kind in (Check, Table, Figure, Field)}
     start = time.perf_counter()
     description = error = trace = ""

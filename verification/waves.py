@@ -10,7 +10,7 @@ from itertools import islice
 
 import numpy as np
 
-from lubfric.deterministic import DeterministicResult, Problem, lay_out, moments, solve_point
+from lubfric.deterministic import DeterministicResult, Problem, lay_out, moments, reach, solve_point
 from lubfric.film import LineContact
 from lubfric.surface import Surface
 
@@ -45,6 +45,13 @@ def laid_out(line: LineContact, speed: float, cells: float, ends: tuple[float, f
     sliding = 2 * abs(speed - 1) * line.entrainment_speed
     problem = lay_out(flat, line, sliding=sliding, boundary_friction=0.09, ends=(ends[0] * b, ends[1] * b))
     return Smooth(problem, solve_point(problem, tolerance=PRECISION), speed)
+
+
+def smooth_film(line: LineContact, sliding: float) -> DeterministicResult:
+    """The film of one gap without roughness, on 512 cells."""
+    step = sum(reach(line, 0.0)) / 512
+    flat = Surface(np.zeros((64, 1)), (step, step), periodic_axes=(True, True))
+    return solve_point(lay_out(flat, line, sliding=sliding, boundary_friction=0.09))
 
 
 def at_rest(smooth: Smooth, k: float, height: float, phase: float = 0.0) -> DeterministicResult:

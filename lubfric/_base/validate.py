@@ -4,9 +4,11 @@ import difflib
 import math
 import os
 import re
+import warnings
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from decimal import Decimal
+from importlib import import_module
 from numbers import Real
 from pathlib import Path
 from typing import Any, TypeVar
@@ -258,6 +260,17 @@ def nearest(word: Any, options: Iterable, cutoff: float = 0.4) -> str:
     text = word[:LONGEST_SHOWN] if isinstance(word, str) else shown(word)
     found = difflib.get_close_matches(text, [str(o) for o in options], n=1, cutoff=cutoff)
     return f" (did you mean {found[0]!r}?)" if found else ""
+
+
+def installed(name: str, extra: str) -> Any:
+    """The optional package ``name``, imported, of that ``extra``; `InputError` where it is not installed."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of other packages, at their import
+            return import_module(name)
+    except ImportError as problem:
+        said = f"this needs the package {name}: pip install 'lubfric[{extra}]' ({problem})"
+        raise InputError(said) from None
 
 
 def keys(where: str, given: Iterable, allowed: Iterable[str], other: Callable[[], dict[str, str]] = dict) -> None:

@@ -13,7 +13,18 @@ from .moving import (
 )
 from .newton import Work, newton
 from .pictures import animate_moments, plot_moments, plot_passing
-from .point import Refined, Strip, change_by_flow, change_of, changes_of, estimate, solve_strip, work_of, work_of_steps
+from .point import (
+    Refined,
+    Strip,
+    change_by_flow,
+    change_of,
+    changes_of,
+    estimate,
+    solve_strip,
+    thinned_less,
+    work_of,
+    work_of_steps,
+)
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
 from .solve import dry_contact, solve_point

@@ -9,7 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import ConvergenceError
+from ..oil import Lubricant
 from ..scene import Scene, check_resolved_gap, moving_bodies
+from ..sharing import film_lubricant
 from ..surface import Surface
 from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble
@@ -88,17 +90,24 @@ def solve_strip(
     return Strip(problem, result, rise, work)
 
 
-def change_by_flow(strip: Strip) -> float:
-    """Relative change of f of ``strip`` if a limiting stress thins the flow as one twice as high would, with the shear
-    stress limited as before: how fast a sheared oil at its limit flows is not known well. 0 without such a limit.
+def change_by_flow(strip: Strip, lubricant: Lubricant) -> float:
+    """Relative change of f of ``strip`` if another ``lubricant`` flowed in its film, with the shear stress that it has.
     Raises `ConvergenceError`."""
-    problem, result, oil = strip.problem, strip.result, strip.problem.lubricant
-    if oil.limiting_stress_coefficient is None:
+    problem, result = strip.problem, strip.result
+    if lubricant == problem.lubricant:
         return 0.0
-    twice = {name: 2 * getattr(oil, name) for name in ("limiting_stress_coefficient", "limiting_stress_offset")}
-    other = replace(problem, contact=replace(problem.contact, lubricant=replace(oil, **twice)))
+    other = replace(problem, contact=replace(problem.contact, lubricant=lubricant))
     found = solve_point(other, start=result.state, tolerance=ENOUGH)
     return assemble(evaluated(problem, found.state), found.report).coefficient / result.coefficient - 1
+
+
+def thinned_less(lubricant: Lubricant) -> Lubricant:
+    """``lubricant``, its limiting stress, if it has one, twice as high: it thins the flow half as much. How fast a
+    sheared oil at its limit flows is not known well."""
+    limit, offset = lubricant.limiting_stress_coefficient, lubricant.limiting_stress_offset
+    if limit is None:
+        return lubricant
+    return replace(lubricant, limiting_stress_coefficient=2 * limit, limiting_stress_offset=2 * offset)
 
 
 def work_of(result: DeterministicResult) -> float:
@@ -116,8 +125,9 @@ def problem_of(
 ) -> Problem:
     """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
     times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of it that is surface 2
-    (all of it where only the counterface is rough)."""
+    (all of it where only the counterface is rough). The lubricant flows with the viscosity of its heated inlet."""
     film, ratio = scene.bodies.boundary_film, scene.motion.slide_roll_ratio
+    lubricant = film_lubricant(scene, speed)
     if [name for name, _ in moving_bodies(scene)] == ["counterface"]:
         upper = surface
 
@@ -126,7 +136,7 @@ def problem_of(
 
     found = lay_out(
         turned(surface),
-        scene.line_contact(abs(speed)),
+        replace(scene.line_contact(abs(speed)), lubricant=lubricant),
         sliding=abs(ratio * speed),
         boundary_friction=scene.bodies.boundary_friction_coefficient,
         hardness=scene.bodies.hardness,
@@ -134,7 +144,12 @@ def problem_of(
         factors=factors,
     )
     heights = None if upper is None else shifted(found, turned(upper))(0.0)
-    return replace(found, sense=-1.0 if ratio < 0 else 1.0, upper=found.heights if upper is surface else heights)
+    return replace(
+        found,
+        sense=-1.0 if ratio < 0 else 1.0,
+        upper=found.heights if upper is surface else heights,
+        sheared=None if lubricant is scene.lubricant else scene.lubricant,
+    )
 
 
 @dataclass(frozen=True)

@@ -49,6 +49,9 @@ class Problem(OfLineContact):
     [m] (nx, ny): that roughness, part of z (None: surface 2 is smooth). The force on surface 1 is the opposite, but for
     the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
 
+    sheared: the lubricant whose stress is the friction, where that of ``contact`` flows with the viscosity of a warmer
+    inlet (None: they are one).
+
     least_flow [m²/s]: what the residuals of the mass are relative to, where less flows in (in time, where U may be 0).
     """
 
@@ -64,6 +67,7 @@ class Problem(OfLineContact):
     sense: float = 1.0
     upper: np.ndarray | None = None
     least_flow: float = 0.0
+    sheared: Lubricant | None = None
 
     @property
     def spacing(self) -> tuple[float, float]:

@@ -141,7 +141,7 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
     problem, state, h, inlet = at.problem, at.state, at.balance.film, at.balance.inlet
     p, dx, touching, fluid = state.pressure, problem.spacing[0], state.kind == TOUCHING, state.kind == FLUID
     with np.errstate(over="ignore"):
-        law = shear_stress(problem.lubricant, p, problem.sliding / h)
+        law = shear_stress(problem.sheared or problem.lubricant, p, problem.sliding / h)
     rubs, *others = (rubbing(at, law, times * problem.boundary_film) for times in (1.0, 0.5, 2.0))
     coefficients = [float(one.friction.mean()) / problem.load for one in (rubs, *others)]
     spots = rubs.spots

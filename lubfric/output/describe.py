@@ -120,7 +120,7 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
         rows = [
             f"load sharing, Eq. (8), on strips of the roughness; at {' to '.join(ends)} m/s",
             f"  corrected by strips with one gap and one pressure to {100 * scene.numerics.model_tolerance:g} % of f",
-            "  (not where heat turns out to matter: these are isothermal)",
+            "  (not where heat takes more than a fifth of f, or three tenths of the film)",
         ]
     if strip := max((one.moving for one in found), default=0.0):
         rows += [

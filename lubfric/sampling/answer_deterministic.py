@@ -9,9 +9,10 @@ from typing import Any
 
 from ..deterministic import DeterministicResult, Refined
 from ..scene import Scene
-from ..sharing import Prepared, Validity, inlet_at, of_error, of_inlet, of_motion, of_pressure, of_thickness
+from ..sharing import Heat, Prepared, Validity, of_error, of_heat, of_inlet, of_motion, of_pressure, of_thickness
 from .decision import Decision
 from .errors_of import TOO_SHORT
+from .heated import LEAST_FILM, MOST_CHANGE, error_by_heat, strip_heat, too_hot, warmed
 from .levels import Levels, levels_of, mean
 from .result import FrictionResult
 from .sample import Found
@@ -20,9 +21,10 @@ from .uncertainty import Uncertainty, field_errors_of, interval, percent, studen
 FEW_STRIPS = "not known from fewer than three strips"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
+BY_INLET = "f without the heat of the inlet {:+.2g} %"
 BY_FLOW = "f by a flow that is thinned half as much at the limiting stress {:+.2g} %"
 OF_MODEL = (
-    "the boundary film, the law of the flow, or the scatter between the models leaves that",
+    "the boundary film, the law of the flow, heat, or the scatter between the models leaves that",
     "give bodies.boundary_film if you know it, or a longer map",
 )
 FINER = "a larger numerics.tolerance, or a finer contact.spacing"
@@ -31,16 +33,18 @@ DRAWN, CUT = 0.1, 0.1  # lubricant drawn from touching cells, load of a Newtonia
 
 def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: float) -> FrictionResult:
     """Solve the strips of ``prepared`` at ``speed`` [m/s], which is not 0; ``found``: the sample of Eq. (8) there, if
-    any. ``begun``: the starting time, by `time.perf_counter`. The film is isothermal. Raises `ConvergenceError`."""
+    any. ``begun``: the starting time, by `time.perf_counter`. Raises `ConvergenceError`."""
     scene, levels, strips = prepared.scene, levels_of(prepared, speed, found), prepared.strips
     assert strips is not None
     numerics = scene.numerics
-    numbers: dict[str, Any] = levels.numbers | {"speed": speed}
-    f, results = numbers["coefficient"], [pair.resolved.result for pair in levels.pairs]
+    results = [pair.resolved.result for pair in levels.pairs]
+    heat = strip_heat(scene, results[0])
+    numbers: dict[str, Any] = warmed(scene, levels.numbers, heat) | {"speed": speed}
+    f = numbers["coefficient"]
     sampling = levels.sampling.error if math.isfinite(levels.sampling.error) else math.nan
     by_scatter = student(levels.difference.freedom) * levels.difference.error
     by_film = 0.0 if scene.bodies.boundary_film is not None else max(map(abs, levels.by_film))
-    model = math.hypot(by_scatter, by_film, levels.by_flow)
+    model = math.hypot(by_scatter, by_film, levels.by_flow, error_by_heat(heat, levels.by_inlet))
     known = Uncertainty(
         numerical=levels.numerical,
         sampling=sampling,
@@ -52,9 +56,9 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         tolerance=numerics.sampling_tolerance,
         notes=_sample_notes(prepared, sampling, levels.length),
     )
-    decision = _decision(scene, results, levels)
+    decision = _decision(scene, results, levels, heat)
     entries = (
-        *_entries(prepared, numbers, results),
+        *_entries(prepared, numbers, results, heat),
         *of_error(levels.numerical, numerics.tolerance, FINER),
         *_of_model(model, numerics.model_tolerance),
     )
@@ -71,12 +75,14 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
     )
 
 
-def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Levels) -> Decision:
+def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Levels, heat: Heat) -> Decision:
     by_film = BY_FILM.format(*(100 * change for change in levels.by_film))
     by_flow = (BY_FLOW.format(100 * levels.by_flow),) if levels.by_flow else ()
-    notes = (_division(results), by_film, *by_flow, *results[0].report.notes)
+    by_inlet = (BY_INLET.format(100 * levels.by_inlet),) if levels.by_inlet else ()
+    notes = (*by_inlet, _division(results), by_film, *by_flow, *results[0].report.notes)
     words, tolerance = _words_of_levels(levels), scene.numerics.tolerance
-    return Decision("deterministic", words, "boundary film", tolerance, strips=len(results), notes=notes)
+    known = heat.text(tolerance)
+    return Decision("deterministic", words, "boundary film", tolerance, strips=len(results), heat=known, notes=notes)
 
 
 def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
@@ -120,7 +126,7 @@ def _division(results: Sequence[DeterministicResult]) -> str:
     )
 
 
-def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]) -> Iterator[Validity]:
+def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult], heat: Heat) -> Iterator[Validity]:
     """Entries for all assumptions that are violated; those about bodies and map first."""
     scene, speed, film = prepared.scene, numbers["speed"], numbers["central_film"]
     yield from prepared.known
@@ -139,23 +145,7 @@ def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]
         consequence = "f depends on the 1 nm of lubricant that touching bodies are said to keep, by about a percent"
         remedy = "read f to a percent or two: hardly any lubricant passes the contact"
         yield Validity("share of the lubricant out of touching cells", drawn, DRAWN, "", consequence, remedy)
-    yield from _heat_left_out(scene, speed, numbers["couette_force"] / scene.bodies.width, film)
-
-
-def _heat_left_out(scene: Scene, speed: float, couette: float, film: float) -> tuple[Validity, ...]:
-    """A caution if the heat that these models leave out would matter.
-
-    It matters by the heat of the inlet, or by the viscosity that the film loses. For the latter, the mean rise of the
-    film over its walls is ``tau du h/(12 k)``. ``couette``: its force [N/m].
-    """
-    inlet, _ = inlet_at(scene, speed)
-    if inlet is None:
-        return ()
-    lubricant, sliding = scene.lubricant, abs(scene.motion.slide_roll_ratio * speed)
-    stress = abs(couette) / (2 * scene.bodies.half_width)
-    rise = stress * sliding * film / (12 * lubricant.conductivity)
-    change = max(1 - inlet.factor, rise * (lubricant.temperature_coefficient or 0.0))
-    what, tolerance = "loss of film or viscosity by heat", scene.numerics.tolerance
-    consequence = "this model is isothermal: in truth the film is thinner and shears more easily"
-    remedy = "load sharing (numerics.model = 'auto') has the heat; heat = 'off' asks for none"
-    return (Validity(what, change, tolerance, "", consequence, remedy),) if change > tolerance else ()
+    yield from of_heat(scene, heat)
+    if why := too_hot(heat):
+        parts = (1 - heat.film_factor) / (1 - LEAST_FILM), heat.change / MOST_CHANGE
+        yield Validity("heat over the most that was checked", max(parts), 1.0, "", why, "read f with its interval")

@@ -13,6 +13,7 @@ from ..sharing import Prepared, at_speed, at_tolerance, lacking, refused
 from .answer import load_sharing_answer, passed
 from .answer_deterministic import strips_answer
 from .errors_of import model_error
+from .heated import too_hot
 from .methods import with_methods
 from .moving import too_costly
 from .pair import cells_of
@@ -106,9 +107,8 @@ def _enough(prepared: Prepared, found: Found) -> str:
     why = gap_not_resolved(scene, prepared.given)
     if why:
         return f"Eq. (8) alone: {why}"
-    heat = balance.forces.heat
-    if heat.heated is not None or 1 - heat.film_factor > scene.numerics.tolerance:
-        return "Eq. (8) alone: heat matters, and the deterministic model is isothermal"
+    if why := too_hot(balance.forces.heat):
+        return f"Eq. (8) alone: {why}"
     if found.response is None and max(model_error(scene, found)[0]) <= scene.numerics.model_tolerance:
         return "Eq. (8) alone: the film is so thick that the roughness hardly matters"
     return ""

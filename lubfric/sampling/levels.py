@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..contact import Strips
-from ..deterministic import MovingStrip, Strip, change_by_flow
+from ..deterministic import MovingStrip, Strip, change_by_flow, thinned_less
 from ..scene import Numerics
 from ..sharing import Prepared
 from .line import Line, line_of
@@ -41,7 +41,8 @@ class Levels:
     """The sum over levels.
 
     - ``numbers``: of the deterministic model on an endless line, by name; ``errors``: their relative standard errors.
-      ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of the flow.
+      ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of the flow;
+      ``by_inlet``: without the heat of the inlet.
     - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second;
       ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
@@ -52,6 +53,7 @@ class Levels:
     errors: dict[str, float]
     by_film: tuple[float, ...]
     by_flow: float
+    by_inlet: float
     line: int
     pairs: tuple[Pair, ...]
     pieces: tuple[tuple[Strip, ...], ...]
@@ -105,10 +107,10 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
     length, first = prepared.strips.length * max(both.line, len(pairs)), pairs[0].resolved
-    flow = change_by_flow(first.rest if isinstance(first, MovingStrip) else first)
-    return Levels(
-        numbers, errors, films, flow, both.line, tuple(pairs), pieces, shortest, sampling, difference, numerical, length
-    )
+    rest, oil = first.rest if isinstance(first, MovingStrip) else first, prepared.scene.lubricant
+    flow, inlet = (change_by_flow(rest, other) for other in (thinned_less(rest.problem.lubricant), oil))
+    parts, of_f = (both.line, tuple(pairs), pieces, shortest), (sampling, difference, numerical)
+    return Levels(numbers, errors, films, flow, inlet, *parts, *of_f, length)
 
 
 def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tuple[list[Pair], Sum]:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..contact import Strips
 from ..deterministic import Strip, changes_of, estimate, solve_strip
-from ..errors import ConvergenceError
+from ..errors import LubfricError
 from ..scene import moves
 from ..sharing import Prepared, on_piece
 from .moving import MOST_WORK, map_of
@@ -118,7 +118,7 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
         there = math.copysign(speed_of(scene, sq * FIXED**step), speed)
         try:
             return _pieces(prepared, there, None)
-        except ConvergenceError:
+        except LubfricError:  # at that speed: heat may leave no film there
             return None
 
     def cells(made) -> int:

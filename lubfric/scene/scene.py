@@ -28,7 +28,6 @@ RESOLVED = (  # key, the values that the deterministic model takes, why no other
     ("contact.region", ("hertz",), " (there is no volume balance; means are over the Hertz strip)"),
     ("numerics.film_deflection", ("scaled", "hydrodynamic"), " (no smooth film is deflected)"),
     ("numerics.cavitated_shear", ("none",), ""),
-    ("numerics.heat", ("auto", "off"), " (the model is isothermal)"),
 )
 
 
@@ -252,6 +251,8 @@ def _not_taken(scene: Scene, given: bool) -> Iterator[tuple[str, Any, str]]:
         value = getattr(getattr(scene, section), key)
         if value not in allowed:
             yield name, value, f"{', '.join(map(repr, allowed))}{why}"
+    if scene.transient is not None and scene.numerics.heat == "on":
+        yield "numerics.heat", "on", "'auto', 'off' (in time the model is isothermal)"
     bodies = moving_bodies(scene)
     if len({u for _, u in bodies}) > 1 and given:
         yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 a map of its own"

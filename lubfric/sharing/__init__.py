@@ -12,6 +12,7 @@ from .checks import (
     of_ends,
     of_error,
     of_film,
+    of_heat,
     of_inlet,
     of_motion,
     of_pressure,
@@ -20,7 +21,7 @@ from .checks import (
 )
 from .checks_before import expected
 from .forces import Forces, forces
-from .heat import Heat, film_lubricant, inlet_at, point_heat, typical_heat
+from .heat import Heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
 from .lacks import Lack, lack_in_words, lacking
 from .point import Point, exponents
 from .prepared import Prepared, at_speed, at_tolerance, on_piece, on_stack, on_strip, prepare, scene_of, takes_strips

@@ -89,7 +89,7 @@ class Heat:
             inlet = f"inlet, film x {self.inlet.factor:.3g} ({self.inlet.other:.3g} by another factor)"
         if self.heated is None:
             return f"heat: {inlet}; film and flash left out, at most {100 * self.change:.2g} % of f ({limit} allowed)"
-        return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film:.2g} K, f -{100 * self.change:.2g} %"
+        return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film:.2g} K, f {-100 * self.change:+.2g} %"
 
 
 def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
@@ -146,16 +146,16 @@ def point_heat(scene, film, contact, contact_load: float, force: float, shear) -
         return Heat(inlet, used), warm
     lubricant, numerics = scene.lubricant, scene.numerics
     nodes, change_by = _nodes(scene, film, contact, contact_load, force)
-    change = change_by(isothermal_heat(lubricant, *nodes).stress)
+    change, peclet = change_by(isothermal_heat(lubricant, *nodes).stress), peclet_at(scene, film.entrainment_speed)
     if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
-        return Heat(inlet, used, change, None, _peclet(scene, film)), warm
+        return Heat(inlet, used, change, None, peclet), warm
     found, (x, *_, around) = heated_film(lubricant, *nodes), nodes
     change = change_by(found.stress)
 
     def stress(at, pressure, thickness):
         return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, found.wall))[0]
 
-    heat = Heat(inlet, used, change, found, _peclet(scene, film))
+    heat = Heat(inlet, used, change, found, peclet)
     return heat, WarmFilm(warm.inlet_viscosity if warm else lubricant.viscosity, stress)
 
 
@@ -172,15 +172,22 @@ def _nodes(scene, film, contact, contact_load: float, force: float):
     sliding = motion.slide_roll_ratio * speed
     half = bodies.half_width
     pressed = 2 * contact_load / (math.pi * half * bodies.width) * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))
-    spots = bodies.boundary_friction_coefficient * pressed * abs(sliding)
-    surfaces = (abs(speed - 0.5 * sliding), abs(speed + 0.5 * sliding))
-    carried = sum(e * math.sqrt(u) for e, u in zip(bodies.effusivity, surfaces))
+    around = surroundings(scene, speed, wet, bodies.boundary_friction_coefficient * pressed)
     cold = np.abs(shear_stress(scene.lubricant, p, sliding / h))
 
     def change_by(stress) -> float:
         return float(bodies.width * np.trapezoid(wet * (cold - np.abs(stress)), x)) / max(force, 1e-300)
 
-    return (x, p, h, Surroundings(carried, sliding, wet, spots)), change_by
+    return (x, p, h, around), change_by
+
+
+def surroundings(scene, speed: float, wet, spots) -> Surroundings:
+    """What is around the nodes of a film at U = ``speed`` [m/s]: ``wet``, the share of the width that it covers, and
+    the stress of contact ``spots`` [Pa], each (n,)."""
+    speed, ratio = abs(speed), scene.motion.slide_roll_ratio
+    surfaces = (speed * abs(1 - 0.5 * ratio), speed * abs(1 + 0.5 * ratio))
+    carried = sum(e * math.sqrt(u) for e, u in zip(scene.bodies.effusivity, surfaces))
+    return Surroundings(carried, ratio * speed, wet, spots * abs(ratio * speed))
 
 
 def typical_heat(scene, film, contact, contact_load: float, force: float, shear) -> float:
@@ -199,7 +206,8 @@ def typical_heat(scene, film, contact, contact_load: float, force: float, shear)
     return change_by(isothermal_heat(like, *nodes).stress)
 
 
-def _peclet(scene, film) -> float:
-    bodies, speed = scene.bodies, abs(film.entrainment_speed)
-    faster = speed * (1 + 0.5 * abs(scene.motion.slide_roll_ratio))
+def peclet_at(scene, speed: float) -> float:
+    """u b rho c/(2 k) of the faster surface at U = ``speed`` [m/s]; the smaller of both bodies."""
+    bodies = scene.bodies
+    faster = abs(speed) * (1 + 0.5 * abs(scene.motion.slide_roll_ratio))
     return min(faster * bodies.half_width * c / (2 * k) for k, c in zip(bodies.conductivity, bodies.volumetric_heat))

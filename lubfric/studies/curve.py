@@ -117,12 +117,16 @@ def judged(result: R, raise_on_failure: bool) -> R:
     return result
 
 
-def csv_bytes(curve: CurveResult) -> bytes:
-    """The table of a curve: one row a point, one column a quantity, the unit in the heading; then how sure f is, and in
-    words which assumptions are violated there."""
+def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
+    """The columns of numbers of a curve by name: its quantities, then how sure f is."""
     found, swept = curve.uncertainty, {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
     low, high = found.interval.T
     columns = swept | columns_of(curve.points) | swept | {"interval_low": low, "interval_high": high}
-    columns |= {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}
-    named = {heading(name): values for name, values in columns.items()}
-    return table_bytes(named | {"validity": curve.told, "uncertainty": list(found.text)})
+    return columns | {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}
+
+
+def csv_bytes(curve: CurveResult) -> bytes:
+    """The table of a curve: one row a point, one column a quantity, the unit in the heading; then in words which
+    assumptions are violated there, and how sure f is."""
+    named = {heading(name): values for name, values in numbers_of(curve).items()}
+    return table_bytes(named | {"validity": curve.told, "uncertainty": list(curve.uncertainty.text)})

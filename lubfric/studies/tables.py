@@ -1,15 +1,15 @@
 """Studies as tables for other tools, each imported only when its table is asked for; curves and studies drawn."""
 
 import io
-from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 
-from .._base import __version__, figures, files, table_bytes, write_whole
+from .._base import __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
 from ..quantities import KEYS, Quantity, axis_label, described, heading
 from ..units import worded
+from .curve import numbers_of
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
@@ -21,7 +21,7 @@ SMOOTH = 6  # values along both axes of a map from which it is drawn by contours
 def to_xarray(result):
     """An `xarray.Dataset`: a dimension for each varied key, units and long names as attributes. Needs the ``study``
     extra."""
-    xarray = _tool("xarray")
+    xarray = validate.installed("xarray", "study")
     data = {name: (result.dims, values, described(name)) for name, values in result.columns.items()}
     data[STATUS] = (result.dims, result.status.astype(str), {"long_name": "converged, or why there are no numbers"})
     data[VALIDITY] = (result.dims, result.validity.astype(str), {"long_name": "assumptions that do not hold"})
@@ -32,13 +32,13 @@ def to_xarray(result):
 
 def to_frame(result):
     """A tidy `pandas.DataFrame`: one row a point. Needs the ``study`` extra."""
-    return _tool("pandas").DataFrame(_table(result))
+    return validate.installed("pandas", "study").DataFrame(_table(result))
 
 
 def to_parquet(result, path) -> None:
     """The table of `to_frame` as a Parquet file. Needs the ``study`` extra."""
     frame, buffer = to_frame(result), io.BytesIO()
-    _tool("pyarrow")
+    validate.installed("pyarrow", "study")
     frame.to_parquet(buffer)
     write_whole(path, buffer.getvalue())
 
@@ -46,7 +46,7 @@ def to_parquet(result, path) -> None:
 def to_netcdf(result, path) -> None:
     """The Dataset of `to_xarray` as a NetCDF file, which appears whole. Needs the ``study`` extra."""
     data = to_xarray(result)
-    _tool("netCDF4")
+    validate.installed("netCDF4", "study")
     with files.whole_file(path) as part:
         data.to_netcdf(part, engine="netcdf4")
 
@@ -123,14 +123,7 @@ def _label(result, index) -> str:
 def check_tools(netcdf: bool, parquet: bool) -> None:
     """Raise `InputError` if a package that these tables need is missing."""
     for name in (*(("xarray", "netCDF4") if netcdf else ()), *(("pandas", "pyarrow") if parquet else ())):
-        _tool(name)
-
-
-def _tool(name: str):
-    try:
-        return import_module(name)
-    except ImportError:
-        raise InputError(f"this table needs the package {name}: pip install 'lubfric[study]'") from None
+        validate.installed(name, "study")
 
 
 def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
@@ -184,17 +177,12 @@ def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **st
 def curve_axes(curve, ax=None, **style):
     """Friction over speed of a `lubfric.StribeckResult`, with its parts and the band of its intervals; interpolated if
     it chose its speeds."""
-    axes = figures.axes_or_new(ax)
-    names = "speed", "coefficient", "contact_load", "film_load", "boundary_force", "shear_force"
-    columns = {name: getattr(curve, name) for name in names}
-    columns |= dict(zip(("interval_low", "interval_high"), curve.uncertainty.interval.T))
-    columns |= {"model_error": curve.uncertainty.model, "sampling_error": curve.uncertainty.sampling}
-    between = None
+    axes, between = figures.axes_or_new(ax), None
     if "interpolation" in curve.report.residuals:
         known = np.abs(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])
         fine = np.geomspace(known.min(), known.max(), 400)
         between = fine, curve.at(fine), *curve.parts_at(fine)
-    friction_over_speed(axes, columns, between, **style)
+    friction_over_speed(axes, numbers_of(curve), between, **style)
     return axes
 
 

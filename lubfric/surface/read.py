@@ -74,14 +74,16 @@ def read_surface(
         heights; non-uniform spacing; spacing given twice or not at all; a levelled map with slopes that no surface has,
         since heights and spacing are then in different units
     """
-    path = _existing(path)
+    path = validate.folder("path", path)
+    head = _head(path)
     validate.choice("form", form, FORMS)
     if not level and form != "plane":
         raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = 'plane' with level = False")
     if decimal is not None:
         validate.choice("decimal", decimal, DECIMALS)
     suffix = path.suffix.lower()
-    by_instrument = suffix in TEXT and _binary(path) or suffix not in SUFFIXES and suffix in INSTRUMENTS
+    binary = b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))  # no text: .dat of an interferometer
+    by_instrument = suffix in TEXT and binary or suffix not in SUFFIXES and suffix in INSTRUMENTS
     if by_instrument or suffix in OWN_GRID:
         _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)
         surface = _instrument(path) if by_instrument else OWN_GRID[suffix](path)
@@ -94,28 +96,15 @@ def read_surface(
     return _prepared(replace(surface, source=path.name), level, fill, form)
 
 
-def _existing(path) -> Path:
-    """The path of a file that is there and can be opened."""
-    try:
-        path = Path(path)
-        found = path.is_file()
-    except (TypeError, ValueError, OSError) as problem:
-        raise InputError(f"path = {validate.shown(path)} is no path ({problem}); give a file") from None
-    if not found:
+def _head(path: Path) -> bytes:
+    """The first bytes of a file that is there and can be opened."""
+    if not path.is_file():
         raise InputError(f"path = {validate.shown(str(path))}: no such file")
     try:
-        with path.open("rb"):
-            return path
+        with path.open("rb") as file:
+            return file.read(4096)
     except OSError as problem:
         raise InputError(f"path = {str(path)!r} cannot be read ({problem})") from None
-
-
-def _binary(path: Path) -> bool:
-    """Whether a file begins with zero bytes: then it is no text, whatever its suffix says (the .dat of an
-    interferometer)."""
-    with path.open("rb") as file:
-        head = file.read(4096)
-    return b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))
 
 
 def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
@@ -198,9 +187,9 @@ def _instrument(path: Path) -> Surface:
 
     Raises `InputError` without the package, for a file that it cannot read, for one that names no unit of length.
     """
-    name, open_topography = f"path = {str(path)!r}", _package(path)
+    name, package = f"path = {str(path)!r}", validate.installed("SurfaceTopography", "formats")
     try:
-        reader = open_topography(str(path))
+        reader = package.open_topography(str(path))
         channels = [c.name for c in reader.channels]
         topography = reader.topography(channel_index=0)
         heights, sizes, found = topography.heights(), topography.physical_sizes, topography.unit
@@ -218,15 +207,3 @@ def _instrument(path: Path) -> Surface:
         notes.append(f"channel {channels[0]}, the first of {len(channels)}")
     heights = heights * UNITS[found]
     return Surface(heights, spacing, mask=~np.isnan(heights), source=path.name, notes=tuple(notes))
-
-
-def _package(path: Path):
-    """SurfaceTopography's reader; imported here only, since that takes seconds and hundreds of MB."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of other packages, at their import
-            from SurfaceTopography import open_topography
-    except ImportError as problem:
-        said = f"path = {str(path)!r} needs the package SurfaceTopography, which is not installed ({problem})"
-        raise InputError(said, way_out=f"it is read after {HINT}; or convert it to .x3p") from None
-    return open_topography

@@ -7,7 +7,6 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.film import Surroundings, heated_film
-from lubfric.sharing import film_lubricant
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
 SHEAR = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.08}
@@ -79,11 +78,3 @@ def test_what_is_left_out_is_part_of_the_numerical_error(model):
     for name in ("flash_temperature_rise", "film_temperature_rise"):  # none was computed: nothing is known of its error
         assert getattr(auto, name) == 0 and auto.errors.reasons[name] == "heat was left out"
         assert getattr(on, name) > 0 and 0 < getattr(on.errors, name) < 0.1
-
-
-def test_hardly_any_heat_is_none_and_more_than_any_film_bears_is_refused_in_words():
-    for speed in (1e-9, 1e-7):
-        inlet = film_lubricant(BASE.with_(numerics={"heat": "on"}), speed)
-        assert inlet.viscosity == pytest.approx(BASE.lubricant.viscosity, rel=1e-7)
-    with pytest.raises(lubfric.InputError, match="thermal number.*numerics.heat = 'off'"):
-        film_lubricant(BASE.with_(numerics={"heat": "on"}), 1e4)

@@ -15,7 +15,6 @@ from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.fields import grid_bytes, vtk_bytes
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.01, 0.3]\n"
 SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\n[contact]\nshape = [48, 40]\nspacing = [1.1e-6, 0.9e-6]\n"
@@ -74,13 +73,6 @@ def test_the_file_for_paraview_is_read_back_by_another_reader(run):
     film = mesh.point_data["film_thickness"].reshape(40, 48)
     np.testing.assert_array_equal(film[7], point.balance.film.film_at(point.x))
     assert np.std(mesh.point_data["height"]) == pytest.approx(1e-7) and mesh.point_data["film_pressure"].max() > 1e5
-
-
-def test_what_a_point_has_not_is_refused():
-    model = lubfric.prepare(paper_scene())
-    with pytest.raises(lubfric.InputError, match="separated"):
-        vtk_bytes(model, lubfric.friction(model, 1.0, fields=True))
-    assert grid_bytes(np.arange(2.0), np.arange(3.0), {}, "t").startswith(b"# vtk DataFile Version 3.0\n")
 
 
 def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkeypatch):

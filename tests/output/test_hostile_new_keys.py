@@ -23,10 +23,6 @@ MANY = np.linspace(1, 2, 100_000)
 
 REFUSED = {  # what is done, and a word of the answer
     "heat beyond any film": (lambda: lubfric.friction(HOT, 1e5), "numerics.heat"),
-    "heat in one gap with one pressure": (
-        lambda: lubfric.friction(ROLLER.with_(numerics={"model": "deterministic", "heat": "on"})),
-        "isothermal",
-    ),
     "absolute zero": (lambda: FLAT.with_(lubricant={"grade": "68", "temperature_celsius": -273.15} | VI), "200, 600"),
     "viscosity index not a number": (lambda: FLAT.with_(lubricant=OIL | {"viscosity_index": float("nan")}), "index"),
     "a grade in a list": (lambda: FLAT.with_(lubricant=OIL | {"grade": ["ISO VG 68"]}), "ISO VG n"),
@@ -94,13 +90,3 @@ def test_sliding_that_leaves_no_film_is_told():
         assert np.isfinite(lubfric.friction(scene, 0.05).coefficient)
     except lubfric.ConvergenceError as error:
         assert "line-contact EHL" in str(error)
-
-
-def test_heat_that_a_model_leaves_out_is_told_where_it_matters():
-    scene = ROLLER.with_(numerics={"model": "deterministic", "accept": True, "tolerance": 0.05})
-    slow, fast = lubfric.friction(scene, 1e-3), lubfric.friction(scene, 3.0)
-    assert not any("heat" in entry.what for entry in slow.validity)
-    assert any("isothermal" in entry.consequence for entry in fast.validity)
-    off = lubfric.friction(scene.with_(numerics={"heat": "off"}), 3.0)
-    assert not any("isothermal" in entry.consequence for entry in off.validity)
-    assert off.coefficient == pytest.approx(fast.coefficient, rel=1e-6)

@@ -23,7 +23,7 @@ from lubfric.output import command_line as cli
 from lubfric.sharing import Validity, prepare
 from lubfric.studies import classes_of, fingerprint
 from lubfric.studies.codec import decode, encode
-from lubfric.studies.store import Store, digest
+from lubfric.studies.store import Store, digest, opened
 
 ROOT = Path(__file__).parents[2]
 SCENE = paper_scene(contact={"shape": (64, 64), "spacing": 0.9e-6}, surface={"correlation_length": 4e-6})
@@ -118,6 +118,16 @@ def test_several_writers_and_a_kill(tmp_path):
     assert Store(tmp_path).get(f"c{last + 2}") is None
 
 
+def test_what_a_killed_writer_left_goes_with_the_next(tmp_path, monkeypatch):
+    with monkeypatch.context() as killed, pytest.raises(KeyboardInterrupt):
+        killed.setattr(Path, "unlink", lambda *_, **__: None)
+        killed.setattr(os, "replace", lambda *_: signal.raise_signal(signal.SIGINT))
+        Store(tmp_path).add("a", (1,))
+    assert len(list((tmp_path / "points").iterdir())) == 1
+    with opened(tmp_path):
+        assert not list((tmp_path / "points").iterdir())
+
+
 @pytest.mark.parametrize("name", ["lubfric.errors.Report", "lubfric.errors.Gone", "lubfric.gone.Report", "os.system"])
 def test_a_record_of_another_version_does_not_count(tmp_path, name):
     tree = json.dumps({"class": name, "solver": "x"}).encode()
@@ -133,9 +143,11 @@ def test_a_record_of_another_version_does_not_count(tmp_path, name):
 
 def test_every_outcome_comes_back_as_it_was(tmp_path):
     entry, store = Validity("f", 2.0, 1.0, "", "too much", "less", True), Store(tmp_path)
+    model = prepare(SCENE)
+    point = lubfric.friction(model, 0.01).without_fields()
     for key, error in enumerate(
         (
-            lubfric.ValidityError("beyond", (entry,)),
+            lubfric.ValidityError("beyond", (entry,), point),
             lubfric.ConvergenceError("lost", Report("a solver", "diverged", 3, float("inf"), 1e-3)),
             lubfric.InputError("wrong"),
             lubfric.LubfricError("other"),
@@ -146,7 +158,7 @@ def test_every_outcome_comes_back_as_it_was(tmp_path):
         assert type(back) is type(error) and str(back) == str(error)
         assert getattr(back, "entries", ()) == getattr(error, "entries", ())
         assert getattr(back, "report", None) == getattr(error, "report", None)
-    model = prepare(SCENE)
+        assert digest(getattr(back, "result", None)) == digest(getattr(error, "result", None))
     for speed in (0.0, 0.01, 0.3):
         point = lubfric.friction(model, speed, fields=True)
         store.add("point", point)

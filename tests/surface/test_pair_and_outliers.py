@@ -19,11 +19,6 @@ def open_map(surface):
     return Surface(surface.heights, surface.spacing)
 
 
-def test_the_sum_of_independent_maps_has_the_root_of_both_squares():
-    squares = [rough(2 * i).combined(rough(2 * i + 1, sq=2e-7)).sq ** 2 for i in range(8)]
-    assert math.sqrt(np.mean(squares)) == pytest.approx(math.sqrt(5) * 1e-7, rel=0.03)
-
-
 def test_the_gap_of_two_facing_waves():
     """cos(ky) against cos(ky) shifted: the second runs backwards in y, so a sine changes its sign and a cosine does
     not."""

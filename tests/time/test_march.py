@@ -3,11 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-import pytest
 
-from lubfric import InputError
 from lubfric.scene import Table
-from lubfric.time import Progress, Step, checked_times, plan_of, report_of, steps
+from lubfric.time import Progress, Step, plan_of, report_of, steps
 
 
 @dataclass
@@ -89,9 +87,3 @@ def test_a_step_that_fails_is_tried_shorter_and_then_reported():
     assert report_of("relaxation", plan, whole, "2 nodes", {}).converged
     poor = report_of("relaxation", plan, whole, "2 nodes", {"grid": 1.5})
     assert poor.status == "iteration_limit" and poor.residual == 1.5 and len(poor.notes) == 1
-
-
-@pytest.mark.parametrize("times", [[], [0.0], [-1.0, 1.0], [1.0, 1.0], [2.0, 1.0], [0.0, np.nan]])
-def test_times_that_are_refused(times):
-    with pytest.raises(InputError, match="times"):
-        checked_times(times)

@@ -53,6 +53,15 @@ def test_smooth_bodies_have_the_smooth_film_of_a_run(plan):
     assert np.ptp(film.central_film) > 0.05 * film.central_film.mean()
 
 
+def test_of_either_sense_of_sliding_the_film_rolls_the_same_way():
+    there, back = (
+        run(Transient(2e-5, outputs=1), surface={"sq": 0.0}, motion={"slide_roll_ratio": s}) for s in (0.02, -0.02)
+    )
+    np.testing.assert_allclose(back.couette_force, -there.couette_force, rtol=1e-6)
+    np.testing.assert_allclose(back.rolling_force, there.rolling_force, rtol=1e-6)
+    assert there.rolling_force.min() > 0
+
+
 def test_it_stops_squeezes_and_starts_again():
     speed = Table(times=(0.0, 1e-4, 1.5e-4, 6e-4, 7e-4, 1e-3), values=(0.3, 0.3, 0.0, 0.0, 0.3, 0.3))
     found = run(Transient(1e-3, speed=speed), [0.0, 1e-4, 1.5e-4, 6e-4, 1e-3], surface={"sq": 1.2e-7})
@@ -149,6 +158,7 @@ def test_a_killed_run_goes_on_to_the_same_bits(tmp_path):
     for name, values in whole.columns.items():
         np.testing.assert_array_equal(again.columns[name], values)
     assert np.array_equal(again.pressure, whole.pressure) and whole.report.iterations > 9
+    assert whole.x[0] == pytest.approx(-whole.x[-1], abs=2 * CELL)  # it turns round: an inlet on either side
 
 
 def test_what_it_cannot_do_is_refused():

@@ -14,14 +14,6 @@ from lubfric.time import plan_of
 PULSE = Table(times=(0.0, 0.33, 0.331, 0.398, 0.399, 1.0), values=(0.01, 0.01, 0.1, 0.1, 0.01, 0.01))
 
 
-def test_straight_lines_between_corners_follow_the_table():
-    times = np.linspace(0.0, 1.0, 4001)
-    wave = 2.0 + np.sin(2 * np.pi * 3 * times)
-    knots = [0.0, *corners(times, wave), 1.0]
-    assert np.abs(np.interp(times, knots, np.interp(knots, times, wave)) / wave - 1).max() < 0.011
-    assert 20 < len(knots) < 150  # far fewer than rows
-
-
 def test_a_pulse_and_a_jump_have_their_corners():
     assert PULSE.stops(1.0) == (0.33, 0.331, 0.398, 0.399)
     assert corners(np.array([0.0, 1.0, 1.0, 2.0, 3.0]), np.array([1.0, 1.0, 4.0, 4.0, 2.0])) == [2.0]

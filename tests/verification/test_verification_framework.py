@@ -83,7 +83,7 @@ def run(monkeypatch, tmp_path, capsys):
             listed.append(Study(name, f"studies_under_test:{name}", f"study {name}", levels))
         monkeypatch.setitem(sys.modules, "studies_under_test", module)
         monkeypatch.setattr(command, "STUDIES", tuple(listed))
-        code = command.main([*options, "--out", str(tmp_path)])
+        code = command.main([*options, "--workers", "1", "--out", str(tmp_path)])
         said = capsys.readouterr()
         data = json.loads((tmp_path / "report.json").read_text(), parse_constant=pytest.fail)
         return code, data, (tmp_path / "report.html").read_text(encoding="utf-8"), said.out, said.err

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import quad
 
-from .report import InputError
+from .report import require
 
 SMALL = 0.5  # of 2 k d, below which sinh(2kd) - 2kd is summed as a series
 FAR = 60.0  # of k d, beyond which layer and half-space are the same in double precision
@@ -25,10 +25,8 @@ class Elastic:
     poisson: float
 
     def __post_init__(self):
-        if not (np.isfinite(self.young) and self.young > 0):
-            raise InputError(f"young = {self.young} Pa; allowed: finite, > 0")
-        if not -1 < self.poisson < 0.5:
-            raise InputError(f"poisson = {self.poisson}; allowed: (-1, 0.5), both ends excluded")
+        require(0 < self.young < np.inf, f"young = {self.young} Pa", "finite, > 0")
+        require(-1 < self.poisson < 0.5, f"poisson = {self.poisson}", "(-1, 0.5), both ends excluded")
 
     @classmethod
     def from_e_prime(cls, e_prime: float, poisson: float) -> Elastic:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, InputError, SolveReport
+from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, SolveReport, require
 
 SOLVER = "primal-dual active set"
 FREE_SHARE = 0.2  # of the load off the saturated nodes that one step leaves at least on the others
@@ -110,17 +110,14 @@ def solve_contact(
 def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
     """The problem, or `InputError`."""
     weights, gap0 = np.array(weights, dtype=float), np.array(gap0, dtype=float)
-    if gap0.ndim != 1 or gap0.size == 0 or not np.all(np.isfinite(gap0)):
-        raise InputError(f"gap0 has shape {gap0.shape} or is not finite; allowed: one finite length in m per node")
-    if weights.shape != gap0.shape or not np.all(weights > 0):
-        raise InputError(f"weights have shape {weights.shape}; allowed: one value > 0 for each of {gap0.size} nodes")
-    if not (np.isfinite(load) and load > 0):
-        raise InputError(f"load = {load}; allowed: finite, > 0, N or N/m")
-    if not 0 < tolerance < 1:
-        raise InputError(f"tolerance = {tolerance}; allowed: (0, 1)")
+    fits = gap0.ndim == 1 and gap0.size > 0 and bool(np.all(np.isfinite(gap0)))
+    require(fits, f"gap0 has shape {gap0.shape} or is not finite", "one finite length in m per node")
+    fits = weights.shape == gap0.shape and bool(np.all(weights > 0))
+    require(fits, f"weights have shape {weights.shape}", f"one value > 0 for each of {gap0.size} nodes")
+    require(0 < tolerance < 1, f"tolerance = {tolerance}", "(0, 1)")
     most = np.inf if limit is None else limit
-    if not (most > 0 and load < most * weights.sum()):
-        raise InputError(f"load = {load:g} cannot be carried below limit = {most:g} Pa on {weights.sum():g} m or m^2")
+    carried = f"> 0, < what limit = {most:g} Pa carries on {weights.sum():g} m or m^2"
+    require(most > 0 and 0 < load < most * weights.sum(), f"load = {load:g} N or N/m", carried)
     return Problem(displacement, weights, gap0, float(load), most * weights, tolerance)
 
 

@@ -19,7 +19,7 @@ from .ehl_body import Body, Layout, graded_mesh, make_body, refined_displacement
 from .ehl_film import PENALTY, Film
 from .ehl_newton import Iterate, film_thickness, newton
 from .fluid import Fluid
-from .report import InputError, SolveReport
+from .report import SolveReport, require
 
 ROUGH = 1e-2  # tolerance of the first guess
 RAISING = (0.25, 0.5, 0.75, 1.0)  # shares of ln(eta/eta0)
@@ -46,8 +46,8 @@ class LineContact:
 
     def __post_init__(self):
         for name, unit in (("load_per_width", "N/m"), ("radius", "m"), ("e_prime", "Pa"), ("entrainment_speed", "m/s")):
-            if not 0 < getattr(self, name) < math.inf:
-                raise InputError(f"{name} = {getattr(self, name)} {unit}; allowed: a finite number > 0")
+            value = getattr(self, name)
+            require(0 < value < math.inf, f"{name} = {value} {unit}", "a finite number > 0")
 
     @classmethod
     def of(cls, case: Mapping[str, Any], sliding_speed: float = 0.0) -> "LineContact":
@@ -180,17 +180,10 @@ def solve_ehl(
     Found to converge for M = 0.001 to 1000 and L = 0 to 15, to 9 GPa; from L = 18 on at M = 5 to 30, where
     the pressure spike is several p_h high, it may not.
     """
-    for name, value, allowed, unmet in (
-        ("refinements", refinements, ">= 0", refinements < 0),
-        ("fineness", fineness, "> 0", not fineness > 0),
-        ("side", side, ">= 50", not 50 <= side < math.inf),
-        ("between", between, "> 0", not between > 0),
-        ("penalty", penalty, ">= 0", not penalty >= 0),
-        ("tolerance", tolerance, "> 0", not tolerance > 0),
-        ("max_iterations", max_iterations, ">= 1", max_iterations < 1),
-    ):
-        if unmet:
-            raise InputError(f"{name} = {value}; allowed: {allowed}")
+    require(refinements >= 0, f"refinements = {refinements}", ">= 0")
+    require(50 <= side < math.inf, f"side = {side}", ">= 50")
+    require(min(fineness, between, tolerance) > 0, f"{fineness = }, {between = }, {tolerance = }", "> 0")
+    require(penalty >= 0 and max_iterations >= 1, f"{penalty = }, {max_iterations = }", ">= 0, >= 1")
     mesh, layout = graded_mesh(replace(make_layout(contact, fineness, side), between=between))
     solutions: list[Solution] = []
     for level in range(refinements + 1):
@@ -202,7 +195,6 @@ def solve_ehl(
         if level and not report.converged:
             start, _, _ = newton(body, replace(film, upwind=1.0), start, ROUGH, max_iterations)
             end, flow, report = newton(body, film, start, tolerance, max_iterations)
-            report = replace(report, notes=("started again from the first-order upwind solution on this mesh",))
         fields = (end.u, end.P, film_thickness(body, end), end.H0)
         found = Solution(contact, layout, body, film, *fields, flow * contact.film_unit, report)
         solutions.append(report.checked(found))

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .report import InputError
+from .report import require
 
 ROELANDS_PRESSURE = 1.96e8
 VISCOSITY_LAWS = ("constant", "barus", "roelands")
@@ -47,21 +47,15 @@ class Fluid:
     limiting_stress: tuple[float, float] | None = None
 
     def __post_init__(self):
-        if self.viscosity_law not in VISCOSITY_LAWS or self.density_law not in DENSITY_LAWS:
-            raise InputError(
-                f"viscosity_law = {self.viscosity_law!r}, density_law = {self.density_law!r}; "
-                f"allowed: {VISCOSITY_LAWS} and {DENSITY_LAWS}"
-            )
-        if not (math.isfinite(self.viscosity) and self.viscosity > 0):
-            raise InputError(f"viscosity = {self.viscosity} Pa s; allowed: > 0")
-        if not 0 <= self.pressure_viscosity_coefficient < math.inf:
-            raise InputError(
-                f"pressure_viscosity_coefficient = {self.pressure_viscosity_coefficient} 1/Pa; allowed: >= 0"
-            )
-        if self.viscosity_law == "roelands" and not self.index > 0:
-            raise InputError(f"roelands_index = {self.index}; allowed: > 0")
-        if not self.bulk_modulus > 0:
-            raise InputError(f"bulk_modulus = {self.bulk_modulus} Pa; allowed: > 0")
+        laws = f"viscosity_law = {self.viscosity_law!r}, density_law = {self.density_law!r}"
+        known = self.viscosity_law in VISCOSITY_LAWS and self.density_law in DENSITY_LAWS
+        require(known, laws, f"{VISCOSITY_LAWS} and {DENSITY_LAWS}")
+        require(0 < self.viscosity < math.inf, f"viscosity = {self.viscosity} Pa s", "> 0")
+        alpha = self.pressure_viscosity_coefficient
+        require(0 <= alpha < math.inf, f"pressure_viscosity_coefficient = {alpha} 1/Pa", ">= 0")
+        if self.viscosity_law == "roelands":
+            require(self.index > 0, f"roelands_index = {self.index}", "> 0")
+        require(self.bulk_modulus > 0, f"bulk_modulus = {self.bulk_modulus} Pa", "> 0")
 
     @classmethod
     def of(cls, oil: Mapping[str, Any]) -> "Fluid":

@@ -20,7 +20,7 @@ from skfem import Basis, BilinearForm, ElementTriP2, ElementVector, MeshTri
 
 from .compliance import Elastic
 from .contact import Contact, solve_contact
-from .report import InputError
+from .report import require
 from .triangles import factorised, graded
 
 SIDE = 12  # that of the square body is dx 2^SIDE
@@ -40,11 +40,10 @@ class Strip:
     fineness: int = 1
 
     def __post_init__(self):
-        if self.shape[0] % 2 or min(self.shape) < 2 or min(self.spacing) <= 0:
-            raise InputError(f"shape = {self.shape}, spacing = {self.spacing} m; allowed: nx even, >= 2 cells, > 0 m")
-        if 8 * self.shape[0] > 1 << SIDE or not 0 <= self.fineness <= 4:
-            most = (1 << SIDE) // 8
-            raise InputError(f"shape = {self.shape}, fineness = {self.fineness}; allowed: nx <= {most}, 0 to 4")
+        said = f"shape = {self.shape}, spacing = {self.spacing} m, fineness = {self.fineness}"
+        fits = not self.shape[0] % 2 and min(self.shape) >= 2 and min(self.spacing) > 0
+        require(fits and 8 * self.shape[0] <= 1 << SIDE, said, f"nx even, 2 to {(1 << SIDE) // 8} cells, > 0 m")
+        require(0 <= self.fineness <= 4, said, "fineness 0 to 4")
 
     @property
     def half(self) -> float:
@@ -80,11 +79,9 @@ def press(
 ) -> Contact:
     """`contact.solve_contact` of the strip: ``gap0`` and the fields of the result are (nx, ny), the load is in N/m."""
     (nx, ny), (dx, dy) = compliance.strip.shape, compliance.strip.spacing
-    if gap0.shape != (nx, ny) or not 0 < load_per_width < hardness * nx * dx:
-        raise InputError(
-            f"gap0 has shape {gap0.shape}, load_per_width = {load_per_width} N/m; allowed: {(nx, ny)}, "
-            f"0 to {hardness * nx * dx:g}"
-        )
+    most = hardness * nx * dx
+    fits = gap0.shape == (nx, ny) and 0 < load_per_width < most
+    require(fits, f"gap0 has shape {gap0.shape}, {load_per_width = } N/m", f"{(nx, ny)}, 0 to {most:g}")
 
     def displacement(force: np.ndarray) -> np.ndarray:
         return compliance.apply(force.reshape(nx, ny) / (dx * dy)).ravel()

@@ -14,7 +14,7 @@ from skfem import Basis, ElementTriP1, ElementTriP2, ElementVector, LinearForm, 
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from .compliance import Elastic
-from .report import InputError
+from .report import require
 from .triangles import factorised, graded, section_stress
 
 ELEMENTS = {1: ElementTriP1, 2: ElementTriP2}
@@ -26,7 +26,7 @@ BLOCK = 64  # right-hand sides solved at a time
 class Layer:
     """The discrete layer and the nodes of its surface that may carry force.
 
-    body, width, thickness : what it is made of; m
+    body : what it is made of
     basis : displacement (two components) on all of the layer
     spread : (basis.N, unknowns) from unknowns to all degrees of freedom; leaves out the base, joins periodic
         sides
@@ -36,8 +36,6 @@ class Layer:
     """
 
     body: Elastic
-    width: float
-    thickness: float
     basis: Basis
     spread: sp.csc_matrix
     x: np.ndarray
@@ -89,11 +87,9 @@ def graded_mesh(width: float, thickness: float, strip: float, fine: float, growt
 
     The mesh is mirrored about x = 0, so that the nodes on the two sides lie at the same depths.
     """
-    if not (0 < fine < strip <= width / 2 and thickness > 0 and growth > 0):
-        raise InputError(
-            f"width {width}, thickness {thickness}, strip {strip}, fine {fine}, growth {growth}; "
-            "allowed: 0 < fine < strip <= width/2, thickness > 0, growth > 0"
-        )
+    said = f"width {width}, thickness {thickness}, strip {strip}, fine {fine}, growth {growth}"
+    fits = 0 < fine < strip <= width / 2 and thickness > 0 and growth > 0
+    require(fits, said, "0 < fine < strip <= width/2, thickness > 0, growth > 0")
     cells = np.maximum(1, np.round(np.array([width / 2, thickness]) / min(width / 2, thickness))).astype(int)
     mesh = MeshTri.init_tensor(np.linspace(0, width / 2, cells[0] + 1), np.linspace(-thickness, 0, cells[1] + 1))
 
@@ -118,12 +114,11 @@ def make_layer(
     strip : only nodes with ``|x| <= strip`` may carry force; None: all
     sides : "periodic", which needs nodes at the same depths on both sides, or "free"
     """
-    if degree not in ELEMENTS or sides not in ("periodic", "free"):
-        raise InputError(f"degree = {degree}, sides = {sides!r}; allowed: 1 or 2, 'periodic' or 'free'")
+    fits = degree in ELEMENTS and sides in ("periodic", "free")
+    require(fits, f"degree = {degree}, sides = {sides!r}", "1 or 2, 'periodic' or 'free'")
     (left, bottom), (right, top) = mesh.p.min(axis=1), mesh.p.max(axis=1)
     near = NEAR * (top - bottom)
-    if abs(top) > near:
-        raise InputError(f"the surface lies at z = {top}; allowed: 0")
+    require(abs(top) <= near, f"the surface lies at z = {top}", "0")
     basis = Basis(mesh, ElementVector(ELEMENTS[degree]()), intorder=2 * degree)
     spread = spread_matrix(basis, sides == "periodic")
     facets = mesh.facets_satisfying(lambda x: np.abs(x[1]) < near, boundaries_only=True)
@@ -135,9 +130,7 @@ def make_layer(
         inside &= x < right - near
     chosen = vertical[inside][np.argsort(x[inside])]
     unknowns = spread[chosen].tocsr().indices
-    return Layer(
-        body, right - left, -bottom, basis, spread, basis.doflocs[0, chosen], (spread.T @ weights)[unknowns], unknowns
-    )
+    return Layer(body, basis, spread, basis.doflocs[0, chosen], (spread.T @ weights)[unknowns], unknowns)
 
 
 def spread_matrix(basis: Basis, periodic: bool) -> sp.csc_matrix:
@@ -151,8 +144,8 @@ def spread_matrix(basis: Basis, periodic: bool) -> sp.csc_matrix:
             component[dofs[1::2]] = 1
         masters, slaves = (np.flatnonzero(np.abs(x - end) < near) for end in (x.min(), x.max()))
         masters, slaves = (d[np.lexsort((z[d], component[d]))] for d in (masters, slaves))
-        if masters.size != slaves.size or np.abs(z[masters] - z[slaves]).max() > near:
-            raise InputError("a periodic layer needs nodes at the same depths on both sides")
+        alike = masters.size == slaves.size and np.abs(z[masters] - z[slaves]).max() <= near
+        require(alike, "a periodic layer with nodes at other depths on its two sides", "the same on both")
         follows[slaves] = masters
     free = np.flatnonzero((follows == np.arange(basis.N)) & (z > z.min() + near))
     number = np.full(basis.N, -1)

@@ -16,7 +16,7 @@ from skfem import Basis, ElementHex1, ElementHex2, ElementVector, MeshHex
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from .compliance import Elastic
-from .report import CONVERGED, ITERATION_LIMIT, InputError, SolveReport
+from .report import CONVERGED, ITERATION_LIMIT, SolveReport, require
 
 ELEMENTS = {1: ElementHex1, 2: ElementHex2}
 RULES = {1: np.array([1.0]), 2: np.array([1 / 3, 2 / 3])}  # share of a cell's width by node, trapezoid and Simpson
@@ -42,19 +42,12 @@ class Layer3D:
     def __post_init__(self):
         levels = np.asarray(self.levels, dtype=float)
         object.__setattr__(self, "levels", levels)
-        if self.degree not in ELEMENTS or any(n < 2 * self.degree or n % self.degree for n in self.shape):
-            raise InputError(
-                f"shape = {self.shape}, degree = {self.degree}; allowed: degree 1 or 2, "
-                "nodes a multiple of the degree, two cells at least"
-            )
-        ascending = levels.ndim == 1 and levels.size > 1 and np.all(np.diff(levels) > 0) and levels[-1] == 0
-        if not (min(self.size) > 0 and ascending):
-            raise InputError(f"size = {self.size}, levels = {levels}; allowed: lengths > 0, levels ascending to 0")
-
-    @property
-    def thickness(self) -> float:
-        """Thickness of the layer [m]."""
-        return -float(self.levels[0])
+        fits = self.degree in ELEMENTS and all(n >= 2 * self.degree and n % self.degree == 0 for n in self.shape)
+        said = f"shape = {self.shape}, degree = {self.degree}"
+        require(fits, said, "degree 1 or 2, nodes a multiple of the degree, two cells at least")
+        ascending = levels.ndim == 1 and levels.size > 1 and bool(np.all(np.diff(levels) > 0)) and levels[-1] == 0
+        said = f"size = {self.size}, levels = {levels}"
+        require(min(self.size) > 0 and ascending, said, "lengths > 0, levels ascending to 0")
 
     @property
     def cells(self) -> tuple[int, int]:
@@ -119,8 +112,8 @@ def graded_levels(thickness: float, layers: int, ratio: float) -> np.ndarray:
 
     The last height is about ``ratio`` times the first. Twice the layers at the same ratio halve every height.
     """
-    if not (thickness > 0 and layers >= 1 and ratio >= 1):
-        raise InputError(f"thickness {thickness}, layers {layers}, ratio {ratio}; allowed: > 0, >= 1, >= 1")
+    fits = thickness > 0 and layers >= 1 and ratio >= 1
+    require(fits, f"thickness {thickness}, layers {layers}, ratio {ratio}", "> 0, >= 1, >= 1")
     xi = np.linspace(1, 0, layers + 1)
     return -thickness * (xi if ratio == 1 else np.expm1(xi * np.log(ratio)) / (ratio - 1))
 
@@ -202,18 +195,17 @@ def solve(grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: in
     """
     layer = grid.layer
     force = np.asarray(force, dtype=float)
-    if force.shape != layer.shape or not np.all(np.isfinite(force)) or not np.any(force):
-        raise InputError(f"force has shape {force.shape}; allowed: {layer.shape}, finite, not all zero, N")
+    fits = force.shape == layer.shape and bool(np.all(np.isfinite(force)) and np.any(force))
+    require(fits, f"force has shape {force.shape}", f"{layer.shape}, finite, not all zero, N")
     surface = np.zeros((layer.planes, *layer.shape, 3))
     surface[-1, :, :, 2] = -force
     load = surface.ravel()
     history: list[float] = []
     limits = {"tol": 0.1 * tolerance, "maxiter": max_iterations}
-    found, info = grid.hierarchy.solve(load, **limits, accel="cg", residuals=history, return_info=True)
+    found = grid.hierarchy.solve(load, **limits, accel="cg", residuals=history)
     scale = float(np.linalg.norm(load))
     residual = float(np.linalg.norm(load - grid.matrix @ found)) / scale
     status = CONVERGED if residual <= tolerance else ITERATION_LIMIT
     solver, past = "smoothed aggregation, conjugate gradients", tuple(r / scale for r in history)
-    notes = (f"pyamg info {info}", f"{layer.unknowns} unknowns")
-    report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past, notes)
+    report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past)
     return report.checked(Solved(found.reshape(layer.planes, *layer.shape, 3), report))

@@ -16,7 +16,7 @@ from .ehl import Solution
 from .ehl_body import Body
 from .ehl_film import assemble
 from .ehl_newton import HERTZ_LOAD, load_weights, step_length
-from .report import InputError, SolveError
+from .report import SolveError, require
 from .ripple import stored
 
 BDF2, EULER = (1.5, -2.0, 0.5), (1.0, -1.0, 0.0)
@@ -46,8 +46,7 @@ def march(
 
     Raises `SolveError` where a step does not converge.
     """
-    if not step > 0:
-        raise InputError(f"step = {step} b/U; allowed: > 0")
+    require(step > 0, f"step = {step} b/U", "> 0")
     body, film = at.body, at.film
     line, x, weights, compliance = body.line, body.x, load_weights(body), body.compliance
     P, H0, last = at.P, at.approach, int(np.argmax(x))

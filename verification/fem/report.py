@@ -15,6 +15,12 @@ class InputError(ValueError):
     """An input outside its allowed range, raised before any work."""
 
 
+def require(fits: bool, said: str, allowed: str) -> None:
+    """`InputError` with what was ``said`` and what is ``allowed``, where it does not fit."""
+    if not fits:
+        raise InputError(f"{said}; allowed: {allowed}")
+
+
 class SolveError(RuntimeError):
     """A solve stopped short of its tolerance; carries its ``report`` and whatever ``result`` it had."""
 
@@ -37,7 +43,6 @@ class SolveReport:
     tolerance : dimensionless, as the residuals
     residuals : final value of each measured residual by name
     history : largest residual after each iteration
-    notes : choices made on the way that a reader of the result should know
     """
 
     solver: str
@@ -46,7 +51,6 @@ class SolveReport:
     tolerance: float
     residuals: dict[str, float]
     history: tuple[float, ...] = ()
-    notes: tuple[str, ...] = ()
 
     @property
     def residual(self) -> float:

@@ -18,7 +18,7 @@ from skfem import Basis, BilinearForm, Functional, LinearForm
 from skfem.helpers import dot, grad
 
 from .fluid import STEP, Fluid, slope
-from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, InputError, SolveReport
+from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, SolveReport, require
 
 ELEMENTS = {
     ("MeshLine", 1): skfem.ElementLineP1,
@@ -61,20 +61,16 @@ class Problem:
     stabilisation: str = "none"
 
     def __post_init__(self):
-        if self.element is None:
-            raise InputError(
-                f"mesh {type(self.mesh).__name__}, degree = {self.degree}; allowed: lines, triangles "
-                "or quadrilaterals, degree 1 or 2"
-            )
-        if self.stabilisation not in STABILISATIONS:
-            raise InputError(f"stabilisation = {self.stabilisation!r}; allowed: {STABILISATIONS}")
-        if self.stabilisation == "supg" and self.degree != 1:
-            raise InputError("stabilisation = 'supg' needs degree = 1: its residual drops second derivatives of p")
-        if not 0 <= self.speed < np.inf:
-            raise InputError(f"speed = {self.speed} m/s; allowed: >= 0")
+        mesh = f"mesh {type(self.mesh).__name__}, degree = {self.degree}"
+        require(self.element is not None, mesh, "lines, triangles or quadrilaterals, degree 1 or 2")
+        form = f"stabilisation = {self.stabilisation!r}"
+        require(self.stabilisation in STABILISATIONS, form, str(STABILISATIONS))
+        # the residual of its strong form drops second derivatives of p
+        require(self.stabilisation != "supg" or self.degree == 1, f"{form}, degree = {self.degree}", "degree 1")
+        require(0 <= self.speed < np.inf, f"speed = {self.speed} m/s", ">= 0")
         film = self.film(self.mesh.p)
-        if not np.all(np.isfinite(film) & (film > 0)):
-            raise InputError(f"film_thickness has a minimum of {np.min(film)} m on the mesh; allowed: > 0")
+        fits = bool(np.all(np.isfinite(film) & (film > 0)))
+        require(fits, f"film_thickness has a minimum of {np.min(film)} m on the mesh", "> 0")
 
     @property
     def element(self):
@@ -270,8 +266,8 @@ def prolonged(coarse: Solution, problem: Problem) -> np.ndarray:
     """The vertex values of ``coarse``, linear in each cell, at the degrees of freedom on the refined mesh."""
     old, new = coarse.problem.mesh, problem.mesh
     values = np.concatenate(vertices_and_middles(old, coarse.at_vertices), axis=-1)
-    if not np.allclose(np.concatenate(vertices_and_middles(old, old.p), axis=-1), new.p):
-        raise InputError("mesh is not the uniform refinement of the mesh of the coarse solution")
+    fits = np.allclose(np.concatenate(vertices_and_middles(old, old.p), axis=-1), new.p)
+    require(fits, "the mesh does not follow from that of the coarse solution", "its uniform refinement")
     basis = Basis(new, problem.element())
     start = basis.zeros()
     start[basis.nodal_dofs[0]] = values

@@ -12,7 +12,7 @@ import skfem
 from scipy.interpolate import LinearNDInterpolator
 
 from .fluid import Fluid
-from .report import InputError
+from .report import require
 from .reynolds import Problem, Solution, solve_reynolds
 
 FAR = 30.0  # length upstream that is meshed, in lengths of the given gap upstream
@@ -39,8 +39,8 @@ class GivenGap:
     log: float
 
     def __post_init__(self):
-        if np.abs(self.gap - self.gap[:, ::-1]).max() > SYMMETRY * self.gap.max():
-            raise InputError("gap is not symmetric along y; allowed: one that is its own mirror image")
+        off = np.abs(self.gap - self.gap[:, ::-1]).max()
+        require(off <= SYMMETRY * self.gap.max(), "gap is not symmetric along y", "one that is its own mirror image")
 
     @property
     def width(self) -> float:

@@ -12,6 +12,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from lubfric.scene import Roughness
 from ..check import ABSOLUTE, TOLD, Check, Figure, Item, Table
 from ..kept import Run
 from ..parts import halved
-from ..plotting import finish, panels
+from ..plotting import chart
 
 SEED = 884  # so that the first few differ in surface and load
 DRAWN = {"quick": 2, "default": 6, "full": 24}  # combinations, drawn from all; of rollers a third of them
@@ -195,10 +196,9 @@ def told(found: np.ndarray) -> list[str]:
 
 def drawn(name: str, every: dict[str, np.ndarray]) -> Figure:
     """The error of f over what its interval allows, for both ways."""
-    figure, (axes,) = panels(1, 1, 6.0, 4.5)
+    curves: list[tuple] = [([1, 100], [1, 100], "k-", "allowed")]
     for way, label in (("load sharing", "load sharing alone"), ("default", "default answer")):
-        axes.loglog(*100 * np.maximum(every[way][:, [2, 1]].T, 1e-4), "o", label=label, alpha=0.7)
-    axes.plot([1, 100], [1, 100], "k-", lw=0.8)
-    axes.set(xlabel="allowed by interval and reference (%)", ylabel="f off by (%)")
-    axes.legend(loc="upper left")
-    return finish(name, figure, "Error of f over what its interval allows; below the line it is covered")
+        curves.append((*100 * np.maximum(every[way][:, [2, 1]].T, 1e-4), "o", label))
+    caption = "Error of f over what its interval allows; below the line it is covered"
+    labels: dict[str, Any] = {"xlabel": "allowed by interval and reference (%)", "ylabel": "f off by (%)"}
+    return chart(name, caption, curves, xscale="log", yscale="log", **labels)

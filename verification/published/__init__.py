@@ -10,33 +10,16 @@ from __future__ import annotations
 from .. import check, frame
 from ..check import Check
 from ..references import SOURCES
-from ..studies import Study
+from ..studies import PUBLISHED
 
-PARTS: tuple[tuple[str, str], ...] = (
-    ("dry", "Dry contact: Hertz, waves, rough surfaces"),
-    ("films", "Smooth films"),
-    ("cavitation", "Films that rupture and fill again"),
-    ("friction", "Rolling and sliding friction of smooth films"),
-    ("waves", "Waves of a surface in the film, at rest and moving"),
-    ("heat", "Heat of a film"),
-    ("oils", "Oils: viscosity, density, pressure-viscosity coefficient"),
-    ("mixed", "Mixed lubrication"),
-)
 WEAK = 0.25
-STUDIES = {name: Study(name, f"verification.published.{name}:{name}", title, grade="A") for name, title in PARTS}
 
 
 def main(argv: list[str]) -> int:
     """The command."""
-    command = frame.Command(
-        "published",
-        __doc__,
-        tuple(STUDIES.values()),
-        "out/published",
-        ("default", "full"),
-        finished=lambda r, o: summary(r),
-    )
-    return frame.main(command, argv)
+    levels = ("default", "full")
+    found = frame.Command("published", __doc__, PUBLISHED, "out/published", levels, finished=lambda r, o: summary(r))
+    return frame.main(found, argv)
 
 
 def summary(report) -> str:

@@ -106,10 +106,7 @@ def band(pocket: references.Pocket) -> Iterator[Check]:
 
 def drawn(name: str, pocket: references.Pocket, found: dict[tuple[str, int], Profile]) -> Figure:
     """Pressures on the middle line."""
-    canvas, ax = plotting.axes(width=6.0, height=3.6)
-    for law in LAWS:
-        ax.plot(*found[law, 1], "-", label=f"lubfric, density: {law}")
-    ax.errorbar(PLACES, pocket.pressures, [0.02 * p + AMBIENT for p in pocket.pressures], fmt="ko", label="Bertocchi")
-    ax.set(xlabel="x over the length of the pad", ylabel="pressure (MPa)")
-    canvas.legend(loc="outside lower center", ncols=2, frameon=False)
-    return plotting.finish(name, canvas, f"Pressure over a pad with a pocket in which the film ruptures ({name})")
+    curves: list[tuple] = [(*found[law, 1], "-", f"lubfric, density: {law}") for law in LAWS]
+    curves.append((PLACES, pocket.pressures, "ko", "Bertocchi", [0.02 * p + AMBIENT for p in pocket.pressures]))
+    caption = f"Pressure over a pad with a pocket in which the film ruptures ({name})"
+    return plotting.chart(name, caption, curves, xlabel="x over the length of the pad", ylabel="pressure (MPa)")

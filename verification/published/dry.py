@@ -10,6 +10,8 @@ from lubfric.contact import find_asperities
 
 from .. import plotting, references
 from ..check import Check, Figure, Item
+from ..exact_contact import Line
+from ..parts import pressed_cylinder
 from . import against
 
 E_PRIME, RADIUS, LOAD = 231e9, 2e-3, 5.5 / 6e-3  # Pa, m, N/m: the paper's cylinder
@@ -57,15 +59,14 @@ def cylinder() -> Iterator[Check]:
     """Half-width and peak pressure of the cylinder."""
     half_width, peak = references.hertz_line(LOAD, RADIUS, E_PRIME)
 
-    def solved(n: int) -> tuple[float, float]:
-        dx = 4 * half_width / n
-        x = (np.arange(n) - (n - 1) / 2) * dx
-        gap = np.tile(x[:, None] ** 2 / (2 * RADIUS), (1, 4))
-        options = {"boundary": ("free", "periodic"), "tolerance": 1e-8, "mean_pressure": LOAD / (n * dx)}
-        p = lubfric.solve_contact(gap, dx, E_PRIME, **options).pressure[:, 0]
+    line = Line(E_PRIME, RADIUS, half_width)
+
+    def solved(across: int) -> tuple[float, float]:
+        x, found = pressed_cylinder(line, across)
+        p = found.pressure[:, 0]
         return 2 * math.sqrt(p @ x**2 / p.sum()), float(p.max())
 
-    fine, coarse = solved(257), solved(129)
+    fine, coarse = solved(64), solved(32)
     for name, unit, k, theirs in (("half-width", "m", 0, half_width), ("peak pressure", "Pa", 1, peak)):
         yield against("hertz", f"cylinder, {name}", fine[k], theirs, abs(fine[k] / coarse[k] - 1), unit)
 
@@ -149,10 +150,8 @@ def mean(values: Sequence[float], theirs: float) -> tuple[float, float, float]:
 
 def drawn(found: list[tuple[float, float]]) -> Figure:
     """Contact of the wave over the load."""
-    canvas, ax = plotting.axes(width=5.6, height=3.6)
-    dense = np.linspace(0, 1, 200)
-    ax.plot(dense, [references.westergaard_area(s) for s in dense], "-", label="Westergaard 1939")
-    ax.errorbar(SHARES, [a for a, _ in found], [a * e for a, e in found], fmt="o", label="lubfric")
-    ax.set(xlabel="p/p*", ylabel="share of the length in contact")
-    ax.legend()
-    return plotting.finish("wave", canvas, "Contact of a wave with a flat, ours with its error beside the closed form")
+    dense, (ours, errors) = np.linspace(0, 1, 200), np.array(found).T
+    theirs = (dense, [references.westergaard_area(s) for s in dense], "-", "Westergaard 1939")
+    curves = [theirs, (SHARES, ours, "o", "lubfric", ours * errors)]
+    caption = "Contact of a wave with a flat, ours with its error beside the closed form"
+    return plotting.chart("wave", caption, curves, xlabel="p/p*", ylabel="share of the length in contact")

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -63,10 +64,12 @@ def flash(shape, step: float) -> float:
 
 def drawn(found: list[float]) -> Figure:
     """Stress over the Nahme number."""
-    canvas, ax = plotting.axes(width=5.6, height=3.6)
     dense = np.geomspace(0.03, 300, 100)
-    ax.loglog(dense, [references.nahme(n) for n in dense], "-", label="Nahme 1940")
-    ax.loglog(NUMBERS, found, "o", label="lubfric")
-    ax.set(xlabel="Nahme number", ylabel="stress over the isothermal one")
-    ax.legend()
-    return plotting.finish("nahme", canvas, "Shear of a film that heats itself")
+    curves = [(dense, [references.nahme(n) for n in dense], "-", "Nahme 1940"), (NUMBERS, found, "o", "lubfric")]
+    scales: dict[str, Any] = {
+        "xscale": "log",
+        "yscale": "log",
+        "xlabel": "Nahme number",
+        "ylabel": "stress over the isothermal one",
+    }
+    return plotting.chart("nahme", "Shear of a film that heats itself", curves, **scales)

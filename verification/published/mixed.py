@@ -40,11 +40,8 @@ def mixed(level: str) -> Iterator[Item]:
 
 def drawn(ours: np.ndarray, own: np.ndarray) -> Figure:
     """Shares over the ratio, in the band of the laws."""
-    canvas, ax = plotting.axes(width=6.0, height=4.0)
     dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
-    for name, law in references.LOAD_SHARES.items():
-        ax.plot(dense, law(dense), "-", lw=1.0, label=name)
-    ax.errorbar(RATIOS, ours, own, fmt="ko", label="lubfric, three kinds of roughness")
-    ax.set(xscale="log", xlabel="film/Sq", ylabel="share of the load")
-    ax.legend(fontsize=8)
-    return plotting.finish("shares", canvas, "Load share of the asperities beside four published laws")
+    curves: list[tuple] = [(dense, law(dense), "-", name) for name, law in references.LOAD_SHARES.items()]
+    curves.append((RATIOS, ours, "ko", "lubfric, three kinds of roughness", own))
+    caption = "Load share of the asperities beside four published laws"
+    return plotting.chart("shares", caption, curves, xscale="log", xlabel="film/Sq", ylabel="share of the load")

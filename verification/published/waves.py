@@ -142,16 +142,20 @@ def sliding(speed: float, length: float) -> Check:
 
 def drawn(table: dict[tuple[float, int], tuple[float, float]]) -> Figure:
     """Amplitude kept in pure rolling over the wavelength."""
-    canvas, ax = plotting.axes(width=6.0, height=4.0)
     dense = np.geomspace(0.1, 5, 100)
-    ax.loglog(dense, [references.amplitude_fit(100, 11, n) for n in dense], "k-", lw=0.8, label="their fit")
+    curves: list[tuple] = [(dense, [references.amplitude_fit(100, 11, n) for n in dense], "k-", "their fit")]
     for column, height in enumerate(HEIGHTS):
         points = {n: v for (n, c), v in table.items() if c == column}
         if points:
-            lengths, values = list(points), np.array(list(points.values()))
-            ax.errorbar(lengths, *values.T, fmt="osD"[column], label=f"lubfric, height {height:g} of the film")
+            ours, errors = np.array(list(points.values())).T
+            curves.append((list(points), ours, "osD"[column], f"lubfric, height {height:g} of the film", errors))
     theirs = [row[0] for row in references.AMPLITUDES.values()]
-    ax.loglog(list(references.AMPLITUDES), theirs, "x", ms=8, label="Venner et al. 1997, height 0.1")
-    ax.set(xlabel="wavelength/b", ylabel="amplitude in the film over that of the surface")
-    ax.legend()
-    return plotting.finish("waves", canvas, "Waves in pure rolling, M = 100, L = 11: what the film keeps of them")
+    curves.append((list(references.AMPLITUDES), theirs, "kx", "Venner et al. 1997, height 0.1"))
+    caption = "Waves in pure rolling, M = 100, L = 11: what the film keeps of them"
+    labels: dict[str, Any] = {
+        "xscale": "log",
+        "yscale": "log",
+        "xlabel": "wavelength/b",
+        "ylabel": "amplitude in the film over that of the surface",
+    }
+    return plotting.chart("waves", caption, curves, **labels)

@@ -22,12 +22,8 @@ def main(argv: list[str]) -> int:
 
 
 def _options(parser: ArgumentParser) -> None:
-    words = "cut the measured map of this scene in pieces, in place of others"
     parser.add_argument("--seed", type=int, default=SEED, help="of the surfaces (default: %(default)s)")
-    parser.add_argument("--map", metavar="SCENE", help=words)
-    parser.add_argument("--cuts", type=int, nargs=2, default=(2, 2), metavar=("X", "Y"), help="of that map")
 
 
 def _own(part: str, options: Namespace) -> dict:
-    of_map = {"scene": options.map, "cuts": tuple(options.cuts)} if part == "pieces" else {}
-    return of_map if part == "quantities" else of_map | {"seed": options.seed}
+    return {} if part == "quantities" else {"seed": options.seed}

@@ -15,7 +15,7 @@ from ..kept import Run
 from . import SEED
 from .coverage import SHARED, chance, solve, within
 
-MAP = (1600, 1600)  # cells
+MAP, CUTS = (1600, 1600), (2, 2)  # cells; pieces
 MAPS = {"quick": 1, "default": 2, "full": 6}
 PIECES, ASKED = (0.85, 0.99), 0.02  # bounds of the coverage by pieces; their standard error
 GENERATED = ("sq", "correlation_length")  # keys that do not go with a file
@@ -23,17 +23,10 @@ SCENES = {"quick": 4, "default": 24, "full": 100}
 TIGHT, FLOOR, WITHIN = 1e-4, 1e-3, 0.95  # tolerance of the reference; what it may be off by; share asked for
 
 
-def pieces(level: str, run: Run = Run(), seed: int = SEED, scene: str | None = None, cuts=(2, 2)) -> Iterator[Item]:
-    """How often the interval of a piece holds the friction of the map that it was cut from.
-
-    The maps are generated ones, or the measured map of ``scene`` at its entrainment speed.
-    """
-    if scene:
-        maps = [(scene, 0, tuple(cuts))]
-    else:
-        maps = [("", seed + 90_000 + k, (2, 2)) for k in range(MAPS[level])]
-    places = [None, *np.ndindex(*maps[0][2])]
-    cases = {f"{one}, piece {place}": (*one, place) for one in maps for place in places}
+def pieces(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
+    """How often the interval of a quarter of a map holds the friction of the whole."""
+    maps, places = range(seed + 90_000, seed + 90_000 + MAPS[level]), (None, *np.ndindex(CUTS))
+    cases = {f"{one}, piece {place}": (one, place) for one in maps for place in places}
     rows = [row for _, row in run.solved(cases, piece)]
     covered = []
     for whole, *parts in np.array(rows).reshape(len(maps), len(places)).tolist():
@@ -42,32 +35,20 @@ def pieces(level: str, run: Run = Run(), seed: int = SEED, scene: str | None = N
     yield within(words, float(np.mean(covered)), len(covered), PIECES, "the whole map")
 
 
-def piece(case: tuple) -> dict:
+def piece(case: tuple[int, tuple[int, int] | None]) -> dict:
     """A point on one piece of a map (None: all of it), which is written and read again as instrument files are."""
-    name, seed, cuts, place = case
-    if name:
-        scene, contact = lubfric.load_scene(name).with_(numerics={"model": "load-sharing"}), {}
-        rough, speed = scene.surface, scene.motion.entrainment_speed
-        whole = lubfric.read_surface(rough.file, spacing=rough.spacing, unit=rough.unit, level=False)
-    else:
-        scene, contact, speed = SHARED, {"shape": None, "spacing": None}, 0.02
-        keys = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
-        whole = lubfric.generate_surface(MAP, 0.45e-6, **keys)
+    seed, place = case
+    keys = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
+    whole = lubfric.generate_surface(MAP, 0.45e-6, **keys)
     heights = whole.heights
     if place is not None:
-        nx, ny = heights.shape[0] // cuts[0], heights.shape[1] // cuts[1]
+        nx, ny = heights.shape[0] // CUTS[0], heights.shape[1] // CUTS[1]
         heights = heights[place[0] * nx : (place[0] + 1) * nx, place[1] * ny : (place[1] + 1) * ny]
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "piece.npy"
         np.save(file, heights)
-        named = {
-            "file": str(file),
-            "spacing": tuple(whole.spacing),
-            "unit": "m",
-            "sq": None,
-            "correlation_length": None,
-        }
-        return solve(scene.with_(surface=named, contact=contact), speed, ASKED)
+        named = {"file": str(file), "spacing": tuple(whole.spacing), "unit": "m"} | dict.fromkeys(GENERATED)
+        return solve(SHARED.with_(surface=named, contact={"shape": None, "spacing": None}), 0.02, ASKED)
 
 
 def quantities(level: str, run: Run = Run()) -> Iterator[Item]:

@@ -51,10 +51,23 @@ def wiring(part: str, title: str) -> Study:
 
 
 def published(name: str, title: str) -> Study:
-    """A part of ``python -m verification published`` in which nothing is known to differ."""
+    """A part of ``python -m verification published``."""
     return Study(name, f"verification.published.{name}:{name}", f"{title}, beside publications", grade="A")
 
 
+DRY = published("dry", "Dry contact: Hertz, waves, rough surfaces")
+HEAT = published("heat", "Heat of a film")
+OILS = published("oils", "Oils: viscosity, density, pressure-viscosity coefficient")
+PUBLISHED: tuple[Study, ...] = (
+    DRY,
+    published("films", "Smooth films"),
+    published("cavitation", "Films that rupture and fill again"),
+    published("friction", "Rolling and sliding friction of smooth films"),
+    published("waves", "Waves of a surface in the film, at rest and moving"),
+    HEAT,
+    OILS,
+    published("mixed", "Mixed lubrication"),
+)
 STUDIES: tuple[Study, ...] = (
     study("reynolds", "Reynolds equation on a line", grade="B"),
     study("reynolds_surface", "Reynolds equation on a surface", grade="B"),
@@ -68,9 +81,9 @@ STUDIES: tuple[Study, ...] = (
     study("load_sharing", "Load sharing, both halves by finite elements"),
     study("deterministic", "One gap, one pressure: limits, and the film in the same gap by finite elements"),
     study("sharing_cases", "Load sharing by finite elements: other oils, sliding, yielding, flat, a measured map"),
-    published("dry", "Dry contact: Hertz, waves, rough surfaces"),
-    published("oils", "Oils"),
-    published("heat", "Heat of a film"),
+    DRY,
+    OILS,
+    HEAT,
     study("sampling", "Surfaces as a sample: their statistics, and the scatter of f"),
     study("formulations", "Contact formulations of the paper against the default"),
     wiring("film", "film and shear"),

@@ -2,21 +2,22 @@
 
 import numpy as np
 
-import lubfric
-
 from ..check import AT_LEAST, Check, Table, bound, compared
 from ..convergence import Series, convergence
+from ..exact_contact import Line
 from ..fem.compliance import Elastic
 from ..fem.contact import Contact, solve_contact
 from ..fem.layer import Layer, graded_mesh, make_layer
 from ..fem.triangles import von_mises
 from ..meshes import mesh_field
+from ..parts import pressed_cylinder
 
 E_PRIME, RADIUS, LINE_LOAD = 231e9, 2e-3, 5.5 / 6e-3
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
 B = float(np.sqrt(8 * LINE_LOAD * RADIUS / (np.pi * E_PRIME)))
 PEAK = 2 * LINE_LOAD / (np.pi * B)
 CAP = 0.7 * PEAK
+LINE = Line(E_PRIME, RADIUS, B)
 HERTZ = "Hertz line contact, closed form (Johnson 1985, Contact Mechanics, ch. 4)"
 DRY = "lubfric.solve_contact"
 
@@ -57,17 +58,6 @@ def hertz_pressure(x, load: float):
     return 2 * load / (np.pi * b) * np.sqrt(np.maximum(1 - (x / b) ** 2, 0))
 
 
-def line_contact(cells: int, limit: float | None = None):
-    """(x, result) of `lubfric` with ``cells`` cells across the Hertz width, in a box of twice that width."""
-    step = 2 * B / cells
-    x = (np.arange(2 * cells) - cells + 0.5) * step
-    gap0 = np.repeat((x**2 / (2 * RADIUS))[:, None], 2, axis=1)
-    mean = LINE_LOAD / (2 * cells * step)
-    return x, lubfric.solve_contact(
-        gap0, step, E_PRIME, mean_pressure=mean, hardness=limit, boundary=("free", "periodic"), tolerance=1e-8
-    )
-
-
 def half_width(x, pressure) -> float:
     """Half-width where p² would vanish, from its slope against x² at more than 0.3 of the peak."""
     high = pressure > 0.3 * pressure.max()
@@ -79,7 +69,7 @@ def hertz(level: str):
     """Hertz pressure: the orders, and the finest mesh against the closed form and `lubfric`."""
     fines = 0.4 / 2.0 ** np.arange({"quick": 3, "default": 4, "full": 5}[level])
     rows, series = [], []
-    x, smooth = line_contact(400)
+    x, smooth = pressed_cylinder(LINE, 200)
     for degree in (2,) if level == "quick" else (1, 2):
         errors, off = [], []
         for fine in fines:
@@ -117,7 +107,7 @@ def edge_mean_error(found: Layer, fine: float) -> float:
 def capped_cylinder(found: Layer, elastic: Contact, x, smooth, level: str):
     """The cylinder with pressures cut at 0.7 of the Hertz peak, and the stress below the elastic one."""
     p = press(found, limit=CAP)
-    _, other = line_contact(400, CAP)
+    _, other = pressed_cylinder(LINE, 200, CAP)
     width = (x[1] - x[0]) * np.count_nonzero(other.pressure[:, 0] >= CAP)
     note = "cap 0.7 of the elastic peak; counts of whole cells on both sides"
     rows = [("width at the cap", "m", found.weights @ p.saturated, width, 0.04 if level == "quick" else 0.015)]

@@ -7,6 +7,7 @@ import lubfric
 from ..check import AT_LEAST, Table, bound, compared
 from ..convergence import Series, convergence
 from ..exact_contact import Line, Sphere, Wave
+from ..parts import pressed_cylinder
 
 E_PRIME, RADIUS, SIZE = 231e9, 2e-3, 4.5e-6  # Pa, m, m: modulus, radius, contact size of the paper
 TOLERANCE = 1e-8
@@ -74,19 +75,15 @@ def centred(count: int, step: float) -> np.ndarray:
 
 def cylinder(cells: int, place: float) -> tuple[float, ...]:
     """Errors with ``cells + place`` cells in the half-width. The patch is four half-widths wide and four cells long."""
-    across = cells + place
-    exact, dx = Line(E_PRIME, RADIUS, SIZE), SIZE / across
-    n = 2 * int(2 * across)
-    x = centred(n, dx)
-    gap0 = np.tile(x[:, None] ** 2 / (2 * RADIUS), (1, 4))
-    options = {"boundary": ("free", "periodic"), "tolerance": TOLERANCE}
-    c = lubfric.solve_contact(gap0, dx, E_PRIME, mean_pressure=exact.load / (n * dx), **options)
+    exact = Line(E_PRIME, RADIUS, SIZE)
+    x, c = pressed_cylinder(exact, cells + place)
+    dx = x[1] - x[0]
     p = c.pressure[:, 0]
     return (
         p.max() / exact.peak - 1,
         2 * np.sqrt(p @ x**2 / p.sum()) / SIZE - 1,
         np.count_nonzero(p) * dx / (2 * SIZE) - 1,
-        c.gap.mean() / exact.mean_gap(n * dx / 2) - 1,
+        c.gap.mean() / exact.mean_gap(x[-1] + dx / 2) - 1,
     )
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import dry_contact, lay_out, reach, solve_point
+from lubfric.deterministic import dry_contact, lay_out, solve_point
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
 from lubfric.surface import Surface
@@ -14,6 +14,8 @@ from lubfric.surface import Surface
 from ..check import ABSOLUTE, Check, compared
 from ..fem.fluid import Fluid
 from ..fem.rough_film import GivenGap, rough_film
+from ..parts import line_contact
+from ..waves import smooth_film
 from .given_fluid import contact_given_fluid
 from .waviness import waviness
 
@@ -50,9 +52,9 @@ def deterministic(level: str):
     yield from waviness(level)
 
 
-def contact(speed: float, load: float = LOAD, lubricant: Lubricant | None = None) -> LineContact:
+def contact(speed: float) -> LineContact:
     """The paper's cylinder."""
-    return LineContact(load, RADIUS, E_PRIME, speed, lubricant or Lubricant(VISCOSITY, ALPHA))
+    return LineContact(LOAD, RADIUS, E_PRIME, speed, Lubricant(VISCOSITY, ALPHA))
 
 
 def surface(cells: int, seed: int = 1) -> Surface:
@@ -72,22 +74,9 @@ def problem(cells: int, speed: float, seed: int = 1):
 def smooth():
     """A surface without roughness."""
     for speed, load in ((0.3, LOAD), (0.1, 20 * LOAD)):
-        oil: dict[str, Any] = {
-            "viscosity": VISCOSITY,
-            "pressure_viscosity_coefficient": ALPHA,
-            "density_law": "dowson-higginson",
-        }
-        line = contact(speed, load, Lubricant(**oil))
-        step = sum(reach(line, 0.0)) / 512
-        flat = Surface(np.zeros((64, 1)), (step, step), periodic_axes=(True, True))
-        found = solve_point(lay_out(flat, line, sliding=2 * speed, boundary_friction=0.09))
-        body: dict[str, Any] = {
-            "load_per_width": load,
-            "radius": RADIUS,
-            "e_prime": E_PRIME,
-            "entrainment_speed": speed,
-        }
-        film = lubfric.solve_ehl(**body, **oil, tolerance=1e-4)
+        case: dict[str, Any] = {"load_per_width": load, "entrainment_speed": speed, "density_law": "dowson-higginson"}
+        case |= {"radius": RADIUS, "e_prime": E_PRIME, "viscosity": VISCOSITY, "pressure_viscosity_coefficient": ALPHA}
+        found, film = smooth_film(line_contact(case), 2 * speed), lubfric.solve_ehl(**case, tolerance=1e-4)
         rows = [
             ("smallest film", "m", found.min_gap, film.min_film, 1e-3),
             ("flow film", "m", found.flow_film, film.flow_film, 1e-3),

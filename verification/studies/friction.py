@@ -157,14 +157,15 @@ def area_of_the_balance():
     widths = np.array(WIDTHS) * 1e6
     columns, rows = ("width (µm)", "strip |x| <= b", "whole box"), zip(widths.tolist(), strip.tolist(), box.tolist())
     yield Table("area", "F_H in N at 0.001 m/s.", columns, tuple(rows))
-    canvas, ax = plotting.axes(height=3.4)
-    for line, label in ((strip, "A: Hertz strip of the total load"), (box, "A: the whole box")):
-        ax.plot(widths, line, "o-", label=label)
-    ax.set(xlabel="width of the patch (µm)", ylabel="$F_H$ (N)", ylim=(0, 1.2 * max(*strip, *box)))
-    ax.legend(loc="lower right")
     caption = "Film load at 0.001 m/s against the width of the patch, for the two readings of the area A in Eq. (8): "
     caption += "over the Hertz strip it does not depend on how wide a box was drawn."
-    yield plotting.finish("area", canvas, caption)
+    curves = [(widths, strip, "o-", "A: Hertz strip of the total load"), (widths, box, "o-", "A: the whole box")]
+    labels: dict[str, Any] = {
+        "xlabel": "width of the patch (µm)",
+        "ylabel": "$F_H$ (N)",
+        "ylim": (0, 1.2 * max(*strip, *box)),
+    }
+    yield plotting.chart("area", caption, curves, **labels)
 
 
 def patch_size():

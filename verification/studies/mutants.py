@@ -85,7 +85,18 @@ def trial(mutant: Mutant | None, names: tuple[str, ...]) -> int:
         if mutant is not None:
             file, content = mutant.broken(library)
             file.write_text(content, encoding="utf-8")
-        command = [sys.executable, "-m", "verification", "--quick", "--out", str(out), "--only", *names]
+        command = [
+            sys.executable,
+            "-m",
+            "verification",
+            "--quick",
+            "--workers",
+            "1",
+            "--out",
+            str(out),
+            "--only",
+            *names,
+        ]
         if is_test(names[0]):
             options = ["-x", "-q", "-p", "no:cacheprovider", f"--basetemp={out}", f"--rootdir={ROOT}"]
             files = [str(ROOT / "tests" / name) for name in names]

@@ -11,8 +11,8 @@ from itertools import takewhile
 from .. import wording
 from ..check import Check
 from ..references import SOURCES, Source
-from ..run import Outcome, quiet, run_one
-from ..studies import STUDIES
+from ..run import Outcome, run_one
+from ..studies import PUBLISHED, STUDIES
 from .measured import Cells
 
 LEVEL = "default"
@@ -21,7 +21,7 @@ LEVEL = "default"
 @cache
 def ran(name: str) -> Outcome:
     """The study ``name``; raises RuntimeError where it did not come to its end."""
-    outcome = run_one(next(study for study in STUDIES if study.name == name), LEVEL, quiet)
+    outcome = run_one(next(study for study in STUDIES if study.name == name), LEVEL)
     if outcome.error:
         raise RuntimeError(f"{name}: {outcome.error}")
     return outcome
@@ -74,9 +74,7 @@ def formulations() -> Cells:
 def publications() -> Cells:
     """How many checks of `python -m verification published` passed, and how far ours is off: every source that differs
     somewhere, and all others together."""
-    from ..published import STUDIES as parts
-
-    checks = [c for part in parts.values() for c in run_one(part, LEVEL, quiet).checks]
+    checks = [c for part in PUBLISHED for c in run_one(part, LEVEL).checks]
     groups: dict[str, list[Check]] = {}
     agreed = []
     for source in SOURCES.values():

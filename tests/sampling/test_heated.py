@@ -1,0 +1,58 @@
+"""Heat in the deterministic answer: on smooth surfaces that of the smooth film, without heat the isothermal answer."""
+
+import pytest
+from scene_text import paper_scene
+
+import lubfric
+
+ROLLER = paper_scene(
+    bodies={"radius": 0.01, "hertz_pressure": 0.9e9, "width": 0.01, "e_prime": 2.27e11},
+    lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "eyring_stress": 5e6},
+    contact={"shape": (64, 16), "spacing": 8e-6},
+    surface={"sq": 5e-8, "correlation_length": 3e-5, "acf": "gaussian"},
+    numerics={"sampling": "patch", "accept": True},
+)
+
+
+def solved(speed, *, sq=5e-8, bodies=None, oil=None, **numerics):
+    scene = ROLLER.with_(bodies=bodies or {}, surface={"sq": sq}, lubricant=oil or {}, numerics=numerics)
+    return lubfric.friction(scene, speed)
+
+
+def test_heat_does_to_smooth_surfaces_what_it_does_to_the_smooth_film():
+    """The other model finds film and heat on a line, by other equations."""
+    (hot, cold), (film, cold_film) = (
+        [solved(3.0, sq=1e-10, model=model, heat=heat) for heat in ("on", "off")]
+        for model in ("deterministic", "load-sharing")
+    )
+    assert film.coefficient < 0.5 * cold_film.coefficient and film.central_film < 0.9 * cold_film.central_film
+    for name, near in (("coefficient", 0.01), ("central_film", 5e-3)):
+        found, known = (getattr(a, name) / getattr(b, name) for a, b in ((hot, cold), (film, cold_film)))
+        assert found == pytest.approx(known, rel=near), name
+    assert hot.coefficient == pytest.approx(film.coefficient, rel=0.01)
+    assert hot.inlet_film_factor == film.inlet_film_factor
+    assert hot.flash_temperature_rise == pytest.approx(film.flash_temperature_rise, rel=0.02)
+
+
+def test_without_heat_it_is_the_isothermal_answer():
+    """Where bodies carry all heat away, and the viscosity does not fall."""
+    kept: dict = {"heat": "on", "bodies": {"conductivity": (1e12, 1e12)}}
+    kept |= {"oil": {"temperature_coefficient": 1e-7, "conductivity": 2.0}}
+    found, cold = (solved(0.3, model="deterministic", **how) for how in (kept, {"heat": "off"}))
+    assert found.coefficient != cold.coefficient
+    assert found.coefficient == pytest.approx(cold.coefficient, rel=3e-4)
+    assert found.uncertainty.model == pytest.approx(cold.uncertainty.model, rel=2e-3)
+
+
+def test_what_heat_does_to_f_is_partly_in_the_interval():
+    hot, cold = (solved(0.3, model="deterministic", heat=heat) for heat in ("on", "off"))
+    assert hot.uncertainty.model >= 0.5 * abs(cold.coefficient / hot.coefficient - 1) > 0
+    assert "another factor" in hot.decision.text and "f without the heat of the inlet" in hot.decision.text
+    assert cold.inlet_film_factor == 1 and cold.film_temperature_rise == 0 and cold.decision.heat == ""
+
+
+def test_much_heat_is_left_to_load_sharing_or_told():
+    auto, asked = (solved(3.0, model=model) for model in ("auto", "deterministic"))
+    assert auto.deterministic is None and "of the film and takes" in auto.decision.text
+    assert asked.deterministic is not None and any("most that was checked" in e.what for e in asked.validity)
+    assert solved(0.02, model="auto").deterministic is not None
