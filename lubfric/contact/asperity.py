@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .._base import increasing_root, validate
-from ..errors import CONVERGED, STAGNATED, InputError, Report
+from ..errors import CONVERGED, STAGNATED, InputError, Report, returned
 from .asperity_find import FINDERS
 
 DEFINITIONS = tuple(FINDERS)
@@ -181,10 +181,7 @@ def separation_for_load(
         evaluations=scanned + len(history),
         advice=advice,
     )
-    best = replace(best, report=report)
-    if raise_on_failure:
-        report.raise_if_failed(best)
-    return best
+    return returned(replace(best, report=report), raise_on_failure)
 
 
 def _closest(found, top: float, span: float, target: float, tolerance: float):

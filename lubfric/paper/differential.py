@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from .._base import validate
-from ..errors import CONVERGED, STAGNATED, InputError, Report, worst
+from ..errors import CONVERGED, STAGNATED, InputError, Report, returned, worst
 from ..film import (
     Effort,
     EHLResult,
@@ -85,9 +85,7 @@ def solve_differential_deflection(
     cells = _cells(problem, ends, nodes, most_nodes)
     levels = _ascend(problem, ends, cells, tolerance, max_iterations, doubled=nodes is None)
     result = assemble(problem, levels, tolerance)
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result
+    return returned(result, raise_on_failure)
 
 
 def domain_ends(problem: Problem, domain) -> tuple[float, float]:

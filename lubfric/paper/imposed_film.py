@@ -13,7 +13,7 @@ import numpy as np
 
 from .._base import increasing_root, validate
 from ..contact import ContactResult, Found, Problem, State, concluded, look, make_problem, refine, state_of
-from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, InputError
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, InputError, returned
 
 UPDATES = ("root", "repeat")
 
@@ -85,9 +85,7 @@ class ImposedFilm:
             found = iterate(first)
         control = {"volume": abs(self.surplus(found.state))}
         result = concluded(self.problem, replace(found, solver=solver), control, STAGNATED)
-        if raise_on_failure:
-            result.report.raise_if_failed(result)
-        return result
+        return returned(result, raise_on_failure)
 
 
 def impose(heights, film, spacing, e_prime, *, weight=None, **problem) -> ImposedFilm:

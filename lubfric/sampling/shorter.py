@@ -22,6 +22,8 @@ from .scatter import BlockError, block_error
 
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
 MOST_PIECES = 4
+MOVING = 0.8  # times (cell/correlation length)²: error of f where roughness moves, at least; one change may be small
+# by chance (f moved by 1.4 % to cells of 0.4 correlation lengths, and by 13.6 % to half of that)
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 LENGTH, SHORTEST = 42.0, 14.0  # correlation lengths: pieces of the third level, and the one of the last
@@ -47,7 +49,7 @@ def on_shorter_cells(
     by_longer = sum(changes_of((pair.longer, pair.resolved))[0] for pair in pairs) / len(pairs)
     factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.factors)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
-    left = max(estimate([by_longer]), SOLVED)
+    left = max(estimate([by_longer]), SOLVED, MOVING * _coarse(prepared) ** 2 if moves(scene) else 0.0)
     enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
     enough = enough and (strips.whole or _smooth(strips))
     own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
@@ -73,6 +75,14 @@ def on_shorter_cells(
     scatter = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # of its mean over places
     left = math.hypot(max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), scatter)
     return pieces, shortest, error, left
+
+
+def _coarse(prepared: Prepared) -> float:
+    """Length of the cells of the deterministic model over the correlation length, the larger of both axes."""
+    strips = prepared.strips
+    assert strips is not None
+    sizes = zip(cells_of(strips, prepared.scene.bodies.half_width), strips.cells.coarse, strips.lengths)
+    return max(factor * cell / length for factor, cell, length in sizes)
 
 
 def _smooth(strips: Strips) -> bool:

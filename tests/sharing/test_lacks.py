@@ -77,3 +77,12 @@ def test_a_soft_body_is_told_how_thick_its_cover_has_to_be():
     soft = ROLLER.with_(bodies={"e_prime": 2e7, "load": 100.0})
     (cover,) = [what for what, *_ in lacking(soft, SQ, 1.0) if "cover" in what]
     assert f"{5e3 * soft.bodies.half_width:.2g} mm" in cover
+
+
+def test_a_starved_inlet_is_told_where_the_spots_carry_most():
+    """The film carries little there, and is thicker than that of the whole load would be."""
+    small = {"shape": (96, 48), "spacing": 1.1e-6}
+    scene = paper_scene(contact=small, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"})
+    point = lubfric.friction(scene.with_(lubricant={"inlet_length": 60e-6}), 0.03)
+    (told,) = (entry for entry in point.validity if "full inlet" in entry.what)
+    assert point.contact_load > point.film_load and told.value < 0.8
