@@ -2,6 +2,9 @@
 
 import math
 from dataclasses import asdict, dataclass, field
+from typing import Any, TypeVar
+
+T = TypeVar("T", bound=Any)  # a result with a report
 
 
 class LubfricError(Exception):
@@ -155,3 +158,11 @@ class Report:
     def as_dict(self) -> dict:
         """Plain types only, ready for JSON."""
         return asdict(self) | {"converged": self.converged}
+
+
+def returned(result: T, raise_on_failure: bool = True) -> T:
+    """``result``, which has a ``report``; where that failed and it is asked for, the `ConvergenceError` that carries
+    both."""
+    if raise_on_failure:
+        result.report.raise_if_failed(result)
+    return result

@@ -49,8 +49,6 @@ def write_x3p(
     xml=None,
     data_name="bindata/data.bin",
     stored_name=None,
-    point_md5=None,
-    main_md5=None,
     skip=(),
     extra=(),
 ):
@@ -63,8 +61,7 @@ def write_x3p(
     valid = None if mask is None else np.packbits(mask.T.ravel(), bitorder="little").tobytes()
     z_axis = "" if increment is None else f"<Increment>{increment!r}</Increment>"
     links = f"<PointDataLink>{data_name}</PointDataLink>"
-    point_md5 = point_md5 or hashlib.md5(data).hexdigest().upper()
-    links += f"<MD5ChecksumPointData>{point_md5}</MD5ChecksumPointData>"
+    links += f"<MD5ChecksumPointData>{hashlib.md5(data).hexdigest().upper()}</MD5ChecksumPointData>"
     if valid is not None:
         links += "<ValidPointsLink>bindata/valid.bin</ValidPointsLink>"
         links += f"<MD5ChecksumValidPoints>{hashlib.md5(valid).hexdigest()}</MD5ChecksumValidPoints>"
@@ -82,7 +79,7 @@ def write_x3p(
     members = [
         ("main.xml", text),
         (stored_name or data_name, data),
-        ("md5checksum.hex", f"{main_md5 or hashlib.md5(text).hexdigest()} *main.xml".encode()),
+        ("md5checksum.hex", f"{hashlib.md5(text).hexdigest()} *main.xml".encode()),
     ]
     members += [("bindata/valid.bin", valid)] if valid is not None else []
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:

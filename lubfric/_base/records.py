@@ -1,7 +1,7 @@
 """How dataclasses of results and scenes behave: arrays stay read-only, derived values are not pickled, and they print
 as one line, as a table in notebooks, or as the call that makes them."""
 
-from dataclasses import MISSING, Field, fields
+from dataclasses import MISSING, fields
 from html import escape
 from typing import Any
 
@@ -9,14 +9,14 @@ import numpy as np
 
 
 class FrozenArrays:
-    """Base of frozen dataclasses: every array field is read-only, after copying and unpickling too."""
+    """Base of frozen dataclasses: every array field is read-only, after copying and unpickling too. The arrays have to
+    be its own."""
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        self.freeze()
+        FrozenArrays.__post_init__(self)
 
-    def freeze(self) -> None:
-        """Make the array fields read-only (call it in ``__post_init__``, on arrays of one's own)."""
+    def __post_init__(self) -> None:
         for value in self.__dict__.values():
             if isinstance(value, np.ndarray):
                 value.flags.writeable = False
@@ -58,9 +58,9 @@ class Brief:
 
 def changed(part: Any) -> dict[str, Any]:
     """The fields of a dataclass that differ from their defaults, by name."""
-    values = {f.name: (getattr(part, f.name), _default(f)) for f in fields(part)}
-    return {name: value for name, (value, default) in values.items() if default is MISSING or value != default}
-
-
-def _default(field: Field) -> Any:
-    return field.default if field.default_factory is MISSING else field.default_factory()
+    found = {}
+    for f in fields(part):
+        value, default = getattr(part, f.name), f.default if f.default_factory is MISSING else f.default_factory()
+        if default is MISSING or value != default:
+            found[f.name] = value
+    return found

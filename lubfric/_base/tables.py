@@ -46,21 +46,14 @@ def plain(value):
 
 def read_json(path, remedy: str) -> Any:
     """What is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut off,
-    nested too deeply or binary, or if it says a key twice."""
+    nested too deeply or binary."""
     if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
         raise InputError(f"{path} is no file; {remedy}")
     try:
-        return json.loads(Path(path).read_bytes().decode("utf-8"), object_pairs_hook=_once)
+        return json.loads(Path(path).read_bytes().decode("utf-8"))
     except (OSError, ValueError, RecursionError, MemoryError) as problem:
         why = problem.strerror if isinstance(problem, OSError) else type(problem).__name__
         raise InputError(f"{path} is damaged, or no such record ({why}); {remedy}") from None
-
-
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found = dict(pairs)
-    if len(found) < len(pairs):
-        raise ValueError("a key twice")
-    return found
 
 
 def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:

@@ -53,9 +53,6 @@ class HalfSpace(FrozenArrays, FieldsOnly):
     symbol: np.ndarray
     workers: int | None = None
 
-    def __post_init__(self):
-        self.freeze()
-
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Deflection [m] (nx, ny) under ``pressure`` [Pa] (nx, ny), in the precision of ``symbol``.
 

@@ -109,11 +109,9 @@ def centred_axis(count: int, step: float) -> np.ndarray:
 
 def area_weight(scene: Scene, x: np.ndarray, step: float) -> np.ndarray:
     """Part of each cell inside the area A of Eq. (8) that the scene asks for: the whole patch, or the Hertz strip."""
-    return np.ones(x.size) if scene.contact.region == "box" else strip_weight(x, step, scene.bodies.half_width)
-
-
-def strip_weight(x: np.ndarray, step: float, half_width: float) -> np.ndarray:
-    """Part of each cell within |x| <= half_width; cells that its edge cuts count by their share."""
+    if scene.contact.region == "box":
+        return np.ones(x.size)
+    half_width = scene.bodies.half_width  # cells that its edge cuts count by their share
     inside = np.minimum(x + step / 2, half_width) - np.maximum(x - step / 2, -half_width)
     weight = np.clip(inside / step, 0.0, 1.0)
     if not weight.any():

@@ -47,9 +47,6 @@ class RunIn(FrozenArrays, Shown):
     shaken_down: bool
     ends: tuple[Surface, ...] = ()
 
-    def __post_init__(self):
-        self.freeze()
-
     @property
     def dents(self) -> np.ndarray:
         """Depth of the dents [m], (nx, ny)."""

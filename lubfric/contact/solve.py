@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from .._base import increasing_root, validate
-from ..errors import CONVERGED, ITERATION_LIMIT, InputError
+from ..errors import CONVERGED, ITERATION_LIMIT, InputError, returned
 from .problem import Problem, make_problem, rescaled, shifted, starting_pressure
 from .rounds import ContactResult, Found, State, concluded, refine, state_of
 from .search import FIRST_PACE
@@ -70,9 +70,7 @@ def solve_contact(
     else:
         found = _gap_controlled(problem, mean_gap, start)
     result = concluded(problem, found, _control(found.state, mean_pressure, mean_gap), ITERATION_LIMIT)
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result
+    return returned(result, raise_on_failure)
 
 
 def _control(state: State, mean_pressure, mean_gap) -> dict[str, float]:

@@ -19,6 +19,7 @@ from .state import RUPTURED, TOUCHING, Iterate, State, stored
 
 ACCURACY = 0.01  # of the residual of the linear system; 0.03 costs 7 % less, and fails at 1 GPa and 0.03 m/s
 KRYLOV, CYCLES = 40, 3
+PANEL = 4  # columns that are eliminated together: a sixth faster than the default
 SMALL = 24  # cells that nested dissection does not cut again
 
 
@@ -66,7 +67,9 @@ class System:
         scales = self.to_pressure, lifted, self.to_fill
         together = sum(data * scale.ravel()[Stencil.neighbours(*shape)] for data, scale in zip(rows, scales))
         self.order, matrix = patterns.order, patterns.ordered(together)
-        self.lu = splu(matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        self.lu = splu(
+            matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, panel_size=PANEL, options={"SymmetricMode": True}
+        )
         self.load_row = (self.load_by_p * self.to_pressure).ravel()
         self.solved_column = self._inner(self.by_h @ np.full(at.gap.size, self.film))  # of h0
         self.schur = float(self.load_by_h.sum()) * self.film - float(self.load_row @ self.solved_column)
@@ -133,10 +136,11 @@ def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYC
     rest = right.copy()
     for _ in range(cycles):
         beta = np.linalg.norm(rest)
-        basis = [rest / beta]
+        basis, directions = [rest / beta], []
         hessenberg = np.zeros((most + 1, most))
         for k in range(most):
-            image = apply(precondition(basis[k]))
+            directions.append(precondition(basis[k]))
+            image = apply(directions[k])
             for j, vector in enumerate(basis):
                 hessenberg[j, k] = vector @ image
                 image -= hessenberg[j, k] * vector
@@ -145,12 +149,12 @@ def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYC
             target = np.zeros(k + 2)
             target[0] = beta
             y, *_ = np.linalg.lstsq(hessenberg[: k + 2, : k + 1], target, rcond=None)
-            left = np.linalg.norm(hessenberg[: k + 2, : k + 1] @ y - target)
-            if left <= 0.5 * accuracy * size or hessenberg[k + 1, k] <= 1e-14 * beta:
+            left = target - hessenberg[: k + 2, : k + 1] @ y
+            basis.append(image / max(hessenberg[k + 1, k], 1e-300))
+            if np.linalg.norm(left) <= 0.5 * accuracy * size or hessenberg[k + 1, k] <= 1e-14 * beta:
                 break
-            basis.append(image / hessenberg[k + 1, k])
-        x = x + precondition(sum(c * v for c, v in zip(y, basis)))
-        rest = right - apply(x)
+        x = x + sum(c * z for c, z in zip(y, directions))
+        rest = sum(c * v for c, v in zip(left, basis))
         if np.linalg.norm(rest) <= accuracy * size:
             break
     return x, count

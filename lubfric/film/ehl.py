@@ -8,6 +8,7 @@ import math
 from dataclasses import replace
 
 from .._base import increasing_root, validate
+from ..errors import returned
 from ..oil import Lubricant
 from .assemble import assemble
 from .ehl_result import EHLResult
@@ -93,12 +94,10 @@ def solve_line_contact(
     state = None if start is None else start.state
     arriving = contact.lubricant.inlet_film
     if arriving is None:
-        result = assemble(*solved(problem, effort, state), effort.tolerance)
+        found = solved(problem, effort, state)
     else:
-        result = assemble(*_fed(problem, arriving / contact.film_unit, effort, state), effort.tolerance)
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result
+        found = _fed(problem, arriving / contact.film_unit, effort, state)
+    return returned(assemble(*found, effort.tolerance), raise_on_failure)
 
 
 def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Solved:

@@ -43,7 +43,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve_triangular
 
-from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
 from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, carreau_rate, log_viscosity_ratio, shear_stress
 
 FAST = 5.0  # Péclet number u b rho c/(2 k) from which a source moves fast
@@ -171,10 +171,7 @@ def heated_film(lubricant: Lubricant, x, pressure, film, around: Surroundings, *
     report = Report("heat of the film", status, len(history), history[-1], TOLERANCE, history=tuple(history))
     wall = np.interp(x, at, lubricant.temperature + rise)
     stress, film_rise = heated_stress(lubricant, pressure, film, around.sliding, wall)
-    found = FilmHeat(stress, wall, film_rise, report)
-    if raise_on_failure:
-        report.raise_if_failed(found)
-    return found
+    return returned(FilmHeat(stress, wall, film_rise, report), raise_on_failure)
 
 
 def _nodes(count: int) -> np.ndarray:

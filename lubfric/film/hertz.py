@@ -45,11 +45,6 @@ def line_peak_pressure(load_per_width, radius, e_prime):
     return 2 * load_per_width / (np.pi * line_half_width(load_per_width, radius, e_prime))
 
 
-def line_mean_pressure(load_per_width, radius, e_prime):
-    """w / (2 b) [Pa], pi/4 of the peak."""
-    return load_per_width / (2 * line_half_width(load_per_width, radius, e_prime))
-
-
 def line_pressure(x, load_per_width, radius, e_prime):
     """p(x) [Pa] = p_h sqrt(1 - x^2/b^2) inside, 0 outside; x [m] from the centre line."""
     ratio = np.asarray(x) / line_half_width(load_per_width, radius, e_prime)
@@ -93,8 +88,7 @@ class LineContact:
         speed = validate.number("entrainment_speed", self.entrainment_speed, "m/s")
         if speed == 0.0:
             raise InputError("entrainment_speed = 0 m/s carries no steady film; give another speed")
-        if not isinstance(self.lubricant, Lubricant):
-            raise InputError(f"lubricant = {self.lubricant!r} is not a Lubricant; allowed: lubfric.Lubricant")
+        validate.instance("lubricant", self.lubricant, Lubricant, "a lubfric.Lubricant")
         object.__setattr__(self, "entrainment_speed", speed)
         if self.sliding is not None:
             object.__setattr__(self, "sliding", validate.number("sliding", self.sliding, "m/s"))

@@ -1,7 +1,7 @@
 """A scene in words: its inputs with their units, regime numbers, and what will be solved."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import replace
 
@@ -9,15 +9,10 @@ import numpy as np
 
 from ..contact import MeasuredStrips, Strips, check_grid, contact_map, strips_of
 from ..errors import InputError
-from ..film import hertz
-from ..oil import estimate_in_words
-from ..quantities import KEYS, counted
+from ..quantities import counted
 from ..sampling import MOST_WORK, forecast
 from ..scene import (
     CHANGING,
-    FRICTION,
-    FRICTION_OVER,
-    HISTORIES,
     Harmonic,
     History,
     Scene,
@@ -25,15 +20,13 @@ from ..scene import (
     gap_not_resolved,
     moves,
     told_doubts,
-    typical,
 )
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
-from ..units import converted, worded
+from .inputs import FACTS, input_rows
 
-SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 STEP_TOLERANCE, SWING, START = 3e-5, 80.0, 30.0  # of a step; with it, steps in a period of a history; at the start
 FILM_STEP, CELL_STEP = 6e-3, 1.5e-7  # s of a step in time: its film, and a cell of its contact
 SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
@@ -61,7 +54,7 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     return "\n".join(
         [
             f"scene {scene.name}",
-            *(row for name in FACTS for row in _section(name, [*_inputs(scene, name), *FACTS[name](scene)])),
+            *(row for name in FACTS for row in _section(name, [*input_rows(scene, name), *FACTS[name](scene)])),
             *_section("transient", told),
             *_section("surface", [*map_in_words(surface, strips), *(n for n in whole.notes if "nm as it is" in n)]),
             *_map_rows(scene, whole, surface.heights.size),
@@ -123,10 +116,10 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
             "  (not where heat takes more than a fifth of f, or three tenths of the film)",
         ]
     if strip := max((one.moving for one in found), default=0.0):
-        rows += [
-            f"the roughness moves: one strip with one gap and one pressure takes about {in_words(strip)}; beyond "
-            f"{MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
-        ]
+        unseen = ", which Eq. (8) does not see" * (asked == "load-sharing")
+        beyond = f"; beyond {MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
+        takes = f"one strip with one gap and one pressure takes about {in_words(strip)}"
+        rows.append(f"the roughness moves{unseen}: {takes}{beyond * (asked == 'auto')}")
     if found:
         seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
         count = counted(len(moving), "speeds")
@@ -189,14 +182,14 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
     and what the sample costs."""
     head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (nm)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
     rows = ["  film of the whole load by closed forms, and whether it clears the summits", head]
-    sampled = strips is not None and scene.transient is None
-    if strips is not None and sampled:
+    strips = strips if scene.transient is None else None  # a run in time has one sample for all
+    if strips is not None:
         dx, dy = strips.cells.coarse
         asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} µm"
         rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
         rows[-1] += f" {'strips':>8} {'one gap':>8} {'length (mm)':>12} {'time (s)':>9}"
-    own = () if scene.transient is not None else (scene.motion.entrainment_speed,)
-    nothing = "no entrainment" if scene.transient is not None else "no entrainment: all contact"
+    own = (scene.motion.entrainment_speed,) if scene.transient is None else ()
+    nothing = "no entrainment" + ": all contact" * len(own)
     for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], *own, speeds[-1]}):
         one, film = forecast(scene, strips, surface, speed), f"{nothing:<38}"
         if speed != 0:
@@ -204,7 +197,7 @@ def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
             film = f"{line.M:9.3g} {line.L:8.3g} {line.expected_film * 1e9:10.4g} {ratio:8.3g}"
         row = f"  {speed:<12.4g} {film}  {one.touching:<22} {one.clearance:>14.2g}"
-        if sampled:
+        if strips is not None:
             row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
         rows.append(row)
     return rows
@@ -230,10 +223,7 @@ def _map_rows(scene: Scene, surface: Surface, solved: int) -> list[str]:
     the cells ``solved`` first."""
     (dx, dy), b = surface.spacing, scene.bodies.half_width
     along_x, along_y, total = rms_slope(surface)
-    in_um, in_cells = (
-        ["-", "-"],
-        ["-", "-"],
-    )  # of a map that has none: flat, one cell, or shorter than twice that length
+    in_um, in_cells = [["-", "-"] for _ in range(2)]  # of a map that has none: flat, one cell, or too short
     for axis, step in enumerate((dx, dy)):
         with suppress(InputError):
             length = correlation_length(surface, axis)
@@ -247,66 +237,3 @@ def _map_rows(scene: Scene, surface: Surface, solved: int) -> list[str]:
         ("length / 2b", f"{surface.size[0] / (2 * b):.3g}", "cells solved first", f"{solved}, {memory}"),
     ]
     return [f"    {left:<12} {value:<11} {right:<19} {text}" for left, value, right, text in rows]
-
-
-def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
-    """(what it is, the value with its unit, the key, and its range, its table, or the range of typical values) of every
-    input in a section of the scene."""
-    for key, quantity in KEYS.items():
-        value = getattr(getattr(scene, section, None), key.removeprefix(f"{section}."), None)
-        if not key.startswith(f"{section}.") or value is None or value == ():
-            continue
-        text = worded(value, quantity.unit)
-        if key == "lubricant.temperature":
-            text = f"{converted(value, 'K', '°C'):.4g} °C"
-        alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
-        ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
-        note = f", typical of {' or '.join(alike)}: {ends}" if alike else ""
-        changing = [name for name, of in HISTORIES.items() if of == key and getattr(scene.transient, name, None)]
-        if changing:
-            note = f", which changes in time: transient.{changing[0]}"
-        for name, *known in scene.ranges:
-            if name == key:
-                note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"
-        table = scene.bodies.boundary_friction_table
-        if table is not None and key == FRICTION:
-            unit = FRICTION_OVER[table.over]
-            points = (f"{value:.4g} at {worded(at, unit)}" for at, value in zip(table.at, table.values))
-            note = f", by a table over {table.over}: {', '.join(points)}"
-        yield quantity.label, text, key, note
-
-
-def _inputs(scene: Scene, section: str) -> list[str]:
-    return [f"{label}: {text}  ({key}){note}" for label, text, key, note in inputs(scene, section)]
-
-
-def _bodies(scene: Scene) -> list[str]:
-    b = scene.bodies
-    peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
-    return [
-        f"Hertz: half-width {worded(b.half_width, 'm')}, mean pressure {worded(b.mean_hertz_pressure, 'Pa')}, "
-        f"peak {worded(peak, 'Pa')}; {worded(b.load / b.width, 'N/m')}",
-        *(["contact spots: elastic (no bodies.hardness)"] if b.hardness is None else []),
-    ]
-
-
-def _lubricant(scene: Scene) -> list[str]:
-    oil, rows = scene.lubricant, []
-    if oil.oil is not None and oil.temperature is not None:
-        rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
-    rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
-    if oil.newtonian:
-        rows.append("shear: Newtonian at any stress (no eyring_stress, no limiting_stress_coefficient)")
-    known = oil.heats and oil.temperature_coefficient is not None
-    why = "isothermal, how the viscosity falls with the temperature is not given"
-    return [*rows, f"heat: {scene.numerics.heat if known else why}"]
-
-
-def _motion(scene: Scene) -> list[str]:
-    u, ratio = scene.motion.entrainment_speed, scene.motion.slide_roll_ratio
-    u1, u2 = u * (1 - ratio / 2), u * (1 + ratio / 2)
-    surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
-    return [] if scene.transient is not None else [surfaces]
-
-
-FACTS = {"bodies": _bodies, "lubricant": _lubricant, "motion": _motion}  # what follows from the inputs of a section

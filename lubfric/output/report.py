@@ -14,7 +14,8 @@ from ..scene import Scene
 from ..sharing import Prepared
 from ..studies import CurveResult
 from ..units import converted, printed, unit_for, worded
-from .describe import FACTS, SECTIONS, inputs, map_in_words
+from .describe import map_in_words
+from .inputs import FACTS, SECTIONS, inputs
 
 OF_POINT = ["coefficient", "contact_load", "film_load", "central_film", "film_to_roughness_ratio"]
 OF_POINT += ["real_contact_area_fraction"]

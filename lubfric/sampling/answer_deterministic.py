@@ -7,8 +7,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
+from ..contact import measured
 from ..deterministic import DeterministicResult, Refined
-from ..scene import Scene
+from ..scene import Scene, moves
 from ..sharing import Heat, Prepared, Validity, of_error, of_heat, of_inlet, of_motion, of_pressure, of_thickness
 from .decision import Decision
 from .errors_of import TOO_SHORT
@@ -27,7 +28,7 @@ OF_MODEL = (
     "the boundary film, the law of the flow, heat, or the scatter between the models leaves that",
     "give bodies.boundary_film if you know it, or a longer map",
 )
-FINER = "a larger numerics.tolerance, or a finer contact.spacing"
+LOOSER = "a larger numerics.tolerance"
 DRAWN, CUT = 0.1, 0.1  # lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
 
 
@@ -59,7 +60,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
     decision = _decision(scene, results, levels, heat)
     entries = (
         *_entries(prepared, numbers, results, heat),
-        *of_error(levels.numerical, numerics.tolerance, FINER),
+        *of_error(levels.numerical, numerics.tolerance, _way_out(prepared)),
         *_of_model(model, numerics.model_tolerance),
     )
     grids = levels.pieces[0] if strips.whole and levels.pieces else (levels.pairs[0].resolved,)
@@ -89,6 +90,17 @@ def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
     """A caution where the error of the model, relative, is above ``tolerance``."""
     if model > tolerance:
         yield Validity("error of f by the model", 100 * model, 100 * tolerance, "%", *OF_MODEL)
+
+
+def _way_out(prepared: Prepared) -> str:
+    """What makes the error by the cells smaller: shorter ones, if the map has them."""
+    scene, strips = prepared.scene, prepared.strips
+    assert strips is not None
+    if not strips.cells.own and (moves(scene) or not strips.whole):
+        return f"numerics.grid = 'given' for shorter cells, or {LOOSER}"
+    if prepared.given or measured(scene):
+        return f"{LOOSER}, or a map with shorter cells"
+    return f"a finer contact.spacing with numerics.grid = 'given', or {LOOSER}"
 
 
 def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:
@@ -131,7 +143,8 @@ def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]
     scene, speed, film = prepared.scene, numbers["speed"], numbers["central_film"]
     yield from prepared.known
     yield from of_motion(scene, speed, film)
-    yield from of_inlet(scene, speed, mean(result.flow_film for result in results))
+    flow = mean(result.flow_film for result in results)
+    yield from of_inlet(scene, flow, scene.line_contact(speed).moes_film)
     for entry in of_pressure(scene, max(result.top_pressure for result in results)):
         yield replace(entry, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
     yield from of_thickness(scene, film)

@@ -30,6 +30,7 @@ from .uncertainty import student
 DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
 ALONE, LINED = 1.3, 1.2  # scatter of the deterministic f between strips over that of blocks; less that of a line
 PRIOR, FREEDOM = 3, 5  # strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
+BALANCED = 1.3  # times (scatter of f between strips)²: bias of strips that balance the load each by itself
 GROWTH, SPARE = (4.0, 2.0), (1.1, 1.2)  # of the number of strips, which are dear: see `enlarged`
 MOST_WORK = 120.0  # s, counted: of the strips of one point
 FEWEST = 3  # strips whose scatter tells an error
@@ -67,12 +68,13 @@ class Levels:
 @dataclass(frozen=True)
 class Sum:
     """The first two levels: ``line``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part of it
-    that is the ``difference`` between the models."""
+    that is the ``difference`` between the models; ``between``: standard deviation of f between strips."""
 
     line: int
     numbers: dict[str, float]
     whole: BlockError
     difference: BlockError
+    between: float
 
     def wanted(self, numerics: Numerics, count: int, most: int) -> int:
         """Number of strips of the second level, at most ``most``, that the tolerances need; there are ``count``."""
@@ -101,7 +103,8 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     f = abs(numbers["coefficient"])
     of_strips = add_errors(both.whole, replace(by_cells, error=by_cells.error * f))
     difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
-    sampling = replace(of_strips, error=math.sqrt((of_strips.error / f) ** 2 - difference.error**2))
+    by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
+    sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (both.between / f) ** 2))
     results = [pair.resolved.result for pair in pairs]
     films = tuple(mean(getattr(one, name) - one.coefficient for one in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
@@ -141,13 +144,15 @@ def _sum(prepared: Prepared, pairs: Sequence[Pair], line: Line | None) -> Sum:
     rows, count = [numbers_of(prepared, pair.resolved.result) for pair in pairs], len(pairs)
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     if line is None:
-        return Sum(0, numbers, _scatter(pairs, prepared.strips), BlockError(0.0, 1))
+        whole = _scatter(pairs, prepared.strips)
+        return Sum(0, numbers, whole, BlockError(0.0, 1), whole.error * math.sqrt(count))
     for name, differences in line.numbers.items():
         numbers[name] -= mean(differences[:count])
     rest = 1 - count / line.count
     others = replace(line.sampling, error=math.sqrt(rest) * line.sampling.error * abs(numbers["coefficient"]))
     whole = add_errors(_scatter(pairs, prepared.strips, line, rest), others)
-    return Sum(line.count, numbers, whole, _scatter(pairs, prepared.strips, line, 1.0))
+    between = float(np.std(line.numbers["coefficient"]))
+    return Sum(line.count, numbers, whole, _scatter(pairs, prepared.strips, line, 1.0), between)
 
 
 def mean(values) -> float:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..contact import Strips
 from ..deterministic import reach, work_of_steps
-from ..scene import Scene, gap_not_resolved, moves
+from ..scene import FRICTION, Scene, gap_not_resolved, moves
 from ..surface import Surface
 from .levels import DIFFERENCE
 from .moving import MOST_WORK, moving_strip_work
@@ -22,6 +22,9 @@ GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
 RISE = 0.4  # of the film of the whole load, by which it is wider, about
 FLOOR = 0.25  # of f_b: friction where the film carries most, about
 STEPS, FINER_STEPS = 9, 6  # of Newton's method on a strip of the deterministic model, and on smaller cells
+AGAIN = 4  # of a strip whose neighbour is solved: at an end of the range of an input
+ON_LONGER = 1 / 2  # work of moving roughness on cells twice as long along y
+IN_MOTION = 2.0  # processor time of moving roughness over its counted work, which is that of the systems alone
 UNLIKE = 0.65  # scatter of the difference between the models over that of f
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 SURE = 2.0  # factor between the expected film and any film: outside of it contact or separation is certain
@@ -62,7 +65,9 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     if strips is None or strips.whole:
         if touching != "none":
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
-        return Forecast(speed, touching, clearance, math.nan, 1, math.nan, 0, seconds)
+        patch = (0, 0.0, 0.0) if strips is None else _resolved(scene, strips, surface, speed, film, 0.0)
+        resolved, work, moving = patch
+        return Forecast(speed, touching, clearance, math.nan, 1, math.nan, resolved, seconds + work, moving)
     (lx, ly), first, asked = strips.lengths, strips.first * strips.length, scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR * sq:
@@ -77,19 +82,18 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     piece = 0.0 if cells.own else cells.count * fx * fy * strips.length / dy / 2
     if touching != "none":
         seconds += CELL_SECONDS * cells.count * count * strips.length / dy + PIECE_SECONDS * piece
-    factors = cells_of(strips, scene.bodies.half_width)
-    moving = moving_strip_work(scene, strips, sq, speed, factors) if speed and moves(scene) else 0.0
-    resolved, work = _resolved(scene, strips, sq, speed, film, error * math.sqrt(strips.first), moving)
+    resolved, work, moving = _resolved(scene, strips, surface, speed, film, error * math.sqrt(strips.first))
     length = count * strips.length
     return Forecast(speed, touching, clearance, error, count, length, resolved, seconds + work, moving)
 
 
 def _resolved(
-    scene: Scene, strips: Strips, sq: float, speed: float, film: float, scatter: float, moving: float
-) -> tuple[int, float]:
-    """Number of strips of the deterministic model, and their work [s]. ``film`` [m]: expected; ``scatter``: of f
-    between strips, relative; ``moving`` [s]: work of one whose roughness moves."""
-    numerics = scene.numerics
+    scene: Scene, strips: Strips, surface: Surface, speed: float, film: float, scatter: float
+) -> tuple[int, float, float]:
+    """Number of strips of the deterministic model, all their work [s], and that of one if its roughness moves, else 0.
+    ``film`` [m]: expected; ``scatter``: of f between strips, relative."""
+    numerics, sq, both = scene.numerics, surface.sq, cells_of(strips, scene.bodies.half_width)
+    moving = moving_strip_work(scene, strips, sq, speed, both) if speed and moves(scene) else 0.0
     thick = film**2 * numerics.model_tolerance > OF_FILM * sq**2
     if (
         speed == 0
@@ -98,11 +102,16 @@ def _resolved(
         or gap_not_resolved(scene)
         or thick
     ):
-        return 0, 0.0
+        return 0, 0.0, moving
     allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
     count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)
-    (fx, fy), (dx, dy) = cells_of(strips, scene.bodies.half_width), strips.cells.coarse
+    ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
+    if moving and moving > MOST_WORK and numerics.model == "auto":
+        return 0, 0.0, moving
     if moving:
-        return (0, 0.0) if moving > MOST_WORK and numerics.model == "auto" else (count, count * moving)
+        return count, IN_MOTION * (count + ON_LONGER * (ends + 2 * (ends > 0))) * moving, moving
+    (fx, fy), (dx, dy), (ux, uy) = both, strips.cells.coarse, strips.cells.factors
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
-    return count, count * work_of_steps(cells, STEPS) + work_of_steps(cells * fx * fy / 2, FINER_STEPS)
+    finer = 0.5 * cells * fx * fy * (ux * uy if strips.whole else 1)  # a patch may be solved down to its own cells
+    again = work_of_steps(finer if strips.whole else cells, AGAIN) * (ends + (ends > 0))
+    return count, count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again, 0.0

@@ -22,6 +22,8 @@ from .scatter import BlockError, block_error
 
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
 MOST_PIECES = 4
+MOVING = 3.0  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
+# small by chance (on six Gaussian maps f moved by 1 to 76 % to cells of a quarter, and by 0 to 19 % to an eighth)
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 LENGTH, SHORTEST = 42.0, 14.0  # correlation lengths: pieces of the third level, and the one of the last
@@ -47,7 +49,7 @@ def on_shorter_cells(
     by_longer = sum(changes_of((pair.longer, pair.resolved))[0] for pair in pairs) / len(pairs)
     factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.factors)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
-    left = max(estimate([by_longer]), SOLVED)
+    left = max(estimate([by_longer]), SOLVED, MOVING * _coarse(prepared) ** 2 if moves(scene) else 0.0)
     enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
     enough = enough and (strips.whole or _smooth(strips))
     own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
@@ -73,6 +75,13 @@ def on_shorter_cells(
     scatter = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # of its mean over places
     left = math.hypot(max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), scatter)
     return pieces, shortest, error, left
+
+
+def _coarse(prepared: Prepared) -> float:
+    """Length along x of the cells of the deterministic model over the correlation length."""
+    strips = prepared.strips
+    assert strips is not None
+    return cells_of(strips, prepared.scene.bodies.half_width)[0] * strips.cells.coarse[0] / strips.lengths[0]
 
 
 def _smooth(strips: Strips) -> bool:

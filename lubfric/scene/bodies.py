@@ -144,7 +144,7 @@ class Bodies(Brief):
     @property
     def mean_hertz_pressure(self) -> float:
         """F_T / (2 b B) [Pa]."""
-        return hertz.line_mean_pressure(self.load / self.width, self.radius, self.e_prime)
+        return self.load / self.width / (2 * self.half_width)
 
 
 @dataclass(frozen=True, repr=False)

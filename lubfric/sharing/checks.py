@@ -102,9 +102,9 @@ def of_thickness(scene, film: float) -> Iterator[Validity]:
     )
 
 
-def of_inlet(scene, speed: float, flow: float) -> Iterator[Validity]:
-    """Entries for a film that little lubricant reaches: its ``flow`` film [m] over that of a full inlet, by Moes."""
-    flooded = scene.line_contact(speed).moes_film
+def of_inlet(scene, flow: float, flooded: float) -> Iterator[Validity]:
+    """Entries for a film that little lubricant reaches: its ``flow`` film [m] over that of a full inlet, ``flooded``,
+    by Moes."""
     if scene.lubricant.floods or flow > (1 - scene.numerics.tolerance) * flooded:
         return
     consequence = "the inlet is starved, as inlet_length or inlet_film asks; f rests on what they say"
@@ -261,7 +261,7 @@ def judged(prepared, speed: float, balance, ends: float) -> tuple[Validity, ...]
     entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
     entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
     if film is not None:
-        entries += of_inlet(scene, speed, film.flow_film)
+        entries += of_inlet(scene, film.flow_film, film.contact.moes_film)
         peak, found = float(film.pressure.max()), balance.forces
         force = abs(found.coefficient) * scene.bodies.load
         entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)

@@ -7,7 +7,7 @@ from typing import ClassVar, TypeVar
 import numpy as np
 
 from .._base import Shown, table_bytes, validate
-from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError
+from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError, returned
 from ..quantities import NUMBERS, OF_UNCERTAINTY, counted, heading
 from ..sampling import FrictionResult, UncertaintyCurve, curve_of, together
 from ..sharing import Validity, entries_of, gathered, in_a_cell
@@ -113,8 +113,7 @@ def judged(result: R, raise_on_failure: bool) -> R:
         raise ValidityError("; ".join(result.validity), tuple(e for error in refused for e in error.entries), result)
     if errors:
         raise ConvergenceError(f"{result.report.message}; first: {errors[min(errors)]}", result.report, result)
-    result.report.raise_if_failed(result)
-    return result
+    return returned(result)
 
 
 def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:

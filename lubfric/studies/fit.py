@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._base import validate
-from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, InputError, LubfricError, Report
+from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, InputError, LubfricError, Report, returned
 from ..sampling import FrictionResult
 from ..scene import Scene
 from ..sharing import Prepared, prepare
@@ -70,9 +70,7 @@ def fit(
     with opened(store) as kept:
         search = Search(scene, measured, found, checked_executor(executor), kept.root, on_progress)
         end = least_squares(search.residuals, begin, lambda unit: search.slopes(unit) / measured.scale[:, None], **ends)
-        result = _result(search, end)
-    result.report.raise_if_failed(result)
-    return result
+        return returned(_result(search, end))
 
 
 def explain_fit(scene: Scene, measured: Measured, parameters) -> str:

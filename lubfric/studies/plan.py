@@ -105,8 +105,7 @@ def load_study(path) -> StudyPlan:
     table = read_toml(path, "study")
     validate.keys(path.name, table, KEYS)
     name = table.get("scene")
-    if not isinstance(name, str):
-        raise InputError(f'{path.name} needs scene = "a file or a built-in scene", found {name!r}')
+    validate.instance(f"scene of {path.name}", name, str, "a file or a built-in scene")
     beside = path.parent / name
     scene = load_scene(beside if beside.is_file() else name)
     vary: dict[Any, list] = _lists(table.get("vary", {}), "vary", path.parent)
@@ -147,12 +146,10 @@ def _flat(table: dict, is_value: Callable[[Any], bool]) -> dict[str, Any]:
 
 def _lists(table, where: str, folder: Path) -> dict[str, list]:
     """The lists of values by their keys. Files are relative to ``folder``."""
-    if not isinstance(table, dict):
-        raise InputError(f"[{where}] = {table!r}; allowed: keys of a scene with lists of values")
+    validate.instance(f"[{where}]", table, dict, "keys of a scene with lists of values")
     found = _flat(table, lambda value: not isinstance(value, dict))
     for key, values in found.items():
-        if not isinstance(values, list):
-            raise InputError(f"[{where}] {key} = {values!r}; allowed: a list of values")
+        validate.instance(f"[{where}] {key}", values, list, "a list of values")
 
     def beside(key: str, name) -> str:
         path = (folder / str(name)).resolve()
@@ -171,8 +168,7 @@ def _lists(table, where: str, folder: Path) -> dict[str, list]:
 
 def _sampled(table, file: str) -> tuple:
     """The key, or the keys, of [sample], and their values."""
-    if not isinstance(table, dict):
-        raise InputError("[sample] must be a table")
+    validate.instance("[sample]", table, dict, "a table")
     options = {key: table.pop(key) for key in SAMPLE_KEYS if key in table}
     if "count" not in options:
         raise InputError(f"[sample] of {file} needs count, the number of points")

@@ -33,13 +33,12 @@ class Between:
     unit: str = field(default="", init=False)
 
     def __post_init__(self):
-        ends: tuple[str, ...] = ("low", "high") if isinstance(self.low, str) and isinstance(self.high, str) else ()
-        for name in ends:
-            value, unit = in_si(name, getattr(self, name))
-            if self.unit not in ("", unit):
-                raise InputError(f" = {self.high!r} is of another kind than low, which is in {self.unit}", "high")
-            object.__setattr__(self, name, value)
-            object.__setattr__(self, "unit", unit)
+        if isinstance(self.low, str) and isinstance(self.high, str):
+            (low, unit), (high, other) = in_si("low", self.low), in_si("high", self.high)
+            if unit != other:
+                raise InputError(f" = {self.high!r} is of another kind than low, which is in {unit}", "high")
+            for name, value in (("low", low), ("high", high), ("unit", unit)):
+                object.__setattr__(self, name, value)
         validate.choice("scale", self.scale, SCALES)
         low = validate.number("low", self.low, "(of the key)", above=0.0 if self.scale == "log" else -math.inf)
         validate.number("high", self.high, "(of the key)", above=low)
@@ -78,8 +77,7 @@ class Axis:
 
 def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
     """The dimensions of ``vary`` (see `lubfric.study`), with each value put into the scene once as a check."""
-    if not isinstance(vary, dict):
-        raise InputError(f'vary = {vary!r}; allowed: a dict such as {{"bodies.load": [5.0, 10.0]}}')
+    validate.instance("vary", vary, dict, 'a dict such as {"bodies.load": [5.0, 10.0]}')
     seen: set[str] = set()
     axes, cases = [], 0
     points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1) != 0)

@@ -56,7 +56,7 @@ class Surface(FrozenArrays, Shown):
         along = validate.pair("periodic_axes", self.periodic_axes, validate.boolean, "true or false")
         object.__setattr__(self, "periodic_axes", along)
         object.__setattr__(self, "notes", tuple(self.notes))
-        self.freeze()
+        super().__post_init__()
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -1,11 +1,10 @@
 """X3P height maps: a zip archive of main.xml and raw little-endian binary (ISO 25178-72, ISO 5436-2).
 
 Only the standard library is used, nothing is unpacked to disk, and nothing is believed: sizes are checked
-before anything is read, checksums after, and XML with a document type is refused. Member layout and
-checksums as in the openGPS reference (https://sourceforge.net/p/open-gps/mwiki/X3p/).
+before anything is read, the checksums of the archive after, and XML with a document type is refused. Member
+layout as in the openGPS reference (https://sourceforge.net/p/open-gps/mwiki/X3p/).
 """
 
-import hashlib
 import math
 import zipfile
 import zlib
@@ -40,9 +39,7 @@ def read_x3p(path) -> Surface:
 
 
 def _read(archive, path) -> Surface:
-    document = _member(archive, "main.xml", MOST_XML)
-    root = _parse(document)
-    notes = _check_document(archive, root, document)
+    root = _parse(_member(archive, "main.xml", MOST_XML))
     if _text(root, "Record1/FeatureType") != "SUR":
         raise _bad("Record1/FeatureType", _text(root, "Record1/FeatureType"), "SUR (a surface)")
     nx, ny, layers = (_count(root, f"Record3/MatrixDimension/Size{a}") for a in "XYZ")
@@ -55,16 +52,16 @@ def _read(archive, path) -> Surface:
     if axis != "A" or name not in TYPES:
         raise _bad("CZ AxisType, DataType", f"{axis}, {name}", "A with I, L, F or D")
     kind = TYPES[name]
-    raw = _linked(archive, root, "PointData", nx * ny * np.dtype(kind).itemsize, notes)
+    raw = _linked(archive, root, "PointData", nx * ny * np.dtype(kind).itemsize)
     heights = _heights(root, np.frombuffer(raw, kind)).reshape(ny, nx).T
     mask = ~np.isnan(heights)
     if _text(root, "Record3/DataLink/ValidPointsLink", required=False):
-        bits = _linked(archive, root, "ValidPoints", (nx * ny + 7) // 8, notes)
+        bits = _linked(archive, root, "ValidPoints", (nx * ny + 7) // 8)
         valid = np.unpackbits(np.frombuffer(bits, np.uint8), bitorder="little", count=nx * ny)
         mask &= valid.reshape(ny, nx).T.astype(bool)
     if not mask.any():
         raise _bad("measured points", 0, "at least 1")
-    return Surface(np.where(mask, heights, np.nan), spacing, mask=mask, source=str(path), notes=tuple(notes))
+    return Surface(np.where(mask, heights, np.nan), spacing, mask=mask, source=str(path))
 
 
 def _member(archive, name, most) -> bytes:
@@ -96,33 +93,13 @@ def _parse(document) -> ElementTree.Element:
     return root
 
 
-def _check_document(archive, root, document) -> list[str]:
-    """Compare main.xml with its checksum file; a missing one is noted."""
-    name = _text(root, "Record4/ChecksumFile", required=False)
-    if not name or name not in archive.namelist():
-        return ["X3P: main.xml has no checksum"]
-    words = _member(archive, name, 4096).decode("ascii", "replace").split()
-    if not words or words[0].lower() != _md5(document):
-        raise _bad("MD5 of main.xml", _md5(document), f"{words[0] if words else 'a checksum'} as in {name}")
-    return []
-
-
-def _linked(archive, root, what, size, notes) -> bytes:
-    """The bytes that a link names, of ``size``, compared with their checksum; a missing one is noted."""
+def _linked(archive, root, what, size) -> bytes:
+    """The bytes that a link names, of ``size``."""
     name = _text(root, f"Record3/DataLink/{what}Link")
     data = _member(archive, name, size)
     if len(data) != size:
         raise _bad(f"size of {name!r}", f"{len(data)} bytes", f"{size} bytes for its matrix")
-    expected = _text(root, f"Record3/DataLink/MD5Checksum{what}", required=False)
-    if not expected:
-        notes.append(f"X3P: {name} has no checksum")
-    elif expected.lower() != _md5(data):
-        raise _bad(f"MD5 of {name!r}", _md5(data), f"{expected.lower()} as in main.xml")
     return data
-
-
-def _md5(data) -> str:
-    return hashlib.md5(data, usedforsecurity=False).hexdigest()
 
 
 def _heights(root, values) -> np.ndarray:

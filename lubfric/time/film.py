@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._base import validate
-from ..errors import CONVERGED, ConvergenceError, InputError, Report
+from ..errors import CONVERGED, ConvergenceError, InputError, Report, returned
 from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
@@ -92,9 +92,7 @@ def solve_transient_ehl(
     changing = contact.speed, contact.load, contact.radius, contact.viscosity
     plan = plan_of(times, changing, first_step or setting.first_step, time_tolerance)
     result = _marched(setting, start, plan, residuals)
-    if raise_on_failure:
-        result.report.raise_if_failed(result)
-    return result
+    return returned(result, raise_on_failure)
 
 
 def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, dict[str, float]]:

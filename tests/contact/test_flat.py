@@ -39,21 +39,6 @@ def flat():
     return lubfric.prepare(lubfric.load_scene("flat").with_(contact={"shape": (128, 128), "spacing": 8e-6}))
 
 
-@pytest.mark.parametrize("speed", [0.05, 0.2])
-def test_a_point_closes_both_balances_on_the_contact_solved_there(flat, speed):
-    point, bodies = lubfric.friction(flat, speed, tolerance=1e-3), flat.scene.bodies
-    assert 0 < point.contact_load < bodies.load == pytest.approx(point.contact_load + point.film_load, rel=1e-12)
-    heights, pressure = flat.surface.heights, point.contact_load / flat.contact.area
-    direct = lubfric.solve_contact(
-        heights.max() - heights, flat.surface.spacing, bodies.e_prime, mean_pressure=pressure
-    )
-    assert point.mean_gap == pytest.approx(direct.mean_gap, rel=2e-3)
-    assert point.real_contact_area_fraction == pytest.approx(direct.contact_area_fraction, rel=2e-2)
-    x = np.linspace(-1, 1, 4001) * bodies.half_width
-    film = np.trapezoid(point.balance.film.film_at(x), x) / (2 * bodies.half_width)
-    assert film == pytest.approx(direct.mean_gap, rel=5e-3)
-
-
 def test_it_ends_in_boundary_lubrication_and_in_a_full_film(flat):
     assert lubfric.friction(flat, 0.0).coefficient == pytest.approx(0.09)
     assert lubfric.friction(flat, 10.0).contact_load == 0

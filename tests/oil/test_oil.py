@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import lubfric
 from lubfric import oil
 from lubfric.errors import InputError
 
@@ -111,18 +110,6 @@ def test_named_oils_are_those_of_their_title():
 def test_slips_are_answered(call, words):
     with pytest.raises(InputError, match=words):
         call()
-
-
-def test_reached_from_the_package():
-    import subprocess
-    import sys
-
-    code = (
-        "import lubfric, sys; assert 'scipy' not in sys.modules; print(lubfric.oil.viscosity_index(73.3e-6, 8.86e-6))"
-    )
-    shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert float(shown) == pytest.approx(92.43, abs=0.01)
-    assert "oil" in dir(lubfric)
 
 
 def test_the_command_lists_them(capsys):

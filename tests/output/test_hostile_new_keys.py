@@ -81,12 +81,3 @@ def test_heat_at_the_ends_of_motion_is_finite_or_told(speed, ratio):
         return
     assert np.isfinite(found.coefficient)
     assert (abs(ratio) <= 2) == (not any("slide-roll ratio" in entry.what for entry in found.validity))
-
-
-def test_sliding_that_leaves_no_film_is_told():
-    """50 km/s thin the oil a thousand times: f, or a film that was not found, and no number that means nothing."""
-    scene = HOT.with_(motion={"slide_roll_ratio": 1e6})
-    try:
-        assert np.isfinite(lubfric.friction(scene, 0.05).coefficient)
-    except lubfric.ConvergenceError as error:
-        assert "line-contact EHL" in str(error)

@@ -9,7 +9,8 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.output.describe import describe_scene
-from lubfric.sampling import forecast
+from lubfric.sampling import forecast, sampled
+from lubfric.sampling.levels import levels_of
 from verification.hostile.soak_force import friction_force
 
 PAPER = paper_scene()
@@ -175,6 +176,21 @@ def test_a_forecast_is_right_to_a_factor_of_four():
         assert 0.25 < told.length / found.length < 4
         assert speed > 0.02 or 0.3 < told.error / found.sampling < 3
     assert " 1.4 " in describe_scene(PAPER)  # mm
+
+
+@pytest.mark.parametrize("sampling, speeds", [("strips", [0.003, 0.03]), ("patch", [0.01, 0.03])])
+def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(sampling, speeds):
+    """Of all points together, counted by the cells and steps of what they solve."""
+    prepared = lubfric.prepare(PAPER.with_(numerics={"sampling": sampling, "model": "auto"}))
+    told = counted = 0.0
+    for speed in speeds:
+        one = forecast(prepared.scene, prepared.strips, prepared.surface, speed)
+        levels = levels_of(prepared, speed, sampled(prepared, speed))
+        solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]
+        counted += sum(strip.work for strip in [*solved, *(strip for piece in levels.pieces for strip in piece)])
+        told += one.seconds
+        assert one.resolved
+    assert 0.5 < told / counted < 2
 
 
 def test_ridges_that_yield_are_solved_though_no_spots_can_be_counted(tmp_path):

@@ -394,20 +394,6 @@ def test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip(
     assert result.real_contact_area_fraction > 1.05 * elastic.real_contact_area_fraction
 
 
-@pytest.mark.parametrize("region", ["hertz", "box"])
-def test_the_area_of_the_volume_balance(region):
-    """Mean gap by hand over the columns of the strip, or of the box."""
-    scene = CYLINDER.with_(contact={"region": region}, surface={"oversize": 1, "correlation_length": 6e-6})
-    result = lubfric.friction(scene, fields=True)
-    x, gap = result.balance.contact.x, np.maximum(result.balance.contact.fields.gap, 0).mean(axis=1)
-    dx, b = scene.contact.spacing[0], scene.bodies.half_width
-    weight = np.ones(x.size)
-    if region == "hertz":
-        weight = np.clip((np.minimum(x + dx / 2, b) - np.maximum(x - dx / 2, -b)) / dx, 0, 1)
-    assert result.mean_gap == pytest.approx(weight @ gap / weight.sum(), rel=1e-6)
-    assert result.balance.contact.fields.pressure.shape == scene.contact.shape
-
-
 def test_a_measured_map_is_prepared_as_its_keys_say(measured):
     """The same steps by hand with NumPy: unit, holes, quadratic form; then turned, scaled to sq."""
     keys = {

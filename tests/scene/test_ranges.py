@@ -9,7 +9,7 @@ from scene_text import paper_scene
 from toys import Spring
 
 import lubfric
-from lubfric.output.describe import inputs
+from lubfric.output.inputs import inputs
 from lubfric.scene import Table
 
 FRICTION, HARDNESS, EYRING = "boundary_friction_coefficient", "hardness", "eyring_stress"

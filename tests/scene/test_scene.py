@@ -50,18 +50,14 @@ def test_paper_tables():
 @pytest.mark.parametrize(
     "changes, words",
     [
-        ({"bodies__laod": "5.5"}, ["laod", "did you mean 'load'", "[bodies]"]),
         ({"bodis__load": "5.5"}, ["bodis", "did you mean 'bodies'"]),
         ({"bodies__load": "-1.0"}, ["bodies.load", "-1", "[1e-12", " N"]),
         ({"bodies__load": "'heavy'"}, ["bodies.load", "'heavy'"]),
-        ({"bodies__load": None}, ["[bodies] needs 'load'"]),
         ({"bodies__hardness": "1e8"}, ["bodies.load", "hardness", "allowed: below", " N"]),
-        ({"bodies__young_modulus": "[1e9, 1e9]"}, ["e_prime", "poisson_ratio"]),
         ({"lubricant__viscosity": "0.0"}, ["viscosity", "0", "Pa s"]),
         ({"lubricant__pressure_viscosity_coefficient": "0.0"}, ["pressure_viscosity_coefficient", "constant"]),
         ({"lubricant__viscosity_law": "'rolands'"}, ["did you mean 'roelands'"]),
         ({"surface__correlation_length": "-1e-6"}, ["correlation_length", "m"]),
-        ({"surface__file": "'nowhere.npy'", "surface__correlation_length": None}, ["nowhere.npy", "no such file"]),
         ({"contact__geometry": "'cylindre'"}, ["did you mean 'cylinder'"]),
         ({"contact__shape": "[0, 64]"}, ["contact.shape", "0"]),
         ({"contact__shape": "200"}, ["contact.shape", "pair"]),
@@ -172,7 +168,6 @@ def test_with_replaces_one_value_and_is_strict():
     "sections, words",
     [
         ({"motion": {"slide_ratio": 1}}, ["did you mean 'slide_roll_ratio'", "speeds"]),
-        ({"bodies": {"young_modulus": [2e11, 2e11]}}, ["needs poisson_ratio"]),
         ({"transient": {"duration": 1.0}}, ["transient", "allowed: a Transient"]),
         ({"transient": 3}, ["transient = 3", "Transient"]),
         ({"name": {"x": 1}}, ["name", "a str"]),

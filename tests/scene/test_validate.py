@@ -33,19 +33,8 @@ def test_every_kind_of_real_number_is_one(value):
 
 
 NO_ARRAYS = [
-    *(
-        [True, 1.0],
-        [1, "2"],
-        ["1"],
-        [1j],
-        [None, 1.0],
-        [b"1"],
-        [10**400],
-        [[1], [1, 2]],
-        [],
-        [float("inf")],
-        {1.0, 2.0},
-    ),
+    *([True, 1.0], [1, "2"], ["1"], [1j], [None, 1.0], [b"1"], [10**400], [[1], [1, 2]], [], [float("inf")]),
+    {1.0, 2.0},
     *(np.ma.array([1.0, 2.0], mask=[False, True]), [np.ma.masked, 1.0], np.zeros(3, bool), np.zeros(2, [("a", float)])),
     *(np.array(["2020"], "M8[D]"), np.array([1], "m8[s]"), [datetime.date(2020, 1, 1)], "123", object()),
 ]

@@ -8,7 +8,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.output.describe import describe_scene
-from lubfric.sharing import lacking
+from lubfric.sharing import lack_in_words, lacking
 
 ROLLER = lubfric.load_scene(
     {
@@ -23,6 +23,11 @@ ROLLER = lubfric.load_scene(
     }
 )
 SQ = ROLLER.surface.sq
+
+
+def test_a_large_change_is_told_without_powers_of_ten():
+    words = [lack_in_words(("starved", change, "oil")) for change in (1.4, -0.126, 0.013, math.nan)]
+    assert words == [f"starved: f {w}; oil" for w in ("+140 %", "-13 %", "+1.3 %", "not estimated")]
 
 
 def told(lacks, word):
@@ -77,3 +82,12 @@ def test_a_soft_body_is_told_how_thick_its_cover_has_to_be():
     soft = ROLLER.with_(bodies={"e_prime": 2e7, "load": 100.0})
     (cover,) = [what for what, *_ in lacking(soft, SQ, 1.0) if "cover" in what]
     assert f"{5e3 * soft.bodies.half_width:.2g} mm" in cover
+
+
+def test_a_starved_inlet_is_told_where_the_spots_carry_most():
+    """The film carries little there, and is thicker than that of the whole load would be."""
+    small = {"shape": (96, 48), "spacing": 1.1e-6}
+    scene = paper_scene(contact=small, surface={"correlation_length": 4e-6}, numerics={"sampling": "patch"})
+    point = lubfric.friction(scene.with_(lubricant={"inlet_length": 60e-6}), 0.03)
+    (told,) = (entry for entry in point.validity if "full inlet" in entry.what)
+    assert point.contact_load > point.film_load and told.value < 0.8

@@ -179,20 +179,6 @@ def test_a_piece_that_is_handed_out_again_solves_nothing_again(tmp_path, monkeyp
 # failures
 
 
-def test_a_failing_point_is_a_row_with_its_status(serial, monkeypatch, tmp_path):
-    def failing(model, speed, **options):
-        if speed == 0.03 and model.scene.surface.seed == 2:
-            raise lubfric.ConvergenceError("injected", lubfric.Report("x", "diverged", 1, float("inf"), 0.1))
-        return FRICTION(model, speed, **options)
-
-    monkeypatch.setattr(points, "friction", failing)
-    found = lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path)
-    assert found.failed == 2 and set(found.status[:, 1, 1]) == {"ConvergenceError: injected"}
-    assert np.isnan(found["coefficient"][:, 1, 1]).all() and np.isfinite(found["coefficient"]).sum() == 10
-    np.testing.assert_array_equal(found["coefficient"][:, 0], serial["coefficient"][:, 0])
-    same(lubfric.open_study(tmp_path), found)
-
-
 def test_a_scene_that_cannot_be_made_ready_is_a_row_too():
     found = lubfric.study(SCENE, {"contact.spacing": [1.1e-6, 1e-4]}, SPEEDS)
     assert (found.status[0] == "converged").all() and "InputError: correlation_length" in found.status[1, 0]

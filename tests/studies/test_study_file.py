@@ -77,11 +77,9 @@ def test_maps_of_the_other_body_are_found_beside_the_file(tmp_path):
         ("speed_rnage = [0.1, 1.0, 3]\n", "did you mean 'speed_range'"),
         ("speed_range = [0.1, 1.0]\n", "must be .lowest, highest, count"),
         ("speed_range = [0.1, 1.0, 1000000000000]\n", "speed_range count"),
-        ("[vary]\nbodies.laod = [3.0]\n", "did you mean 'load'"),
         ("[[together]]\nbodies.load = [1.0]\nbodies.width = [1e-3, 2e-3]\n", "lists of one length"),
         ("[sample]\ncount = 3\nbodies.load = { low = 1.0, high = 2.0 }\n", "powers of two"),
         ("[sample]\ncount = 4\nbodies.load = 1\n", "low = "),
-        ("[vary]\nbodies.load = 3\n", "a list of values"),
         ("[sample]\nbodies.load = { low = 1.0, high = 2.0 }\n", "needs count"),
         ('[vary]\nsurface.file = ["none.npy"]\n', "no such file"),
         ("speeds = [0.1\n", "not valid TOML"),
@@ -97,7 +95,7 @@ def test_what_a_study_cannot_say_is_refused(tmp_path, study, words):
 
 def test_a_study_needs_a_scene_and_a_file(tmp_path):
     (tmp_path / "study.toml").write_text("speeds = [0.1]\n")
-    with pytest.raises(lubfric.InputError, match="needs scene"):
+    with pytest.raises(lubfric.InputError, match="scene of .*toml = "):
         load_study(tmp_path / "study.toml")
     with pytest.raises(lubfric.InputError, match="study .*none.toml' cannot be read"):
         load_study(tmp_path / "none.toml")

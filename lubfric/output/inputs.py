@@ -1,0 +1,74 @@
+"""The inputs of a scene in words, and what follows from them: for ``lubfric info`` and for the report."""
+
+from collections.abc import Iterator
+
+from ..film import hertz
+from ..oil import estimate_in_words
+from ..quantities import KEYS
+from ..scene import FRICTION, FRICTION_OVER, HISTORIES, Scene, typical
+from ..units import converted, worded
+
+SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
+
+
+def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
+    """(what it is, the value with its unit, the key, and its range, its table, or the range of typical values) of every
+    input in a section of the scene."""
+    for key, quantity in KEYS.items():
+        value = getattr(getattr(scene, section, None), key.removeprefix(f"{section}."), None)
+        if not key.startswith(f"{section}.") or value is None or value == ():
+            continue
+        text = worded(value, quantity.unit)
+        if key == "lubricant.temperature":
+            text = f"{converted(value, 'K', '°C'):.4g} °C"
+        alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
+        ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
+        note = f", typical of {' or '.join(alike)}: {ends}" if alike else ""
+        changing = [name for name, of in HISTORIES.items() if of == key and getattr(scene.transient, name, None)]
+        if changing:
+            note = f", which changes in time: transient.{changing[0]}"
+        for name, *known in scene.ranges:
+            if name == key:
+                note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"
+        table = scene.bodies.boundary_friction_table
+        if table is not None and key == FRICTION:
+            unit = FRICTION_OVER[table.over]
+            points = (f"{value:.4g} at {worded(at, unit)}" for at, value in zip(table.at, table.values))
+            note = f", by a table over {table.over}: {', '.join(points)}"
+        yield quantity.label, text, key, note
+
+
+def input_rows(scene: Scene, section: str) -> list[str]:
+    return [f"{label}: {text}  ({key}){note}" for label, text, key, note in inputs(scene, section)]
+
+
+def _bodies(scene: Scene) -> list[str]:
+    b = scene.bodies
+    peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
+    return [
+        f"Hertz: half-width {worded(b.half_width, 'm')}, mean pressure {worded(b.mean_hertz_pressure, 'Pa')}, "
+        f"peak {worded(peak, 'Pa')}; {worded(b.load / b.width, 'N/m')}",
+        *(["contact spots: elastic (no bodies.hardness)"] if b.hardness is None else []),
+    ]
+
+
+def _lubricant(scene: Scene) -> list[str]:
+    oil, rows = scene.lubricant, []
+    if oil.oil is not None and oil.temperature is not None:
+        rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
+    rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
+    if oil.newtonian:
+        rows.append("shear: Newtonian at any stress (no eyring_stress, no limiting_stress_coefficient)")
+    known = oil.heats and oil.temperature_coefficient is not None
+    why = "isothermal, how the viscosity falls with the temperature is not given"
+    return [*rows, f"heat: {scene.numerics.heat if known else why}"]
+
+
+def _motion(scene: Scene) -> list[str]:
+    u, ratio = scene.motion.entrainment_speed, scene.motion.slide_roll_ratio
+    u1, u2 = u * (1 - ratio / 2), u * (1 + ratio / 2)
+    surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
+    return [] if scene.transient is not None else [surfaces]
+
+
+FACTS = {"bodies": _bodies, "lubricant": _lubricant, "motion": _motion}  # what follows from the inputs of a section
