@@ -20,6 +20,7 @@ NUMBER: tuple[object, ...] = (*ANY, True, -1.0, 1e308, 5e-324, *LISTS)
 SIGNED_NUMBER = tuple(v for v in NUMBER if not (isinstance(v, float) and v in (-1.0, 5e-324)))
 COUNT = (*ANY, True, -1, 1.5, "2")
 WORD: tuple[object, ...] = (*ANY, "nonsense", 3, None, True, [])
+AXES = tuple(v for v in WORD if v is not True)  # one truth is that of both axes
 FIELD = (*(v for v in ANY if v != [[1]]), [], [[True, 1.0]], [["1", "2"]], HEIGHTS + 0j, HEIGHTS > 0, HEIGHTS[0])
 FIELD += (HEIGHTS[:, :, None], np.full((4, 4), np.nan), np.full((4, 4), 1e308), np.ma.masked_greater(HEIGHTS, 0))
 FIELD += (HEIGHTS.astype("M8[s]"), HEIGHTS.astype(str), np.array([[None, 1.0]]), {})
@@ -72,7 +73,7 @@ def targets() -> tuple[Target, ...]:
             "Surface",
             lubfric.Surface,
             {"heights": HEIGHTS, "spacing": 1e-6},
-            {"heights": unmasked, "spacing": NUMBER, "mask": MASKS, "periodic_axes": WORD},
+            {"heights": unmasked, "spacing": NUMBER, "mask": MASKS, "periodic_axes": AXES},
         ),
         Target(
             "solve_contact",
