@@ -8,6 +8,7 @@ import rigid_cylinder as rigid
 from scipy.integrate import quad
 
 import lubfric
+from lubfric.contact import ContactState
 from lubfric.film import shear_force
 from lubfric.film.shear import rolling_error, spike_error
 from lubfric.oil import Lubricant
@@ -79,6 +80,18 @@ def test_streamers_add_shear_behind_the_rupture():
     result = film()
     dry, wet = force(result), force(result, cavitated="striated")
     assert 0.02 < wet.couette / dry.couette - 1 < 0.5 and wet.rolling == dry.rolling
+
+
+def test_the_share_in_contact_is_that_of_each_cell_of_the_film():
+    """Whatever the nodes, no contact is lost or counted twice; a cell within one column has the share of that
+    column."""
+    x = np.linspace(-1.5, 1.5, 4)
+    closure = ContactState(1.0, 1.0, x, np.array([0.1, 0.9, 0.2, 0.4]), 0.4, 0.0)
+    nodes = np.array([-3.0, -1.7, -0.4, -0.2, 0.7, 5.0])
+    share = closure.touching(nodes)
+    assert share @ np.diff(nodes) == pytest.approx(closure.contact_fraction.sum())
+    assert share[2] == pytest.approx(0.9)
+    np.testing.assert_allclose(closure.touching(nodes[::-1]), share[::-1])
 
 
 def test_couette_of_a_heated_film_does_not_depend_on_where_its_nodes_begin():
