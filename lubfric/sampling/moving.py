@@ -8,7 +8,7 @@ from ..scene import Scene, moves, moving_bodies
 from ..sharing import Prepared, on_strip
 from ..surface import Surface
 
-BOTH = 1.13  # work on cells of one length and on cells twice as long, over that on the former
+BOTH = 1.5  # work on cells of one length and on cells twice as long along y, over that on the former
 MOST_WORK = 120.0  # s, counted: beyond it "auto" leaves moving roughness to Eq. (8)
 
 

@@ -13,14 +13,15 @@ from .moving import solved_strip, strip_surface
 from .scatter import mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
+MOVING = 4.0  # the former along x where roughness moves: on 2, what the film carries dies away (levels.md)
 
 
 @dataclass(frozen=True)
 class Pair:
     """One strip of the sample.
 
-    ``resolved``: by the deterministic model; ``longer``: on cells twice as long, from which it started; ``mirrored``:
-    whether the second half along y is the mirror image of the first.
+    ``resolved``: by the deterministic model; ``longer``: on longer cells (`longer_than`), from which it started;
+    ``mirrored``: whether the second half along y is the mirror image of the first.
     """
 
     resolved: Strip
@@ -30,10 +31,12 @@ class Pair:
 
 def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
     """Length of the cells of the deterministic model in cells of the ``strips``, along x and y: 2, or 1 where 2 would
-    leave less than `PER_LENGTH` in a correlation length or `PER_HALF_WIDTH` in the ``half_width`` [m], or does not
-    divide the strip."""
+    leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in the ``half_width`` [m], or
+    does not divide the strip."""
     (lx, ly), (dx, dy) = strips.lengths, strips.cells.coarse
-    along = min(lx / PER_LENGTH, half_width / PER_HALF_WIDTH) >= 2 * dx * (1 - 1e-9)
+    along = min(lx / (MOVING if moves(strips.scene) else PER_LENGTH), half_width / PER_HALF_WIDTH) >= 2 * dx * (
+        1 - 1e-9
+    )
     across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and round(strips.length / dy) % 2 == 0
     return 1 + along, 1 + across
 
@@ -48,17 +51,19 @@ def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
     return strip_surface(prepared, index), (fx * ux, fy * uy)
 
 
-def longer_than(surface: Surface, factors: tuple[int, int]) -> tuple[int, int]:
-    """Cells of ``surface`` twice as long as ``factors``; as long along y where twice that does not divide the map."""
-    return 2 * factors[0], factors[1] if surface.shape[1] % (2 * factors[1]) else 2 * factors[1]
+def longer_than(surface: Surface, factors: tuple[int, int], moving: bool = False) -> tuple[int, int]:
+    """Cells of ``surface`` twice as long as ``factors``; as long along y where twice that does not divide the map, and
+    along x where roughness is ``moving``."""
+    along = factors[0] if moving else 2 * factors[0]
+    return along, factors[1] if surface.shape[1] % (2 * factors[1]) else 2 * factors[1]
 
 
 def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> Pair:
-    """Strip ``index`` at ``speed`` [m/s], not 0. The deterministic model begins on cells twice as long. ``slope``:
+    """Strip ``index`` at ``speed`` [m/s], not 0. The deterministic model begins on longer cells. ``slope``:
     of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`."""
     assert prepared.strips is not None
     surface, factors = strip_of(prepared, index)
-    first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors))
+    first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors, moves(prepared.scene)))
     strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
     return Pair(strip, first, prepared.strips.whole and mirrored(surface.heights))

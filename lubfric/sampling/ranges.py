@@ -99,7 +99,7 @@ def _resolved(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], f
     if prepared.strips is not None and prepared.strips.whole and result.deterministic is not None and not moving:
         cells = result.deterministic.result.spacing
         factors = round(cells[0] / surface.spacing[0]), round(cells[1] / surface.spacing[1])
-    longer = longer_than(surface, factors)
+    longer = longer_than(surface, factors, moving)
 
     def solved(scene: Scene, start: Strip | None, factors=longer if moving else factors) -> Strip:
         if moving:

@@ -1,8 +1,8 @@
 """Load sharing beside roughness that moves: f and the share of the load over the slide-roll ratio and the film, and the
 load share over film/Sq beside published laws.
 
-Both models have the same periodic map, on cells of 0.4 correlation lengths. Surface 1 is rough, so slide-roll ratios s
-and -s are two cases.
+Both models have the same periodic map, on cells of 0.4 correlation lengths, and half of that along x. Surface 1 is
+rough, so slide-roll ratios s and -s are two cases.
 """
 
 from collections.abc import Iterator
@@ -30,7 +30,7 @@ CONTACTS: dict[str, tuple[float, dict, float, float]] = {  # pressure [Pa], bodi
     "roller, 0.5 GPa": (0.5e9, {}, 150e-9, 10e-6),
     "light, 0.25 GPa": (0.25e9, {}, 100e-9, 8e-6),
 }
-SHAPE, PER_LENGTH = (64, 16), 2.5  # cells of a map, and in a correlation length
+SHAPE, PER_LENGTH = (128, 16), (5.0, 2.5)  # cells of a map, and in a correlation length: along x, where it moves, more
 KINDS = "gaussian", "exponential", "plateau", "ridges across", "ridges along"
 RIDGE, CUT = 4.0, 0.3  # length of ridges over their width; height over Sq at which summits are cut off
 HOLDS, SURE = 0.95, 0.99  # share of points within the stated bound; and the quantile that is told
@@ -69,8 +69,8 @@ def solved(case: tuple) -> dict[str, Any]:
 def rough(kind: str, sq: float, length: float) -> lubfric.Surface:
     """The map of one of `KINDS`, with this Sq and correlation length [m], of ridges across them."""
     lengths = {"ridges across": (length, RIDGE * length), "ridges along": (RIDGE * length, length)}.get(kind, length)
-    cell, acf = length / PER_LENGTH, "exponential" if kind == "exponential" else "gaussian"
-    cells = (cell, RIDGE * cell) if kind == "ridges across" else cell
+    acf, (along, across) = "exponential" if kind == "exponential" else "gaussian", (length / n for n in PER_LENGTH)
+    cells = along, across * (RIDGE if kind == "ridges across" else 1.0)
     found = lubfric.generate_surface(SHAPE, cells, sq=sq, correlation_length=lengths, acf=acf, seed=11)
     return replace(found, heights=np.minimum(found.heights, CUT * sq)).scaled(sq=sq) if kind == "plateau" else found
 
