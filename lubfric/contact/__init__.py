@@ -8,7 +8,7 @@ from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .height_map import check_grid, contact_map, contact_maps, measured, rough_bodies, together, whole_maps
 from .kernels import semiperiodic_coefficients
 from .operator import HalfSpace, even_transform, half_space
-from .problem import Problem, make_problem
+from .problem import Problem, make_problem, on_grid
 from .rough_contract import ContactState, RoughContact, weighted_mean
 from .rounds import ContactResult, Found, State, concluded, contact_residuals, length_scale, look, refine, state_of
 from .run_in import RunIn, run_in

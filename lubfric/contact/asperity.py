@@ -9,6 +9,7 @@ import numpy as np
 from .._base import increasing_root, validate
 from ..errors import CONVERGED, STAGNATED, InputError, Report, returned
 from .asperity_find import FINDERS
+from .problem import on_grid
 
 DEFINITIONS = tuple(FINDERS)
 APPROACHES = np.geomspace(1e-5, 1.0, 53)  # of the height range, each 25 % longer: down to the deepest valley
@@ -118,13 +119,9 @@ def asperity_contact(
     A Hertz pressure of peak p0 that is cut off at P_u leaves ``F = P_u pi a² (1 - s²/3)``, ``s = P_u/p0 < 1``.
     """
     found = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
-    shape, separation = np.shape(heights), validate.in_plain("separation", separation, "m")
-    try:
-        flat = np.broadcast_to(np.asarray(separation, dtype=float), shape)
-    except (TypeError, ValueError):
-        raise InputError(f"separation must be a number or an array of shape {shape} in m") from None
-    validate.array("separation", flat, "m", ndim=2)
-    return found(separation)
+    separation = validate.in_plain("separation", separation, "m")
+    field = on_grid("separation", separation, np.shape(heights), "m")
+    return found(field if np.ndim(separation) else separation)
 
 
 def separation_for_load(

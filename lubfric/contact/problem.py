@@ -93,6 +93,16 @@ def make_problem(
     return Problem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
 
 
+def on_grid(name: str, value, shape, unit: str) -> np.ndarray:
+    """A number, one for each x, (nx,), or one for each cell, on all cells of ``shape``."""
+    try:
+        field = np.asarray(value, dtype=float)
+        field = np.broadcast_to(field[:, None] if field.ndim == 1 else field, shape)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} has shape {np.shape(value)}; allowed: a number, (nx,) or {shape} [{unit}]") from None
+    return validate.array(name, field, unit, ndim=2)
+
+
 def starting_pressure(problem: Problem, start) -> np.ndarray | None:
     """Pressure field [Pa] of an earlier result (or the field itself), limited to the hardness."""
     if start is None:

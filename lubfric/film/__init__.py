@@ -6,7 +6,7 @@ heavy piezoviscous contacts. ``shear_force(film, lubricant, ...)`` is its force 
 force that the film knows. The closed forms (`formulas`, `hertz`) are checks and starts.
 """
 
-from .assemble import in_si
+from .assemble import in_si, reported
 from .ehl import solve_ehl, solve_line_contact
 from .ehl_result import EHLResult, central_film, cubic, smallest
 from .formulas import flooded_inlet, moes_film, starved_inlet

@@ -80,21 +80,25 @@ def _half_work(solution: Solution) -> float:
     return 0.5 * float(np.diff(t.P) @ square - t.P[0] * (t.H[0] - 0.5 * t.X[0] ** 2))
 
 
-def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
-    last, solutions = levels[-1], first + levels
+def reported(solver: str, solutions, residuals, tolerance, notes, failed=ITERATION_LIMIT, solves=None) -> Report:
+    """The report of ``solutions``, the last of which counts; ``failed``: its status if it has converged and a residual
+    is still above the ``tolerance``; ``solves``: their number (None: one a step)."""
     history = tuple(e for solution in solutions for e in solution.history)
-    steps = len(history) - len(solutions)
-    residual = worst(residuals)
-    status = ITERATION_LIMIT if last.status == CONVERGED and residual > tolerance else last.status
+    steps, residual, status = len(history) - len(solutions), worst(residuals), solutions[-1].status
+    status = failed if status == CONVERGED and residual > tolerance else status
+    evaluations = steps if solves is None else solves
+    return Report(solver, status, steps, residual, tolerance, residuals, history, evaluations, notes)
+
+
+def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
+    last = levels[-1]
     inlet = last.terms.X[0] / problem.half_width
     centre = [central_film(level.terms.X, level.terms.H) for level in levels[-2:]]
     change = abs(centre[0] / centre[-1] - 1.0)
     if change > 2.0 * tolerance:
         notes += (f"central_film changed by {change:.1e} between the last two grids",)
     notes += (f"{last.grid.n} cells before rupture; inlet at {inlet:.4g} half-widths",)
-    return Report(
-        "line-contact EHL, Newton on nested grids", status, steps, residual, tolerance, residuals, history, steps, notes
-    )
+    return reported("line-contact EHL, Newton on nested grids", first + levels, residuals, tolerance, notes)
 
 
 def assemble(

@@ -143,9 +143,7 @@ def _inwards(problem: Problem) -> list[float | None]:
 
 def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
     """Nodes (n + 1) relative to the rupture point, which is expected at ``rupture``."""
-    distance = None
-    if problem.inlet is not None:
-        distance = problem.inlet + rupture
+    distance = None if problem.inlet is None else problem.inlet + rupture
     return node_positions(problem.half_width, problem.film_guess, n, distance)
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from .._base import validate
-from ..errors import CONVERGED, STAGNATED, InputError, Report, returned, worst
+from ..errors import CONVERGED, STAGNATED, InputError, Report, returned
 from ..film import (
     Effort,
     EHLResult,
@@ -18,6 +18,7 @@ from ..film import (
     make_problem,
     moes_film,
     node_positions,
+    reported,
     rupture_guess,
     smallest,
 )
@@ -168,16 +169,12 @@ def _report(problem: Problem, levels: list[Solution], tolerance: float) -> Repor
     tail = float(0.5 * a * last.P[0] / problem.M * abs(2.0 * last.H[0] / a**2 - 1.0))
     residuals = {"discretisation": grid_error(levels), "domain": tail if problem.inlet is None else 0.0}
     residuals |= last.residuals
-    residual = worst(residuals)
-    status = STAGNATED if last.status == CONVERGED and residual > tolerance else last.status
-    history = tuple(e for level in levels for e in level.history)
     first, end = last.mesh.X[[0, -1]] / problem.half_width
     notes: tuple[str, ...] = (f"{last.mesh.size} nodes from {first:.4g} to {end:.4g} half-widths",)
     if last.terms.last >= last.mesh.size - 2:
         notes += ("the film did not rupture inside the domain",)
-    steps, solves = len(history) - len(levels), sum(level.solves for level in levels)
-    solver = "line-contact EHL, differential deflection"
-    return Report(solver, status, steps, residual, tolerance, residuals, history, solves, notes)
+    solver, solves = "line-contact EHL, differential deflection", sum(level.solves for level in levels)
+    return reported(solver, levels, residuals, tolerance, notes, STAGNATED, solves)
 
 
 def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:

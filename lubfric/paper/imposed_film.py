@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .._base import increasing_root, validate
-from ..contact import ContactResult, Found, Problem, State, concluded, look, make_problem, refine, state_of
+from ..contact import ContactResult, Found, Problem, State, concluded, look, make_problem, on_grid, refine, state_of
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, InputError, returned
 
 UPDATES = ("root", "repeat")
@@ -91,24 +91,13 @@ class ImposedFilm:
 def impose(heights, film, spacing, e_prime, *, weight=None, **problem) -> ImposedFilm:
     """The validated contact; arguments as in `lubfric.paper.single_loop`."""
     heights = validate.array("heights", heights, "m", ndim=2)
-    film = _on_grid("film", film, heights.shape, "m")
-    weight = np.ones(heights.shape) if weight is None else _on_grid("weight", weight, heights.shape, "(-)")
+    film = on_grid("film", film, heights.shape, "m")
+    weight = np.ones(heights.shape) if weight is None else on_grid("weight", weight, heights.shape, "(-)")
     if weight.min() < 0 or weight.sum() == 0:
         raise InputError("weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)")
     weight = weight / weight.sum()
     mean_film = validate.positive("mean of film over the area A", float(np.vdot(weight, film)), "m")
     return ImposedFilm(make_problem(film - heights, spacing, e_prime, **problem), weight, mean_film)
-
-
-def _on_grid(name, value, shape, unit) -> np.ndarray:
-    field = np.asarray(value, dtype=float)
-    if field.ndim == 1:
-        field = field[:, None]  # along x
-    try:
-        field = np.broadcast_to(field, shape)
-    except ValueError:
-        raise InputError(f"{name} has shape {np.shape(value)}; allowed: a number, (nx,) or {shape} [{unit}]") from None
-    return validate.array(name, field, unit, ndim=2)
 
 
 def alternating(

@@ -24,6 +24,7 @@ FLOOR = 0.25  # of f_b: friction where the film carries most, about
 STEPS, FINER_STEPS = 9, 6  # of Newton's method on a strip of the deterministic model, and on smaller cells
 AGAIN = 4  # of a strip whose neighbour is solved: at an end of the range of an input
 ON_LONGER = 1 / 2  # work of moving roughness on cells twice as long along y
+IN_MOTION = 2.0  # processor time of moving roughness over its counted work, which is that of the systems alone
 UNLIKE = 0.65  # scatter of the difference between the models over that of f
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 SURE = 2.0  # factor between the expected film and any film: outside of it contact or separation is certain
@@ -108,7 +109,7 @@ def _resolved(
     if moving and moving > MOST_WORK and numerics.model == "auto":
         return 0, 0.0, moving
     if moving:
-        return count, (count + ON_LONGER * (ends + 2 * (ends > 0))) * moving, moving
+        return count, IN_MOTION * (count + ON_LONGER * (ends + 2 * (ends > 0))) * moving, moving
     (fx, fy), (dx, dy), (ux, uy) = both, strips.cells.coarse, strips.cells.factors
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
     finer = 0.5 * cells * fx * fy * (ux * uy if strips.whole else 1)  # a patch may be solved down to its own cells

@@ -124,6 +124,7 @@ def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[fl
 
 
 def lack_in_words(lack: Lack) -> str:
-    """One line."""
+    """One line; the change to two digits, all of 100 % and more."""
     what, change, remedy = lack
-    return f"{what}: f {'not estimated' if math.isnan(change) else f'{100 * change:+.2g} %'}; {remedy}"
+    digits = ".0f" if abs(change) >= 0.095 else ".2g"
+    return f"{what}: f {'not estimated' if math.isnan(change) else f'{100 * change:+{digits}} %'}; {remedy}"

@@ -62,8 +62,7 @@ def read_surface(
     spacing : (dx, dy) or one length [m], only for files that do not carry their own
     unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in .xyz); only where the file names none
     decimal : "." or ",", the decimal mark of a text file in which commas can be either
-    missing_value : number that stands for "not measured" in a .npy or text file, in the unit of the file; NaN always
-        does
+    missing_value : number for "not measured" in a .npy or text file, in the unit of the file, beside NaN
 
     Returns a `Surface`.
 
@@ -74,8 +73,7 @@ def read_surface(
         heights; non-uniform spacing; spacing given twice or not at all; a levelled map with slopes that no surface has,
         since heights and spacing are then in different units
     """
-    path = validate.folder("path", path)
-    head = _head(path)
+    path, head = _opened(path)
     validate.choice("form", form, FORMS)
     if not level and form != "plane":
         raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = 'plane' with level = False")
@@ -96,13 +94,14 @@ def read_surface(
     return _prepared(replace(surface, source=path.name), level, fill, form)
 
 
-def _head(path: Path) -> bytes:
-    """The first bytes of a file that is there and can be opened."""
+def _opened(path) -> tuple[Path, bytes]:
+    """The path and the first bytes of a file that is there and can be opened."""
+    path = validate.folder("path", path)
     if not path.is_file():
         raise InputError(f"path = {validate.shown(str(path))}: no such file")
     try:
         with path.open("rb") as file:
-            return file.read(4096)
+            return path, file.read(4096)
     except OSError as problem:
         raise InputError(f"path = {str(path)!r} cannot be read ({problem})") from None
 

@@ -236,7 +236,7 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
     strips = replace(prepared.strips, lengths=(8e-6, 8e-6), windows=windows)
     model, rng = replace(prepared, strips=strips), np.random.default_rng(5)
     sums, means, stated, alone = [], [], [], []
-    for _ in range(400):
+    for _ in range(200):
         pairs, of_line = synthetic(rng, 24, between=between)
         with_line, without = (levels._sum(model, pairs[:n], one) for one in (of_line, None))
         sums.append(with_line.numbers["coefficient"])

@@ -8,7 +8,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.output.describe import describe_scene
-from lubfric.sharing import lacking
+from lubfric.sharing import lack_in_words, lacking
 
 ROLLER = lubfric.load_scene(
     {
@@ -23,6 +23,11 @@ ROLLER = lubfric.load_scene(
     }
 )
 SQ = ROLLER.surface.sq
+
+
+def test_a_large_change_is_told_without_powers_of_ten():
+    words = [lack_in_words(("starved", change, "oil")) for change in (1.4, -0.126, 0.013, math.nan)]
+    assert words == [f"starved: f {w}; oil" for w in ("+140 %", "-13 %", "+1.3 %", "not estimated")]
 
 
 def told(lacks, word):

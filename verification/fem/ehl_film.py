@@ -15,6 +15,7 @@ serves first guesses. Both fade where pressure diffuses in less than a cell.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import scipy.sparse as sp
@@ -107,8 +108,10 @@ def partials(function: Callable, *values) -> tuple[np.ndarray, list[np.ndarray]]
     return function(*values), slopes
 
 
+@lru_cache(maxsize=4)
 def slope_jumps(line: Basis) -> tuple[np.ndarray, np.ndarray, sp.csr_matrix]:
-    """Degrees of freedom at inner vertices, mean length of the cells there, the matrix of the slope's jumps."""
+    """Degrees of freedom at inner vertices, mean length of the cells there, the matrix of the slope's jumps: once
+    for a line."""
     mesh = line.mesh
     size = np.abs(np.diff(mesh.p[0][mesh.t], axis=0)[0])
     slopes_inwards = np.array([[-3.0, -1.0, 4.0], [-1.0, -3.0, 4.0]])  # at either end, times size

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -56,11 +57,12 @@ def load_sharing(level: str):
     meaning of a displacement, its mean over a cell. lubfric's own is at cell centres. Here it is given a kernel of
     means, which is written for this comparison (`cell_mean`). What is left is the error of the finite elements.
     """
-    (grids, refinements, fineness, speeds), points = LEVELS[level], []
+    grids, refinements, fineness, speeds = LEVELS[level]
+    points: list[Point] = []
     for cells in grids:
         heights = rough(grids[-1], cells)
-        body = compliance(Strip((cells, cells), (LENGTH / cells,) * 2, elastic(), fineness=fineness))
-        points += [both(speed, heights, body, refinements) for speed in speeds]
+        body, coarser = strip(cells, fineness), {p.speed: p.fem.split for p in points}
+        points += [both(speed, heights, body, refinements, coarser.get(speed)) for speed in speeds]
     finest = points[-len(speeds) :]
     for p in finest:
         note = f"{p.cells} x {p.cells} cells of {LENGTH / p.cells * 1e6:.2f} µm"
@@ -104,11 +106,19 @@ def rough(finest: int, cells: int) -> np.ndarray:
     return surface.heights.reshape(cells, block, cells, block).mean(axis=(1, 3))
 
 
-def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int) -> Point:
-    """One speed by both methods. The finite-element root starts from no knowledge of the other's."""
+@lru_cache(maxsize=3)
+def strip(cells: int, fineness: int, across: float | None = None) -> Compliance:
+    """The patch on so many cells each way, which are ``across`` (m) long along y (None: as along x)."""
+    return compliance(Strip((cells, cells), (LENGTH / cells, across or LENGTH / cells), elastic(), fineness=fineness))
+
+
+def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int, known: float | None) -> Point:
+    """One speed by both methods. The finite-element root starts from no knowledge of the other's, but from the split
+    that was ``known`` on coarser cells."""
     s, cell = scene(), LENGTH / heights.shape[0]
     bodies = cylinder(s, speed, body, heights)
-    found = share_load(bodies, refinements=min(refinements, 1))
+    guess, step = (0.0, 1.0) if known is None else (known, 0.05)
+    found = share_load(bodies, refinements=min(refinements, 1), guess=guess, step=step)
     if refinements > 1:
         found = share_load(bodies, refinements=refinements, guess=found.split, step=0.01)
     model = averaged(prepare(s, lubfric.Surface(heights, (cell, cell))))

@@ -3,7 +3,6 @@ map."""
 
 import tempfile
 from collections.abc import Callable
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -14,13 +13,13 @@ from lubfric.sharing import Prepared, prepare
 
 from ..check import AT_LEAST, Check, compared
 from ..fem.contact import solve_contact
-from ..fem.harmonic import Compliance, Strip, compliance
+from ..fem.harmonic import Compliance
 from ..fem.layer_waves import fourier_compliance
 from ..fem.sharing import FlatBodies, Shared, share_load
 from ..parts import the
 from ..wiring.maps import planed
 from .contact_rough import BOX, layer_of, roughness
-from .load_sharing import LENGTH, SOURCE, TIGHT, averaged, cylinder, elastic, rough, rows_of, scene, whole
+from .load_sharing import LENGTH, SOURCE, TIGHT, averaged, cylinder, rough, rows_of, scene, strip, whole
 
 CELLS = 32
 TOLERANCE = {"quick": (3e-3, 1.2e-2, 5e-3), "default": (3e-3, 6e-3, 3e-3), "full": (3e-3, 6e-3, 3e-3)}
@@ -51,7 +50,7 @@ def sharing_cases(level: str):
     elastic layer of bricks.
     """
     asked, refinements = TOLERANCE[level], REFINEMENTS[level]
-    body, heights = strip(LENGTH / CELLS), rough(CELLS, CELLS)
+    body, heights = strip(CELLS, 1), rough(CELLS, CELLS)
     for name in list(CASES)[::4] if level == "quick" else CASES:
         speed, sections = CASES[name]
         s = scene().with_(**sections)
@@ -64,12 +63,6 @@ def sharing_cases(level: str):
     if level != "quick":
         yield from measured_map(asked, refinements)
     yield from flat(asked, refinements)
-
-
-@lru_cache(maxsize=2)
-def strip(across: float) -> Compliance:
-    """The strip of the patch, with cells ``across`` (m) long along y."""
-    return compliance(Strip((CELLS, CELLS), (LENGTH / CELLS, across), elastic(), fineness=1))
 
 
 def yielded(found: Shared, main: lubfric.FrictionResult, body: Compliance, model: Prepared):
@@ -92,7 +85,7 @@ def measured_map(allowed, refinements: int):
         model = averaged(prepare(s))
     heights = planed(ground(across)).T
     heights *= 100e-9 / heights.std()
-    found = share_load(cylinder(s, speed, strip(across), heights - heights.mean()), refinements=refinements)
+    found = share_load(cylinder(s, speed, strip(CELLS, 1, across), heights - heights.mean()), refinements=refinements)
     yield from compared("measured map", rows_of(lubfric.friction(model, speed), found, allowed), SOURCE)
 
 
