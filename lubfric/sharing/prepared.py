@@ -158,12 +158,10 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
     for name, one in (("surface", surface), ("counterface", counterface)):
         if one is not None:
             validate.instance(name, one, Surface, "a lubfric.Surface")
-    if surface is None or counterface is None:
-        if counterface is not None:
-            raise InputError("counterface is given without surface; give the maps of both bodies, or of none")
+    if counterface is None:
         return () if surface is None else (surface,)
-    if scene.counterface is None or scene.counterface.sq == 0:
-        raise InputError("counterface is given, but that of the scene is smooth; give its [counterface] an sq")
+    if surface is None or scene.counterface is None or scene.counterface.sq == 0:
+        raise InputError("counterface needs a surface beside it, the maps of both bodies, and a rough [counterface]")
     return together(surface, counterface)
 
 
