@@ -33,7 +33,7 @@ class Command:
     levels : those it offers, the default one first
     workers : processes it starts unasked: for its studies, or those of a campaign for the cases of a part
     add_options : adds its own options to the parser
-    prepared : the studies as the parsed options want them
+    own : more keywords of a study of this name, from the parsed options
     finished : writes what else belongs to the report, and returns text for the terminal
     campaign : its studies are given a `kept.Run`, and its tables are put where the pages of ``--docs`` name them
     """
@@ -45,7 +45,7 @@ class Command:
     levels: tuple[str, ...] = LEVELS
     workers: int = 1
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None
-    prepared: Callable[[Study, argparse.Namespace], Study] = lambda study, options: study
+    own: Callable[[str, argparse.Namespace], dict[str, Any]] = lambda name, options: {}
     finished: Callable[[reports.Report, argparse.Namespace], str] = lambda report, options: ""
     campaign: bool = False
 
@@ -83,22 +83,17 @@ def campaign(
     Each is ``function(level, run=..., **keywords)`` with a `kept.Run`, and yields what a study does. ``own(name,
     options)`` are more keywords.
     """
-
-    def prepared(study: Study, options: argparse.Namespace) -> Study:
-        return replace(study, options=study.options | own(study.name, options))
-
     studies = tuple(Study(part, f"verification.{target}", title, levels, keys) for part, target, title, keys in parts)
     folder = f"out/{name}"
-    return Command(name, summary, studies, folder, levels, add_options=add_options, prepared=prepared, campaign=True)
+    return Command(name, summary, studies, folder, levels, add_options=add_options, own=own, campaign=True)
 
 
 def _prepared(command: Command, study: Study, options: argparse.Namespace) -> Study:
     """The study as the options want it. Those of a campaign keep their rows in one folder for each level."""
-    study = command.prepared(study, options)
     if not command.campaign:
         return study
     run = kept.Run(options.out / f"kept-{options.level}", options.workers, study.name)
-    return replace(study, options=study.options | {"run": run})
+    return replace(study, options=study.options | command.own(study.name, options) | {"run": run})
 
 
 def parser(command: Command) -> argparse.ArgumentParser:

@@ -133,7 +133,8 @@ def run_fit(scene: Scene, arguments) -> None:
             passed = f"{time.perf_counter() - begun:.0f} s, about {studies.in_words(left)} left"
             say(f"curve {done} of about {total}: nearest so far {off} off at {best}; {passed}")
 
-    found = studies.fit(scene, measured, bounds, on_progress=on_progress)
+    with keeping(lambda: f"the points solved so far are kept in {arguments.out}"):
+        found = studies.fit(scene, measured, bounds, store=arguments.out, on_progress=on_progress)
     say(found.explain())
     with run_folder(arguments.out, begun) as folder:
         folder.contents["fitted.toml"] = found.scene.to_toml().encode()

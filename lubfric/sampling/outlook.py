@@ -12,6 +12,7 @@ from .levels import DIFFERENCE
 from .moving import MOST_WORK, moving_strip_work
 from .pair import cells_of
 from .sample import SAFETY
+from .shorter import SHORT
 from .uncertainty import OF_FILM, ORDER, student
 
 CELL_SECONDS = 1.3e-6  # processor time of a cell of the strips in balance, about
@@ -22,6 +23,7 @@ GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
 RISE = 0.4  # of the film of the whole load, by which it is wider, about
 FLOOR = 0.25  # of f_b: friction where the film carries most, about
 STEPS, FINER_STEPS = 9, 6  # of Newton's method on a strip of the deterministic model, and on smaller cells
+LAST_STEPS = 20  # on cells a quarter as long, which a map shorter than a piece is solved on as a whole
 AGAIN = 4  # of a strip whose neighbour is solved: at an end of the range of an input
 ON_LONGER = 1 / 2  # work of moving roughness on cells twice as long along y
 IN_MOTION = 2.0  # processor time of moving roughness over its counted work, which is that of the systems alone
@@ -113,5 +115,7 @@ def _resolved(
     (fx, fy), (dx, dy), (ux, uy) = both, strips.cells.coarse, strips.cells.factors
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
     finer = 0.5 * cells * fx * fy * (ux * uy if strips.whole else 1)  # a patch may be solved down to its own cells
+    short = not strips.whole and strips.length < SHORT * strips.lengths[1] and fx * ux >= 4 <= fy * uy
+    work = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
     again = work_of_steps(finer if strips.whole else cells, AGAIN) * (ends + (ends > 0))
-    return count, count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again, 0.0
+    return count, count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again + work, 0.0

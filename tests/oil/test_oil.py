@@ -37,13 +37,6 @@ def test_viscosity_index_above_the_table():
     assert above == pytest.approx(below, abs=0.1)  # formulas and table meet
 
 
-@given(st.floats(2.1, 60), st.floats(3, 15))
-def test_viscosity_at_100_inverts_the_index(nu100, ratio):
-    index = oil.viscosity_index(nu100 * ratio * MM2, nu100 * MM2)
-    if -200 < index < 400:
-        assert oil.viscosity_at_100(nu100 * ratio * MM2, index) == pytest.approx(nu100 * MM2, rel=1e-8)
-
-
 def test_d341_has_the_constant_0_7():
     assert oil.from_viscosities(68 * MM2, 8.6 * MM2).kinematic_viscosity(333.15) == pytest.approx(
         28.49e-6, abs=0.005e-6

@@ -1,4 +1,5 @@
-"""Heat in the deterministic answer: on smooth surfaces that of the smooth film, without heat the isothermal answer."""
+"""The deterministic answer and its cautions: heat on smooth surfaces is that of the smooth film, none of it the
+isothermal answer; a way out exists."""
 
 import pytest
 from scene_text import paper_scene
@@ -56,3 +57,11 @@ def test_much_heat_is_left_to_load_sharing_or_told():
     assert auto.deterministic is None and "of the film and takes" in auto.decision.text
     assert asked.deterministic is not None and any("most that was checked" in e.what for e in asked.validity)
     assert solved(0.02, model="auto").deterministic is not None
+
+
+def test_the_way_out_of_an_error_by_the_cells_is_one_that_the_map_has():
+    scene = ROLLER.with_(numerics={"tolerance": 1e-4, "heat": "off", "model": "deterministic"})
+    surface = lubfric.prepare(scene).surface
+    made, given = (lubfric.friction(lubfric.prepare(scene, one), 0.3).validity for one in (None, surface))
+    made, given = (next(e.remedy for e in told if "numerical error" in e.what) for told in (made, given))
+    assert "contact.spacing" in made and "contact.spacing" not in given

@@ -107,13 +107,6 @@ def test_a_key_with_its_section_is_told_how_to_be_changed():
         scene.with_(**{"numerics.tolerance": 0.1})
 
 
-def test_missing_files_and_broken_toml(tmp_path):
-    with pytest.raises(lubfric.InputError, match="did you mean 'paper'"):
-        lubfric.load_scene("papr")
-    with pytest.raises(lubfric.InputError, match="not valid TOML"):
-        lubfric.load_scene(write(tmp_path, "[bodies\nradius = 1"))
-
-
 def test_text_of_other_encodings(tmp_path):
     path = tmp_path / "scene.toml"
     path.write_bytes(b"\xef\xbb\xbf" + toml().encode())  # a byte order mark is no part of the text

@@ -279,7 +279,7 @@ def test_a_short_form_is_fitted():
     assert found.values["motion.slip_percent"] == pytest.approx(50, rel=0.02)
 
 
-def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_finds_too(tmp_path, capsys):
+def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_finds_too(tmp_path, capsys, monkeypatch):
     """Progress tells misfit and values once a curve; the last are those that were found."""
     measured, told = made_up(3, SPEEDS[::2]), []
     lines = [f"{1e3 * u:.6g},{f:.6g}" for u, f in zip(measured.x, measured.coefficient)]
@@ -309,6 +309,9 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     assert (tmp_path / "out" / "fit.png").stat().st_size > 10_000
     assert main([*command, "--parameter", "lubricant.viscosity"]) == 2
     assert "section.key=lowest:highest" in capsys.readouterr().err
+    monkeypatch.setattr("lubfric.studies.points.outcome_of", None)  # all points are kept: nothing is solved again
+    assert main([*command, *sought]) == 0
+    assert json.loads((tmp_path / "out" / "fit.json").read_text())["values"] == record["values"]
 
 
 def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_intervals():

@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from verification.__main__ import main
 from verification.check import Table
-from verification.tables import TABLES, main
+from verification.tables import TABLES
 from verification.tables.pages import BENCHMARKS, BLOCK, CAMPAIGNS, body, replaced
 
 CELLS = (["speed", "f"], [["0.1", "0.05"]])
@@ -63,7 +64,7 @@ def marked(folder, *names):
 def test_the_command_measures_what_is_marked_and_reports_it(tmp_path, monkeypatch):
     monkeypatch.setitem(TABLES, "times", lambda: CELLS)
     page = marked(tmp_path, "times")
-    assert main(["--only", "times", "--docs", str(tmp_path), "--out", str(tmp_path)]) == 0
+    assert main(["tables", "--only", "times", "--docs", str(tmp_path), "--out", str(tmp_path)]) == 0
     assert "| 0.1 | 0.05 |" in page.read_text() and "tables --only times --docs docs`" in page.read_text()
     report = json.loads((tmp_path / "report.json").read_text())
     assert report["studies"][0]["tables"][0]["rows"] == [["0.1", "0.05"]]
@@ -75,7 +76,7 @@ def test_a_table_that_fails_costs_no_other_and_leaves_its_page_as_it_was(tmp_pat
     monkeypatch.setitem(TABLES, "roughness", lambda: (["speed"], []))
     monkeypatch.setitem(TABLES, "stribeck", lambda: CELLS)
     page = marked(tmp_path, "times", "stribeck")
-    asked = ["--only", "times", "roughness", "stribeck", "--docs", str(tmp_path), "--out", str(tmp_path)]
+    asked = ["tables", "--only", "times", "roughness", "stribeck", "--docs", str(tmp_path), "--out", str(tmp_path)]
     assert main(asked) == 1
     assert page.read_text().startswith("<!-- table: times -->\n<!-- end of table -->\n")
     assert "| 0.1 | 0.05 |" in page.read_text()

@@ -16,12 +16,8 @@ CHARTS = {
     "film": "Smooth film: error against time",
     "job": "The whole job: error against time per point",
 }
-
-
-def main(argv: list[str]) -> int:
-    """The command."""
-    parts = [(name, "charts:chart", title, {"name": name}) for name, title in CHARTS.items()]
-    return frame.main(frame.campaign("charts", __doc__, parts, ("full", "quick")), argv)
+PARTS = [(name, "charts:chart", title, {"name": name}) for name, title in CHARTS.items()]
+COMMAND = frame.campaign("charts", __doc__, PARTS, ("full", "quick"))
 
 
 def chart(level: str, name: str, run: Run = Run()) -> Iterator[Item]:

@@ -23,13 +23,6 @@ FIGURES = {
 }
 
 
-def main(argv: list[str]) -> int:
-    """The command."""
-    parts: list[tuple[str, str, str, dict]] = [(name, f"figures.{at}", name, {}) for name, at in FIGURES.items()]
-    command = frame.campaign("figures", __doc__, parts, ("full", "quick"))
-    return frame.main(replace(command, finished=_document), argv)
-
-
 def _document(report: Report, options: Namespace) -> str:
     from . import page
 
@@ -37,3 +30,7 @@ def _document(report: Report, options: Namespace) -> str:
         return ""
     page.write(options.docs, [f for outcome in report.outcomes for f in outcome.figures])
     return f"written: {options.docs / 'paper.md'}"
+
+
+PARTS: list[tuple[str, str, str, dict]] = [(name, f"figures.{at}", name, {}) for name, at in FIGURES.items()]
+COMMAND = replace(frame.campaign("figures", __doc__, PARTS, ("full", "quick")), finished=_document)

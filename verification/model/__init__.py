@@ -15,8 +15,4 @@ PARTS: tuple[tuple[str, str, str, dict], ...] = (
     ("moving-points", "model.random_moving:random_moving", "Random contacts under moving roughness", {}),
     ("grids", "model.film:grids", "One gap, one pressure on ever smaller cells", {}),
 )
-
-
-def main(argv: list[str]) -> int:
-    """The command."""
-    return frame.main(frame.campaign("model", __doc__, PARTS), argv)
+COMMAND = frame.campaign("model", __doc__, PARTS)

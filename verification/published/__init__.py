@@ -15,13 +15,6 @@ from ..studies import PUBLISHED
 WEAK = 0.25
 
 
-def main(argv: list[str]) -> int:
-    """The command."""
-    levels = ("default", "full")
-    found = frame.Command("published", __doc__, PUBLISHED, "out/published", levels, finished=lambda r, o: summary(r))
-    return frame.main(found, argv)
-
-
 def summary(report) -> str:
     """How many checks leave open so much that they say little; and those that failed, with the reason."""
     weak = sum(c.tolerance > WEAK * abs(c.expected) for c in report.checks)
@@ -31,6 +24,10 @@ def summary(report) -> str:
     for c in names:
         lines += [f"  {c.name}: ours {c.measured:.4g}, theirs {c.expected:.4g}; {c.note or 'no reason known'}"]
     return "\n".join(lines)
+
+
+LEVELS = ("default", "full")
+COMMAND = frame.Command("published", __doc__, PUBLISHED, "out/published", LEVELS, finished=lambda r, o: summary(r))
 
 
 def against(

@@ -16,14 +16,12 @@ PARTS: tuple[tuple[str, str, str, dict], ...] = (
 SEED = 240_000
 
 
-def main(argv: list[str]) -> int:
-    """The command."""
-    return frame.main(frame.campaign("sampling", __doc__, PARTS, add_options=_options, own=_own), argv)
-
-
 def _options(parser: ArgumentParser) -> None:
     parser.add_argument("--seed", type=int, default=SEED, help="of the surfaces (default: %(default)s)")
 
 
 def _own(part: str, options: Namespace) -> dict:
     return {} if part == "quantities" else {"seed": options.seed}
+
+
+COMMAND = frame.campaign("sampling", __doc__, PARTS, add_options=_options, own=_own)

@@ -18,11 +18,7 @@ PARTS = (
     ("bad-inputs", "hostile:bad_inputs", "Bad input", {}),
     ("soak", "hostile.soak:soak", "Random scenes", {}),
 )
-
-
-def main(argv: list[str]) -> int:
-    """The command."""
-    return frame.main(frame.campaign("stability", __doc__, PARTS, ("full", "quick")), argv)
+COMMAND = frame.campaign("stability", __doc__, PARTS, ("full", "quick"))
 
 
 def stability_map(level: str, name: str, run: Run = Run()) -> Iterator[Item]:

@@ -1,7 +1,6 @@
 """The contact formulations of the paper against the load-controlled default: agreement, work, time."""
 
-import statistics
-import time
+from collections.abc import Callable
 from functools import partial
 
 import numpy as np
@@ -11,6 +10,7 @@ from lubfric.contact import half_space
 from lubfric.contact.solve import solve_contact
 from lubfric.paper import alternating, single_loop
 
+from ..charts.measure import interleaved
 from ..check import AT_MOST, Check, Table
 
 E_PRIME, RADIUS, SPACING, SQ = 231e9, 2e-3, 1e-6, 1e-7
@@ -18,13 +18,14 @@ BOUNDARIES = {"flat": ("periodic", "periodic"), "cylinder": ("free", "periodic")
 COUNTS = {"quick": 64, "default": 128, "full": 256}
 HARDNESS, TOLERANCE, AGREEMENT = 2e9, 1e-6, 1e-4
 PAPER = "Akchurin et al. 2015, Appendix 2 and Sec. 2.2, doi:10.1007/s11249-015-0536-z"
-METHODS = {
+METHODS: dict[str, Callable] = {
     "single loop": single_loop,
     "single loop, as printed": partial(single_loop, form="printed", max_iterations=1000),
     "single loop, stop on Eq. (23)": partial(single_loop, stop="separation"),
     "alternating, root": alternating,
     "alternating, repeated": partial(alternating, update="repeat"),
 }
+DIRECT = "load-controlled (default)"
 MUST_AGREE = ("single loop", "alternating, root")
 COLUMNS = ("case", "method", "status", "iterations", "convolutions", "residual", "relative L2 of pressure", "seconds")
 
@@ -74,10 +75,11 @@ def formulations(level: str):
     """
     rows, repeats = [], 1 if level == "quick" else 3
     for case in (Case(shape, hardness, COUNTS[level]) for shape in BOUNDARIES for hardness in (None, HARDNESS)):
-        seconds, direct = timed(case.by_load, repeats)
-        rows.append(row(case, "load-controlled (default)", direct, 0.0, seconds))
-        for name, method in METHODS.items():
-            seconds, found = timed(lambda method=method, case=case: method(*case.given, **case.options), repeats)
+        calls = {DIRECT: case.by_load}
+        calls |= {name: partial(method, *case.given, **case.options) for name, method in METHODS.items()}
+        solved = interleaved(calls, repeats)
+        direct = solved[DIRECT][0]
+        for name, (found, (seconds, *_)) in solved.items():
             off = float(np.linalg.norm(found.pressure - direct.pressure) / np.linalg.norm(direct.pressure))
             rows.append(row(case, name, found, off, seconds))
             if name in MUST_AGREE:
@@ -86,16 +88,6 @@ def formulations(level: str):
                 yield Check(f"{name}: {case.name}", off, 0.0, AGREEMENT, source, AT_MOST, **about)
     caption = f"Contact formulations, {COUNTS[level]} x {COUNTS[level]} cells, cold start, tolerance 1e-6. {PAPER}"
     yield Table("formulations", caption, COLUMNS, rows)
-
-
-def timed(work, repeats: int):
-    """Median wall time of ``work``, and what it returned."""
-    seconds = []
-    for _ in range(repeats):
-        begun = time.perf_counter()
-        result = work()
-        seconds.append(time.perf_counter() - begun)
-    return statistics.median(seconds), result
 
 
 def row(case: Case, name: str, found, off: float, seconds: float) -> tuple:

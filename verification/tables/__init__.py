@@ -19,12 +19,6 @@ from .measured import Cells
 TABLES: dict[str, Callable[[], Cells]] = measured.TABLES | studies.TABLES
 
 
-def main(argv: list[str]) -> int:
-    """The command."""
-    parts = [(name, "tables:written", caption(name), {"name": name}) for name in TABLES]
-    return frame.main(frame.campaign("tables", __doc__, parts, ("default",), _options), argv)
-
-
 def caption(name: str) -> str:
     """The first sentence on a table, by its function."""
     return (inspect.getdoc(TABLES[name]) or name).split("\n")[0]
@@ -39,3 +33,7 @@ def written(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
 
 def _options(parser: ArgumentParser) -> None:
     parser.set_defaults(docs=Path("docs"))
+
+
+PARTS = [(name, "tables:written", caption(name), {"name": name}) for name in TABLES]
+COMMAND = frame.campaign("tables", __doc__, PARTS, ("default",), _options)
