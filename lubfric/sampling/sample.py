@@ -150,8 +150,9 @@ def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
                 effect = _effect(prepared, _point(prepared, speed, found), solved, strips)
             found = replace(found, scatter=scatter, effect=(effect or CellEffect()).at_load(solved.contact_load))
         more = _wanted(prepared, found, strips)
-        if more <= count or _too_coarse(prepared, speed, found):
-            return found
+        grazing = count == strips.first and solved.response is not None and found.scatter.spots < FEW
+        if more <= count or (not grazing and _too_coarse(prepared, speed, found)):
+            return found  # where few spots graze each other, more strips are cheaper than shorter cells
         start = None if solved.response is None else replace(solved, contact=replace(solved.contact, fields=None))
         count = more
 
@@ -259,7 +260,13 @@ def _too_coarse(prepared: Prepared, speed: float, found: Found) -> bool:
         moved = abs(response.split * found.corrected)
         if max(abs(found.corrected), abs(found.effect.film)) > LARGEST * found.solved.contact.mean_gap:
             return True
-        return moved > FARTHEST or response.relative("coefficient", found.second_order) > allowed
+        there, load = found.solved.forces, found.solved.contact_load
+        spots = max(there.boundary / max(there.total, 1e-300), load / scene.bodies.load)  # of friction, or of the load
+        if found.count == strips.available or found.scatter.spots >= FEW:  # else it is known to a factor anyway
+            spots = math.inf
+        if moved > FARTHEST and spots * math.expm1(min(moved, 30.0)) > allowed:
+            return True
+        return response.relative("coefficient", found.second_order) > allowed
     clearance = found.solved.contact.mean_film - found.solved.contact.mean_gap
     if found.count > strips.first or clearance > CLOSE * prepared.surface.sq:
         return False
