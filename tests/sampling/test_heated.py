@@ -1,6 +1,8 @@
 """The deterministic answer and its cautions: heat on smooth surfaces is that of the smooth film, none of it the
 isothermal answer; a way out exists."""
 
+from dataclasses import replace
+
 import pytest
 from scene_text import paper_scene
 
@@ -65,3 +67,11 @@ def test_the_way_out_of_an_error_by_the_cells_is_one_that_the_map_has():
     made, given = (lubfric.friction(lubfric.prepare(scene, one), 0.3).validity for one in (None, surface))
     made, given = (next(e.remedy for e in told if "numerical error" in e.what) for told in (made, given))
     assert "contact.spacing" in made and "contact.spacing" not in given
+
+
+def test_the_range_of_a_conductivity_is_worth_what_it_is_to_the_other_model():
+    scene = replace(ROLLER, ranges=(("lubricant.conductivity", 0.08, 0.25),))
+    found, film = (
+        lubfric.friction(scene.with_(numerics={"model": model}), 0.6) for model in ("deterministic", "load-sharing")
+    )
+    assert found.uncertainty.inputs == pytest.approx(film.uncertainty.inputs, rel=0.15)
