@@ -54,6 +54,13 @@ def test_what_heat_does_to_f_is_partly_in_the_interval():
     assert cold.inlet_film_factor == 1 and cold.film_temperature_rise == 0 and cold.decision.heat == ""
 
 
+def test_the_interval_of_eq_8_has_the_doubt_about_heat_too():
+    """Of a thick film the model error was 4e-7 where heat takes half of f."""
+    hot, cold = (solved(3.0, sq=1e-10, heat=heat) for heat in ("on", "off"))
+    assert hot.decision.model == "load sharing" and cold.uncertainty.model < 1e-5
+    assert 0.5 * (1 - hot.coefficient / cold.coefficient) < hot.uncertainty.model < 0.6
+
+
 def test_much_heat_is_left_to_load_sharing_or_told():
     auto, asked = (solved(3.0, model=model) for model in ("auto", "deterministic"))
     assert auto.deterministic is None and "of the film and takes" in auto.decision.text
