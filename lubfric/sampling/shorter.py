@@ -66,7 +66,8 @@ def on_shorter_cells(
     change = abs(float(np.mean(changes)))  # its error is told
     left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
-    dear = spent + 4 * SHORTEST / LENGTH * pieces[0][-1].work > MOST_WORK
+    short = SHORTEST * strips.lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
+    dear = spent + 4 * min(short, 1.0) * pieces[0][-1].work > MOST_WORK  # a short map is all of both pieces
     if left <= scene.numerics.tolerance or halvings < 2 or dear:
         return pieces, (), error, left
     shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=SHORTEST)

@@ -100,6 +100,20 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
         truth = on(0.45).result.coefficient
         assert bool(found.shortest) == (order < 2)
         assert abs(found.numbers["coefficient"] / truth - 1) <= 1.1 * found.numerical <= 1.1 * most
+    spent = sum(strip.work for piece in found.pieces for strip in piece) + sum(p.resolved.work for p in found.pairs)
+    monkeypatch.setattr(shorter, "MOST_WORK", spent + 3 * solved.work)
+    for rows in (100, 25):  # a piece of 22 correlation lengths; of 6, which is no longer than the last one
+        solved = replace(
+            pair.resolved,
+            result=replace(
+                pair.resolved.result,
+                load_at=pair.resolved.result.load_at[:rows],
+                friction_at=pair.resolved.result.friction_at[:rows],
+            ),
+        )
+        found = levels.levels_of(lubfric.prepare(FINE, like=prepared), 0.1, None)
+        assert bool(found.shortest) == (rows == 100)
+    solved = pair.resolved
     monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(3.6)))
     for acf in ("gaussian", "exponential"):  # no change between cells is believed only where heights are smooth
         found = levels.levels_of(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, None)
