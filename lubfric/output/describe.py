@@ -11,16 +11,7 @@ from ..contact import MeasuredStrips, Strips, check_grid, contact_map, strips_of
 from ..errors import InputError
 from ..quantities import counted
 from ..sampling import MOST_WORK, forecast
-from ..scene import (
-    CHANGING,
-    Harmonic,
-    History,
-    Scene,
-    Table,
-    gap_not_resolved,
-    moves,
-    told_doubts,
-)
+from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, moves, told_doubts
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
