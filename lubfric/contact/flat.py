@@ -138,12 +138,11 @@ def contact_curve(
 
 def _table(solved: dict[float, ContactResult]) -> np.ndarray:
     """Pressures, gaps, area and plastic fractions, and convolutions of all that was ``solved``, heaviest first."""
-    return np.array(
-        [
-            (pressure, r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations)
-            for pressure, r in sorted(solved.items(), reverse=True)
-        ]
-    ).T
+    rows = [
+        (pressure, r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations)
+        for pressure, r in sorted(solved.items(), reverse=True)
+    ]
+    return np.array(rows).T
 
 
 def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
