@@ -1,7 +1,7 @@
 """Tangential force of the film on the upper surface (paper, Eqs. 10-12)."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -92,8 +92,8 @@ def shear_force(
         share = 0.5 * (h_rupture / h[1:] + h_rupture / h[:-1])
         couette += np.sum((face_tau * share)[~full])
     sense = math.copysign(1.0, slide_roll_ratio)
-    forces = sense * couette, sense * resistance, quadrature, parts, excess
-    return ShearForce(*(float(width * force) for force in forces), ratio)
+    forces = [float(width * each) for each in (sense * couette, sense * resistance, quadrature, parts, excess)]
+    return replace(ShearForce(*forces), stress_ratio=ratio)
 
 
 def above_carried(pressure, tau, lengths) -> tuple[float, float]:
