@@ -6,6 +6,7 @@ interval. `friction` is the entry; `answer` and `answer_deterministic` are the t
 """
 
 from .friction import friction
+from .heated import strip_heat
 from .moving import MOST_WORK, maps_of
 from .outlook import forecast
 from .pair import numbers_of, strip_of

@@ -9,6 +9,7 @@ from typing import Any
 
 from ..contact import measured
 from ..deterministic import DeterministicResult, Refined
+from ..quantities import depending_on
 from ..scene import Scene, moves
 from ..sharing import Heat, Prepared, Validity, of_error, of_heat, of_inlet, of_motion, of_pressure, of_thickness
 from .decision import Decision
@@ -19,7 +20,7 @@ from .result import FrictionResult
 from .sample import Found
 from .uncertainty import Uncertainty, field_errors_of, interval, percent, student
 
-FEW_STRIPS = "not known from fewer than three strips"
+FEW_STRIPS, ONE_HEAT = "not known from fewer than three strips", "heat is found on one strip"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
 BY_INLET = "f without the heat of the inlet {:+.2g} %"
@@ -57,7 +58,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         tolerance=numerics.sampling_tolerance,
         notes=_sample_notes(prepared, sampling, levels.length),
     )
-    decision = _decision(scene, results, levels, heat)
+    decision, of_heat = _decision(scene, results, levels, heat), dict.fromkeys(depending_on("heat"), ONE_HEAT)
     entries = (
         *_entries(prepared, numbers, results, heat),
         *of_error(levels.numerical, numerics.tolerance, _way_out(prepared)),
@@ -68,7 +69,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         **(numbers | {"seconds": time.perf_counter() - begun}),
         report=replace(results[0].report, notes=(decision.text, *(e.text for e in entries), known.text)),
         uncertainty=known,
-        errors=field_errors_of(levels.errors, FEW_STRIPS),
+        errors=field_errors_of(levels.errors | dict.fromkeys(of_heat, math.nan), FEW_STRIPS, of_heat),
         decision=decision,
         validity=entries,
         balance=None if found is None or strips.whole else found.balance,

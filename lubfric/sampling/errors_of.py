@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from ..quantities import depending_on
 from ..scene import Scene, budget, gap_not_resolved
 from ..sharing import Balance, Forces
+from .heated import error_by_heat
 from .sample import Found
 from .scatter import BlockError, Scatter
 from .uncertainty import (
@@ -71,6 +72,9 @@ def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
     if not math.isfinite(sampling):
         sampling = math.nan
     of_model, unknown = model_error(scene, found)
+    felt = response.per_film(forces, balance.contact.mean_film) if response is not None else forces.felt
+    by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**felt)
+    of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
     both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
     known = Uncertainty(
         numerical=relative,

@@ -9,6 +9,7 @@ from ..deterministic import Strip, solve_strip
 from ..errors import ConvergenceError
 from ..scene import FRICTION, Scene, moves, value_of
 from ..sharing import Prepared, on_stack, prepare, solve_balance
+from .heated import strip_heat
 from .moving import solved_strip
 from .pair import longer_than, strip_of
 from .result import FrictionResult
@@ -101,6 +102,10 @@ def _resolved(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], f
         factors = round(cells[0] / surface.spacing[0]), round(cells[1] / surface.spacing[1])
     longer = longer_than(surface, factors, moving)
 
+    def heated(scene: Scene) -> float:
+        found = solved(scene, start).result
+        return found.coefficient * (1 - strip_heat(scene, found).change)
+
     def solved(scene: Scene, start: Strip | None, factors=longer if moving else factors) -> Strip:
         if moving:
             return solved_strip(replace(prepared, scene=scene), 0, result.speed, factors=factors, start=start)
@@ -108,4 +113,4 @@ def _resolved(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], f
 
     start = solved(prepared.scene, None, longer)
     start = start if moving else solved(prepared.scene, start)
-    return lambda scene: solved(scene, start).result.coefficient
+    return heated

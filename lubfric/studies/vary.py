@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -188,7 +189,9 @@ def unit_of(key: str) -> str:
 
 
 def _value(key: str, value: Any) -> Any:
-    """In Python's types and in the unit of the ``key``, a list as a tuple."""
-    value = validate.python_value(value)
+    """In Python's types and in the unit of the ``key``, a list as a tuple, a path as text."""
+    value = str(value) if isinstance(value, Path) else validate.python_value(value)
     value = without_unit(f"vary: {key}", value, KEYS[key].unit, typical(key)) if key in KEYS else value
+    if isinstance(value, dict):
+        return {name: _value("", part) for name, part in value.items()}
     return tuple(_value(key, part) for part in value) if isinstance(value, list) else value

@@ -44,6 +44,8 @@ def test_parts_add_up_and_the_model_is_told(found):
     assert found.couette_force + found.rolling_force == pytest.approx(found.shear_force, rel=1e-9)
     assert found.contact_load + found.film_load == pytest.approx(load, rel=1e-9)
     assert 0 < found.contact_load < load and 1e-8 < found.mean_gap < 1e-6
+    assert found.errors.contact_load > 0  # known from three strips; heat is found on one
+    assert math.isnan(found.errors.inlet_film_factor) and "one strip" in found.errors.reasons["inlet_film_factor"]
 
 
 def test_interval_holds_numerical_sampling_and_model(found):

@@ -118,6 +118,14 @@ def test_oils_and_whole_sections_are_named_in_the_tables(tmp_path):
     same(lubfric.open_study(tmp_path / "study"), result)
 
 
+def test_paths_and_numbers_of_numpy_are_kept_with_the_plan(tmp_path):
+    """Inside a section too; a TypeError and a plan that could not be read, once."""
+    np.save(tmp_path / "map.npy", lubfric.prepare(SCENE).surface.heights)
+    sections = [{"file": tmp_path / "map.npy", "spacing": np.float32(1e-6)}]
+    study = lubfric.study(SCENE.with_(numerics={"accept": True}), {"surface": sections}, [0.3], store=tmp_path)
+    same(lubfric.open_study(tmp_path), study)
+
+
 @pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
 def test_any_executor_gives_the_same_bits(serial, pool, tmp_path):
     with pool(2) as executor:

@@ -62,6 +62,19 @@ def test_of_either_sense_of_sliding_the_film_rolls_the_same_way():
     assert there.rolling_force.min() > 0
 
 
+def test_heat_that_it_leaves_out_is_told_with_its_size():
+    """That of the steady answer, which has it."""
+    oil = {"temperature_celsius": 70, "temperature_coefficient": 0.04, "viscosity": 0.2}
+    scene = {"surface": {"sq": 0.0}, "lubricant": oil, "motion": {"slide_roll_ratio": 1.0, "entrainment_speed": 2.0}}
+    hot, cold = (
+        run(Transient(1e-6, outputs=1), **scene, numerics={"accept": True, "heat": heat}) for heat in ("auto", "off")
+    )
+    told = [e.value for entries in hot.entries for e in entries if e.what == "loss of film or f by heat"]
+    steady = lubfric.friction(SCENE.with_(**scene, numerics={"heat": "on", "model": "load-sharing"}))
+    assert told == pytest.approx(2 * [1 - steady.inlet_film_factor], rel=1e-9) and told[0] > 0.2
+    assert not any("by heat" in text for text in cold.validity)
+
+
 def test_it_stops_squeezes_and_starts_again():
     speed = Table(times=(0.0, 1e-4, 1.5e-4, 6e-4, 7e-4, 1e-3), values=(0.3, 0.3, 0.0, 0.0, 0.3, 0.3))
     found = run(Transient(1e-3, speed=speed), [0.0, 1e-4, 1.5e-4, 6e-4, 1e-3], surface={"sq": 1.2e-7})
