@@ -170,9 +170,8 @@ def _unit(path: Path, name: str, given: str, expected: str | None) -> str:
 def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
     """(line number, fields) of the rows that are neither empty nor comments, from that on which has most of the
     ``names``; decimal marks made points."""
-    lines = [
-        (n, line) for n, line in enumerate(text_of(path).splitlines(), 1) if line.strip() and line.lstrip()[0] != "#"
-    ]
+    every = enumerate(text_of(path).splitlines(), 1)
+    lines = [(n, line) for n, line in every if line.strip() and line.lstrip()[0] != "#"]
     if len(lines) < 2:
         raise InputError(f"file {path.name} has {len(lines)} rows; it needs a heading and rows of numbers")
     try:

@@ -167,17 +167,9 @@ def separation_for_load(
     error = abs(best.mean_pressure / target - 1)
     most = f"at most {best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m"
     advice = "" if history else f"{definition} cannot carry a mean pressure of {target:.4g} Pa: {most}"
-    report = Report(
-        "asperity separation",
-        CONVERGED if error <= tolerance else STAGNATED,
-        len(history) or scanned,
-        error,
-        tolerance,
-        residuals={"load": error},
-        history=history,
-        evaluations=scanned + len(history),
-        advice=advice,
-    )
+    status = CONVERGED if error <= tolerance else STAGNATED
+    left, steps, evaluations = {"load": error}, len(history) or scanned, scanned + len(history)
+    report = Report("asperity separation", status, steps, error, tolerance, left, history, evaluations, advice=advice)
     return returned(replace(best, report=report), raise_on_failure)
 
 

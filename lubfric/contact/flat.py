@@ -50,23 +50,15 @@ class ContactCurve(FieldsOnly):
     gap_error: np.ndarray
     area_error: np.ndarray
 
-    def error_at(self, mean_pressure: float) -> float:
-        """Estimated error [m] of the gap read at a mean pressure [Pa]."""
-        return self._between(self.gap_error, self.touching_gap - float(self.mean_gap[-1]), mean_pressure)
-
-    def area_error_at(self, mean_pressure: float) -> float:
-        """Estimated error [-] of the contact area fraction read at a mean pressure [Pa]."""
-        return self._between(self.area_error, float(self.contact_area_fraction[-1]), mean_pressure)
-
-    def _between(self, errors, below: float, mean_pressure: float) -> float:
-        """The one of ``errors`` between two nodes. Below the lightest node what is read and what is right lie between
-        its value and that of first touch, which are ``below`` apart."""
-        if not errors.size:
-            return 0.0
-        if mean_pressure < self.mean_pressure[-1]:
-            return below
+    def errors_at(self, mean_pressure: float) -> tuple[float, float]:
+        """Estimated errors of the gap [m] and of the contact area fraction [-] read at a mean pressure [Pa]. Below the
+        lightest node what is read and what is right lie between its value and that of first touch."""
         lighter = int(np.searchsorted(-self.mean_pressure, -mean_pressure))
-        return float(errors[lighter - 1]) if lighter > 0 else 0.0
+        if not self.gap_error.size or lighter == 0:
+            return 0.0, 0.0
+        if mean_pressure < self.mean_pressure[-1]:
+            return self.touching_gap - float(self.mean_gap[-1]), float(self.contact_area_fraction[-1])
+        return float(self.gap_error[lighter - 1]), float(self.area_error[lighter - 1])
 
     def at(self, mean_pressure: float) -> tuple[float, float, float]:
         """(mean gap, contact area fraction, plastic area fraction) at a mean pressure <= the heaviest.
@@ -138,12 +130,11 @@ def contact_curve(
 
 def _table(solved: dict[float, ContactResult]) -> np.ndarray:
     """Pressures, gaps, area and plastic fractions, and convolutions of all that was ``solved``, heaviest first."""
-    return np.array(
-        [
-            (pressure, r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations)
-            for pressure, r in sorted(solved.items(), reverse=True)
-        ]
-    ).T
+    rows = [
+        (pressure, r.mean_gap, r.contact_area_fraction, r.plastic_area_fraction, r.report.evaluations)
+        for pressure, r in sorted(solved.items(), reverse=True)
+    ]
+    return np.array(rows).T
 
 
 def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
@@ -242,6 +233,7 @@ class FlatContact(RoughContact):
         if pressure > heaviest * (1 + 1e-12):
             raise ConvergenceError(f"the contact model carries {self.capacity:.4g} N at most, asked for {load:.4g} N")
         gap, touching, plastic = self.curve.at(min(pressure, heaviest))
+        gap_error, area_error = self.curve.errors_at(pressure)
         return ContactState(
             mean_gap=gap,
             mean_film=weighted_mean(film, self.weight),
@@ -249,8 +241,8 @@ class FlatContact(RoughContact):
             contact_fraction=np.full(self.columns.size, touching),
             real_contact_area_fraction=touching,
             plastic_area_fraction=plastic,
-            gap_error=self.curve.error_at(pressure),
-            area_error=self.curve.area_error_at(pressure),
+            gap_error=gap_error,
+            area_error=area_error,
         )
 
     @property

@@ -143,11 +143,8 @@ def run_in(
 def _whole(scene: Scene, surface: Surface | None) -> Surface:
     """The map to run in, checked."""
     if scene.bodies.hardness is None:
-        raise InputError(
-            " is not given: nothing yields in an elastic contact, and no surface runs in",
-            "bodies.hardness",
-            "1 to 1e14 Pa (hardened steel: about 6e9 to 8e9 Pa)",
-        )
+        said = " is not given: nothing yields in an elastic contact, and no surface runs in"
+        raise InputError(said, "bodies.hardness", "1 to 1e14 Pa (hardened steel: about 6e9 to 8e9 Pa)")
     if surface is None:
         if scene.counterface is not None:
             raise InputError(

@@ -18,7 +18,7 @@ import numpy as np
 from .._base import FieldsOnly, validate
 from ..errors import InputError
 from ..quantities import counted
-from ..scene import ROUGH, Roughness, Scene
+from ..scene import ROUGH, Roughness, Scene, moves
 from ..surface import Surface, surface_generator
 from .height_map import extended, measured, rough_bodies, statistics, whole_maps
 from .rough_contract import centred_axis
@@ -37,7 +37,8 @@ from .strip_cells import (
 )
 
 STRIP, PIECE = 90.0, 42.0  # correlation lengths: of a strip, of a piece on the scene's own cells
-WIDE = 5.0  # correlation lengths along x in b: from there a strip half as long has spots enough
+WIDE = 5.0  # correlation lengths along x in b: from there a strip half as long has spots enough, and where roughness
+PASSING = 30.0  # moves, one of so many
 FIRST = 180.0  # correlation lengths that are solved first
 MOST = 46080.0  # correlation lengths, at most
 MOST_CELLS = 3_000_000  # of a stack: memory
@@ -224,7 +225,10 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     else:
         sq = math.hypot(*(rough.sq or 0.0 for rough in bodies))
         cells = choose_cells(spacing, shortest, half_width, max(patch.shape[0] * spacing[0], reach_of(scene, sq)))
-    long = STRIP if half_width < WIDE * lengths[0] else STRIP / 2
+    narrow = WIDE * lengths[0] / half_width
+    long = STRIP if narrow > 1 else STRIP / 2
+    if moves(scene):  # other places pass through the contact in time
+        long = min(STRIP, PASSING * max(1.0, narrow))
     length = min(long * lengths[1], MOST_CELLS / 2 / cells.count * cells.coarse[1])
     available = int(min(MOST / long, MOST_CELLS / (cells.count * cells.rows(length))))
     first = min(round(FIRST / long), available)

@@ -1,16 +1,6 @@
 """One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .moving import (
-    KRYLOV,
-    STEPS,
-    Moment,
-    MovingStrip,
-    RoughBody,
-    moments,
-    moving_work,
-    solve_moving_strip,
-    travelling,
-)
+from .moving import KRYLOV, STEPS, Moment, MovingStrip, RoughBody, moments, moving_work, solve_moving_strip, travelling
 from .newton import Work, newton
 from .pictures import animate_moments, plot_moments, plot_passing
 from .point import (

@@ -54,10 +54,8 @@ class Moment:
         """Its fields and forces."""
         left = residuals(self.at)
         worst, steps = max(left.values()), self.work.factorisations
-        report = Report(
-            "film under moving roughness", CONVERGED, steps, worst, worst, left, evaluations=self.work.krylov
-        )
-        return assemble(self.at, report)
+        cost, name = self.work.krylov, "film under moving roughness"
+        return assemble(self.at, Report(name, CONVERGED, steps, worst, worst, left, evaluations=cost))
 
 
 def moments(
@@ -98,16 +96,10 @@ def moments(
         else:
             found = _in_parts(problem_at, at, (count - 1) * step, step, work, tolerance)
         if not found.residual <= tolerance:
-            report = Report(
-                f"film under moving roughness, step {count} of {step:.3g} s",
-                ITERATION_LIMIT,
-                iterations=work.factorisations,
-                residual=found.residual,
-                tolerance=tolerance,
-                residuals=found.residuals,
-                advice="shorter cells make the step shorter, and a higher speed the film thicker",
-            )
-            report.raise_if_failed()
+            name = f"film under moving roughness, step {count} of {step:.3g} s"
+            advice = "shorter cells make the step shorter, and a higher speed the film thicker"
+            cost, left = work.factorisations, found.residuals
+            Report(name, ITERATION_LIMIT, cost, found.residual, tolerance, left, advice=advice).raise_if_failed()
         at, before = found.at, at
         yield Moment(count * step, at, work)
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..contact import ContactResult, solve_contact
-from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report
+from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report, returned
 from .newton import Found, Work, march, newton
 from .problem import Problem
 from .result import DeterministicResult, assemble
@@ -68,9 +68,7 @@ def solve_point(problem: Problem, *, start: State | None = None, tolerance=TOLER
         ),
         advice=f"tried in {spent}, with the residual left: {ways}; {ADVICE}",
     )
-    result = assemble(found.at, report)
-    report.raise_if_failed(result)
-    return result
+    return returned(assemble(found.at, report))
 
 
 def _attempts(problem: Problem, start: State | None, tolerance, work: Work) -> Iterator[tuple[str, Found]]:

@@ -28,5 +28,5 @@ from .nested import Effort
 from .problem import Problem, make_problem
 from .reduced import true_pressure
 from .reynolds import log_mean_fluidity, step_length
-from .shear import ShearForce, rolling_error, shear_force, spike_error
+from .shear import ShearForce, above_carried, rolling_error, shear_force, spike_error
 from .start import State, rupture_guess

@@ -81,11 +81,7 @@ def solve_ehl(
 
 
 def solve_line_contact(
-    contact: LineContact,
-    effort: Effort = Effort(),
-    *,
-    start: EHLResult | None = None,
-    raise_on_failure: bool = True,
+    contact: LineContact, effort: Effort = Effort(), *, start: EHLResult | None = None, raise_on_failure: bool = True
 ) -> EHLResult:
     """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
     if start is not None:

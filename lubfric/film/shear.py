@@ -1,7 +1,7 @@
 """Tangential force of the film on the upper surface (paper, Eqs. 10-12)."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -82,7 +82,7 @@ def shear_force(
     middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), spike_error(x[:-1][full], tau[:-1][full]))
     quadrature += off
-    ratio, excess = _above_carried(p, tau, np.diff(x) * wet, full)
+    ratio, excess = above_carried(p, tau, np.diff(x) * wet * full)
     inlet, thin = _upstream(h[0], -x[0], radius) if film.inlet is None else (0.0, 0.0)  # nothing is sheared there
     couette += (lubricant.viscosity * sliding if warm is None else tau[0] * h[0]) * inlet
     viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
@@ -92,22 +92,16 @@ def shear_force(
         share = 0.5 * (h_rupture / h[1:] + h_rupture / h[:-1])
         couette += np.sum((face_tau * share)[~full])
     sense = math.copysign(1.0, slide_roll_ratio)
-    return ShearForce(
-        float(width * sense * couette),
-        float(width * sense * resistance),
-        float(width * quadrature),
-        float(width * parts),
-        float(width * excess),
-        ratio,
-    )
+    forces = [float(width * each) for each in (sense * couette, sense * resistance, quadrature, parts, excess)]
+    return replace(ShearForce(*forces), stress_ratio=ratio)
 
 
-def _above_carried(pressure, tau, lengths, full) -> tuple[float, float]:
-    """Largest stress over what oils carry, and the force per width of all stress above it, where the film is
-    ``full``."""
+def above_carried(pressure, tau, lengths) -> tuple[float, float]:
+    """Largest stress over what oils carry, and the force per width [N/m] of all stress above it, over the ``lengths``
+    [m] of the n - 1 cells that a film fills."""
     carried = carried_stress(pressure)
     above = np.maximum(np.abs(tau) - carried, 0.0)
-    return float(np.max(np.abs(tau) / carried)), float(np.sum((0.5 * (above[1:] + above[:-1]) * lengths)[full]))
+    return float(np.max(np.abs(tau) / carried)), float(np.sum(0.5 * (above[1:] + above[:-1]) * lengths))
 
 
 def spike_error(x, tau) -> float:

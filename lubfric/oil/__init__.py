@@ -25,12 +25,4 @@ from .make import (
 )
 from .oil import Oil
 from .pressure import Estimate, gold, so_klaus
-from .viscosity import (
-    CELSIUS,
-    ViscosityTable,
-    Walther,
-    checked_temperature,
-    viscosity_at_100,
-    viscosity_index,
-    walther,
-)
+from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_at_100, viscosity_index, walther

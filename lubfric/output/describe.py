@@ -11,16 +11,7 @@ from ..contact import MeasuredStrips, Strips, check_grid, contact_map, strips_of
 from ..errors import InputError
 from ..quantities import counted
 from ..sampling import MOST_WORK, forecast
-from ..scene import (
-    CHANGING,
-    Harmonic,
-    History,
-    Scene,
-    Table,
-    gap_not_resolved,
-    moves,
-    told_doubts,
-)
+from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, moves, told_doubts
 from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
@@ -51,20 +42,19 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     known += gathered([(speed, (entry,)) for speed, entry in at if speed is not None])
     left_out = [f"  {lack_in_words(lack)}" for lack in lacking(scene, whole.sq, own)]
     left_out = left_out and [f"likely changes of f at {own:g} m/s, by closed forms:", *left_out]
-    return "\n".join(
-        [
-            f"scene {scene.name}",
-            *(row for name in FACTS for row in _section(name, [*input_rows(scene, name), *FACTS[name](scene)])),
-            *_section("transient", told),
-            *_section("surface", [*map_in_words(surface, strips), *(n for n in whole.notes if "nm as it is" in n)]),
-            *_map_rows(scene, whole, surface.heights.size),
-            *_section("contact", [f"{_plan(scene, surface)}; {over}"]),
-            *_section("model", _model(scene, strips, surface, speeds)),
-            *_section("left out", left_out or ["nothing that would change f by its tolerance"]),
-            *_section("validity", known or ["no assumption of the model fails by what is known before the solve"]),
-            *_speed_rows(scene, strips, surface, speeds),
-        ]
-    )
+    rows = [
+        f"scene {scene.name}",
+        *(row for name in FACTS for row in _section(name, [*input_rows(scene, name), *FACTS[name](scene)])),
+        *_section("transient", told),
+        *_section("surface", [*map_in_words(surface, strips), *(n for n in whole.notes if "nm as it is" in n)]),
+        *_map_rows(scene, whole, surface.heights.size),
+        *_section("contact", [f"{_plan(scene, surface)}; {over}"]),
+        *_section("model", _model(scene, strips, surface, speeds)),
+        *_section("left out", left_out or ["nothing that would change f by its tolerance"]),
+        *_section("validity", known or ["no assumption of the model fails by what is known before the solve"]),
+        *_speed_rows(scene, strips, surface, speeds),
+    ]
+    return "\n".join(rows)
 
 
 def _section(name: str, rows) -> list[str]:

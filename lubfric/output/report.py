@@ -131,18 +131,9 @@ def _points(curve: CurveResult) -> list[str]:
             notes.setdefault(note, []).append(f"{found[name][i]:.4g}")
     heads.insert(2, "interval of f, 95 %")
     head = heads[0], "numerical", "surface (standard error)", "model (95 %)", "inputs", "solved by"
-    return [
-        "<h2>Results</h2>",
-        _rows(heads, numbers),
-        "<h2>Errors of f</h2>",
-        _rows(head, errors),
-        _list(
-            [
-                f"{note} (at {COLUMNS[name].symbol} = {', '.join(places)} {printed(units[kinds[name]])}".rstrip() + ")"
-                for note, places in notes.items()
-            ]
-        ),
-    ]
+    at, unit = f"at {COLUMNS[name].symbol} =", printed(units[kinds[name]])
+    told = [f"{note} ({at} {', '.join(places)} {unit}".rstrip() + ")" for note, places in notes.items()]
+    return ["<h2>Results</h2>", _rows(heads, numbers), "<h2>Errors of f</h2>", _rows(head, errors), _list(told)]
 
 
 def _cells(texts: list[str]) -> str:

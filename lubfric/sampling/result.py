@@ -117,11 +117,8 @@ class FrictionResult(PointQuantities[float], Shown):
 
     def _fields(self, name: str) -> Any:
         if self.balance is None or self.balance.contact.fields is None:
-            why = (
-                "it is separated"
-                if self.contact_load == 0
-                else "its fields were not kept, or come from a contact curve"
-            )
+            no_fields = "its fields were not kept, or come from a contact curve"
+            why = "it is separated" if self.contact_load == 0 else no_fields
             raise InputError(
                 f"this point has no {name} of its contact: {why}; a point in contact, solved with fields=True, has one"
             )

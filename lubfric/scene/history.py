@@ -38,8 +38,8 @@ class History:
         return ()
 
     def range(self, duration: float) -> tuple[float, float]:
-        """Smallest and largest value from 0 to ``duration`` [s]."""
-        raise NotImplementedError
+        """Smallest and largest value from 0 to ``duration`` [s]; here of a quantity that never turns."""
+        return min(self.at(0.0), self.at(duration)), max(self.at(0.0), self.at(duration))
 
     def integral(self, time: float) -> float:
         """Over the time from 0 to ``time`` [s]."""
@@ -62,9 +62,6 @@ class Constant(History):
 
     def at(self, time: float) -> float:
         return self.value
-
-    def range(self, duration: float) -> tuple[float, float]:
-        return self.value, self.value
 
     def integral(self, time: float) -> float:
         return self.value * time
@@ -220,9 +217,6 @@ class Ramp(History):
     def stops(self, duration: float) -> tuple[float, ...]:
         """The two corners."""
         return tuple(t for t in (self.begin, self.until) if 0.0 < t < duration)
-
-    def range(self, duration: float) -> tuple[float, float]:
-        return min(self.at(0.0), self.at(duration)), max(self.at(0.0), self.at(duration))
 
 
 def corners(times: np.ndarray, values: np.ndarray) -> list[float]:

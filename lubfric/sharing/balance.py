@@ -273,14 +273,5 @@ def _report(scene: Scene, status: str, history, contact, film, notes, tolerance:
         residuals["film"] = film.report.residual
     if contact.fields is not None:
         residuals["contact"] = contact.fields.report.residual
-    return Report(
-        solver="load sharing",
-        status=status,
-        iterations=len(history),
-        residual=min(history),
-        tolerance=scene.numerics.tolerance_of("balance") if tolerance is None else tolerance,
-        residuals=residuals,
-        history=tuple(history),
-        evaluations=len(history),
-        notes=notes,
-    )
+    tolerance, steps = scene.numerics.tolerance_of("balance") if tolerance is None else tolerance, len(history)
+    return Report("load sharing", status, steps, min(history), tolerance, residuals, tuple(history), steps, notes)

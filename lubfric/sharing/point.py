@@ -78,17 +78,11 @@ class Point:
 
     def trial(self, film_load: float, contact_load: float, last: Trial | None = None) -> Trial:
         """The film of ``film_load`` [N], and under it the contact that carries ``contact_load`` [N], from ``last``."""
-        film = self.film(film_load, last.film if last else None, last.cells if last else 0)
-        touched = last.touched if last else None
+        start, touched, cells = (last.film, last.touched, last.cells) if last else (None, None, 0)
+        film = self.film(film_load, start, cells)
         contact = self.pressed(self.contact, film, contact_load, touched)
-        return Trial(
-            film,
-            contact,
-            film_load,
-            contact_load,
-            contact if contact_load > 0 else touched,
-            max(film.cells, last.cells) if last else 0,
-        )
+        touched, cells = contact if contact_load > 0 else touched, max(film.cells, cells) if last else 0
+        return Trial(film, contact, film_load, contact_load, touched, cells)
 
     def pressed(self, contact: RoughContact, film: EHLResult, load: float, start: ContactState | None) -> ContactState:
         """``contact`` under ``film``, with ``load`` [N]."""

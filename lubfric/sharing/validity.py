@@ -39,11 +39,8 @@ class Validity:
         head = "not valid" if self.severe else "caution"
         unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
-        numbers = (
-            f"{self.value:.3g}{unit}, {side} {self.limit:.3g}{unit}"
-            if math.isfinite(self.limit)
-            else f"{self.value:.3g}{unit}"
-        )
+        beyond = f", {side} {self.limit:.3g}{unit}" if math.isfinite(self.limit) else ""
+        numbers = f"{self.value:.3g}{unit}{beyond}"
         return f"{head}: {self.what} is {numbers}: {self.consequence}; {self.remedy}"
 
 

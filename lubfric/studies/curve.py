@@ -89,15 +89,12 @@ def columns_of(points) -> dict[str, np.ndarray]:
 def report_of(solver: str, names: list[str], plural: str, points, errors: dict[int, Exception]) -> Report:
     """The largest residual of the points over the largest of their tolerances, with a note for each that failed;
     ``names`` of the points."""
-    return Report(
-        solver,
-        ITERATION_LIMIT if errors else CONVERGED,
-        len(points) - len(errors),
-        float(max((p.report.residual for p in points if p is not None), default=np.inf)),
-        float(max((p.report.tolerance for p in points if p is not None), default=0.0)),
-        notes=tuple(f"{names[i]}: {error}" for i, error in sorted(errors.items())),
-        advice=f"the other {plural} are in .result, the reason of each failed one in its .errors",
-    )
+    status, reports = ITERATION_LIMIT if errors else CONVERGED, [p.report for p in points if p is not None]
+    residual = float(max((report.residual for report in reports), default=np.inf))
+    tolerance = float(max((report.tolerance for report in reports), default=0.0))
+    notes = tuple(f"{names[i]}: {error}" for i, error in sorted(errors.items()))
+    advice = f"the other {plural} are in .result, the reason of each failed one in its .errors"
+    return Report(solver, status, len(points) - len(errors), residual, tolerance, notes=notes, advice=advice)
 
 
 R = TypeVar("R", bound=CurveResult)

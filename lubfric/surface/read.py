@@ -22,14 +22,11 @@ SUFFIXES = (".npy", *TEXT, *OWN_GRID)
 BETTER = 0.9  # of Sq: a form that leaves less than that is worth a word
 # of the formats that SurfaceTopography 1.27 knows; those that lubfric reads itself (.x3p, .xyz, text, .npy) are left
 # out
-INSTRUMENTS = tuple(
-    f".{word}"
-    for word in (
-        "001 002 003 004 005 al3d apx bcr bcrf cur dat datx ezd frt gwy h5 hfm hgt ibw jpk lext mat mdt mi mnt nc nid "
-        "nms npz oir opd opdx os3d plu plux poir qep sdf spm stp sur tif tiff tmd tom top vk3 vk4 vk6 vk7 xlsx zip "
-        "zmg zon"
-    ).split()
-)
+INSTRUMENTS = (
+    ".001 .002 .003 .004 .005 .al3d .apx .bcr .bcrf .cur .dat .datx .ezd .frt .gwy .h5 .hfm .hgt .ibw .jpk .lext .mat "
+    ".mdt .mi .mnt .nc .nid .nms .npz .oir .opd .opdx .os3d .plu .plux .poir .qep .sdf .spm .stp .sur .tif .tiff .tmd "
+    ".tom .top .vk3 .vk4 .vk6 .vk7 .xlsx .zip .zmg .zon"
+).split()
 HINT = "pip install 'lubfric[formats]'"
 
 

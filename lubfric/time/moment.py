@@ -7,8 +7,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ..film import ShearForce, rolling_error, smallest, spike_error
-from ..oil import carried_stress, shear_stress
+from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
+from ..oil import shear_stress
 from ..sampling import moment_error
 from ..scene import Scene
 from ..sharing import (
@@ -179,8 +179,7 @@ def _summed(sharing: Sharing, time: float, solution: Step, stress: Callable, dra
     with np.errstate(over="ignore"):
         tau = stress(x, pressure, h)
         middle = stress(*(_halfway(a) for a in (x, pressure, h)))
-    carried = carried_stress(pressure)
-    above = np.maximum(np.abs(tau) - carried, 0.0)
+    ratio, excess = above_carried(pressure, np.where(pressure > 0.0, tau, 0.0), full)
     rolls = 0.5 * _halfway(h) * np.diff(pressure) * free
     wet = np.flatnonzero(pressure > 0.0)
     off = 2 / 3 * abs(float(np.sum((middle - _halfway(tau)) * full)))
@@ -195,8 +194,8 @@ def _summed(sharing: Sharing, time: float, solution: Step, stress: Callable, dra
         rolling=width * (float(np.sum(rolls)) + rolling),
         quadrature=width * off,
         rolling_parts=width * max(float(np.sum(rolls[rolls > 0])), -float(np.sum(rolls[rolls < 0]))),
-        excess=width * float(np.sum(_halfway(above) * full)),
-        stress_ratio=float(np.max(np.where(pressure > 0.0, np.abs(tau) / carried, 0.0))),
+        excess=width * excess,
+        stress_ratio=ratio,
     )
 
 

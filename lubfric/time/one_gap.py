@@ -102,12 +102,9 @@ class OneGap:
         speed = np.max([_speeds(self.scene, times)[list(SIDES).index(name)] for name in self.heights] or [0 * times], 0)
         way = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(times)))
         if way[-1] > MOST_CELLS * dx:
-            raise InputError(
-                f" = {duration:g} s: the roughness would move by {way[-1] / dx:.2g} cells, a step each",
-                "transient.duration",
-                f"up to {MOST_CELLS:g} cells",
-                "a shorter run, or numerics.model = 'load-sharing'",
-            )
+            said = f" = {duration:g} s: the roughness would move by {way[-1] / dx:.2g} cells, a step each"
+            way_out = "a shorter run, or numerics.model = 'load-sharing'"
+            raise InputError(said, "transient.duration", f"up to {MOST_CELLS:g} cells", way_out)
         return tuple(np.interp(dx * np.arange(1, math.floor(way[-1] / dx) + 1), way, times).tolist())
 
     def problem_at(self, time: float) -> Problem:

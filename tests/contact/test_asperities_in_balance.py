@@ -120,7 +120,7 @@ def test_between_its_nodes_a_curve_is_as_sure_as_it_tells(model):
         if not curve.mean_pressure[-1] < pressed.mean_pressure < curve.mean_pressure[0]:
             continue
         read = curve.at(pressed.mean_pressure)
-        errors = curve.error_at(pressed.mean_pressure), curve.area_error_at(pressed.mean_pressure)
+        errors = curve.errors_at(pressed.mean_pressure)
         within.append((abs(read[0] - gap) <= errors[0], abs(read[1] - pressed.contact_area_fraction) <= errors[1]))
         told.append((errors[0] / heights.std(), errors[1] / read[1]))
     assert len(within) > 20 and np.mean(within, axis=0).min() >= 0.8
