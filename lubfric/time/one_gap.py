@@ -210,6 +210,10 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
     scene, plan, strips = prepared.scene, changes(prepared.scene), prepared.strips
     if strips is None:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
+    if scene.numerics.heat == "on":
+        raise InputError(
+            " = 'on' is not had by a run with one gap", "numerics.heat", "'auto', which cautions, or 'off'"
+        )
     surface, factors = strip_of(prepared, 0)
     maps = maps_of(prepared, 0)
     if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:

@@ -73,6 +73,8 @@ def test_heat_that_it_leaves_out_is_told_with_its_size():
     steady = lubfric.friction(SCENE.with_(**scene, numerics={"heat": "on", "model": "load-sharing"}))
     assert told == pytest.approx(2 * [1 - steady.inlet_film_factor], rel=1e-9) and told[0] > 0.2
     assert not any("by heat" in text for text in cold.validity)
+    with pytest.raises(lubfric.InputError, match="numerics.heat = 'on'"):
+        run(Transient(1e-6), **scene, numerics={"heat": "on"})
 
 
 def test_it_stops_squeezes_and_starts_again():
