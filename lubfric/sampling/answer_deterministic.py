@@ -145,7 +145,8 @@ def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]
     yield from prepared.known
     yield from of_motion(scene, speed, film)
     flow = mean(result.flow_film for result in results)
-    yield from of_inlet(scene, flow, scene.line_contact(speed).moes_film)
+    friction = abs(numbers["coefficient"]) * scene.bodies.load
+    yield from of_inlet(scene, scene.line_contact(abs(speed)), flow, friction)
     for entry in of_pressure(scene, max(result.top_pressure for result in results)):
         yield replace(entry, severe=False)  # of one cell: no stress there is above the limit, whatever the pressure
     yield from of_thickness(scene, film)

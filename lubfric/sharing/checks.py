@@ -102,13 +102,21 @@ def of_thickness(scene, film: float) -> Iterator[Validity]:
     )
 
 
-def of_inlet(scene, flow: float, flooded: float) -> Iterator[Validity]:
-    """Entries for a film that little lubricant reaches: its ``flow`` film [m] over that of a full inlet, ``flooded``,
-    by Moes."""
-    if scene.lubricant.floods or flow > (1 - scene.numerics.tolerance) * flooded:
-        return
-    consequence = "the inlet is starved, as inlet_length or inlet_film asks; f rests on what they say"
-    yield Validity("film over that of a full inlet, by Moes,", flow / flooded, 1.0, "", consequence, "leave both out")
+def of_inlet(scene, line, flow: float, friction: float) -> Iterator[Validity]:
+    """Entries for a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
+    full one, by Moes; or what the lubricant farther out would add to ``friction`` |f| F_T [N] by rolling, 12 eta U R/x
+    a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
+    oil, tolerance, flooded = scene.lubricant, scene.numerics.tolerance, line.moes_film
+    out = oil.inlet_length or math.inf
+    lost = 12 * oil.viscosity * line.entrainment_speed * line.radius / out * scene.bodies.width
+    if not oil.floods and flow <= (1 - tolerance) * flooded:
+        consequence = "the inlet is starved, as inlet_length or inlet_film asks; f rests on what they say"
+        yield Validity(
+            "film over that of a full inlet, by Moes,", flow / flooded, 1.0, "", consequence, "leave both out"
+        )
+    elif lost > tolerance * friction:
+        what, why = "rolling friction of the inlet beyond inlet_length, in f,", "f rests on where the lubricant begins"
+        yield Validity(what, 100 * lost / friction, 100 * tolerance, "%", why, "leave it out for a full inlet")
 
 
 def of_deflection(scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
@@ -261,9 +269,9 @@ def judged(prepared, speed: float, balance, ends: float) -> tuple[Validity, ...]
     entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
     entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
     if film is not None:
-        entries += of_inlet(scene, film.flow_film, film.contact.moes_film)
         peak, found = float(film.pressure.max()), balance.forces
         force = abs(found.coefficient) * scene.bodies.load
+        entries += of_inlet(scene, film.contact, film.flow_film, force)
         entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)
         typical = typical_heat(scene, film, balance.contact, balance.contact_load, force, found.shear)
         entries += of_typical_heat(scene, typical)

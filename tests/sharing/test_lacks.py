@@ -91,3 +91,13 @@ def test_a_starved_inlet_is_told_where_the_spots_carry_most():
     point = lubfric.friction(scene.with_(lubricant={"inlet_length": 60e-6}), 0.03)
     (told,) = (entry for entry in point.validity if "full inlet" in entry.what)
     assert point.contact_load > point.film_load and told.value < 0.8
+
+
+@pytest.mark.parametrize("length", [1e-3, 3e-3, 0.1])
+def test_rolling_friction_that_a_given_inlet_leaves_out_is_told(length):
+    """Of a film that hardly gets thinner; by f with a full inlet."""
+    scene = paper_scene()
+    full, given = (lubfric.friction(scene.with_(lubricant={"inlet_length": x}), 1.0) for x in (None, length))
+    told = [entry.value for entry in given.validity if "beyond inlet_length" in entry.what]
+    lost = 100 * (full.rolling_force - given.rolling_force) / (given.coefficient * scene.bodies.load)
+    assert told == ([pytest.approx(lost, rel=0.25)] if lost > 1 else []) and bool(told) == (length < 0.1)
