@@ -39,6 +39,7 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
 
 
 def input_rows(scene: Scene, section: str) -> list[str]:
+    """The `inputs` of a section of ``scene``, one line each."""
     return [f"{label}: {text}  ({key}){note}" for label, text, key, note in inputs(scene, section)]
 
 

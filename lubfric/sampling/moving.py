@@ -8,7 +8,7 @@ from ..scene import Scene, moves, moving_bodies
 from ..sharing import Prepared, on_strip
 from ..surface import Surface
 
-BOTH = 1.5  # work on cells of one length and on cells twice as long along y, over that on the former
+ON_LONGER = 0.5  # work on cells twice as long along y, over that on the shorter ones
 MOST_WORK = 120.0  # s, counted: beyond it "auto" leaves moving roughness to Eq. (8)
 
 
@@ -56,7 +56,7 @@ def moving_strip_work(scene: Scene, strips: Strips, sq: float, speed: float, fac
     (fx, fy), (dx, dy), line = factors, strips.cells.coarse, scene.line_contact(abs(speed))
     cells = sum(reach(line, sq)) / (fx * dx) * strips.length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
-    return BOTH * moving_work(line, fx * dx, fastest, strips.cells.count * dx, cells)
+    return (1 + ON_LONGER) * moving_work(line, fx * dx, fastest, strips.cells.count * dx, cells)
 
 
 def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:

@@ -9,7 +9,7 @@ from ..deterministic import reach, work_of_steps
 from ..scene import FRICTION, Scene, gap_not_resolved, moves
 from ..surface import Surface
 from .levels import DIFFERENCE
-from .moving import MOST_WORK, moving_strip_work
+from .moving import MOST_WORK, ON_LONGER, moving_strip_work
 from .pair import cells_of
 from .sample import SAFETY
 from .shorter import SHORT
@@ -25,7 +25,6 @@ FLOOR = 0.25  # of f_b: friction where the film carries most, about
 STEPS, FINER_STEPS = 9, 6  # of Newton's method on a strip of the deterministic model, and on smaller cells
 LAST_STEPS = 20  # on cells a quarter as long, which a map shorter than a piece is solved on as a whole
 AGAIN = 4  # of a strip whose neighbour is solved: at an end of the range of an input
-ON_LONGER = 1 / 2  # work of moving roughness on cells twice as long along y
 IN_MOTION = 2.0  # processor time of moving roughness over its counted work, which is that of the systems alone
 UNLIKE = 0.65  # scatter of the difference between the models over that of f
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
