@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..contact import MeasuredStrips, Strips, check_grid, contact_maps, strips_of
+from ..contact import MeasuredStrips, Strips, check_grid, contact_map, strips_of
 from ..errors import InputError
 from ..quantities import counted
 from ..sampling import MOST_WORK, forecast
@@ -28,7 +28,7 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
     with told_doubts(scene):
         strips = strips_of(scene) if takes_strips(scene) else None
-        surface = contact_maps(scene)[0] if strips is None else strips.stack(strips.first)
+        surface = contact_map(scene) if strips is None else strips.stack(strips.first)
         check_grid(scene, surface)
     whole, own = map_of(surface, strips), scene.motion.entrainment_speed
     chosen = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
