@@ -9,6 +9,7 @@ import hashlib
 import json
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -31,20 +32,27 @@ class Run:
     ) -> Iterator[tuple[Case, Any]]:
         """(case, ``solve(case)``) of every case in order, the row in plain types with NaN as None.
 
-        ``solve`` is a function that another process can import. The rows are kept in a file of that ``name``.
+        ``solve`` is a function that another process can import. The rows are kept in a file of that ``name``, each as
+        soon as it is solved.
         """
         file = None if self.folder is None else self.folder / code() / f"{name or self.name}.jsonl"
         known = {} if file is None else rows_of(file)
         missing = [key for key in cases if key not in known]
         with mapped(min(self.workers, len(missing))) as each:
-            new = each(solve, [cases[key] for key in missing])
+            new = each(partial(row_of, solve, file), missing, [cases[key] for key in missing])
             for key, case in cases.items():
                 if key not in known:
-                    known[key] = finite(next(new))
-                    if file is not None:
-                        with file.open("a", encoding="utf-8") as stream:
-                            stream.write(json.dumps([key, known[key]]) + "\n")
+                    known[key] = next(new)
                 yield case, known[key]
+
+
+def row_of(solve: Callable[[Case], Any], file: Path | None, key: str, case: Case) -> Any:
+    """``solve(case)`` in plain types, a line of ``file`` now. It is written at once, so that others may write too."""
+    row = finite(solve(case))
+    if file is not None:
+        with file.open("ab", buffering=0) as stream:
+            stream.write(json.dumps([key, row]).encode() + b"\n")
+    return row
 
 
 def code() -> str:

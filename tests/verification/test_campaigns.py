@@ -1,6 +1,7 @@
 """The campaigns: what is kept is not solved again, their judges fail what is wrong, and points come out sane."""
 
 import json
+import time
 
 import numpy as np
 import pytest
@@ -28,6 +29,22 @@ def test_a_line_that_was_not_written_to_its_end_is_written_again(tmp_path):
     file.write_text(file.read_text()[:-3])
     assert [row for _, row in Run(tmp_path).solved({"a": 1, "b": 2, "c": 3}, solve)][-1] == [3, None]
     assert solved == [1, 2, 2, 3] and len(kept.rows_of(file)) == 3
+
+
+def test_a_row_is_kept_as_soon_as_it_is_solved_whatever_comes_before_it(tmp_path):
+    with pytest.raises(ZeroDivisionError):
+        list(Run(tmp_path, workers=2).solved({"a": (0, tmp_path), "b": (2, tmp_path)}, inverse))
+    (file,) = tmp_path.rglob("rows.jsonl")
+    assert kept.rows_of(file) == {"b": 0.5}
+
+
+def inverse(number_and_folder):
+    """1/number; of 0 when something is kept in the folder."""
+    number, folder = number_and_folder
+    until = time.monotonic() + 600
+    while not (number or any(file.stat().st_size for file in folder.rglob("*.jsonl"))) and time.monotonic() < until:
+        time.sleep(0.05)
+    return 1 / number
 
 
 def test_a_campaign_judges_what_lies_in_the_folder_and_puts_its_table(tmp_path):
@@ -66,6 +83,12 @@ def test_an_honest_interval_passes():
     assert all(c.passed and c.decisive for c in found.values())
     assert found["coverage"].measured == pytest.approx(0.95, abs=0.03)
     assert found["reported over scatter"].measured == pytest.approx(1.0, abs=0.1)
+
+
+def test_the_interval_of_a_trial_leaves_out_the_error_of_the_model_alone():
+    found = coverage.trial((coverage.SPEEDS[1], 5))
+    half, sampling = (found["high"] - found["low"]) / (2 * found["f"]), found["sampling"]
+    assert 1.96 * sampling < half < 2.3 * sampling and found["high"] - found["f"] == pytest.approx(half * found["f"])
 
 
 @pytest.mark.parametrize(

@@ -59,16 +59,20 @@ WAYS = {"default": {}, "load sharing": {"model": "load-sharing"}}
 
 @dataclass(frozen=True)
 class Case:
-    """A kind of surface under a contact with ``over`` = f_b over the limit of the oil, at a film/Sq."""
+    """A kind of surface under a contact with ``over`` = f_b over the limit of the oil, at a film/Sq and a slide-roll
+    ratio (2: the roughness rests); ``longer``: times the lengths of the surface."""
 
     surface: str
     contact: str
     over: float
     ratio: float
+    slip: float = 2.0
+    longer: float = 1.0
 
     def scene(self, seed: int, folder: str, **numerics):
         """The scene with a surface of its own ``seed``; maps are written to ``folder``."""
         changes, times = CONTACTS[self.contact]
+        times *= self.longer
         scene = lubfric.load_scene("paper").with_(**changes)
         limit = scene.bodies.boundary_friction_coefficient / self.over
         oil = {"limiting_stress_coefficient": limit, "density_law": "dowson-higginson"}
@@ -85,7 +89,8 @@ class Case:
             patch = {"shape": None, "spacing": None}
         keys = {"accept": True, "film_deflection": "scaled"} | numerics
         film = {"boundary_film": 20e-9}  # given, so that both answers have it and the interval leaves it out
-        return scene.with_(bodies=film, lubricant=oil, surface=rough, contact=patch, numerics=keys)
+        motion = {"slide_roll_ratio": self.slip}
+        return scene.with_(bodies=film, lubricant=oil, surface=rough, contact=patch, motion=motion, numerics=keys)
 
     def speed(self, scene) -> float:
         """Speed [m/s] at which Moes' film of the whole load is so many Sq."""
@@ -149,30 +154,30 @@ def solved(case: Case, seed: int, numerics: dict) -> dict:
 
 def answers(level: str, run: Run = Run(), rollers: bool = False) -> Iterator[Item]:
     """Every case by default, by load sharing alone, and by the reference: errors, intervals and coverage."""
-    off: dict[str, list] = {way: [] for way in WAYS}
-    of: list[tuple[str, str]] = []  # surface and contact of every answer
-    failed = 0
+    found, failed = [], 0
     for case, truth in run.solved(cases(level, rollers), reference, "references"):
         seeds = range(1, 2 if case.surface in MEASURED else 1 + SEEDS[level])
         for _, row in run.solved({f"{case}, {seed}": (case, seed) for seed in seeds}, answer, "answers"):
             failed += "failure" in row["default"]
             if truth.get("error") and all(row[way].get("low") is not None for way in WAYS):
-                of.append((case.surface, case.contact))
-                for way in WAYS:
-                    off[way].append(judged(row[way], truth))
-    every = {way: np.array(found).reshape(-1, 3) for way, found in off.items()}
-    groups = [(name, [name in pair for pair in of]) for name in (*GENERATED, *MEASURED, *CONTACTS)]
+                found.append(((case.surface, case.contact), [judged(row[way], truth) for way in WAYS]))
+    yield from compared("answers-rollers" if rollers else "answers", found, failed, "finer strips")
+
+
+def compared(name: str, found: list[tuple], failed: int, source: str) -> Iterator[Item]:
+    """Table, checks and picture of answers ``found``: the groups of each, and by both ways what is `judged`."""
+    every = {way: np.array([both[k] for _, both in found]).reshape(-1, 3) for k, way in enumerate(WAYS)}
+    names = dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in found))))
     rows = [
-        [name, str(sum(here)), *told(every["default"][here]), *told(every["load sharing"][here])]
-        for name, here in (*groups, ("all", [True] * len(of)))
-        if any(here)
+        [group, str(sum(here)), *told(every["default"][here]), *told(every["load sharing"][here])]
+        for group in (*names, "all")
+        if any(here := [group in (*groups, "all") for groups, _ in found])
     ]
-    name = "answers-rollers" if rollers else "answers"
-    yield Table(name, "The default answer, and load sharing alone, beside finer strips", COLUMNS, rows)
+    yield Table(name, f"The default answer, and load sharing alone, beside {source}", COLUMNS, rows)
     for way, said in (("default", "default answer"), ("load sharing", "load sharing alone")):
-        inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if of else math.nan
-        yield Check(f"{said}: share of {len(of)} intervals with f", inside, 1.0, 0.1, "finer strips", ABSOLUTE)
-    yield Check("default answers that failed", failed, 0, 0.0, "the solver's own report", TOLD)
+        inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if found else math.nan
+        yield Check(f"{said}: share of {len(found)} intervals with f", inside, 1.0, 0.1, source, ABSOLUTE)
+    yield Check("default answers that failed, or left moving roughness to Eq. (8)", failed, 0, 0.0, "the answers", TOLD)
     yield drawn(name, every)
 
 
@@ -187,11 +192,8 @@ def judged(row: dict, truth: dict) -> tuple[float, float, float]:
 def told(found: np.ndarray) -> list[str]:
     """The root mean square error, the mean half of the interval, and the share of intervals that hold f."""
     half, off, allowed = found.T
-    return [
-        f"{100 * math.sqrt(np.mean(off**2)):.1f} %",
-        f"{100 * half.mean():.1f} %",
-        f"{100 * (off <= allowed).mean():.0f} %",
-    ]
+    errors = math.sqrt(np.mean(off**2)), half.mean()
+    return [*(f"{100 * error:.1f} %" for error in errors), f"{100 * (off <= allowed).mean():.0f} %"]
 
 
 def drawn(name: str, every: dict[str, np.ndarray]) -> Figure:

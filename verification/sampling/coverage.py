@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.special import stdtrit
 
 import lubfric
 
@@ -130,8 +131,7 @@ def solve(scene, speed: float, asked: float) -> dict:
     begun = time.process_time()
     found = lubfric.friction(scene.with_(numerics={"sampling_tolerance": asked}), speed)
     u, f = found.uncertainty, found.coefficient
-    of_model = ((u.interval[1] - f) ** 2 - (f * u.model) ** 2) if math.isfinite(u.model) else (u.interval[1] - f) ** 2
-    half = math.sqrt(max(of_model, 0.0))  # of the interval without the error of the model: the truth is Eq. (8) too
+    half = f * math.hypot(u.numerical, stdtrit(max(u.freedom, 1.0), 0.975) * u.sampling)  # the truth, too, is Eq. (8)
     return {
         "f": f,
         "sampling": u.sampling,

@@ -23,7 +23,15 @@ BENCHMARKS = {
 }
 CAMPAIGNS = {  # command: its tables
     "charts": ("contact-methods",),
-    "model": ("answers", "answers-rollers", "answers-seeds", "refinement", "boundary-film", "rolling"),
+    "model": (
+        "answers",
+        "answers-rollers",
+        "answers-moving",
+        "answers-seeds",
+        "refinement",
+        "boundary-film",
+        "rolling",
+    ),
     "sampling": ("sampling-coverage", "sampling-numbers"),
     "stability": ("stability-film", "stability-contact", "stability-sharing", "stability-whole"),
 }
