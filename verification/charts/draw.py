@@ -26,7 +26,7 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
         for method in dict.fromkeys(p.at["method"] for p in chosen):
             curve(ax, [p for p in chosen if p.at["method"] == method], colours[method])
         apart = any(p.at.get("apart") for p in chosen)
-        ylabel = "discretisation error" if apart else "solver error"
+        ylabel = "error" if apart else "solver error"
         ax.set(xscale="log", yscale="log", xlabel="CPU seconds", ylabel=ylabel)
         ax.set_title(label, fontsize=9)
     handles = [axes[0].plot([], [], "o-", color=c, label=m)[0] for m, c in colours.items()]

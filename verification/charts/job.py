@@ -18,7 +18,7 @@ def cases(quick: bool) -> dict[str, bool]:
 
 
 def measured(quick: bool) -> list[dict]:
-    """Tolerances on one grid against a tight one, then coarser contact grids against the finest."""
+    """Tolerances on one grid against a tight one."""
     n, speeds = (48, SPEEDS[::4]) if quick else (200, SPEEDS)
     found = []
     exact = coefficients(n, 1e-3 if quick else 3e-4, speeds)
@@ -27,12 +27,6 @@ def measured(quick: bool) -> list[dict]:
     for t, (f, seconds) in interleaved(calls, 1 if quick else 3).items():
         at = {"size": n * n, "default": t == DEFAULT}
         found.append(per_speed("whole job, tolerance", f"tolerance {t:g}", f, exact, seconds, **at))
-    sizes = (40, 50, 100) if quick else (40, 50, 80, 100, 200, 400)
-    solved = {m: interleaved({"": partial(coefficients, m, 0.005, speeds)}, 1)[""] for m in sizes}
-    for m in sizes[:-1]:
-        f, seconds = solved[m]
-        at = {"apart": True, "size": m * m, "default": m == 200}
-        found.append(per_speed("whole job, contact grid", f"{m}²", f, solved[sizes[-1]][0], seconds, **at))
     return found
 
 

@@ -1,0 +1,42 @@
+"""The chart of the models: error of f against time on four kinds of surface, for load sharing, for the deterministic
+model on long cells and with its levels of cells, and for the default, which chooses among them.
+
+An error is the root mean square over surfaces of other seeds; of a map there is one.
+"""
+
+import numpy as np
+
+from ..model.answers import MEASURED, REFERENCE, Case, reference, solved
+from .measure import point, quartiles
+
+SURFACES = "Gaussian", "exponential", "ridges across", "plateau"
+SEEDS = {True: (1,), False: (1, 2, 3)}
+WAYS: dict[str, dict] = {
+    "load sharing": {"model": "load-sharing"},
+    "deterministic, long cells": {"model": "deterministic", "tolerance": 0.1},
+    "deterministic, levels of cells": {"model": "deterministic"},
+    "default": {},
+}
+ASKED = {True: ((0.02, 0.05),), False: ((0.05, 0.1), (0.02, 0.05), (0.01, 0.03))}  # of surface and model
+
+
+def cases(quick: bool) -> dict[str, tuple[Case, bool]]:
+    """One panel for each surface, under the light load, at a smooth film of 0.8 Sq."""
+    return {name: (Case(name, "5.5 N", 2.0, 0.8), quick) for name in SURFACES[: 1 if quick else None]}
+
+
+def measured(case_and_quick: tuple[Case, bool]) -> list[dict]:
+    """Every way at every setting, against the deterministic model on another surface, or on all of the map."""
+    (case, quick), found = case_and_quick, []
+    truth = reference(case)["f"]
+    for way, numerics in WAYS.items():
+        for sampling, model in ASKED[quick]:
+            asked = {"sampling_tolerance": sampling, "model_tolerance": model} | numerics
+            rows = [solved(case, seed, asked) for seed in (SEEDS[quick] if case.surface not in MEASURED else (1,))]
+            rows = [row for row in rows if "failure" not in row]
+            if rows:
+                off = float(np.sqrt(np.mean([(row["f"] / truth - 1) ** 2 for row in rows])))
+                seconds = quartiles([row["seconds"] for row in rows])
+                at = {"default": way == "default" and sampling == 0.02, "apart": True}
+                found.append(point(case.surface, way, f"surface {sampling:g}, model {model:g}", off, seconds, **at))
+    return found
