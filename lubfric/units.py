@@ -112,10 +112,10 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
     row = UNITS[kind_of(unit)]
     shown = value if len(value) < 40 else f"{value[:40]} ..."
     examples = [f"'20{other if other == '%' else ' ' + other}'" for other in row if other not in ("", "-")][:5]
-    allowed = f"a plain number in {unit}, or one with a unit in quotes: {', '.join(examples)}"
-    allowed += f", or a name: {', '.join(named)}" if named else ""
+    allowed = f"a plain number{'' if unit == '-' else f' in {unit}'}, or one with a unit in quotes: {', '.join(examples)}"
+    allowed += f", or a range [low, high], or a name: {', '.join(named)}" if named else ""
     if found is None or not found[2]:
-        said = " has no unit: leave the quotes out, or add one" if found else " is no number with a unit"
+        said = " has no unit: leave the quotes out, or add one" if found else f" is no number with a unit{', and no name that is known' if named else ''}"
         raise InputError(f" = {shown!r}{said}", name, allowed)
     given = spelled(found[2])
     if given not in row:

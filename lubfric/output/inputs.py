@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS
-from ..scene import FRICTION, FRICTION_OVER, HISTORIES, Scene, typical
+from ..scene import FRICTION, FRICTION_OVER, HISTORIES, Scene, source_of, typical
 from ..units import converted, worded
 
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
@@ -29,7 +29,9 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
             note = f", which changes in time: transient.{changing[0]}"
         for name, *known in scene.ranges:
             if name == key:
+                words = [word for word, usual in alike.items() if usual == known]
                 note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"
+                note += f", typical of {' or '.join(words)} ({source_of(key, words[0])})" if words else ""
         table = scene.bodies.boundary_friction_table
         if table is not None and key == FRICTION:
             unit = FRICTION_OVER[table.over]
