@@ -45,7 +45,9 @@ def parser() -> argparse.ArgumentParser:
             groups = [table["groups"][group] for group in row.get("with", ())]
             for argument, options in (pair for part in (*groups, row.get("arguments", {})) for pair in part.items()):
                 kind = KINDS.get(options.get("kind"), {})
-                command.add_argument(argument, **kind | {key: v for key, v in options.items() if key != "kind"})
+                given = {key: value for key, value in options.items() if key != "kind"}
+                given |= {} if given.get("help") else {"help": argparse.SUPPRESS}
+                command.add_argument(argument, **kind | given)
     return whole
 
 
