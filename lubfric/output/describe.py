@@ -163,7 +163,7 @@ def _cost(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list
     if scene.numerics.model == "deterministic":
         steps, seconds = work_of_run(scene)
     top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
-    course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs"
+    course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
     return [f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", *sample]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from .. import studies
 from .._base import figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
-from ..quantities import KEYS, axis_label, worded_value
+from ..quantities import KEYS, axis_label, counted, worded_value
 from ..scene import Scene
 from ..units import number_of, worded
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
@@ -38,13 +38,13 @@ def run_study(arguments) -> None:
         if np.isfinite(result["coefficient"]).any():
             folder.draw("study.png", _picture, result)
         if result.cautioned:
-            say(f"cautions at {result.cautioned} of {result.solved} points: column validity of study.csv")
+            say(f"cautions at {result.cautioned} of {counted(result.solved, 'points')}: column validity of study.csv")
         folder.put()
     for row in _answer(result):
         say(row)
     if result.failed:
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
-        said = f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}"
+        said = f"{result.failed} of {counted(result.solved, 'points')} failed; first: {result.failures[0]}"
         raise ConvergenceError(said, report, result)
 
 

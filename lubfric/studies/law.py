@@ -163,9 +163,9 @@ def _expressions(numbers) -> dict[str, str]:
 
 
 def law_of(scene: Scene, curves: Iterable[tuple[Any, Interpolant]], f, low, high, model) -> Law:
-    """The `Law` of solved curves of ``scene`` with their conditions (`conditions_of`). ``f``, ``low``, ``high``, ``model``: of all
-    points, arrays with their intervals, and their errors by the model. Raises `InputError` where there are too few
-    points, or f is not positive."""
+    """The `Law` of solved curves of ``scene`` with their conditions (`conditions_of`). ``f``, ``low``, ``high``,
+    ``model``: of all points, arrays with their intervals, and their errors by the model. Raises `InputError` where
+    there are too few points, or f is not positive."""
     rows = [np.zeros((7, 0))]
     for known, curve in curves:
         solved = curve.samples.speed
