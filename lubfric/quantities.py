@@ -11,7 +11,7 @@ from inspect import cleandoc
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from .errors import InputError
-from .units import converted
+from .units import converted, worded
 
 T = TypeVar("T")  # float, or an array over operating points
 
@@ -204,6 +204,13 @@ OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | { 
 }
 COLUMNS = OF_MOMENT | KEYS | QUANTITIES | INTERVAL | {q.column or n: q for n, q in OF_UNCERTAINTY.items()} | OF_STUDY
 COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
+
+
+def worded_value(name: str, value: Any) -> str:
+    """A ``value`` of the column or key ``name``, in a unit of people; that of the oil's temperature in °C."""
+    if name == "lubricant.temperature":
+        return f"{converted(value, 'K', '°C'):.4g} °C"
+    return worded(value, COLUMNS[name].unit if name in COLUMNS else "-")
 
 
 def depending_on(error: str) -> tuple[str, ...]:

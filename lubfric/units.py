@@ -112,15 +112,19 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
     row = UNITS[kind_of(unit)]
     shown = value if len(value) < 40 else f"{value[:40]} ..."
     examples = [f"'20{other if other == '%' else ' ' + other}'" for other in row if other not in ("", "-")][:5]
-    allowed = f"a plain number in {unit}, or one with a unit in quotes: {', '.join(examples)}"
-    allowed += f", or a name: {', '.join(named)}" if named else ""
+    plain = "a plain number" if unit == "-" else f"a plain number in {unit}"
+    allowed = f"{plain}, or one with a unit in quotes: {', '.join(examples)}"
+    allowed += f", or a range [low, high], or a name: {', '.join(named)}" if named else ""
     if found is None or not found[2]:
-        said = " has no unit: leave the quotes out, or add one" if found else " is no number with a unit"
+        none = " is no number with a unit, and no name that is known" if named else " is no number with a unit"
+        said = " has no unit: leave the quotes out, or add one" if found else none
         raise InputError(f" = {shown!r}{said}", name, allowed)
     given = spelled(found[2])
     if given not in row:
         other = next((si for si, units in UNITS.items() if given in units), "")
+        hrc = given == "HRC" and "HV" in row
         said = f"is in {found[2]}, a unit of another kind ({other})" if other else f"has an unknown unit, {found[2]!r}"
+        said = "is no pressure: give HV; 57 HRC is 633 HV, 60: 697, 63: 772" if hrc else said
         raise InputError(f" = {shown!r} {said}", name, allowed)
     try:
         return float(converted(Decimal(found[1]), given, unit))

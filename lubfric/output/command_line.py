@@ -8,11 +8,12 @@ from typing import Any
 
 from .._base import __version__, packaged
 from ..errors import ConvergenceError, InputError, LubfricError
+from ..units import number_of
 from .commands import INTERRUPTED, interruptible, put, say
 
 CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
 FOR = {"ratios": RATIOS, "animation": IN_TIME} | dict.fromkeys(("speeds", "fields", "workers", "vtk"), CURVE)
-KINDS: dict[str, dict[str, Any]] = {"path": {"type": Path}, "number": {"type": float}, "count": {"type": int}}
+KINDS: dict[str, dict[str, Any]] = {"path": {"type": Path}, "count": {"type": int}}
 KINDS["switch"] = {"action": "store_true"}
 
 
@@ -45,7 +46,9 @@ def parser() -> argparse.ArgumentParser:
             groups = [table["groups"][group] for group in row.get("with", ())]
             for argument, options in (pair for part in (*groups, row.get("arguments", {})) for pair in part.items()):
                 kind = KINDS.get(options.get("kind"), {})
-                command.add_argument(argument, **kind | {key: v for key, v in options.items() if key != "kind"})
+                given = {key: value for key, value in options.items() if key != "kind"}
+                given |= {} if given.get("help") else {"help": argparse.SUPPRESS}
+                command.add_argument(argument, **kind | given)
     return whole
 
 
@@ -61,7 +64,8 @@ def run(arguments) -> None:
     from . import run_curve, run_history
 
     scene = _scene(arguments)
-    changed = {} if arguments.sampling_tolerance is None else {"sampling_tolerance": arguments.sampling_tolerance}
+    asked = arguments.sampling_tolerance
+    changed = {} if asked is None else {"sampling_tolerance": number_of("--sampling-tolerance", asked, "-")}
     if changed and not takes_strips(scene):
         raise InputError(
             "--sampling-tolerance is for a rough cylinder on strips of its roughness (numerics.sampling = 'strips'), "

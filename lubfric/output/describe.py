@@ -95,7 +95,7 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> lis
     elif why:
         rows = [f"load sharing, Eq. (8), alone; {unknown}:", f"  {why}"]
     elif not resolved and max((one.moving for one in found), default=0.0) > MOST_WORK:
-        rows = [f"load sharing, Eq. (8), alone; {unknown}: the other model would take too long"]
+        rows = ["load sharing, Eq. (8), alone; its interval is wide: the other model would take too long"]
     elif not resolved:
         rows = ["load sharing, Eq. (8), alone: the film is thick, or there is no roughness, and the models agree"]
     else:
@@ -163,7 +163,7 @@ def _cost(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list
     if scene.numerics.model == "deterministic":
         steps, seconds = work_of_run(scene)
     top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
-    course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {plan.outputs} outputs"
+    course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
     return [f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", *sample]
 
 

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 from ..film import hertz
 from ..oil import estimate_in_words
-from ..quantities import KEYS
-from ..scene import FRICTION, FRICTION_OVER, HISTORIES, Scene, typical
-from ..units import converted, worded
+from ..quantities import KEYS, worded_value
+from ..scene import FRICTION, FRICTION_OVER, HISTORIES, Scene, source_of, typical
+from ..units import worded
 
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
 
@@ -18,9 +18,6 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
         value = getattr(getattr(scene, section, None), key.removeprefix(f"{section}."), None)
         if not key.startswith(f"{section}.") or value is None or value == ():
             continue
-        text = worded(value, quantity.unit)
-        if key == "lubricant.temperature":
-            text = f"{converted(value, 'K', '°C'):.4g} °C"
         alike = {word: ends for word, (middle, *ends) in typical(key).items() if middle == value}
         ends = " to ".join(worded(end, quantity.unit) for end in next(iter(alike.values()), ()))
         note = f", typical of {' or '.join(alike)}: {ends}" if alike else ""
@@ -29,13 +26,15 @@ def inputs(scene: Scene, section: str) -> Iterator[tuple[str, str, str, str]]:
             note = f", which changes in time: transient.{changing[0]}"
         for name, *known in scene.ranges:
             if name == key:
+                words = [word for word, usual in alike.items() if usual == known]
                 note = f", known to lie in {' to '.join(worded(end, quantity.unit) for end in known)}"
+                note += f", typical of {' or '.join(words)} ({source_of(key, words[0])})" if words else ""
         table = scene.bodies.boundary_friction_table
         if table is not None and key == FRICTION:
             unit = FRICTION_OVER[table.over]
             points = (f"{value:.4g} at {worded(at, unit)}" for at, value in zip(table.at, table.values))
             note = f", by a table over {table.over}: {', '.join(points)}"
-        yield quantity.label, text, key, note
+        yield quantity.label, worded_value(key, value), key, note
 
 
 def input_rows(scene: Scene, section: str) -> list[str]:
@@ -62,7 +61,8 @@ def _lubricant(scene: Scene) -> list[str]:
         rows.append("shear: Newtonian at any stress (no eyring_stress, no limiting_stress_coefficient)")
     known = oil.heats and oil.temperature_coefficient is not None
     why = "isothermal, how the viscosity falls with the temperature is not given"
-    return [*rows, f"heat: {scene.numerics.heat if known else why}"]
+    told = "left out, as asked" if scene.numerics.heat == "off" else "of film and inlet, where it is known to matter"
+    return [*rows, f"heat: {told if known else why}"]
 
 
 def _motion(scene: Scene) -> list[str]:

@@ -229,7 +229,7 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
     for name, label, style in (
         ("central_film", "central film", {"color": figures.GREEN}),
         ("min_film", "minimum film", {"color": figures.GREEN, "lw": 1, "ls": "--"}),
-        ("mean_gap", "mean gap over A", {"color": figures.GREY, "lw": 0.9, "ls": ":"}),
+        ("mean_gap", "mean gap over the Hertz strip", {"color": figures.GREY, "lw": 0.9, "ls": ":"}),
     ):
         second.plot(t, c[name] * 1e9, label=label, **style)
     second.set(ylabel="film thickness (nm)", ylim=(0.0, None))

@@ -126,7 +126,7 @@ def _points(curve: CurveResult) -> list[str]:
         cells.insert(2, f"{low:.3g} to {high:.3g}" if np.isfinite(low) else "not known")
         numbers.append(_cells(cells))
         of = [percent(getattr(point.uncertainty, part)) for part in ("numerical", "sampling", "model", "inputs")]
-        errors.append(_cells([f"{found[name][i]:.4g}", *of]) + f"<td>{point.decision.model}</td>")
+        errors.append(_cells([f"{found[name][i]:.4g}", *of, point.decision.model]))
         for note in (*point.uncertainty.notes, *point.decision.notes):
             notes.setdefault(note, []).append(f"{found[name][i]:.4g}")
     heads.insert(2, "interval of f, 95 %")

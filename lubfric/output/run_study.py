@@ -11,7 +11,7 @@ import numpy as np
 from .. import studies
 from .._base import figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
-from ..quantities import COLUMNS, KEYS, axis_label
+from ..quantities import KEYS, axis_label, counted, worded_value
 from ..scene import Scene
 from ..units import number_of, worded
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
@@ -38,13 +38,13 @@ def run_study(arguments) -> None:
         if np.isfinite(result["coefficient"]).any():
             folder.draw("study.png", _picture, result)
         if result.cautioned:
-            say(f"{result.cautioned} of {result.solved} points have cautions: column validity of study.csv")
+            say(f"cautions at {result.cautioned} of {counted(result.solved, 'points')}: column validity of study.csv")
         folder.put()
     for row in _answer(result):
         say(row)
     if result.failed:
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
-        said = f"{result.failed} of {result.solved} points failed; first: {result.failures[0]}"
+        said = f"{result.failed} of {counted(result.solved, 'points')} failed; first: {result.failures[0]}"
         raise ConvergenceError(said, report, result)
 
 
@@ -57,7 +57,7 @@ def _answer(result: studies.StudyResult) -> list[str]:
         at = [] if "speed" not in result.columns else [f"speed {worded(float(result['speed'][index]), 'm/s')}"]
         for key, (dim, values) in result.coords.items():
             value = values[index[result.dims.index(dim)]].item()
-            at.append(f"{key} {worded(value, COLUMNS[key].unit if key in COLUMNS else '-')}")
+            at.append(f"{key} {worded_value(key, value)}")
         low, high = (result[f"uncertainty_{end}"][index] for end in ("low", "high"))
         within = f", {low:.3g} to {high:.3g} at 95 %" if np.isfinite(low) else ", error not known"
         rows.append(f"{word} f = {f[index]:.3g}{within}, at {', '.join(at)}")

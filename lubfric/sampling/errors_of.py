@@ -25,8 +25,8 @@ NO_HEAT = "heat was left out"
 PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
 NO_CELLS = "not known: this contact has no places along y to compare"
 TOO_SHORT = (
-    "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling out, or give a "
-    "map that is longer across the motion)"
+    "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling and "
+    "surface.extension out, or give a map that is longer across the motion)"
 )
 NONE, UNKNOWN = (0.0, 0.0), (math.nan, math.nan)
 EMPTY = "the error of Eq. (8) is not known where what arrives does not fill the gap"

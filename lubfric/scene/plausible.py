@@ -17,9 +17,17 @@ from ..units import converted, without_unit
 def typical(name: str) -> dict[str, list[float]]:
     """Words that stand for a value of the key ``name`` (section.key): that value, and the lowest and highest that are
     usual, in the unit of the key."""
+    return {word: without_unit(name, values, KEYS[name].unit) for word, (*values, _) in _rows(name).items()}
+
+
+def source_of(name: str, word: str) -> str:
+    """Where the `typical` value of the key ``name`` for ``word`` was seen in print."""
+    return _rows(name)[word][-1]
+
+
+def _rows(name: str) -> dict[str, list]:
     section, _, key = name.partition(".")
-    rows = packaged(__package__, "typical.toml").get(section, {}).get(key, {})
-    return {word: without_unit(name, values, KEYS[name].unit) for word, values in rows.items()}
+    return packaged(__package__, "typical.toml").get(section, {}).get(key, {})
 
 
 def slip(name: str, value) -> str | None:

@@ -7,6 +7,7 @@ from numbers import Real
 from textwrap import shorten
 
 from ..errors import InputError
+from ..quantities import counted, worded_value
 from ..sampling import forecast
 from ..sharing import Prepared, prepare
 from .choose import CHOSEN, first_speeds
@@ -36,12 +37,12 @@ def in_words(seconds: float) -> str:
 def explain(plan, store=None) -> str:
     """The points of a `StudyPlan`, how many of them the folder ``store`` has already, and about how long the rest will
     take, in words. Some of the maps are made. No point is solved."""
-    lines = [f"study of {plan.scene.name}: {'' if plan.speeds else 'about '}{plan.points} points"]
+    lines = [f"study of {plan.scene.name}: {'' if plan.speeds else 'about '}{counted(plan.points, 'points')}"]
     for axis in plan.axes:
-        shown = ", ".join(f"{key} {_range(column)}" for key, column in zip(axis.keys, zip(*axis.values)))
+        shown = ", ".join(f"{key} {_range(key, column)}" for key, column in zip(axis.keys, zip(*axis.values)))
         lines.append(f"  {len(axis.values):6d} x {shown}")
     if plan.speeds:
-        lines.append(f"  {len(plan.speeds):6d} speeds, {min(plan.speeds):g} to {max(plan.speeds):g} m/s")
+        lines.append(f"  {counted(len(plan.speeds), 'speeds'):>13}: {_range('speed', plan.speeds)}")
     else:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
     if plan.scene.transient is not None:
@@ -63,18 +64,18 @@ def explain(plan, store=None) -> str:
     for scene, speeds in some:
         try:
             begun = time.process_time()  # of the map, which takes its time as well
-            counted = curve_seconds(prepare(scene), speeds) + time.process_time() - begun
-            seconds += counted * len(left) / len(some)
+            one = curve_seconds(prepare(scene), speeds) + time.process_time() - begun
+            seconds += one * len(left) / len(some)
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
     lines.append(f"  time     about {in_words(seconds)} on one core (within a factor of about 4)")
     return "\n".join([*lines, *dict.fromkeys(failed)])
 
 
-def _range(values: tuple) -> str:
+def _range(key: str, values: tuple) -> str:
     """The values of a key: all of them if they are few, else the smallest and the largest, or first and last."""
     if len(values) > LISTED:
         ends = (min(values), max(values)) if all(isinstance(v, Real) for v in values) else (values[0], values[-1])
-        return " to ".join(_range((end,)) for end in ends)
-    words = (f"{value:.4g}" if isinstance(value, float) else str(value) for value in values)
+        return " to ".join(_range(key, (end,)) for end in ends)
+    words = (worded_value(key, value) if isinstance(value, float) else str(value) for value in values)
     return ", ".join(shorten(text, 50, placeholder="...") for text in words)

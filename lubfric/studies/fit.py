@@ -9,6 +9,7 @@ import numpy as np
 
 from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, InputError, LubfricError, Report, returned
+from ..quantities import counted, worded_value
 from ..sampling import FrictionResult
 from ..scene import Scene
 from ..sharing import Prepared, prepare
@@ -90,11 +91,11 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     InputError : a parameter is not one
     """
     found = _checked(scene, measured, parameters)
-    count = f"{len(found)} parameter{'s' if len(found) > 1 else ''}"
-    lines = [f"fit of {count} of {scene.name} to {measured.x.size} points of {measured.source}"]
+    count = counted(len(found), "parameters")
+    lines = [f"fit of {count} of {scene.name} to {counted(measured.x.size, 'points')} of {measured.source}"]
     for key, bounds in found.items():
         logarithmic = ", sought in its logarithm" if bounds.scale == "log" else ""
-        lines.append(f"  {key}: {bounds.low:g} to {bounds.high:g}{logarithmic}")
+        lines.append(f"  {key}: {worded_value(key, bounds.low)} to {worded_value(key, bounds.high)}{logarithmic}")
     if measured.over == SLIP:
         held = "they hold" if measured.rolling else "they do not hold"
         lines.append(f"  {held} the rolling part of the friction, which averaging over both signs of slip takes out")
@@ -114,7 +115,8 @@ def _checked(scene: Scene, measured: Measured, parameters) -> dict[str, Between]
     if measured.over == SLIP and (given := RATIO.intersection(found)):
         raise InputError(f"parameters: {', '.join(given)} is measured, not fitted; name another number of the scene")
     if measured.x.size <= len(found):
-        raise InputError(f"{measured.x.size} measured points for {len(found)} parameters; give more points")
+        points, sought = counted(measured.x.size, "measured points"), counted(len(found), "parameters")
+        raise InputError(f"{points} for {sought}; give more points")
     return found
 
 

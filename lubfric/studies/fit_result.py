@@ -7,6 +7,7 @@ import numpy as np
 
 from .._base import Shown, figures
 from ..errors import Report
+from ..quantities import counted, worded_value
 from ..sampling import percent
 from ..scene import Scene
 from ..sharing import Validity, gathered
@@ -148,11 +149,12 @@ class FitResult(Shown):
     def explain(self) -> str:
         """Values, intervals, correlations, the parameters that the data cannot determine, and the assumptions that do
         not hold."""
-        lines = [f"fit to {self.predicted.size} points of {self.measured.source}"]
+        lines = [f"fit to {counted(self.predicted.size, 'points')} of {self.measured.source}"]
         for key, (low, high) in self.intervals.items():
             note = " - the data do not determine it" if key in self.undetermined else ""
             note += " - on its bound" if key in self.at_bounds else ""
-            lines.append(f"  {key} = {self.values[key]:.4g}, 95 % interval {low:.4g} to {high:.4g}{note}")
+            value, *ends = (worded_value(key, v) for v in (self.values[key], low, high))
+            lines.append(f"  {key} = {value}, 95 % interval {' to '.join(ends)}{note}")
         keys, correlation = [*self.parameters], self.correlation
         for i in range(len(keys)):
             for j in range(i):

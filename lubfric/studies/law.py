@@ -17,6 +17,7 @@ FINE = 50  # speeds of a curve to which a law is fitted, beside those that were 
 CLOSE = 0.02  # relative error of a curve between its points, as it estimates it, up to which it is used
 FEWEST, MORE = 12, "solve more speeds, or speeds='auto'"
 ROUNDED = 1e-9  # by which a number may be outside a range
+OVER_REST = 1.1  # times f_b: the largest friction of contact spots that carry all
 AT_REST = 0.03  # of the slowest speed: below it f falls to nothing at rest
 WALTHER = "0.001*(pow(10.0, pow(10.0, A - B*log10(T))) - 0.7)"  # ASTM D341, of eta in mPa s
 THINNEST = 3.001e-4  # Pa s, beyond which it has no value
@@ -161,10 +162,10 @@ def _expressions(numbers) -> dict[str, str]:
     return {"eta": WALTHER if "A" in numbers else "eta0"} | FORMULA
 
 
-def law_of(name: str, curves: Iterable[tuple[Any, Interpolant]], f, low, high, model) -> Law:
-    """The `Law` of solved curves with their conditions (`conditions_of`). ``f``, ``low``, ``high``, ``model``: of all
-    points, arrays with their intervals, and their errors by the model. Raises `InputError` where there are too few
-    points, or f is not positive."""
+def law_of(scene: Scene, curves: Iterable[tuple[Any, Interpolant]], f, low, high, model) -> Law:
+    """The `Law` of solved curves of ``scene`` with their conditions (`conditions_of`). ``f``, ``low``, ``high``,
+    ``model``: of all points, arrays with their intervals, and their errors by the model. Raises `InputError` where
+    there are too few points, or f is not positive."""
     rows = [np.zeros((7, 0))]
     for known, curve in curves:
         solved = curve.samples.speed
@@ -179,11 +180,12 @@ def law_of(name: str, curves: Iterable[tuple[Any, Interpolant]], f, low, high, m
     numbers = {"u0": AT_REST * U.min()}
     numbers |= {name: float(np.exp(np.log(v).mean())) for name, v in (("U0", U), ("eta0", eta), ("p0", p))}
     numbers |= _viscosity(T, eta, slope)
-    numbers |= _fitted(numbers, (U, T, p), boundary, film, eta)
+    rest = scene.bodies.boundary_friction_coefficient
+    numbers |= _fitted(numbers, (U, T, p), boundary, film, eta, rest)
     off = value(numbers, U, T, p) / (boundary + film) - 1
     ranges = {n: (float(v.min()), float(v.max())) for n, v in (("speed", U), ("temperature", T), ("pressure", p))}
     widths = np.where(np.isfinite(model), 0.5 * (high - low) / np.abs(f), np.nan)[np.isfinite(f)]
-    return Law(name, numbers, ranges, float(abs(off).max()), float(np.sqrt(np.mean(off**2))), float(widths.max()))
+    return Law(scene.name, numbers, ranges, float(abs(off).max()), float(np.sqrt(np.mean(off**2))), float(widths.max()))
 
 
 def law_of_study(result) -> Law:
@@ -196,7 +198,7 @@ def law_of_study(result) -> Law:
     scenes = result.plan.scenes
     curves = [(conditions_of(scene), curve) for scene, curve in zip(scenes, found) if curve is not None]
     columns = (result[name] for name in ("coefficient", *(f"uncertainty_{n}" for n in ("low", "high", "model"))))
-    return law_of(result.plan.scene.name, curves, *columns)
+    return law_of(result.plan.scene, curves, *columns)
 
 
 def _viscosity(T, eta, coefficient) -> dict[str, float]:
@@ -218,7 +220,7 @@ def _viscosity(T, eta, coefficient) -> dict[str, float]:
     return {"A": float(np.mean(y - slope * x)), "B": float(-slope)}
 
 
-def _fitted(numbers, at, boundary, film, eta) -> dict[str, float]:
+def _fitted(numbers, at, boundary, film, eta, rest) -> dict[str, float]:
     """The other numbers, by least squares of ln f from several starts."""
     from scipy.optimize import least_squares
 
@@ -230,7 +232,8 @@ def _fitted(numbers, at, boundary, film, eta) -> dict[str, float]:
     for exponents, moved in ((("a", "e1", "e2"), e), (("c", "d1", "d2"), q)):
         if np.ptp(moved) > 1e-9:
             free += exponents if most else exponents[1:]
-    low, high = np.array([np.log(POSITIVE[name]) if name in POSITIVE else OTHERS for name in free]).T
+    bounds = POSITIVE | {"b": (POSITIVE["b"][0], OVER_REST * max(most, rest))}
+    low, high = np.array([np.log(bounds[name]) if name in bounds else OTHERS for name in free]).T
 
     def read(z) -> dict[str, float]:
         return numbers | start | {n: float(np.exp(v) if n in POSITIVE else v) for n, v in zip(free, z)}

@@ -76,7 +76,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         ``lubfric.study(...).law()`` has more of them."""
         low, high = self.uncertainty.interval.T
         curves = [(conditions_of(self.scene), self._curve)]
-        return law_of(self.scene.name, curves, self.coefficient, low, high, self.uncertainty.model)
+        return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)
 
     def plot(self, ax=None, **style):
         """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""

@@ -7,8 +7,7 @@ import numpy as np
 
 from .._base import __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
-from ..quantities import KEYS, Quantity, axis_label, described, heading
-from ..units import worded
+from ..quantities import KEYS, Quantity, axis_label, described, heading, worded_value
 from .curve import numbers_of
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
@@ -116,7 +115,7 @@ def _label(result, index) -> str:
     for key, (dim, values) in result.coords.items():
         if key != SPEED:
             value, of = values[index[result.dims.index(dim)]], KEYS.get(key, Quantity("-", key.rpartition(".")[2]))
-            words.append(f"{of.label} {worded(value.item(), of.unit)}")
+            words.append(f"{of.label} {worded_value(key, value.item())}")
     return ", ".join(words)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
+from ..units import worded
 from .height_map import Surface
 from .regrid import pair, points
 from .statistics import INVERSE_E, correlation_length, first_crossing
@@ -85,14 +86,15 @@ def surface_generator(
     expected = _expected_lengths(spectrum, shape, spacing, lengths, level)
     amplitude, source = np.sqrt(spectrum), f"generated, {acf} ACF"
     stated = [
-        f"correlation length along {name} at level {level:.4g}: asked {length:.4e} m, expected {there:.4e} m"
+        f"correlation length along {name} at level {level:.4g}: "
+        f"asked {worded(length, 'm')}, expected {worded(float(there), 'm')}"
         for name, length, there in zip("xy", lengths, expected)
     ]
 
     def made(seed: int) -> Surface:
         heights = fft.irfft2(fft.rfft2(np.random.default_rng(seed).standard_normal(shape)) * amplitude, shape)
         heights = heights / heights.std() * sq
-        note = f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {sq:.4e} m exactly"
+        note = f"Hu-Tonder, {acf} ACF, seed {seed}, Sq set to {worded(sq, 'm')} exactly"
         notes = (note, *stated) if sq else (note,)
         return Surface(heights, spacing, periodic_axes=(True, True), source=source, seed=seed, notes=notes)
 

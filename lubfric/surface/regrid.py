@@ -11,6 +11,7 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
+from ..units import worded
 
 MOST_POINTS = 2**26  # of any map, 512 MiB of heights
 SAME = 1e-9  # relative difference of lengths that are equal
@@ -110,9 +111,10 @@ def combined(first, second):
     parts = [part.patch(shape) for part in parts]
     heights = sum(part.heights - part.heights.mean() for part in parts)
     mask = np.logical_and(*(np.ones(shape, bool) if part.mask is None else part.mask for part in parts))
-    source = " and ".join(surface.source or "a map" for surface in (first, second))
+    sources = list(dict.fromkeys(surface.source or "a map" for surface in (first, second)))
+    source = " and ".join(sources) if len(sources) > 1 else f"both {sources[0]}"
     notes = [f"{name}: {note}" for name, part in zip(("first", "second"), parts) for note in part.notes]
-    notes.append(f"combined: Sq {first.sq:.4e} m and {second.sq:.4e} m, the second turned over about x")
+    notes.append(f"combined: Sq {worded(first.sq, 'm')} and {worded(second.sq, 'm')}, the second turned over about x")
     return replace(parts[0], heights=heights, mask=mask, periodic_axes=closed, source=source, notes=tuple(notes))
 
 

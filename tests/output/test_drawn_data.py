@@ -127,7 +127,7 @@ def test_a_history_is_drawn_by_its_table(figures):
     first, second, third, fourth, load = figures[0].axes
     np.testing.assert_allclose(first.lines[0].get_data(), [[0, 10, 20], [0.1, -0.2, 0.3]])
     np.testing.assert_allclose(load.lines[0].get_data(), [[0, 10, 20], [5, 6, 8]])
-    for label, least in (("central film", 100.0), ("minimum film", 50.0), ("mean gap over A", 200.0)):
+    for label, least in (("central film", 100.0), ("minimum film", 50.0), ("mean gap over the Hertz strip", 200.0)):
         np.testing.assert_allclose(data(second, label), [[0, 10, 20], 1e9 * t + least])
     np.testing.assert_allclose(edges(third, "contact $F_C$")[1], [0.2, 0.5, 0.25])
     np.testing.assert_allclose(data(fourth, "from the film"), [[0, 10, 20], 0.05 / columns["load"]])

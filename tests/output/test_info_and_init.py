@@ -176,6 +176,20 @@ def test_the_map_that_was_given_comes_before_its_strips(tmp_path):
     assert "mine.x3p: 60 x 40 points, 120 x 80 µm" in told and "solved first: " in told
 
 
+def test_info_of_a_model_that_takes_too_long_says_that_the_interval_is_wide():
+    """As the answer has it: the error of load sharing alone is large there, and known."""
+    moving = HEAVY.with_(
+        motion={"slide_roll_ratio": 0.03},
+        contact={"shape": (512, 512), "spacing": 1e-6},
+        surface={"sq": 2e-7, "correlation_length": 8e-6},
+        lubricant={"eyring_stress": 5e6},
+    )
+    text = describe_scene(moving)
+    assert "its interval is wide: the other model would take too long" in text
+    found = lubfric.friction(moving.with_(numerics={"sampling_tolerance": 0.2})).uncertainty
+    assert found.model > 0.2 and np.isfinite(found.interval).all()
+
+
 def test_info_of_a_squeeze_says_that_nothing_is_entrained():
     scene = SWINGING.with_(transient=lubfric.Transient(1e-3, speed=0.0, initial_film=2e-6))
     told = describe_scene(scene)

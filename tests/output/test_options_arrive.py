@@ -71,7 +71,8 @@ def test_speeds_fields_and_ratios(work):
 
 
 def test_tolerance_and_acceptance(work):
-    assert scene_of(given(work, "run", "paper", "--sampling-tolerance", "0.07")).numerics.sampling_tolerance == 0.07
+    for text in ("0.07", "7 %"):
+        assert scene_of(given(work, "run", "paper", "--sampling-tolerance", text)).numerics.sampling_tolerance == 0.07
     assert scene_of(given(work, "run", "paper", "--accept")).numerics.accept
     plain = scene_of(given(work, "run", "paper")).numerics
     assert not plain.accept and plain.sampling_tolerance == 0.02
@@ -149,3 +150,11 @@ def test_every_option_is_tested_somewhere(root):
     """An option that no test names does nothing that a test would miss."""
     tests = "\n".join(path.read_text("utf-8") for path in (root / "tests").rglob("test_*.py"))
     assert [word for word in set(options_of(command_line.parser())) - {"--help"} if f'"{word}"' not in tests] == []
+
+
+def test_help_shows_what_there_is(capsys):
+    """An option that does nothing is not shown, nor is the word with which argparse hides it."""
+    with pytest.raises(SystemExit):
+        main(["run", "-h"])
+    told = capsys.readouterr().out
+    assert "--sampling-tolerance" in told and "--report" not in told and "SUPPRESS" not in told

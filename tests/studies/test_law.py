@@ -118,7 +118,17 @@ def test_of_smooth_bodies_in_a_fluid_too_thin_for_the_law_of_its_viscosity():
     assert np.abs(law(curve.speed) / curve.coefficient - 1).max() <= law.largest * (1 + 1e-9) < 0.06
     both = [((T, 2e-4, 0.01, 1e8), curve._curve) for T in (300.0, 320.0)]
     with pytest.raises(lubfric.InputError, match="viscosity = 0.0002 Pa s is too thin"):
-        law_of("", both, curve.coefficient, *curve.uncertainty.interval.T, curve.uncertainty.model)
+        law_of(scene, both, curve.coefficient, *curve.uncertainty.interval.T, curve.uncertainty.model)
+
+
+def test_slower_than_its_points_it_has_no_more_friction_than_the_contact_spots():
+    """From twelve speeds at which the film carries most, down to rest: the bodies alone would give f_b. It falls there
+    as slowly as the curve that was solved at those speeds."""
+    scene = SCENE.with_(bodies={"boundary_friction_coefficient": 0.12})
+    law = lubfric.stribeck(scene, np.geomspace(0.03, 0.3, 12)).law()
+    below = law(np.geomspace(1e-5, 0.03, 200))
+    assert below.max() < 1.1 * 0.12 + 1e-9 and law(0.03) > 0.02
+    assert law(0.01) == pytest.approx(lubfric.friction(scene, 0.01).coefficient, rel=0.3)
 
 
 def test_what_it_cannot_hold_is_refused(study):
