@@ -128,8 +128,7 @@ def _without_cells(prepared: Prepared, speed: float) -> Found:
     contact = prepared.contact
     solved = solve_balance(prepared.scene, speed, contact, prepared.surface.sq)
     length = prepared.surface.size[1]
-    found = Found(solved, solved, contact, Scatter(length), missed=math.nan)
-    return _corrected(prepared, speed, found)
+    return _corrected(prepared, speed, Found(solved, solved, contact, Scatter(length), missed=math.nan))
 
 
 def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
@@ -212,14 +211,13 @@ def speed_of(scene, film: float) -> float:
 
 
 def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
-    """Number of strips that the standard error ``numerics.sampling_tolerance`` needs, at least as many as there are.
-    More strips are so many that the line of all has a fast Fourier transform: 90 take half the time of 89."""
+    """Number of strips that ``numerics.sampling_tolerance`` needs, at least as many as there are."""
     asked, spots, touching = prepared.scene.numerics.sampling_tolerance, found.scatter.spots, found.response is not None
     few = touching and too_few(spots, found.sampling, asked)
     enough = min(FEW / spots, (found.sampling / (MATTERS * asked)) ** 2) if few else 0.0
     error = BlockError(found.sampling, found.friction_error.freedom if touching else 0)
     more = enlarged(found.count, strips.first, strips.available, error, asked, enough)
-    return more if more == found.count else min(strips.available, fft.next_fast_len(more, real=True))
+    return more if more == found.count else min(strips.available, fft.next_fast_len(more, real=True))  # 90, not 89
 
 
 def enlarged(
@@ -238,10 +236,9 @@ def enlarged(
 
     It is (reached/asked)² times the present number, with some to ``spare`` (1.3 times that, and at least 1.5 times the
     present number), and at most ``growth`` times as many: of the ``first``, and of a later one. A standard error from
-    few blocks is itself known to 1/sqrt(2 nu) only, with nu
-    degrees of freedom. If a sample counted as long enough whenever its blocks happen to scatter little, the stated
-    error would be too small. So the first one counts as long enough only if even 1 + 1/sqrt(nu) times its error is
-    within what is asked.
+    few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long enough
+    whenever its blocks happen to scatter little, the stated error would be too small. So the first one counts as long
+    enough only if even 1 + 1/sqrt(nu) times its error is within what is asked.
     """
     doubt = 1 / math.sqrt(error.freedom) if count == first and error.freedom > 0 else 0.0
     reached = error.error * (1 + doubt)

@@ -21,7 +21,7 @@ from .sample import speed_of
 from .scatter import BlockError, block_error
 
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
-MOST_PIECES, PIECES_WORK = 32, 0.25  # and that share of `MOST_WORK`, beyond which no more are solved
+MOST_PIECES, PIECES_WORK = 32, 30.0  # s, counted: beyond it no more are solved
 MOVING = 3.0  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
 # small by chance (on six Gaussian maps f moved by 0 to 76 % to cells of a quarter, and by 0 to 19 % to an eighth)
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
@@ -144,9 +144,10 @@ def _pieces(prepared: Prepared, speed: float, first: Pair | None) -> tuple[tuple
     strips, asked = prepared.strips, CELLS * prepared.scene.numerics.sampling_tolerance
     assert strips is not None
     pieces: list[Piece] = []
-    error = BlockError(math.inf, 0)
-    spent = 0.0
-    while len(pieces) < min(strips.pieces, MOST_PIECES) and spent < PIECES_WORK * MOST_WORK and not error.error <= asked:
+    error, spent = BlockError(math.inf, 0), 0.0
+    while len(pieces) < min(strips.pieces, MOST_PIECES) and not (
+        error.error <= asked or spent > PIECES_WORK * MOST_WORK
+    ):
         slope = pieces[0][1].slope if pieces else None
         pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))
         error, spent = _error(pieces, strips), spent + sum(strip.work for strip in pieces[-1])

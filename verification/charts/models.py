@@ -6,7 +6,7 @@ An error is the root mean square over surfaces of other seeds; of a map there is
 
 import numpy as np
 
-from ..model.answers import MEASURED, REFERENCE, Case, reference, solved
+from ..model.answers import MEASURED, Case, reference, solved
 from .measure import point, quartiles
 
 SURFACES = "Gaussian", "exponential", "ridges across", "plateau"
