@@ -14,16 +14,15 @@ from collections.abc import Callable, Iterable
 from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from pathlib import Path
-from typing import get_type_hints
 
 import numpy as np
 
-from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, read_json, validate
+from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, validate
 from ..errors import InputError, OutputError
 from ..quantities import KEYS, Quantity
 from ..scene import Scene
-from ..sharing import Prepared, Validity, prepare
-from ..studies import Store, fits
+from ..sharing import Prepared, prepare
+from ..studies import Store
 from ..surface import rms_slope
 from .describe import map_in_words
 
@@ -103,7 +102,7 @@ MOST_TOML = 2**20  # bytes: a larger file names no inputs
 INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
-    *("contact.png", "contact_*.vtk", "animation.gif", "fields.npz", "report.html", RESULT),
+    *("contact.png", "fields.npz", "report.html", RESULT),
 )
 
 
@@ -116,17 +115,14 @@ def ready(scene: Scene) -> Prepared:
     return prepared
 
 
-def read_record(folder: Path) -> dict:
-    """What result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
-    path, again = folder / RESULT, "give a folder that 'lubfric run' wrote, or run it again"
-    if not os.path.lexists(path):
-        raise InputError(f"{folder} holds no {RESULT}; {again}")
-    record = read_json(path, again)
-    numbers = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Validity).items()}
-    kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
-    if not isinstance(record, dict) or not fits({"points": []} | record, kind):
-        raise InputError(f"{path} is damaged, or no record of a run; {again}")
-    return record
+def name_of_run(folder: Path) -> str:
+    """The name of the scene in result.json of a run. Raises `InputError` where it cannot be read."""
+    path = folder / RESULT
+    try:
+        return str(json.loads(path.read_bytes() if path.is_file() else b"")["scene"]["name"])
+    except (OSError, ValueError, LookupError, TypeError, RecursionError) as problem:
+        said = f"{path} is missing, damaged, or no record of a run ({type(problem).__name__})"
+        raise InputError(f"{said}; give a folder that 'lubfric run' wrote, or run it again") from None
 
 
 def files_read(paths: Iterable) -> list[Path]:
