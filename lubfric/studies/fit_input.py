@@ -7,7 +7,7 @@ import numpy as np
 from .._base import read_columns, validate
 from ..errors import InputError
 from ..scene import Scene
-from .vary import Between, check_temperature, unit_of
+from .vary import FITTED, Between, check_key, check_temperature, unit_of
 
 SPEED, SLIP = "speed", "slide_roll_ratio"
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
@@ -117,17 +117,13 @@ def parameters_of(scene: Scene, bounds) -> dict[str, Between]:
     if not isinstance(bounds, dict) or not bounds:
         raise InputError('parameters must be a dict such as {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
     check_temperature("parameters", scene, set(bounds))
-    found = {}
+    found: dict[str, Between] = {}
     for key, pair in bounds.items():
+        check_key("parameters", scene, key, found, FITTED)
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
             raise InputError(f"parameters[{key!r}] = {pair!r}; allowed: a pair (lowest, highest)")
         low = validate.number(f"parameters[{key!r}] lowest", pair[0], unit_of(key))
         high = validate.number(f"parameters[{key!r}] highest", pair[1], unit_of(key), above=low)
-        section, _, name = str(key).partition(".")
-        if section not in ("bodies", "lubricant", "motion", "surface") or not name:
-            raise InputError(f"parameters: {key!r}; allowed: a number of [bodies], [lubricant], [motion] or [surface]")
-        if key in ("motion.entrainment_speed", "motion.speeds"):
-            raise InputError(f"parameters: {key!r} is measured, not fitted; name another number of the scene")
         for end in (low, high):
             scene.with_keys({key: end})
         found[key] = Between(low, high, "log" if low > 0 and high >= LOGARITHMIC * low else "linear")

@@ -208,11 +208,6 @@ class TractionResult(CurveResult):
         ``without_rolling`` is f without it."""
         return self["coefficient"]
 
-    def _facts(self) -> dict[str, str]:
-        rolling = np.abs(self.coefficient - self.without_rolling)
-        known = rolling[np.isfinite(rolling)]
-        return super()._facts() | ({"rolling part of f": f"up to {known.max():.2g}"} if known.size else {})
-
 
 def traction(
     scene: Scene | Prepared,

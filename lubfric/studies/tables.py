@@ -59,21 +59,18 @@ def plot(result, ax=None, **style):
     from matplotlib.colors import Normalize
 
     axes, indices = figures.axes_or_new(ax), list(np.ndindex(*result.status.shape[:-1]))
-    picked = np.unique(np.linspace(0, len(indices) - 1, min(MOST, len(indices))).astype(int))
-    few = picked.size <= NAMED
+    indices = indices[:: -(-len(indices) // MOST)]
+    few = len(indices) <= NAMED
+    shades, colours = np.linspace(0.0, 0.9, len(indices)), colormaps["viridis"]
     key = next((k for k, (_, v) in result.coords.items() if k != SPEED and v.dtype.kind == "f"), None)
-    place, colours = picked / max(len(indices) - 1, 1), colormaps["viridis"]
     if key is not None and not few:
         dim, values = result.coords[key]
         scale = Normalize(values.min(), values.max())
-        place = scale(np.array([values[indices[i][result.dims.index(dim)]] for i in picked]))
+        shades = scale([values[index[result.dims.index(dim)]] for index in indices])
         axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
-    for index, colour in zip((indices[i] for i in picked), colours(place if key and not few else 0.9 * place)):
-        own = (
-            {"color": colour, "lw": 1.0}
-            | ({"label": figures.plain_words(_label(result, index))} if few else {})
-            | style
-        )
+    for index, colour in zip(indices, colours(shades)):
+        label = figures.plain_words(_label(result, index)) if few else None
+        own = {"color": colour, "lw": 1.0, "label": label} | style
         speed = np.abs(result.columns[SPEED][index] if result.chosen else result.coords[SPEED][1])
         f, curve = result.columns["coefficient"][index], result.curve(index) if result.chosen else None
         good = np.flatnonzero(np.isfinite(f) & (speed > 0))
@@ -81,15 +78,12 @@ def plot(result, ax=None, **style):
         if curve is not None:
             fine = np.geomspace(speed[good][0], speed[good][-1], FINE)
             axes.plot(fine, curve.at(fine), **own)
-            own = {"color": own["color"], "ls": ""}
-        axes.plot(
-            speed[good], f[good], **({"marker": "o", "ms": 3} if few or curve is None and good.size < 2 else {}) | own
-        )
+            own |= {"ls": "", "label": None}
+        axes.plot(speed[good], f[good], **{"marker": "o", "ms": 3} | own)
     axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION)
     figures.plain_ticks(axes.xaxis)
-    some = "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves"
-    rows = figures.key_above(axes, 2) if few and picked.size > 1 else 0
-    axes.set_title(figures.plain_words(result.plan.scene.name) + some, pad=6 + 13 * rows)
+    rows = figures.key_above(axes, 2) if few and len(indices) > 1 else 0
+    axes.set_title(figures.plain_words(result.plan.scene.name), pad=6 + 13 * rows)
     return axes
 
 
