@@ -24,9 +24,7 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measur
     figure = figures.new_figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
     if measured is not None:
-        error = None if measured.deviation is None else 1.96 * measured.deviation
-        points = dict(fmt="D", ms=4, color="k", mfc="none", lw=1, label=figures.plain_words(measured.source))
-        top.errorbar(np.abs(measured.x), measured.coefficient, error, **points)
+        measured.draw(top)
     c = _friction(figure, top, columns, title)
     speed, film = np.abs(c["speed"]), c["central_film"] * 1e9
     top.set(xlabel="")

@@ -139,22 +139,17 @@ def run_fit(scene: Scene, arguments) -> None:
         folder.put()
 
 
-def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
-    found = {}
+def _bounds(texts: list[str]) -> dict[str, tuple[float, ...]]:
+    found: dict[str, tuple[float, ...]] = {}
     for text in texts:
-        key, _, ends = text.partition("=")
-        try:
-            unit = KEYS[key.strip()].unit if key.strip() in KEYS else "-"
-            low, high = (number_of("--parameter", end, unit) for end in ends.split(":"))
-        except ValueError as error:
-            refusal = InputError(
-                f"--parameter {validate.shown(text)}; write 'section.key=lowest:highest', in SI or with units"
-            )
-            refusal.hint(getattr(error, "said", "").removeprefix(" = "))
-            raise refusal from None
-        if key.strip() in found:
-            raise InputError(f"--parameter {validate.shown(text)}: {key.strip()} is given twice; give it once")
-        found[key.strip()] = (low, high)
+        name, _, ends = text.partition("=")
+        key = name.strip()
+        unit = KEYS[key].unit if key in KEYS else "-"
+        both = tuple(number_of(f"--parameter {key}", end, unit) for end in ends.split(":"))
+        if len(both) != 2 or key in found:
+            ways = "write 'section.key=lowest:highest', in SI or with units, once for each key"
+            raise InputError(f" {validate.shown(text)}", "--parameter", way_out=ways)
+        found[key] = both
     return found
 
 

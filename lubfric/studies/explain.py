@@ -3,18 +3,19 @@ scene."""
 
 import time
 from collections.abc import Sequence
-from numbers import Real
 from textwrap import shorten
 
 from ..errors import InputError
+from ..quantities import KEYS
 from ..sampling import forecast
 from ..sharing import Prepared, prepare
+from ..units import worded
 from .choose import CHOSEN, first_speeds
 from .points import stored_rows
 from .store import Store
 
 SAMPLED = 8  # scenes of a study that are made ready to count their cells
-LISTED = 4  # values of a key that are named one by one
+LONGEST = 80  # letters of the values of a key
 
 
 def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
@@ -38,7 +39,9 @@ def explain(plan, store=None) -> str:
     take, in words. Some of the maps are made. No point is solved."""
     lines = [f"study of {plan.scene.name}: {'' if plan.speeds else 'about '}{plan.points} points"]
     for axis in plan.axes:
-        shown = ", ".join(f"{key} {_range(column)}" for key, column in zip(axis.keys, zip(*axis.values)))
+        columns = dict(zip(axis.keys, zip(*axis.values)))
+        words = {k: worded(column, KEYS[k].unit if k in KEYS else "-") for k, column in columns.items()}
+        shown = ", ".join(f"{key} {shorten(text, LONGEST, placeholder='...')}" for key, text in words.items())
         lines.append(f"  {len(axis.values):6d} x {shown}")
     if plan.speeds:
         lines.append(f"  {len(plan.speeds):6d} speeds, {min(plan.speeds):g} to {max(plan.speeds):g} m/s")
@@ -69,12 +72,3 @@ def explain(plan, store=None) -> str:
             failed.append(f"  cannot be solved: {error}")
     lines.append(f"  time     about {in_words(seconds)} on one core (within a factor of about 4)")
     return "\n".join([*lines, *dict.fromkeys(failed)])
-
-
-def _range(values: tuple) -> str:
-    """The values of a key: all of them if they are few, else the smallest and the largest, or first and last."""
-    if len(values) > LISTED:
-        ends = (min(values), max(values)) if all(isinstance(v, Real) for v in values) else (values[0], values[-1])
-        return " to ".join(_range((end,)) for end in ends)
-    words = (f"{value:.4g}" if isinstance(value, float) else str(value) for value in values)
-    return ", ".join(shorten(text, 50, placeholder="...") for text in words)

@@ -9,6 +9,7 @@ import numpy as np
 
 from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, LubfricError, Report, returned
+from ..quantities import counted
 from ..sampling import FrictionResult
 from ..scene import Scene
 from ..sharing import Prepared, prepare
@@ -90,14 +91,11 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     InputError : a parameter is not one
     """
     found = _checked(scene, measured, parameters)
-    count = f"{len(found)} parameter{'s' if len(found) > 1 else ''}"
-    lines = [f"fit of {count} of {scene.name} to {measured.x.size} points of {measured.source}"]
-    for key, bounds in found.items():
-        logarithmic = ", sought in its logarithm" if bounds.scale == "log" else ""
-        lines.append(f"  {key}: {bounds.low:g} to {bounds.high:g}{logarithmic}")
-    if measured.over == SLIP:
-        held = "they hold" if measured.rolling else "they do not hold"
-        lines.append(f"  {held} the rolling part of the friction, which averaging over both signs of slip takes out")
+    lines = [
+        f"fit of {counted(len(found), 'parameters')} of {scene.name} to {measured.x.size} points of {measured.source}"
+    ]
+    how = {"log": ", sought in its logarithm", "linear": ""}
+    lines += [f"  {key}: {bounds.low:g} to {bounds.high:g}{how[bounds.scale]}" for key, bounds in found.items()]
     search = Search(scene, measured, found)
     corners = list(product((0.0, 1.0), repeat=len(found)))
     places = [_begin(scene, found, {}), *map(np.array, corners[:: -(-len(corners) // CORNERS)])]

@@ -267,7 +267,7 @@ def test_cautions_of_the_fitted_curve_are_told():
 def test_a_parameter_given_twice_is_refused(capsys):
     twice = ["--parameter", "lubricant.viscosity=0.1:1", "--parameter", "lubricant.viscosity=0.1:2"]
     assert main(["fit", "paper", "--measured", "m.csv", "--coefficient", "f", "--speed", "U [m/s]", *twice]) == 2
-    assert "lubricant.viscosity is given twice" in capsys.readouterr().err
+    assert "once for each key" in capsys.readouterr().err
 
 
 def test_a_short_form_is_fitted():

@@ -278,7 +278,12 @@ def test_explain_counts_before_anything_is_solved(monkeypatch):
         SCENE, VARY | {"lubricant.viscosity": [0.1, 0.2, 0.3, 0.4, 0.5]}, np.geomspace(1e-3, 1, 60)
     )
     text = plan.explain()
-    for words in ("1200 points", "2 x bodies.load 3, 5.5", "5 x lubricant.viscosity 0.1 to 0.5", "60 speeds"):
+    for words in (
+        "1200 points",
+        "2 x bodies.load 3 and 5.5 N",
+        "5 x lubricant.viscosity 5 values, 100 to 500 mPa s",
+        "60 speeds",
+    ):
         assert words in text, text
     one = lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
     assert "cannot be solved: correlation_length" in one
