@@ -4,12 +4,12 @@ replaced. A broken stream or an interrupt never costs what was computed."""
 import json
 import os
 import platform
+import re
 import signal
 import sys
 import tempfile
 import threading
 import time
-import tomllib
 from collections.abc import Callable, Iterable
 from contextlib import contextmanager, suppress
 from dataclasses import asdict
@@ -99,6 +99,7 @@ def keeping(what: Callable[[], str]):
 
 RESULT, UNFINISHED = "result.json", "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
+QUOTED = re.compile(r"[\"']([^\"'\n]+)[\"']")  # a text in TOML, which may name a file
 INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
@@ -133,17 +134,10 @@ def files_read(paths: Iterable) -> list[Path]:
         path = waiting.pop()
         if path not in found and os.path.isfile(path):
             found[path] = None
-            with suppress(ValueError, OSError, RecursionError):  # no TOML
+            with suppress(ValueError, OSError):  # no text
                 if path.stat().st_size < MOST_TOML:
-                    waiting += [path.parent / word for word in _words(tomllib.loads(path.read_text("utf-8-sig")))]
+                    waiting += [path.parent / word for word in QUOTED.findall(path.read_text("utf-8-sig"))]
     return list(found)
-
-
-def _words(value) -> list[str]:
-    """All texts in the tables and lists of ``value``."""
-    if isinstance(value, (dict, list)):
-        return [word for part in (value.values() if isinstance(value, dict) else value) for word in _words(part)]
-    return [value] if isinstance(value, str) else []
 
 
 def check_outputs(arguments, folder: Path, names: Iterable[str], patterns: Iterable[str] = ()) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from .. import studies
 from .._base import figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
-from ..quantities import COLUMNS, KEYS, axis_label
+from ..quantities import KEYS, axis_label
 from ..scene import Scene
 from ..units import number_of, worded
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
@@ -50,13 +50,10 @@ def _answer(result: studies.StudyResult) -> list[str]:
     ends = {"least": np.nanargmin, "largest": np.nanargmax} if np.isfinite(f).any() else {}
     for word, find in ends.items():
         index = np.unravel_index(int(find(f)), f.shape)
-        at = [] if "speed" not in result.columns else [f"speed {worded(float(result['speed'][index]), 'm/s')}"]
-        for key, (dim, values) in result.coords.items():
-            value = values[index[result.dims.index(dim)]].item()
-            at.append(f"{key} {worded(value, COLUMNS[key].unit if key in COLUMNS else '-')}")
+        at = [studies.label(result, index), f"speed {worded(float(result.speeds(index[:-1])[index[-1]]), 'm/s')}"]
         low, high = (result[f"uncertainty_{end}"][index] for end in ("low", "high"))
         within = f", {low:.3g} to {high:.3g} at 95 %" if np.isfinite(low) else ", error not known"
-        rows.append(f"{word} f = {f[index]:.3g}{within}, at {', '.join(at)}")
+        rows.append(f"{word} f = {f[index]:.3g}{within}, at {', '.join(filter(None, at))}")
     return rows
 
 

@@ -127,9 +127,8 @@ def _begin(scene: Scene, found: dict[str, Between], start: dict) -> np.ndarray:
         own = vars(getattr(scene, section)).get(name)  # a short form has none there
         if key in start:
             own = validate.number(f"start[{key!r}]", start[key], unit_of(key), minimum=bounds.low, maximum=bounds.high)
-        elif not isinstance(own, (int, float)) or not bounds.low < own < bounds.high:
-            continue
-        unit[i] = bounds.share(own)
+        if isinstance(own, (int, float)) and bounds.low <= own <= bounds.high:
+            unit[i] = bounds.share(own)
     return np.clip(unit, 0.02, 0.98)
 
 

@@ -69,9 +69,9 @@ def plot(result, ax=None, **style):
         shades = scale([values[index[result.dims.index(dim)]] for index in indices])
         axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
     for index, colour in zip(indices, colours(shades)):
-        label = figures.plain_words(_label(result, index)) if few else None
-        own = {"color": colour, "lw": 1.0, "label": label} | style
-        speed = np.abs(result.columns[SPEED][index] if result.chosen else result.coords[SPEED][1])
+        named = figures.plain_words(label(result, index)) if few else None
+        own = {"color": colour, "lw": 1.0, "label": named} | style
+        speed = np.abs(result.speeds(index))
         f, curve = result.columns["coefficient"][index], result.curve(index) if result.chosen else None
         good = np.flatnonzero(np.isfinite(f) & (speed > 0))
         good = good[np.argsort(speed[good])]
@@ -87,13 +87,11 @@ def plot(result, ax=None, **style):
     return axes
 
 
-def _label(result, index) -> str:
-    words = []
-    for key, (dim, values) in result.coords.items():
-        if key != SPEED:
-            value, of = values[index[result.dims.index(dim)]], KEYS.get(key, Quantity("-", key.rpartition(".")[2]))
-            words.append(f"{of.label} {worded(value.item(), of.unit)}")
-    return ", ".join(words)
+def label(result, index) -> str:
+    """What is varied at the position ``index`` along the axes of a study, in words."""
+    along = {key: values[index[result.dims.index(dim)]] for key, (dim, values) in result.coords.items() if key != SPEED}
+    kinds = {key: KEYS.get(key, Quantity("-", key.rpartition(".")[2])) for key in along}
+    return ", ".join(f"{kind.label} {worded(along[key].item(), kind.unit)}" for key, kind in kinds.items())
 
 
 def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
