@@ -108,9 +108,9 @@ def read_columns(
             _refuse_bare_unit(path, heading, unit)
         word, tables = spelled(given or ""), [table for si, table in UNITS.items() if unit in (None, si)]
         if word and not any(word in table for table in tables):
-            known = ", ".join(other for table in tables for other in table)
+            listed = ", ".join(other for table in tables for other in table)
             said = f"file {path.name}, column {name!r}: unit {given!r} is not known here"
-            raise InputError(said, allowed=f"{known}, or no unit for SI")
+            raise InputError(said, allowed=f"{listed}, or no unit for SI")
         numbers = [_number(path, line, row, places[0]) for line, row in rows[1:]]
         columns.append([converted(number, word, kind_of(word)) for number in numbers] if word else numbers)
     return columns

@@ -91,12 +91,14 @@ def plot_contact(path: Path, point, half_width: float) -> None:
     near = np.abs(point.x) <= NEAR * half_width
     x, y = point.x[near], point.y
     part = _part(x, y, int(point.pressure[near].max(axis=0).argmax()))
-    panels = [("pressure (GPa)", point.pressure / 1e9, "magma_r", None)]
-    panels.append(("gap (nm), white: none", point.gap * 1e9, "viridis", LogNorm()))
+    panels = {
+        "pressure (GPa)": (point.pressure / 1e9, "magma_r", None),
+        "gap (nm), white: none": (point.gap * 1e9, "viridis", LogNorm()),
+    }
     if point.deterministic is not None:
-        panels.append(("shear stress (MPa)", point.deterministic.result.shear / 1e6, "cividis", None))
+        panels["shear stress (MPa)"] = (point.deterministic.result.shear / 1e6, "cividis", None)
     figure = figures.new_figure(figsize=(10, 5.5), layout="compressed")
-    for axes, (label, field, colours, norm) in zip(figure.subplots(1, len(panels), sharey=True), panels):
+    for axes, (label, (field, colours, norm)) in zip(figure.subplots(1, len(panels), sharey=True), panels.items()):
         figures.field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)
         for edge in (-half_width, half_width):
             axes.axvline(edge * 1e6, color=figures.GREY, lw=0.8, ls="--")

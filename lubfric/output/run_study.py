@@ -49,8 +49,9 @@ def _answer(result: studies.StudyResult) -> list[str]:
     f, rows = result["coefficient"], []
     ends = {"least": np.nanargmin, "largest": np.nanargmax} if np.isfinite(f).any() else {}
     for word, find in ends.items():
-        index = np.unravel_index(int(find(f)), f.shape)
-        at = [studies.label(result, index), f"speed {worded(float(result.speeds(index[:-1])[index[-1]]), 'm/s')}"]
+        *curve, place = map(int, np.unravel_index(int(find(f)), f.shape))
+        index = (*curve, place)
+        at = [studies.label(result, index), f"speed {worded(float(result.speeds(tuple(curve))[place]), 'm/s')}"]
         low, high = (result[f"uncertainty_{end}"][index] for end in ("low", "high"))
         within = f", {low:.3g} to {high:.3g} at 95 %" if np.isfinite(low) else ", error not known"
         rows.append(f"{word} f = {f[index]:.3g}{within}, at {', '.join(filter(None, at))}")

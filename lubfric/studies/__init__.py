@@ -1,7 +1,7 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
 from .choose import AUTO, CHOSEN, span
-from .codec import classes_of, fits
+from .codec import classes_of
 from .curve import CurveResult, csv_bytes
 from .executor import MOST_WORKERS, pool, processors
 from .explain import in_words

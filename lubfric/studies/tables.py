@@ -61,12 +61,13 @@ def plot(result, ax=None, **style):
     axes, indices = figures.axes_or_new(ax), list(np.ndindex(*result.status.shape[:-1]))
     indices = indices[:: -(-len(indices) // MOST)]
     few = len(indices) <= NAMED
-    shades, colours = np.linspace(0.0, 0.9, len(indices)), colormaps["viridis"]
+    shades: np.ndarray = np.linspace(0.0, 0.9, len(indices))
+    colours = colormaps["viridis"]
     key = next((k for k, (_, v) in result.coords.items() if k != SPEED and v.dtype.kind == "f"), None)
     if key is not None and not few:
         dim, values = result.coords[key]
         scale = Normalize(values.min(), values.max())
-        shades = scale([values[index[result.dims.index(dim)]] for index in indices])
+        shades = np.array([scale(values[index[result.dims.index(dim)]]) for index in indices])
         axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
     for index, colour in zip(indices, colours(shades)):
         named = figures.plain_words(label(result, index)) if few else None
