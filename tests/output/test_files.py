@@ -15,7 +15,6 @@ from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.pictures import PICTURES
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.01, 0.3]\n"
 SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\n[contact]\nshape = [48, 40]\nspacing = [1.1e-6, 0.9e-6]\n"
@@ -133,7 +132,7 @@ def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, 
     def broken(*_):
         raise ZeroDivisionError("no picture")
 
-    monkeypatch.setitem(PICTURES, "stribeck", broken)
+    monkeypatch.setattr("lubfric.output.run_curve.PICTURES", {"stribeck": broken})
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert said.startswith("lubfric: stribeck.png was not drawn (ZeroDivisionError") and "all else is in" in said
