@@ -3,6 +3,8 @@ run, also of one in a process of its own (``leave_out()``, with this folder on t
 
 from pathlib import Path
 
+PLOTS = ("run_curve.plot_stribeck", "run_curve.plot_traction", "run_curve.plot_contact", "run_history.plot_history")
+
 
 def stand_in(path, *_) -> None:
     """Not a picture, but it ends like one."""
@@ -14,6 +16,6 @@ def leave_out(replace=setattr) -> None:
     from lubfric.output import run_curve, run_history
 
     replace(run_curve.figures, "make_ready", lambda: None)
-    replace(run_curve, "plot_contact", stand_in)
-    for module in (run_curve, run_history):
-        replace(module, "PICTURES", dict.fromkeys(run_curve.PICTURES, stand_in))
+    for name in PLOTS:
+        module, plot = name.split(".")
+        replace({"run_curve": run_curve, "run_history": run_history}[module], plot, stand_in)

@@ -3,6 +3,7 @@ with units, any usual separator and decimal mark). Results in JSON types."""
 
 import csv
 import io
+import json
 import math
 import re
 import tomllib
@@ -41,6 +42,18 @@ def plain(value):
     if isinstance(value, np.generic):
         value = value.item()
     return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def read_json(path, remedy: str) -> Any:
+    """What is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut off,
+    nested too deeply or binary."""
+    if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe
+        raise InputError(f"{path} is no file; {remedy}")
+    try:
+        return json.loads(Path(path).read_bytes().decode("utf-8"))
+    except (OSError, ValueError, RecursionError, MemoryError) as problem:
+        why = problem.strerror if isinstance(problem, OSError) else type(problem).__name__
+        raise InputError(f"{path} is damaged, or no such record ({why}); {remedy}") from None
 
 
 def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:

@@ -11,7 +11,7 @@ from ..errors import ConvergenceError, InputError, LubfricError
 from .commands import INTERRUPTED, interruptible, put, say
 
 CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
-FOR = {"ratios": RATIOS} | dict.fromkeys(("speeds", "fields", "workers"), CURVE)
+FOR = {"ratios": RATIOS, "animation": IN_TIME} | dict.fromkeys(("speeds", "fields", "workers", "vtk"), CURVE)
 KINDS: dict[str, dict[str, Any]] = {"path": {"type": Path}, "number": {"type": float}, "count": {"type": int}}
 KINDS["switch"] = {"action": "store_true"}
 
@@ -107,9 +107,16 @@ def fit(arguments) -> None:
 
 def plot(arguments) -> None:
     """Draw the picture of a run again."""
-    from .run_curve import plot_again
+    from . import run_curve, run_history
 
-    plot_again(arguments)
+    given = [name for name in ("measured", "speed", "coefficient") if getattr(arguments, name) is not None]
+    if given and "measured" not in given:
+        raise InputError(f"--{given[0]} names a column of the measured curve; give --measured as well")
+    for table, what in (("history.csv", "a run in time"), ("traction.csv", "a traction curve")):
+        if given and (arguments.folder / table).is_file():
+            raise InputError(f"--measured is drawn beside a Stribeck curve, and {arguments.folder} holds {what}")
+    again = run_history if (arguments.folder / "history.csv").is_file() else run_curve
+    again.plot_again(arguments)
 
 
 def init(arguments) -> None:

@@ -4,25 +4,26 @@ replaced. A broken stream or an interrupt never costs what was computed."""
 import json
 import os
 import platform
-import re
 import signal
 import sys
 import tempfile
 import threading
 import time
+import tomllib
 from collections.abc import Callable, Iterable
 from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from pathlib import Path
+from typing import get_type_hints
 
 import numpy as np
 
-from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, validate
+from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, read_json, validate
 from ..errors import InputError, OutputError
 from ..quantities import KEYS, Quantity
 from ..scene import Scene
-from ..sharing import Prepared, prepare
-from ..studies import Store
+from ..sharing import Prepared, Validity, prepare
+from ..studies import Store, fits
 from ..surface import rms_slope
 from .describe import map_in_words
 
@@ -99,11 +100,10 @@ def keeping(what: Callable[[], str]):
 
 RESULT, UNFINISHED = "result.json", "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
-QUOTED = re.compile(r"[\"']([^\"'\n]+)[\"']")  # a text in TOML, which may name a file
 INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
-    *("contact.png", "fields.npz", "report.html", RESULT),
+    *("contact.png", "contact_*.vtk", "animation.gif", "fields.npz", "report.html", RESULT),
 )
 
 
@@ -116,14 +116,17 @@ def ready(scene: Scene) -> Prepared:
     return prepared
 
 
-def name_of_run(folder: Path) -> str:
-    """The name of the scene in result.json of a run. Raises `InputError` where it cannot be read."""
-    path = folder / RESULT
-    try:
-        return str(json.loads(path.read_bytes() if path.is_file() else b"")["scene"]["name"])
-    except (OSError, ValueError, LookupError, TypeError, RecursionError) as problem:
-        said = f"{path} is missing, damaged, or no record of a run ({type(problem).__name__})"
-        raise InputError(f"{said}; give a folder that 'lubfric run' wrote, or run it again") from None
+def read_record(folder: Path) -> dict:
+    """What result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
+    path, again = folder / RESULT, "give a folder that 'lubfric run' wrote, or run it again"
+    if not os.path.lexists(path):
+        raise InputError(f"{folder} holds no {RESULT}; {again}")
+    record = read_json(path, again)
+    numbers = {name: kind | None if kind is float else kind for name, kind in get_type_hints(Validity).items()}
+    kind = {"scene": {"name": str}, "points": [{"validity": [numbers]}]}
+    if not isinstance(record, dict) or not fits({"points": []} | record, kind):
+        raise InputError(f"{path} is damaged, or no record of a run; {again}")
+    return record
 
 
 def files_read(paths: Iterable) -> list[Path]:
@@ -134,10 +137,17 @@ def files_read(paths: Iterable) -> list[Path]:
         path = waiting.pop()
         if path not in found and os.path.isfile(path):
             found[path] = None
-            with suppress(ValueError, OSError):  # no text
+            with suppress(ValueError, OSError, RecursionError):  # no TOML
                 if path.stat().st_size < MOST_TOML:
-                    waiting += [path.parent / word for word in QUOTED.findall(path.read_text("utf-8-sig"))]
+                    waiting += [path.parent / word for word in _words(tomllib.loads(path.read_text("utf-8-sig")))]
     return list(found)
+
+
+def _words(value) -> list[str]:
+    """All texts in the tables and lists of ``value``."""
+    if isinstance(value, (dict, list)):
+        return [word for part in (value.values() if isinstance(value, dict) else value) for word in _words(part)]
+    return [value] if isinstance(value, str) else []
 
 
 def check_outputs(arguments, folder: Path, names: Iterable[str], patterns: Iterable[str] = ()) -> None:

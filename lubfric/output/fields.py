@@ -1,9 +1,14 @@
-"""Fields of a run as a file: fields.npz."""
+"""Fields of a run as files: fields.npz, and contact_0.vtk ... for ParaView."""
 
 import io
+import json
+from collections.abc import Iterable
+from pathlib import Path
 
 import numpy as np
 
+from .._base import validate, write_whole
+from ..deterministic import Moment
 from ..sampling import FrictionResult
 from ..sharing import Prepared
 
@@ -41,6 +46,58 @@ def _map_of(prepared: Prepared, point: FrictionResult) -> dict[str, np.ndarray]:
         return {"heights": surface.heights, "spacing": np.array(surface.spacing), "contact_x": prepared.contact.x}
     spacing = np.array([point.x[1] - point.x[0], point.y[1] - point.y[0]])
     return {"heights": point.heights, "spacing": spacing, "contact_x": point.x}
+
+
+def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
+    """Height [m], contact pressure [Pa], gap [m]; constant along the line: film thickness [m], film pressure [Pa].
+
+    At the cells of the contact, in the plane z = 0 (warp by "height" to see the surface). ``point`` needs fields
+    (``fields=True``) and contact, or the deterministic model. What a point does not have is left out.
+    """
+    x, y, fields = point.x, point.y, {}
+    heights = prepared.surface.heights if point.heights is None else point.heights
+    if heights.shape == (x.size, y.size):
+        fields["height"] = heights - np.nanmean(heights)
+    fields |= {"contact_pressure": point.pressure, "gap": point.gap}
+    film = point.balance.film if point.balance else None
+    if film is not None:
+        pressure = np.interp(x, film.x, film.pressure, left=0.0, right=0.0)
+        for name, values in (("film_thickness", film.film_at(x)), ("film_pressure", pressure)):
+            fields[name] = np.repeat(values[:, None], y.size, axis=1)
+    return grid_bytes(x, y, fields, f"U = {point.speed:g} m/s")
+
+
+def write_moments(folder: Path | str, moments: Iterable[Moment]) -> None:
+    """Gap [m], pressure [Pa], height [m] and filled part of moments (`lubfric.deterministic.moments`) as
+    moment_0000.vtk ... in ``folder``; and moments.vtk.series with their times [s], which ParaView plays."""
+    home, files = validate.folder("folder", folder), []
+    home.mkdir(parents=True, exist_ok=True)
+    for number, moment in enumerate(moments):
+        problem, state, name = moment.at.problem, moment.at.state, f"moment_{number:04d}.vtk"
+        y = np.arange(moment.at.gap.shape[1]) * problem.spacing[1]
+        fields = {"gap": moment.at.balance.film, "pressure": state.pressure, "height": problem.heights}
+        write_whole(home / name, grid_bytes(problem.x, y, fields | {"fill": state.fill}, f"t = {moment.time:g} s"))
+        files.append({"name": name, "time": moment.time})
+    write_whole(home / "moments.vtk.series", json.dumps({"file-series-version": "1.0", "files": files}).encode())
+
+
+def grid_bytes(x: np.ndarray, y: np.ndarray, fields: dict[str, np.ndarray], title: str) -> bytes:
+    """Point data (nx, ny) on the grid ``x`` (nx,), ``y`` (ny,) [m]: legacy VTK format 3.0, big-endian binary."""
+    points = np.zeros((y.size, x.size, 3))
+    points[..., 0], points[..., 1] = x[None, :], y[:, None]
+    parts = [
+        f"# vtk DataFile Version 3.0\nlubfric, {title}, SI units\nBINARY\nDATASET STRUCTURED_GRID\n"
+        f"DIMENSIONS {x.size} {y.size} 1\nPOINTS {x.size * y.size} double\n".encode(),
+        _big_endian(points),
+        f"\nPOINT_DATA {x.size * y.size}\n".encode(),
+    ]
+    for name, values in fields.items():
+        parts += [f"SCALARS {name} double 1\nLOOKUP_TABLE default\n".encode(), _big_endian(values.T), b"\n"]
+    return b"".join(parts)
+
+
+def _big_endian(values: np.ndarray) -> bytes:
+    return np.ascontiguousarray(values, dtype=">f8").tobytes()
 
 
 def npz_bytes(arrays: dict[str, np.ndarray]) -> bytes:

@@ -1,32 +1,42 @@
-"""Pictures of a run, by its table: a curve, or what changes in time; and the contact of one speed."""
+"""Pictures of a run: the curve, the contact of one speed (Akchurin et al. 2015, Figs. 8-10), and what changes in
+time."""
 
-import re
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from .._base import figures
-from ..studies import friction_over
+from ..studies import friction_over_speed, interval_band
 from ..time import friction_over_time, time_scale
+from ..units import worded
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
-NEAR = 4.0  # half-widths of the Hertz strip around which a contact is drawn
-NAMED = re.compile(r"(?:caution|not valid): (.+?) is (?:[-\d]|nan|inf)")  # what an entry in a cell is about
+FRAMES = 150  # of an animation at most, spread over the run
+SLENDER = 1.5  # times as long along y as along x: a narrow picture
+NEAR = 4.0  # half-widths of the Hertz strip around which a gap is drawn
 
 
-def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measured=None) -> None:
+def plot_stribeck(
+    path: Path, columns: dict[str, np.ndarray], title: str, entries: Sequence[Sequence[Any]], measured=None
+) -> None:
     """Coefficient, load split and lambda ratio over entrainment speed.
 
-    ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are left out.
-    ``measured``: a `lubfric.Measured` over speed, drawn beside the curve.
+    ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are left out. ``entries``:
+    for each row, the assumptions that are violated (`lubfric.Validity`). ``measured``: a `lubfric.Measured` over speed,
+    drawn beside the curve.
     """
     figure = figures.new_figure(figsize=(7, 8))
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
+    order = friction_over_speed(top, columns)
+    c = type(columns)((name, column[order]) for name, column in columns.items())
+    speed, film = np.abs(c["speed"]), c["central_film"] * 1e9
     if measured is not None:
         measured.draw(top)
-    c = _friction(figure, top, columns, title)
-    speed, film = np.abs(c["speed"]), c["central_film"] * 1e9
+        top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
+    _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
+    figure.suptitle(title)
     top.set(xlabel="")
     figures.load_shares(middle, speed, c["contact_load"] / (c["contact_load"] + c["film_load"]))
     figures.key_above(middle)
@@ -42,70 +52,84 @@ def plot_stribeck(path: Path, columns: dict[str, np.ndarray], title: str, measur
     figure.savefig(path, dpi=150)
 
 
-def plot_traction(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
+def plot_traction(
+    path: Path, columns: dict[str, np.ndarray], title: str, entries: Sequence[Sequence[Any]], measured=None
+) -> None:
     """Friction over the slide-roll ratio, and below, where heat was found, temperatures. Arguments as of
     `plot_stribeck`."""
-    rises = {"flash_temperature_rise": (figures.RED, "surfaces (flash)")}
-    rises["film_temperature_rise"] = figures.GREEN, "film above the surfaces"
-    warm = any((columns[name] > 0).any() for name in rises)
+    good = np.flatnonzero(np.isfinite(columns["coefficient"]))
+    order = good[np.argsort(columns["ratio"][good])]
+    c = type(columns)((name, column[order]) for name, column in columns.items())
+    ratio, load = c["ratio"], c["contact_load"] + c["film_load"]
+    warm = bool((c["flash_temperature_rise"] > 0).any() or (c["film_temperature_rise"] > 0).any())
     figure = figures.new_figure(figsize=(7, 6.5 if warm else 4.5))
     top, *others = figure.subplots(1 + warm, 1, sharex=True, squeeze=False, height_ratios=[3, 2][: 1 + warm]).flat
-    c = _friction(figure, top, columns, f"{title}, U = {np.nanmax(columns['speed']):g} m/s")
+    interval_band(top, ratio, c)
+    parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
+    figures.friction_lines(top, ratio, parts, marker="o", ms=4)
+    _mark(figure, top, ratio, c["coefficient"], [entries[i] for i in order])
+    figure.suptitle(title)
+    top.set_ylabel(figures.FRICTION)
     for bottom in others:
-        for name, (colour, label) in rises.items():
-            bottom.plot(c["ratio"], c[name], "-", color=colour, label=label)
-        bottom.set(ylabel="largest temperature rise (K)", xlabel=top.get_xlabel())
-        top.set_xlabel("")
+        bottom.plot(ratio, c["flash_temperature_rise"], "-", color=figures.RED, label="surfaces (flash)")
+        bottom.plot(ratio, c["film_temperature_rise"], "-", color=figures.GREEN, label="film above the surfaces")
+        bottom.set(ylabel="largest temperature rise (K)")
         figures.key_above(bottom)
+    last = others[-1] if others else top
+    last.set_xlabel("slide-roll ratio (-)")
+    figures.log_if_wide(last, "x", ratio)
+    figures.plain_ticks(last.xaxis)
     figure.savefig(path, dpi=150)
 
 
-def _friction(figure, axes, columns: dict[str, np.ndarray], title: str) -> dict[str, np.ndarray]:
-    """f on ``axes``, with rings where an assumption is violated, unless it is at all points, and crosses where f is
-    meaningless; the text below says which. Returns the ``columns`` of the points drawn, in order."""
-    order = friction_over(axes, columns)
-    c = type(columns)((name, column[order]) for name, column in columns.items())
-    severe = np.array(["not valid: " in cell for cell in c["validity"]], dtype=bool)
-    minor = (c["validity"] != "") & ~severe
+def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> None:
+    """Ring the points at which an assumption is violated, unless it is at all of them, and cross out those at which f
+    is meaningless. The text below says which. Then the key of all lines."""
+    severe = np.array([any(entry.severe for entry in violated) for violated in entries], dtype=bool)
+    minor = np.array([len(violated) > 0 for violated in entries], dtype=bool) & ~severe
     everywhere = minor.all()
     for chosen, marker, color, label in (
         (minor & (not everywhere), "o", figures.GREY, "with cautions"),
         (severe, "x", figures.RED, "no answer (accepted)"),
     ):
         if chosen.any():
-            at = np.abs(c["speed"]) if "ratio" not in c else c["ratio"]
-            axes.plot(at[chosen], c["coefficient"][chosen], marker, ms=9, mfc="none", mec=color, label=label)
-    if names := dict.fromkeys(name for cell in c["validity"] for name in NAMED.findall(cell)):
+            axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
+    if names := dict.fromkeys(entry.what for violated in entries for entry in violated):
         head = "cautions, at all points: " if everywhere else "cautions: "
         figure.supxlabel(head + "; ".join(names), fontsize=8, color=figures.GREY, wrap=True)
     figures.key_above(axes)
-    figure.suptitle(figures.plain_words(title))
-    return c
 
 
-def plot_contact(path: Path, point, half_width: float) -> None:
-    """Pressure, gap and, with one gap, shear of ``point``, a `lubfric.FrictionResult` with fields, from above, around
-    the Hertz strip of that ``half_width`` [m], in the part of the line with the highest pressure."""
+def plot_contact(path: Path, prepared, point) -> None:
+    """The contact of ``point``, a `lubfric.FrictionResult` with fields, on the cells of ``prepared``, as PNG."""
+    if point.deterministic is not None:
+        figure = _one_gap(point.deterministic.result, point.speed, prepared.scene.bodies.half_width)
+    else:
+        figure = _two_pressures(prepared, point)
+    figure.savefig(path, dpi=150)
+
+
+def _one_gap(result, speed: float, half_width: float):
+    """Pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
     from matplotlib.colors import LogNorm
 
-    near = np.abs(point.x) <= NEAR * half_width
-    x, y = point.x[near], point.y
-    part = _part(x, y, int(point.pressure[near].max(axis=0).argmax()))
-    panels = {
-        "pressure (GPa)": (point.pressure / 1e9, "magma_r", None),
-        "gap (nm), white: none": (point.gap * 1e9, "viridis", LogNorm()),
-    }
-    if point.deterministic is not None:
-        panels["shear stress (MPa)"] = (point.deterministic.result.shear / 1e6, "cividis", None)
+    near = np.abs(result.x) <= NEAR * half_width
+    x, y = result.x[near], np.arange(result.pressure.shape[1]) * result.spacing[1]
+    part = _part(x, y, int(result.pressure[near].max(axis=0).argmax()))
     figure = figures.new_figure(figsize=(10, 5.5), layout="compressed")
-    for axes, (label, (field, colours, norm)) in zip(figure.subplots(1, len(panels), sharey=True), panels.items()):
+    for axes, (label, field, colours, norm) in zip(
+        figure.subplots(1, 3, sharey=True),
+        (
+            ("pressure (GPa)", result.pressure / 1e9, "magma_r", None),
+            ("gap (nm)", result.gap * 1e9, "viridis", LogNorm()),
+            ("shear stress (MPa)", result.shear / 1e6, "cividis", None),
+        ),
+    ):
         figures.field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)
-        for edge in (-half_width, half_width):
-            axes.axvline(edge * 1e6, color=figures.GREY, lw=0.8, ls="--")
+        _hertz_strip(axes, half_width)
         axes.label_outer()
-    some = f"; {1e6 * np.ptp(y[part]):.0f} of {1e6 * y[-1]:.0f} µm of the line" if part != slice(None) else ""
-    figure.suptitle(f"U = {point.speed:g} m/s{some}; dashed: Hertz strip", fontsize=10)
-    figure.savefig(path, dpi=150)
+    figure.suptitle(f"U = {speed:g} m/s{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
+    return figure
 
 
 def _part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
@@ -117,6 +141,75 @@ def _part(x: np.ndarray, y: np.ndarray, row: int) -> slice:
     return slice(int(np.searchsorted(y, first)), int(np.searchsorted(y, first + 2 * across)) + 1)
 
 
+def _partly(y: np.ndarray, part: slice) -> str:
+    """Which part of the line is drawn, in words; "" for all of it."""
+    some = 1e6 * np.ptp(y[part])
+    return "" if part == slice(None) else f"; {some:.0f} of {1e6 * y[-1]:.0f} µm of the line"
+
+
+def _two_pressures(prepared, point):
+    """Map of the contact pressure; beside it film and surfaces on a section through the highest pressure.
+
+    The section shows what the paper's Fig. 10 shows: the smooth film h, the separation h_s = h - epsilon as the
+    counterface, and the rough surface, deformed (z - u) and undeformed (z). epsilon and u are known up to one constant.
+    It is chosen so that u has zero mean over the section.
+    """
+    heights = prepared.surface.heights if point.heights is None else point.heights
+    heights, x = heights - heights.mean(), point.balance.contact.x
+    contact, film, half_width = point.balance.contact.fields, point.balance.film, prepared.scene.bodies.half_width
+    row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
+    in_section = film is not None and heights.shape[0] == x.size
+    panels = [contact is not None or not in_section, in_section]
+    part = slice(None) if contact is None else _part(x, point.y, row)
+    slender = contact is not None and np.ptp(point.y[part]) > SLENDER * np.ptp(x)
+    ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
+    figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0))
+    axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
+    both = worded(point.contact_load, "N"), worded(point.film_load, "N")
+    loads = "U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
+    if contact is not None:
+        figures.field_image(
+            axes[0], x, point.y[part], point.pressure[:, part] / 1e9, "magma_r", "contact pressure (GPa)", vmin=0
+        )
+        _hertz_strip(axes[0], half_width)
+        axes[0].axhline(point.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
+        loads += _partly(point.y, part)
+    elif panels[0]:
+        said = {"ha": "center", "va": "center", "transform": axes[0].transAxes}
+        axes[0].text(0.5, 0.5, "no dry contact field\n(separated, or read from a contact curve)", **said)
+        axes[0].set_axis_off()
+    loads += "; dashed: Hertz strip" if panels[0] else ": no contact"
+    figure.suptitle(loads, fontsize=10)
+    if in_section:
+        _section(axes[-1], x * 1e6, heights[:, row], film.film_at(x), contact, row)
+        _hertz_strip(axes[-1], half_width)
+        if contact is not None:
+            axes[-1].set_xlabel(f"x (µm) at y = {point.y[row] * 1e6:.1f} µm (dotted)")
+    return figure
+
+
+def _hertz_strip(axes, half_width: float) -> None:
+    for edge in (-half_width, half_width):
+        axes.axvline(edge * 1e6, color=figures.GREY, lw=0.8, ls="--")
+    axes.set_xlabel("x (µm), along the motion")
+
+
+def _section(axes, micro, surface, smooth, contact, row: int) -> None:
+    """Heights above the mean of the rough surface, as high as the thinnest film and the summits need."""
+    drawn = [surface]
+    axes.plot(micro, smooth * 1e9, color=figures.GREEN, label="smooth film h")
+    axes.plot(micro, surface * 1e9, color=figures.GREY, lw=0.8, ls="--", label="rough surface, not pressed")
+    if contact is not None:
+        deflection = contact.displacement[:, row]
+        drawn.append(surface - deflection + deflection.mean())
+        axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, pressed")
+        axes.plot(micro, (contact.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="counterface, as if smooth")
+    low, high = 1e9 * min(z.min() for z in drawn), 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
+    room = 0.15 * (high - low)
+    axes.set(ylim=(low - room, high + room), ylabel="height (nm)")
+    figures.key_above(axes, 2)
+
+
 def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
     """Speed and load, film, shares of the load, and friction over time, from the columns of history.csv."""
     c = columns
@@ -126,7 +219,7 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
     first.plot(t, c["entrainment_speed"], color="k")
     first.axhline(0.0, color=figures.GREY, lw=0.6)
     first.set_ylabel("entrainment speed U (m/s)")
-    figure.suptitle(figures.plain_words(title))
+    figure.suptitle(title)
     load = first.twinx()
     load.plot(t, c["load"], color=figures.GREY, lw=1.2, ls="--")
     load.set_ylim(0.0, 1.15 * c["load"].max())
@@ -150,4 +243,36 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
     figure.savefig(path, dpi=150)
 
 
-PICTURES: dict[str, Callable] = {"stribeck": plot_stribeck, "traction": plot_traction, "history": plot_history}
+def animate(path: Path, result, half_width: float) -> None:
+    """GIF of pressure and film along the contact over time (Pillow writer)."""
+    from matplotlib.animation import FuncAnimation, PillowWriter
+
+    count, x, h = result.time.size, result.x, result.film_thickness
+    radius = (x[0] ** 2 - x[1] ** 2) / (2.0 * (h[0, 0] - h[0, 1]))  # of the undeformed gap, far out
+    reach = 3.0 * max(half_width, float(np.sqrt(h.min(axis=1).max() * 2.0 * radius)))
+    seen = np.abs(x) <= reach
+    x, thick = x[seen] * 1e6, h[:, seen] * 1e9
+    figure = figures.new_figure(figsize=(7, 4.5))
+    top = figure.subplots()
+    bottom = top.twinx()
+    (pressure,) = top.plot([], [], color=figures.RED)
+    (film,) = bottom.plot([], [], color=figures.BLUE)
+    top.set(xlim=(x[0], x[-1]), ylim=(0.0, 1.1 * result.pressure.max() / 1e6), xlabel="x (µm)")
+    top.set_ylabel("film pressure (MPa)", color=figures.RED)
+    bottom.set_ylim(0.0, 1.5 * max(result.central_film.max() * 1e9, np.median(thick.min(axis=1)) * 2.0))
+    bottom.set_ylabel("film thickness (nm)", color=figures.BLUE)
+    scale, unit = time_scale(result.time[-1])
+
+    def draw(i):
+        pressure.set_data(x, result.pressure[i, seen] / 1e6)
+        film.set_data(x, thick[i])
+        speed, friction = result.entrainment_speed[i], result.coefficient[i]
+        moment = f"t = {result.time[i] * scale:.4g} {unit},  U = {speed:.3g} m/s,  f = {friction:.4f}"
+        top.set_title(moment, fontsize=10)
+        return pressure, film
+
+    draw(0)
+    figure.canvas.draw()
+    figure.set_layout_engine("none")  # laid out once: the frames must not jump, and are drawn faster
+    frames = np.unique(np.linspace(0, count - 1, min(FRAMES, count)).round().astype(int)).tolist()
+    FuncAnimation(figure, draw, frames=frames, blit=False).save(path, writer=PillowWriter(fps=15), dpi=80)

@@ -14,11 +14,11 @@ from .._base import FolderLock, OwnFiles, figures, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
-from ..sharing import Prepared, lack_in_words, takes_strips
+from ..sharing import Prepared, Validity, lack_in_words, takes_strips
 from ..units import number_of
-from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, name_of_run, ready, run_folder, say
-from .fields import fields_bytes
-from .pictures import PICTURES, plot_contact
+from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
+from .fields import fields_bytes, vtk_bytes
+from .pictures import plot_contact, plot_stribeck, plot_traction
 from .report import report_page
 
 WORTH = 8  # speeds from which a second process gains more than it costs
@@ -31,7 +31,7 @@ CAPTIONS = {
 
 def run_sweep(scene: Scene, arguments) -> None:
     """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, report.html and, last,
-    result.json to the folder ``arguments.out``.
+    result.json to the folder ``arguments.out``; with ``.vtk`` also contact_0.vtk ... for ParaView.
 
     ``arguments``: of the command, with ``.speeds``, ``.fields`` and ``.workers`` (None: two if that pays) too. The
     scene is checked and made ready before the folder is touched. The results of an earlier run stay until those of this
@@ -41,7 +41,7 @@ def run_sweep(scene: Scene, arguments) -> None:
     begun, out, ended = time.perf_counter(), arguments.out, []
     speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
     total, progress = "some" if speeds == studies.AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
-    _check_outputs("stribeck", arguments)
+    _check_outputs("stribeck", arguments, len(chosen))
 
     def on_point(*point):
         ended.append(point)
@@ -68,7 +68,7 @@ def run_traction(scene: Scene, arguments) -> None:
     ``arguments.out``."""
     begun = time.perf_counter()
     ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
-    _check_outputs("traction", arguments)
+    _check_outputs("traction", arguments, 0)
     prepared = ready(scene)
     with run_folder(arguments.out, begun, studies.fingerprint(prepared, ratios, "traction")) as folder:
         progress = _progress("slide-roll ratio {:<9.4g}")
@@ -77,9 +77,10 @@ def run_traction(scene: Scene, arguments) -> None:
     _raise_if_failed(curve)
 
 
-def _check_outputs(table: str, arguments) -> None:
+def _check_outputs(table: str, arguments, contacts: int) -> None:
     """Refuse a folder in which the files of a curve would replace others."""
-    names = [f"{table}.csv", f"{table}.png", "fields.npz", "contact.png", "report.html", RESULT]
+    names = [f"{table}.csv", f"{table}.png", "fields.npz", "contact.png", RESULT]
+    names += ["report.html", *(f"contact_{i}.vtk" for i in range(contacts if arguments.vtk else 0))]
     check_outputs(arguments, arguments.out, names, OUTPUTS)
 
 
@@ -90,23 +91,26 @@ def _write(folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, ar
     units = {number: COLUMNS[number] for number in (*NUMBERS, curve.SWEPT[0])}
     record = folder.record(prepared, curve, units, points=[_point(curve, i) for i in range(len(curve.points))])
     columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
-    if _drawable(columns):
-        folder.draw(f"{name}.png", PICTURES[name], columns, prepared.scene.name)
+    if _drawable(columns).any():
+        folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, record["points"])
     points = [p for p in curve.points if p is not None and (p.balance is not None or p.deterministic is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
         contents["fields.npz"] = fields_bytes(prepared, points)
-    for point in [p for p in points if p.shows_contact][:1]:
-        folder.draw("contact.png", plot_contact, point, prepared.scene.bodies.half_width)
+        folder.draw("contact.png", plot_contact, prepared, points[0])
+    if arguments.vtk:
+        touching = [p for p in points if p.shows_contact]
+        contents |= {f"contact_{i}.vtk": vtk_bytes(prepared, point) for i, point in enumerate(touching)}
+        if not touching:
+            say("no .vtk file: none of the speeds of --fields has a contact with fields")
     images = {text: contents[file] for file, text in CAPTIONS.items() if file in contents}
     contents["report.html"] = report_page(prepared, curve, record, images)
     folder.finish(record, *_doubts(prepared.scene, curve))
 
 
-def _drawable(columns) -> bool:
-    """Whether the picture of a table has something to show: f somewhere, and of a curve over speeds in motion."""
-    moving = columns["speed"] != 0 if "speed" in columns and "ratio" not in columns else True
-    return bool((np.isfinite(columns["coefficient"]) & moving).any())
+def _drawable(columns) -> np.ndarray:
+    """Which rows of the table of a curve its picture can show: f is known, and over speeds something moves."""
+    return np.isfinite(columns["coefficient"]) & ("ratio" in columns or columns["speed"] != 0)
 
 
 def _point(curve: studies.CurveResult, index: int) -> dict:
@@ -126,24 +130,43 @@ def _point(curve: studies.CurveResult, index: int) -> dict:
 
 
 def plot_again(arguments) -> None:
-    """Draw the picture of a run again, with the measured curve that the ``arguments`` of ``lubfric plot`` name."""
-    folder, given = arguments.folder, (arguments.measured, arguments.speed, arguments.coefficient)
-    name = next((name for name in PICTURES if (folder / f"{name}.csv").is_file()), None)
-    if name is None:
-        tables = " or ".join(f"{name}.csv" for name in PICTURES)
-        raise InputError(f"{folder} holds no {tables}; give a folder that 'lubfric run' wrote")
-    columns, title, measured = read_table(folder / f"{name}.csv"), name_of_run(folder), []
-    if given != (None, None, None):
-        if name != "stribeck" or None in given:
-            beside = f"are for a Stribeck curve, and {folder} holds {name}.csv" if name != "stribeck" else "go together"
-            raise InputError(f"--measured, --speed and --coefficient {beside}; give all three, or none")
-        measured = [studies.read_measured(given[0], speed=given[1], coefficient=given[2])]
-    if not _drawable(columns):
-        raise InputError(f"nothing to draw: no point in {name}.csv moves and has an answer; {RESULT} says why")
-    check_outputs(arguments, folder, [f"{name}.png"])
-    content = made(f"{name}.png", PICTURES[name], columns, title, *measured)
-    with FolderLock(folder):
-        OwnFiles(folder).replace({f"{name}.png": content})
+    """Draw the picture of a curve again, with the measured curve that the ``arguments`` of ``lubfric plot`` name."""
+    folder = arguments.folder
+    name = "traction" if (folder / "traction.csv").is_file() else "stribeck"
+    source = folder / f"{name}.csv"
+    if not source.is_file():
+        raise InputError(f"{folder} holds no {source.name}; give a folder that 'lubfric run' wrote")
+    columns, record, measured = read_table(source), read_record(folder), None
+    if arguments.measured is not None:
+        if arguments.speed is None or arguments.coefficient is None:
+            raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
+        measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)
+    points, count = record.get("points", []), columns["coefficient"].size
+    if len(points) != count:
+        raise InputError(f"{source} has {count} rows and result.json {len(points)} points; run 'lubfric run' again")
+    if not _drawable(columns).any():
+        first = next((f"; first: {point['error']}" for point in points if "error" in point), "")
+        raise InputError(f"nothing to draw: none of the {count} points in {source} moves and has an answer{first}")
+    replot(arguments, f"{name}.png", _plot, columns, record["scene"]["name"], points, measured)
+
+
+def replot(arguments, name: str, plot: Callable, *given) -> None:
+    """Draw the picture ``name`` in the folder of ``lubfric plot`` again by ``plot(path, *given)``."""
+    check_outputs(arguments, arguments.folder, [name])
+    content = made(name, plot, *given)
+    with FolderLock(arguments.folder):
+        OwnFiles(arguments.folder).replace({name: content})
+
+
+def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
+    """The picture of the table of a curve; ``points``: those of its record."""
+    unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
+    known = [[{k: v for k, v in entry.items() if v is not None} for entry in point["validity"]] for point in points]
+    entries = [[Validity(**unknown | entry) for entry in each] for each in known]
+    title = figures.plain_words(title)
+    if "ratio" in columns:
+        title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
+    (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured)
 
 
 def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:

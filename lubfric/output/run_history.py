@@ -2,7 +2,7 @@
 
 import time
 
-from .._base import table_bytes
+from .._base import figures, read_table, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
@@ -11,12 +11,14 @@ from ..studies import fingerprint
 from ..time import TransientResult, transient
 from . import commands
 from .fields import npz_bytes
-from .pictures import PICTURES
+from .pictures import animate, plot_history
 from .report import report_page
+from .run_curve import replot
 
 
 def run_history(scene: Scene, arguments) -> None:
-    """Compute and write history.csv, history.png, fields.npz, report.html and, last, result.json to ``arguments.out``.
+    """Compute and write history.csv, history.png, fields.npz, report.html (with ``arguments.animation``: animation.gif)
+    and, last, result.json to ``arguments.out``.
 
     The scene is checked and made ready before the folder is touched, and the results of an earlier run stay until those
     of this one are there. An interrupted run continues from where it was. A failed run writes what it has, and then
@@ -25,7 +27,7 @@ def run_history(scene: Scene, arguments) -> None:
     begun, reached, due, out = time.perf_counter(), 0.0, commands.paced(), arguments.out
     failure: LubfricError | None = None
     names = ["history.csv", "history.png", "fields.npz", "report.html", commands.RESULT]
-    commands.check_outputs(arguments, out, names, commands.OUTPUTS)
+    commands.check_outputs(arguments, out, names + ["animation.gif"] * arguments.animation, commands.OUTPUTS)
     prepared = commands.ready(scene)
 
     def on_step(now, duration, row):
@@ -50,7 +52,7 @@ def run_history(scene: Scene, arguments) -> None:
             if error.result is None:
                 raise
             result, failure = error.result, error
-        _write(folder, scene, result)
+        _write(folder, scene, result, arguments.animation)
         record = folder.record(prepared, result, OF_MOMENT)
         images = {"History": folder.contents["history.png"]} if "history.png" in folder.contents else {}
         folder.contents["report.html"] = report_page(prepared, result, record, images)
@@ -59,7 +61,7 @@ def run_history(scene: Scene, arguments) -> None:
         raise failure
 
 
-def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult) -> None:
+def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
     """All but the result."""
     columns = {heading(name): result.columns[name] for name in OF_MOMENT}
     told = {"validity": [in_a_cell(entries) for entries in result.entries]}
@@ -67,4 +69,13 @@ def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult) ->
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}
     folder.contents["fields.npz"] = npz_bytes(fields)
     if result.time.size > 1:
-        folder.draw("history.png", PICTURES["history"], result.columns, scene.name)
+        folder.draw("history.png", plot_history, result.columns, figures.plain_words(scene.name))
+    if animation:
+        folder.draw("animation.gif", animate, result, scene.bodies.half_width)
+
+
+def plot_again(arguments) -> None:
+    """Draw history.png of ``arguments.folder`` again."""
+    folder = arguments.folder
+    columns, record = read_table(folder / "history.csv"), commands.read_record(folder)
+    replot(arguments, "history.png", plot_history, columns, figures.plain_words(record["scene"]["name"]))

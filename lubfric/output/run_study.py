@@ -18,19 +18,23 @@ from .commands import check_outputs, keeping, made, paced, put, run_folder, say
 
 
 def run_study(arguments) -> None:
-    """Plan, solve, write study.csv and study.png, and say the least and the largest f."""
+    """Plan, solve, write study.csv, study.png (and study.nc, study.parquet), and say the least and the largest f."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
     plan = studies.load_study(arguments.study)
     if arguments.explain:
         put(sys.stdout, plan.explain(arguments.out) + "\n")
         return
-    check_outputs(arguments, arguments.out, ["study.csv", "study.png"])
+    studies.check_tools(arguments.netcdf, arguments.parquet)
+    wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
+    names = [f"study.{kind}" for kind, given in wanted.items() if given]
+    check_outputs(arguments, arguments.out, [*names, "study.png"])
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), studies.pool(workers) as executor:
         result = studies.study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
+    writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:
-        folder.contents["study.csv"] = made("study.csv", result.to_csv)
+        folder.contents |= {name: made(name, writers[name.partition(".")[2]]) for name in names}
         if np.isfinite(result["coefficient"]).any():
             folder.draw("study.png", _picture, result)
         if result.cautioned:

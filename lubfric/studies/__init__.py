@@ -1,7 +1,7 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
 from .choose import AUTO, CHOSEN, span
-from .codec import classes_of
+from .codec import classes_of, fits
 from .curve import CurveResult, csv_bytes
 from .executor import MOST_WORKERS, pool, processors
 from .explain import in_words
@@ -12,5 +12,5 @@ from .plan import StudyPlan, load_study, plan_study
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, opened
 from .sweep import StribeckResult, TractionResult, stribeck, traction
-from .tables import friction_over, label, plot_map
+from .tables import check_tools, friction_over_speed, interval_band, label, plot_map
 from .vary import Between, sample

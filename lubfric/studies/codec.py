@@ -69,9 +69,13 @@ def decode(content: bytes, classes: dict[str, type], kind: Any = Any):
 
 def fits(value, kind) -> bool:
     """Whether ``value`` has the type ``kind``, as in an annotation, and so have its parts. Fields of dataclasses were
-    looked at when these were built, and a named tuple is stored as a plain one."""
+    looked at when these were built, and a named tuple is stored as a plain one. ``kind`` may also be a dict of kinds,
+    for a dict that has these keys at least, and a list of one kind."""
     if kind is Any:
         return True
+    if isinstance(kind, dict):
+        return isinstance(value, dict) and all(name in value and fits(value[name], kind[name]) for name in kind)
+    kind = list[kind[0]] if isinstance(kind, list) else kind
     origin, parts = get_origin(kind) or kind, get_args(kind)
     if origin in (Union, UnionType):
         return any(fits(value, part) for part in parts)

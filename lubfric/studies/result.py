@@ -21,7 +21,7 @@ from .law import law_of_study
 from .plan import StudyPlan, plan_study
 from .points import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, row_of, solved, stored_rows
 from .store import PLANNED, Store, opened
-from .tables import plot, to_csv, to_frame, to_xarray
+from .tables import plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN = "plan"  # its key in the store
 TOGETHER = 8  # speeds of a curve that a process of an executor receives at once, with one preparation of the scene
@@ -34,8 +34,8 @@ class StudyResult(Shown):
 
     ``result["coefficient"]`` is such an array, ``result.dims`` names its axes, ``result.coords`` holds the values along
     them. Where each curve chose its speeds, the last dimension is "point", ``result["speed"]`` is such an array too,
-    and ``result.at(speeds)`` puts all curves on the same speeds. `to_xarray`, `to_frame` and `to_csv` make tables for
-    other tools.
+    and ``result.at(speeds)`` puts all curves on the same speeds. `to_xarray`, `to_frame`, `to_csv` and `to_parquet`
+    make tables for other tools.
 
     Attributes
     ----------
@@ -53,7 +53,8 @@ class StudyResult(Shown):
     validity: np.ndarray
 
     plot, law = plot, law_of_study
-    to_csv, to_frame, to_xarray = to_csv, to_frame, to_xarray
+    to_csv, to_frame, to_parquet = to_csv, to_frame, to_parquet
+    to_xarray, to_netcdf = to_xarray, to_netcdf
 
     @classmethod
     def of_rows(cls, plan: StudyPlan, rows: Rows, ended: set[str]) -> StudyResult:

@@ -1,10 +1,11 @@
 """Studies as tables for other tools, each imported only when its table is asked for; curves and studies drawn."""
 
+import io
 from pathlib import Path
 
 import numpy as np
 
-from .._base import __version__, figures, table_bytes, validate, write_whole
+from .._base import __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
 from ..quantities import KEYS, Quantity, axis_label, described, heading
 from ..units import worded
@@ -14,6 +15,7 @@ from .points import SPEED, STATUS, UNUSED, VALIDITY
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
 BAND = "95 %: solvers, grids, surface, inputs, model"
 MOST, NAMED, FINE = 500, 10, 200  # lines, lines with a label, points of a line between solved ones
+SMOOTH = 6  # values along both axes of a map from which it is drawn by contours
 
 
 def to_xarray(result):
@@ -31,6 +33,22 @@ def to_xarray(result):
 def to_frame(result):
     """A tidy `pandas.DataFrame`: one row a point. Needs the ``study`` extra."""
     return validate.installed("pandas", "study").DataFrame(_table(result))
+
+
+def to_parquet(result, path) -> None:
+    """The table of `to_frame` as a Parquet file. Needs the ``study`` extra."""
+    frame, buffer = to_frame(result), io.BytesIO()
+    validate.installed("pyarrow", "study")
+    frame.to_parquet(buffer)
+    write_whole(path, buffer.getvalue())
+
+
+def to_netcdf(result, path) -> None:
+    """The Dataset of `to_xarray` as a NetCDF file, which appears whole. Needs the ``study`` extra."""
+    data = to_xarray(result)
+    validate.installed("netCDF4", "study")
+    with files.whole_file(path) as part:
+        data.to_netcdf(part, engine="netcdf4")
 
 
 def to_csv(result, path) -> None:
@@ -95,6 +113,12 @@ def label(result, index) -> str:
     return ", ".join(f"{kind.label} {worded(along[key].item(), kind.unit)}" for key, kind in kinds.items())
 
 
+def check_tools(netcdf: bool, parquet: bool) -> None:
+    """Raise `InputError` if a package that these tables need is missing."""
+    for name in (*(("xarray", "netCDF4") if netcdf else ()), *(("pandas", "pyarrow") if parquet else ())):
+        validate.installed(name, "study")
+
+
 def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
     """The intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what the
     model and the finite surface leave by themselves. ``line``: (speeds, f) of a smooth curve to draw them about."""
@@ -121,30 +145,23 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
             ax.plot(wide, sides[1], **thin, label=f"of it: {name.partition('_')[0].replace('sampling', 'surface')}")
 
 
-def friction_over(axes, columns: dict[str, np.ndarray], between=None, **style) -> np.ndarray:
-    """Friction with its parts and the band of its intervals over the magnitude of the speed or, where ``columns`` have
-    it, over the slide-roll ratio; ``columns``: of the table of a curve. ``between``: (speeds, f, its two parts) on a
-    smooth curve through the points. Returns the indices of the points drawn, in order: those that failed, and of speeds
-    rest, are left out."""
-    at = columns["ratio"] if "ratio" in columns else np.abs(columns["speed"])
-    good = np.flatnonzero(np.isfinite(columns["coefficient"]) & ("ratio" in columns or at != 0))
-    order = good[np.argsort(at[good])]
+def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **style) -> np.ndarray:
+    """Friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of a
+    `lubfric.StribeckResult`. ``between``: (speeds, f, its two parts) on a smooth curve through the points. Returns the
+    indices of the points drawn, in order: those that failed, and rest, are left out."""
+    good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
+    order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
-    load = c["contact_load"] + c["film_load"]
-    interval_band(axes, at[order], c, between and between[:2])
+    speed, load = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
+    interval_band(axes, speed, c, between and between[:2])
     if between is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
-        figures.friction_lines(axes, at[order], parts, **{"marker": "o", "ms": 4} | style)
+        figures.friction_lines(axes, speed, parts, **{"marker": "o", "ms": 4} | style)
     else:
         figures.friction_lines(axes, between[0], between[1:], **style)
-        axes.plot(at[order], c["coefficient"], "o", ms=4, color=style.get("color", figures.BLUE))
-    if "ratio" in columns:
-        axes.set_xlabel("slide-roll ratio (-)")
-        figures.log_if_wide(axes, "x", at[order])
-    else:
-        axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]))
+        axes.plot(speed, c["coefficient"], "o", ms=4, color=style.get("color", figures.BLUE))
+    axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION)
     figures.plain_ticks(axes.xaxis)
-    axes.set_ylabel(figures.FRICTION)
     axes.set_ylim(bottom=min(0.0, 1.1 * float(c["coefficient"].min(initial=0.0))))
     figures.key_above(axes)
     return order
@@ -158,15 +175,15 @@ def curve_axes(curve, ax=None, **style):
         known = np.abs(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])
         fine = np.geomspace(known.min(), known.max(), 400)
         between = fine, curve.at(fine), *curve.parts_at(fine)
-    friction_over(axes, numbers_of(curve), between, **style)
+    friction_over_speed(axes, numbers_of(curve), between, **style)
     return axes
 
 
 def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity: str = "coefficient") -> None:
-    """Draw ``quantity`` of a `StudyResult` in colours over two of its keys, for example ``"speed"`` and
+    """Draw ``quantity`` of a `StudyResult` as contours over two of its keys, for example ``"speed"`` and
     ``"motion.slide_roll_ratio"``.
 
-    Points that have no number are grey. Raises `InputError` unless the two keys are its only dimensions, and numbers
+    Points that have no number are marked. Raises `InputError` unless the two keys are its only dimensions, and numbers
     of which there are two at least.
     """
     coords = study.coords
@@ -183,14 +200,35 @@ def plot_map(path: Path, study, across: str, up: str, title: str = "", quantity:
     values, x, y = values[np.argsort(y)][:, np.argsort(x)], np.sort(x), np.sort(y)
     figure = figures.new_figure(figsize=(7, 5))
     ax = figure.subplots()
-    ax.set_facecolor(figures.GREY)
-    shown = ax.pcolormesh(x, y, np.ma.masked_invalid(values), shading="nearest", cmap="viridis")
     bar = figures.FRICTION if quantity == "coefficient" else axis_label(quantity)
-    figure.colorbar(shown, label=bar)
-    figures.log_if_wide(ax, "x", x)
-    figures.log_if_wide(ax, "y", y)
+    if min(values.shape) < SMOOTH:
+        _table_of(ax, x, y, values, bar)
+    else:
+        known = np.ma.masked_invalid(values)
+        shown = ax.contourf(x, y, known, levels=16, cmap="viridis")
+        ax.contour(x, y, known, levels=16, colors="w", linewidths=0.4)
+        rows, places = np.nonzero(~np.isfinite(values))
+        if rows.size:
+            ax.plot(x[places], y[rows], "x", color=figures.RED, label="no answer")
+            ax.legend(frameon=False)
+        figures.log_if_wide(ax, "x", x)
+        figures.log_if_wide(ax, "y", y)
+        figure.colorbar(shown, label=bar)
     ax.set(xlabel=axis_label(across), ylabel=axis_label(up), title=title)
     figure.savefig(path, dpi=150)
+
+
+def _table_of(ax, x, y, values, bar: str) -> None:
+    """Few values (ny, nx) as a table of colours with their numbers: contours would say more than is known."""
+    image = ax.imshow(values, origin="lower", aspect="auto", cmap="viridis")
+    middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
+    for (row, column), found in np.ndenumerate(values):
+        known = np.isfinite(found)
+        colour = ("k" if found > middle else "w") if known else figures.RED
+        ax.text(column, row, f"{found:.3g}" if known else "no answer", ha="center", va="center", color=colour)
+    ax.set_xticks(range(x.size), [f"{value:.4g}" for value in x])
+    ax.set_yticks(range(y.size), [f"{value:.4g}" for value in y])
+    ax.figure.colorbar(image, ax=ax, label=bar)
 
 
 def _numbers(key: str, values: np.ndarray) -> np.ndarray:

@@ -1,5 +1,6 @@
 """Roughness that moves through the film: limits in which the answer is known without it."""
 
+import json
 from dataclasses import replace
 from itertools import islice
 
@@ -22,6 +23,7 @@ from lubfric.deterministic import (
 )
 from lubfric.film import LineContact
 from lubfric.oil import Lubricant
+from lubfric.output import write_moments
 from lubfric.sampling import maps_of
 from lubfric.surface import Surface, generate_surface
 
@@ -241,6 +243,17 @@ def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
     animate_moments(tmp_path / "moving.gif", shown)
     assert (tmp_path / "moving.gif").read_bytes()[:4] == b"GIF8"
     assert min(p.stat().st_size for p in tmp_path.iterdir()) > 10_000
+
+
+def test_moments_are_read_back_by_another_reader(tmp_path):
+    meshio, surface = pytest.importorskip("meshio"), rough(5)
+    shown = list(islice(moments(travelling(laid(surface), [RoughBody(surface, 0.15)]), CELL / 0.15), 3))
+    write_moments(tmp_path / "vtk", shown)
+    series = json.loads((tmp_path / "vtk" / "moments.vtk.series").read_text())["files"]
+    assert [one["time"] for one in series] == [moment.time for moment in shown]
+    mesh, at = meshio.read(tmp_path / "vtk" / series[2]["name"]), shown[2].at
+    for name, values in (("gap", at.gap), ("pressure", at.state.pressure), ("height", at.problem.heights)):
+        np.testing.assert_array_equal(mesh.point_data[name].reshape(12, -1), values.T)
 
 
 def test_amplitudes_are_reduced_as_published():

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -86,7 +87,7 @@ def test_a_map_where_a_gap_is_expected_is_told_apart():
         (["run", "paper", "--speeds", "a,b"], "speeds"),
         (["plot", "nowhere"], "stribeck.csv"),
         (["run", "flat", "--sampling-tolerance", "0.01"], "flat is solved on one patch"),
-        (["plot", "nowhere", "--speed", "U [m/s]"], "holds no stribeck.csv"),
+        (["plot", "nowhere", "--speed", "U [m/s]"], "give --measured as well"),
     ],
 )
 def test_bad_input_ends_with_2_and_one_line(arguments, word, capsys):
@@ -132,6 +133,14 @@ def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys):
     assert any("not valid" in text for text in accepted["validity"])
     assert (tmp_path / "a" / "stribeck.png").stat().st_size > 10_000
     assert main(["plot", str(tmp_path / "a")]) == 0
+
+
+def test_a_table_and_a_record_of_different_runs_are_not_drawn_together(run, tmp_path, capsys):
+    shutil.copytree(run, tmp_path / "a")
+    rows = (tmp_path / "a" / "stribeck.csv").read_text().splitlines()
+    (tmp_path / "a" / "stribeck.csv").write_text("\n".join([*rows, rows[-1]]) + "\n")
+    assert main(["plot", str(tmp_path / "a")]) == 2
+    assert "run 'lubfric run' again" in capsys.readouterr().err
 
 
 def test_a_decimal_comma_is_no_list_of_speeds(tmp_path, capsys):

@@ -3,6 +3,7 @@ numbers that its artists hold."""
 
 import csv
 import io
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric._base.figures import field_image, new_figure
-from lubfric.output.fields import fields_bytes
+from lubfric.output.fields import fields_bytes, grid_bytes
 from lubfric.output.pictures import plot_contact, plot_history, plot_stribeck, plot_traction
 from lubfric.studies import csv_bytes, plot_map
 
@@ -70,13 +71,12 @@ COLUMNS = {
     "interval_high": np.array([0.06, 0.10, np.nan, 0.022]),
     "flash_temperature_rise": np.array([7.0, 3.0, np.nan, 21.0]),
     "film_temperature_rise": np.array([1.0, 0.5, np.nan, 30.0]),
-    "validity": np.array(["", "", "", ""]),
 }
-STARVED = "caution: starved inlet is 3 m, above 2 m: less film; more oil"
 
 
 def test_a_curve_is_drawn_by_its_table(figures):
-    plot_stribeck("x.png", COLUMNS | {"validity": np.array(["", "", "", STARVED])}, "title")
+    cautious = [(), (), (), (SimpleNamespace(severe=False, what="starved"),)]
+    plot_stribeck("x.png", COLUMNS, "title", cautious)
     top, middle, bottom = figures[0].axes
     for label, expected in (
         ("friction coefficient", [0.09, 0.05, 0.02]),
@@ -98,7 +98,7 @@ def test_a_curve_is_drawn_by_its_table(figures):
 
 def test_one_speed_has_numbers_on_its_axis_and_a_part_is_no_more_than_the_whole(figures):
     one = {name: column[:1] for name, column in COLUMNS.items()} | {"model_error": np.array([0.9])}
-    plot_stribeck("x.png", one, "title")
+    plot_stribeck("x.png", one, "title", [()])
     top, *_, bottom = figures[0].axes
     figures[0].canvas.draw()
     inside = [t for t in bottom.get_xticklabels() if 0.097 <= t.get_position()[0] <= 0.103 and t.get_text()]
@@ -109,7 +109,7 @@ def test_one_speed_has_numbers_on_its_axis_and_a_part_is_no_more_than_the_whole(
 
 def test_a_traction_curve_is_drawn_by_its_table(figures):
     columns = COLUMNS | {"ratio": COLUMNS["speed"]}
-    plot_traction("x.png", columns, "title")
+    plot_traction("x.png", columns, "title", [()] * 4)
     top, bottom = figures[0].axes
     np.testing.assert_allclose(data(top, "friction coefficient"), [[0.01, 0.1, 1.0], [0.09, 0.05, 0.02]])
     np.testing.assert_allclose(data(bottom, "surfaces (flash)"), [[0.01, 0.1, 1.0], [3.0, 7.0, 21.0]])
@@ -144,15 +144,26 @@ def test_a_map_is_seen_from_above_in_micrometres():
 
 
 def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
-    _, point = solved
-    half = np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9))
-    plot_contact("x.png", point, half)
-    near = np.abs(point.x) <= 4 * half
-    images = [axes.images[0] for axes in figures[0].axes[:2]]
-    for image, field in zip(images, (point.pressure / 1e9, 1e9 * point.gap)):
-        np.testing.assert_allclose(image.get_array(), field[near].T)
-        dashed = [line.get_xdata()[0] for line in image.axes.lines if line.get_linestyle() == "--"]
-        assert dashed == pytest.approx([-1e6 * half, 1e6 * half])
+    prepared, point = solved
+    plot_contact("x.png", prepared, point)
+    above, section = figures[0].axes[:2]
+    (image,) = above.images
+    np.testing.assert_allclose(image.get_array(), point.pressure.T / 1e9)
+    row = int(np.argmax(point.pressure.max(axis=0)))
+    dotted = [line.get_ydata()[0] for line in above.lines if line.get_linestyle() == ":"]
+    assert dotted == pytest.approx([1.7 * row])
+    half = 1e6 * np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9))
+    assert sorted(line.get_xdata()[0] for line in above.lines if line.get_linestyle() == "--") == pytest.approx(
+        [-half, half]
+    )
+    x, film = data(section, "smooth film h")
+    np.testing.assert_allclose(film, 1e9 * point.balance.film.film_at(x * 1e-6))
+    _, surface = data(section, "rough surface, not pressed")
+    np.testing.assert_allclose(surface, 1e9 * (prepared.surface.heights[:, row] - prepared.surface.heights.mean()))
+    _, under = data(section, "counterface, as if smooth")
+    _, deformed = data(section, "rough surface, pressed")
+    np.testing.assert_allclose(under - deformed, 1e9 * point.gap[:, row], atol=1e-6)
+    assert "(nm)" in section.get_ylabel()
 
 
 def test_fields_are_written_the_right_way_round(solved):
@@ -162,6 +173,15 @@ def test_fields_are_written_the_right_way_round(solved):
         np.testing.assert_array_equal(kept["gap_0"], point.gap)
         assert kept["spacing"] == pytest.approx((1.1e-6, 1.7e-6)) and kept["speed"] == [0.01]
         np.testing.assert_array_equal(kept["film_pressure_0"], point.balance.film.pressure)
+    x, y, values = np.array([0.0, 1.0, 2.0]), np.array([10.0, 20.0]), np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])
+    text = grid_bytes(x, y, {"gap": values}, "t")
+    head, _, rest = text.partition(b"double\n")
+    assert b"DIMENSIONS 3 2 1" in head
+    places = np.frombuffer(rest, ">f8", 18).reshape(6, 3)
+    field = np.frombuffer(text.partition(b"LOOKUP_TABLE default\n")[2], ">f8", 6)
+    assert {(*place[:2], value) for place, value in zip(places, field)} == {
+        (x[i], y[j], values[i, j]) for i in range(3) for j in range(2)
+    }
 
 
 def test_the_table_of_a_curve_has_the_units_of_its_numbers():
@@ -188,7 +208,9 @@ def test_a_study_over_two_keys_is_drawn_and_written_along_its_axes(figures, tmp_
         axes = figures[-1].axes[0]
         assert axes.get_xlabel().endswith({"speed": "(m/s)"}.get(across, "(Pa s)"))
         assert axes.get_ylabel().endswith({"speed": "(m/s)"}.get(up, "(Pa s)"))
-        np.testing.assert_array_equal(axes.collections[0].get_array(), expected)
+        np.testing.assert_array_equal(axes.images[0].get_array(), expected)  # few values are no contours
+        ticks = [[float(tick.get_text()) for tick in axis.get_ticklabels()] for axis in (axes.xaxis, axes.yaxis)]
+        assert ticks == [{"speed": [1.0, 2.0, 4.0]}.get(key, [0.2, 0.4]) for key in (across, up)]
     study.to_csv(tmp_path / "study.csv")
     with (tmp_path / "study.csv").open() as file:
         rows = [
@@ -226,12 +248,13 @@ def test_at_rest_no_friction_is_drawn(figures):
 
 
 def test_no_point_is_ringed_where_all_would_be(figures):
+    entry = SimpleNamespace(severe=False, what="starved")
     columns = COLUMNS | {"ratio": COLUMNS["speed"]}
-    plot_traction("x.png", columns | {"validity": np.array([STARVED] * 4)}, "title")
+    plot_traction("x.png", columns, "title", [(entry,)] * 4)
     assert "with cautions" not in {line.get_label() for line in figures[0].axes[0].lines}
-    assert figures[0].get_supxlabel() == "cautions, at all points: starved inlet"
+    assert figures[0].get_supxlabel() == "cautions, at all points: starved"
     cold = dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), 0 * COLUMNS["speed"])
-    plot_traction("x.png", columns | cold, "title")
+    plot_traction("x.png", columns | cold, "title", [()] * 4)
     assert len(figures[1].axes) == 1  # no panel of temperatures where none rises
 
 
@@ -246,3 +269,9 @@ def test_a_spike_does_not_take_the_colours_of_a_map_and_is_told():
     low, high = surface.plot(axes.figure.subplots()).images[0].get_clim()
     z = 1e9 * (surface.heights - surface.heights.mean())
     assert (low, high) == pytest.approx((z.min(), z.max()), rel=0.2)
+
+
+def test_the_section_of_a_contact_is_as_high_as_its_film_and_summits(figures, solved):
+    plot_contact("x.png", *solved)
+    low, high = figures[0].axes[1].get_ylim()
+    assert high < 1.6e9 * max(solved[1].heights.max(), solved[1].balance.film.film_thickness.min()) and low > -1e3

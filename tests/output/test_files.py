@@ -1,4 +1,4 @@
-"""Files for eyes: a report that stands alone, measured points drawn."""
+"""Files for eyes: a report that stands alone, a file for ParaView read by another reader, measured points drawn."""
 
 import json
 import tempfile
@@ -44,7 +44,7 @@ class Balanced(HTMLParser):
 def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("run")
     (folder / "s.toml").write_text(SCENE.replace("[bodies]", "name = 'a < b & c'\n[bodies]"))
-    assert main(["run", str(folder / "s.toml"), "--out", str(folder / "out"), "--report"]) == 0
+    assert main(["run", str(folder / "s.toml"), "--out", str(folder / "out"), "--vtk", "--report"]) == 0
     return folder / "out"
 
 
@@ -59,6 +59,20 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
     for words in (*(f"{value:.4g}" for value in f), "a < b & c", "360\xa0mPa\xa0s", "231\xa0GPa", lubfric.__version__):
         assert words in text, words
     assert "(95 %)" in text and "Errors of f" in text
+
+
+def test_the_file_for_paraview_is_read_back_by_another_reader(run):
+    meshio = pytest.importorskip("meshio")
+    mesh = meshio.read(run / "contact_0.vtk")
+    point = lubfric.stribeck(lubfric.load_scene(run.parent / "s.toml"), fields=[0.01]).points[0]
+    grid = mesh.points.reshape(40, 48, 3)
+    np.testing.assert_allclose(grid[:, :, 0], np.broadcast_to(point.x, (40, 48)))
+    np.testing.assert_allclose(grid[:, :, 1], np.broadcast_to(point.y[:, None], (40, 48)))
+    for name, values in (("contact_pressure", point.pressure), ("gap", point.gap)):
+        np.testing.assert_array_equal(mesh.point_data[name].reshape(40, 48), values.T)
+    film = mesh.point_data["film_thickness"].reshape(40, 48)
+    np.testing.assert_array_equal(film[7], point.balance.film.film_at(point.x))
+    assert np.std(mesh.point_data["height"]) == pytest.approx(1e-7) and mesh.point_data["film_pressure"].max() > 1e5
 
 
 def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkeypatch):
@@ -118,7 +132,7 @@ def test_a_history_and_a_traction_curve_have_any_name(tmp_path):
     (tmp_path / "s.toml").write_text(scene.to_toml())
     assert main(["run", str(tmp_path / "s.toml"), "--ratios", "0.5,1", "--out", str(tmp_path / "o")]) == 0
     (tmp_path / "s.toml").write_text(scene.to_toml() + "[transient]\nduration = 1e-4\noutputs = 2\n")
-    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")]) == 0
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o"), "--animation"]) == 0
     assert main(["plot", str(tmp_path / "o")]) == 0
 
 
@@ -132,7 +146,7 @@ def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, 
     def broken(*_):
         raise ZeroDivisionError("no picture")
 
-    monkeypatch.setattr("lubfric.output.run_curve.PICTURES", {"stribeck": broken})
+    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", broken)
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 2
     said = capsys.readouterr().err.splitlines()[-1]
     assert said.startswith("lubfric: stribeck.png was not drawn (ZeroDivisionError") and "all else is in" in said
@@ -169,7 +183,7 @@ def test_a_run_without_an_answer_says_that_there_is_nothing_to_draw(tmp_path, ca
     capsys.readouterr()
     assert main(["plot", str(out)]) == 2
     (said,) = capsys.readouterr().err.splitlines()
-    assert said.startswith("lubfric: nothing to draw: no point") and "result.json says why" in said
+    assert said.startswith("lubfric: nothing to draw: none of the 2 points") and points[0]["error"] in said
 
 
 def test_a_contact_at_rest_alone_has_no_curve_to_draw(tmp_path, capsys):

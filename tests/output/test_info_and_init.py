@@ -103,8 +103,10 @@ TRANSIENT = lubfric.load_scene("paper").with_(transient=lubfric.Transient(durati
     "scene, options, told",
     [
         (None, ["--ratios", "0.1", "--workers", "2"], "--workers is for a Stribeck curve"),
+        (None, ["--ratios", "0.1", "--vtk"], "--vtk is for a Stribeck curve"),
+        (None, ["--animation"], "--animation is for a scene with"),
         (TRANSIENT, ["--ratios", "0.1"], "--ratios is for a traction curve"),
-        (TRANSIENT, ["--fields", "0.1"], "--fields is for a Stribeck curve, and this is a scene with [transient]"),
+        (TRANSIENT, ["--vtk"], "--vtk is for a Stribeck curve, and this is a scene with [transient]"),
     ],
 )
 def test_an_option_that_would_do_nothing_is_refused(tmp_path, capsys, scene, options, told):

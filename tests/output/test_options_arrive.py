@@ -117,6 +117,17 @@ def test_a_fit_gets_columns_bounds_and_axis(work):
     assert not measured.rolling
 
 
+@pytest.mark.parametrize(
+    "options, asked", [([], (False, False)), (["--netcdf"], (True, False)), (["--parquet"], (False, True))]
+)
+def test_other_tables_of_a_study(work, monkeypatch, options, asked):
+    (work.folder / "study.toml").write_text(STUDY)
+    tools = []
+    monkeypatch.setattr(studies, "check_tools", lambda *given: tools.append(given))
+    given(work, "study", "study.toml", *options)
+    assert tools == [asked]
+
+
 def test_the_folder_of_the_results_and_of_a_study(work):
     (work.folder / "study.toml").write_text(STUDY)
     (plan,), options = given(work, "study", "study.toml", "--out", work.folder / "kept")

@@ -24,17 +24,17 @@ FIT = ["--coefficient", "f", "--speed", "U", "--parameter", "lubricant.viscosity
 NAMES = {  # of files of the user in the folder of the results: (refused with these, beside these), by kind of command
     "run": (
         "stribeck.csv stribeck.png fields.npz contact.png report.html result.json .lubfric .lubfric.lock unfinished",
-        "history.csv history.png traction.csv traction.png .lock "
+        "history.csv history.png animation.gif traction.csv traction.png contact_0.vtk contact_user.vtk .lock "
         ".part-mine .part-12345678-stribeck.csv study.csv fit.json notes.txt unfinished/notes.bin "
         "checkpoint/state.bin points/a.bin",
     ),
     "history": (
         "history.csv history.png fields.npz report.html result.json unfinished",
-        "stribeck.csv contact.png .lock .part-x unfinished/notes.bin checkpoint",
+        "stribeck.csv animation.gif contact.png .lock .part-x unfinished/notes.bin checkpoint",
     ),
     "study": (
         "study.csv .lubfric",
-        "result.json .part-x points/notes.txt .lock fitted.toml",
+        "study.nc study.parquet result.json .part-x points/notes.txt .lock fitted.toml",
     ),
     "fit": ("fitted.toml fit.png fit.json", ""),
 }

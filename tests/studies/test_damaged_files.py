@@ -15,7 +15,7 @@ from small_study import SCENE
 import lubfric
 from lubfric._base import read_checked, write_checked
 from lubfric.output import main
-from lubfric.output.commands import name_of_run
+from lubfric.output.run_curve import read_record
 
 DEEP = "[" * 100_000 + "]" * 100_000
 WORDS = (  # what is put in place of a part of JSON
@@ -192,7 +192,7 @@ def test_damaged_results_are_one_clear_error(tmp_path, imports, capsys, undrawn)
         with damaged(run / "result.json", rng):
             try:
                 if trial % 150:
-                    name_of_run(run)
+                    read_record(run)
                 else:
                     assert main(["plot", str(run)]) in (0, 2)
             except lubfric.InputError as error:

@@ -337,12 +337,14 @@ def test_tables_hold_the_same_numbers(serial, tmp_path):
     assert float(rows[10].split(",")[3]) == serial["coefficient"][1, 1, 1]
 
 
-def test_the_dataset_goes_to_netcdf(serial, tmp_path):
-    xarray = pytest.importorskip("xarray")
-    pytest.importorskip("netCDF4")
+def test_netcdf_and_parquet_round_trips(serial, tmp_path):
+    xarray, pandas = pytest.importorskip("xarray"), pytest.importorskip("pandas")
+    pytest.importorskip("netCDF4"), pytest.importorskip("pyarrow")
     serial.to_xarray().to_netcdf(tmp_path / "study.nc")
     with xarray.open_dataset(tmp_path / "study.nc") as again:
         np.testing.assert_array_equal(again.coefficient, serial["coefficient"])
+    serial.to_parquet(tmp_path / "study.parquet")
+    assert pandas.read_parquet(tmp_path / "study.parquet")["coefficient"].tolist() == list(serial["coefficient"].flat)
 
 
 def test_folders_that_are_no_store(tmp_path):

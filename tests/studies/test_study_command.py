@@ -102,3 +102,13 @@ def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
 def test_bad_options_are_one_line(tmp_path, capsys, arguments):
     assert main(["study", written(tmp_path), "--out", str(tmp_path / "out"), *arguments]) == 2
     assert capsys.readouterr().err.splitlines()[-1].startswith("lubfric: ")
+
+
+def test_a_table_that_cannot_be_written_is_told_before_any_point(tmp_path, monkeypatch, capsys):
+    from lubfric import studies
+
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    monkeypatch.setattr(studies, "study", lambda *a, **k: pytest.fail("solved"))
+    (tmp_path / "study.toml").write_text('scene = "paper"\nspeeds = [0.01]\n[vary]\n"bodies.load" = [5.5]\n')
+    assert main(["study", str(tmp_path / "study.toml"), "--netcdf", "--out", str(tmp_path / "out")]) == 2
+    assert "needs the package xarray" in capsys.readouterr().err

@@ -10,7 +10,6 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.pictures import PICTURES
 from lubfric.studies import plot_map
 
 SCENE = paper_scene(
@@ -115,10 +114,10 @@ def test_command_writes_the_curve(tmp_path, capsys, monkeypatch):
     (out / "traction.png").unlink()
     assert main(["plot", str(out)]) == 0 and (out / "traction.png").read_bytes() == drawn
     with monkeypatch.context() as full:
-        full.setitem(PICTURES, "traction", full_disk)
+        full.setattr("lubfric.output.run_curve.plot_traction", full_disk)
         assert main(["plot", str(out)]) != 0 and (out / "traction.png").read_bytes() == drawn
     assert main(["plot", str(out), "--measured", "m.csv", "--speed", "u", "--coefficient", "f"]) == 2
-    assert "holds traction.csv" in capsys.readouterr().err
+    assert "holds a traction curve" in capsys.readouterr().err
     (out / "traction.csv").write_text("ratio [-],speed [m/s]\n0.1,")
     assert main(["plot", str(out)]) == 2 and "traction.csv" in capsys.readouterr().err
 

@@ -11,7 +11,6 @@ from small_study import slowness
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.pictures import PICTURES
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 from lubfric.sharing import prepare
 from lubfric.time.sharing import Sharing
@@ -208,16 +207,18 @@ def test_a_damaged_checkpoint_is_told_of_and_the_run_begins_again(tmp_path):
     assert stopped(MODEL, tmp_path)[0] > first[-1]
 
 
-def test_the_command_writes_history_and_figure(tmp_path, capsys, monkeypatch):
+def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monkeypatch):
     text = (Path(__file__).parents[2] / "docs" / "examples" / "stop_and_start.toml").read_text()
     scene = tmp_path / "scene.toml"
     quick = 'outputs = 6\ntolerance = 1e-3\n[numerics]\nsampling = "patch"'
     for long, short in (("[200, 200]", "[64, 64]"), ("0.45e-6", "0.8e-6"), ("outputs = 200", quick)):
         text = text.replace(long, short)
     scene.write_text(text)
-    assert main(["run", str(scene), "--out", str(tmp_path / "out")]) == 0
+    assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--animation"]) == 0
     names = {p.name for p in (tmp_path / "out").iterdir()}
-    assert names == {".lubfric", "history.csv", "history.png", "fields.npz", "report.html", "result.json"}
+    assert names == {
+        *(".lubfric", "history.csv", "history.png", "fields.npz", "report.html", "result.json", "animation.gif")
+    }
     rows = (tmp_path / "out" / "history.csv").read_text().splitlines()
     assert len(rows) == 8 and rows[0].startswith("time [s],entrainment_speed [m/s]")
     assert "t = 0.02     of 0.02 s" in capsys.readouterr().err
@@ -229,7 +230,7 @@ def test_the_command_writes_history_and_figure(tmp_path, capsys, monkeypatch):
         Path(path).write_bytes(b"half")
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setitem(PICTURES, "history", full_disk)
+    monkeypatch.setattr("lubfric.output.run_history.plot_history", full_disk)
     assert main(["plot", str(tmp_path / "out")]) != 0
     assert (tmp_path / "out" / "history.png").read_bytes() == drawn
     assert {p.name for p in (tmp_path / "out").iterdir()} == names
