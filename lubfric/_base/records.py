@@ -1,8 +1,7 @@
 """How dataclasses of results and scenes behave: arrays stay read-only, derived values are not pickled, and they print
-as one line, as a table in notebooks, or as the call that makes them."""
+as one line, or as the call that makes them."""
 
 from dataclasses import MISSING, fields
-from html import escape
 from typing import Any
 
 import numpy as np
@@ -30,22 +29,13 @@ class FieldsOnly:
 
 
 class Shown:
-    """Prints as one line of its ``_facts``, a dict of words by name; as a table in notebooks."""
+    """Prints as one line of its ``_facts``, a dict of words by name."""
 
     def _facts(self) -> dict[str, str]:
         raise NotImplementedError
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__}: {', '.join(f'{k} {v}' if k else v for k, v in self._facts().items())}>"
-
-    def _repr_html_(self) -> str:
-        return table(self._facts(), type(self).__name__)
-
-
-def table(facts: dict[str, str], title: str) -> str:
-    """A two-column HTML table."""
-    rows = "".join(f"<tr><th>{escape(k)}</th><td>{escape(v)}</td></tr>" for k, v in facts.items())
-    return f"<table><caption>{escape(title)}</caption><tbody>{rows}</tbody></table>"
 
 
 class Brief:

@@ -119,7 +119,11 @@ def read_columns(
             raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}], or ask for that")
         if given is None:
             _refuse_bare_unit(path, heading, unit)
-        word = _unit(path, name, given or "", unit)
+        word, tables = spelled(given or ""), [table for si, table in UNITS.items() if unit in (None, si)]
+        if word and not any(word in table for table in tables):
+            listed = ", ".join(other for table in tables for other in table)
+            said = f"file {path.name}, column {name!r}: unit {given!r} is not known here"
+            raise InputError(said, allowed=f"{listed}, or no unit for SI")
         numbers = [_number(path, line, row, places[0]) for line, row in rows[1:]]
         columns.append([converted(number, word, kind_of(word)) for number in numbers] if word else numbers)
     return columns
@@ -156,17 +160,6 @@ def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
                 )
 
 
-def _unit(path: Path, name: str, given: str, expected: str | None) -> str:
-    """The unit ``given`` in a heading as in `UNITS`, "" without one; it has to be of the kind that is ``expected``."""
-    word, tables = spelled(given), [table for unit, table in UNITS.items() if expected in (None, unit)]
-    if not word or any(word in table for table in tables):
-        return word
-    allowed = ", ".join(unit for table in tables for unit in table)
-    raise InputError(
-        f"file {path.name}, column {name!r}: unit {given!r} is not known here; allowed: {allowed}, or no unit for SI"
-    )
-
-
 def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
     """(line number, fields) of the rows that are neither empty nor comments, from that on which has most of the
     ``names``; decimal marks made points."""
@@ -184,21 +177,12 @@ def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
         raise InputError(f"file {path.name} is no table ({problem}); give a CSV file") from None
     if separator == ",":
         return rows
-    return rows[:1] + [(n, [_decimal_point(path, n, field) for field in row]) for n, row in rows[1:]]
+    return rows[:1] + [(n, [field.replace(",", ".") for field in row]) for n, row in rows[1:]]
 
 
 def _fields(line: str, separator: str = "") -> list[str]:
     """Those between the ``separator``; "": a semicolon or tab that the line has, else commas."""
     return next(csv.reader([line], delimiter=separator or next((mark for mark in ";\t" if mark in line), ",")))
-
-
-def _decimal_point(path: Path, line: int, field: str) -> str:
-    if "," in field and "." in field:
-        raise InputError(
-            f"file {path.name}, line {line}: {field!r} has a point and a comma; allowed: one decimal mark, none for "
-            "thousands"
-        )
-    return field.replace(",", ".")
 
 
 def _number(path: Path, line: int, row: list[str], place: int) -> float:
@@ -210,7 +194,7 @@ def _number(path: Path, line: int, row: list[str], place: int) -> float:
     if not math.isfinite(value) or "_" in field:
         raise InputError(
             f"file {path.name}, line {line}, column {place + 1}: {shown(field)} is not a number; allowed: a "
-            "finite number in every row"
+            "finite number in every row, without marks for thousands"
         )
     return value
 

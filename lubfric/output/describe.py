@@ -20,7 +20,7 @@ from .inputs import FACTS, input_rows
 
 STEP_TOLERANCE, SWING, START = 3e-5, 80.0, 30.0  # of a step; with it, steps in a period of a history; at the start
 FILM_STEP, CELL_STEP = 6e-3, 1.5e-7  # s of a step in time: its film, and a cell of its contact
-SOLVE_FIELDS = 17  # arrays of 8-byte numbers, one a cell, at the peak of a contact solve (traced: 10 to 16.4)
+SOME, SHOWN = 25, 6  # speeds at which the work is counted, and that stand in the table, about
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
@@ -40,39 +40,26 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     at = expected(scene, surface, sorted(set(speeds)))  # None: of bodies and map
     known = [entry.text for speed, entry in at if speed is None]
     known += gathered([(speed, (entry,)) for speed, entry in at if speed is not None])
-    left_out = [f"  {lack_in_words(lack)}" for lack in lacking(scene, whole.sq, own)]
-    left_out = left_out and [f"likely changes of f at {own:g} m/s, by closed forms:", *left_out]
-    rows = [
-        f"scene {scene.name}",
-        *(row for name in FACTS for row in _section(name, [*input_rows(scene, name), *FACTS[name](scene)])),
-        *_section("transient", told),
-        *_section("surface", [*map_in_words(surface, strips), *(n for n in whole.notes if "nm as it is" in n)]),
-        *_map_rows(scene, whole, surface.heights.size),
-        *_section("contact", [f"{_plan(scene, surface)}; {over}"]),
-        *_section("model", _model(scene, strips, surface, speeds)),
-        *_section("left out", left_out or ["nothing that would change f by its tolerance"]),
-        *_section("validity", known or ["no assumption of the model fails by what is known before the solve"]),
-        *_speed_rows(scene, strips, surface, speeds),
-    ]
-    return "\n".join(rows)
-
-
-def _section(name: str, rows) -> list[str]:
-    return [f"  {name if i == 0 else '':<14} {text}" for i, text in enumerate(rows)]
+    lacks = [lack_in_words(lack) for lack in lacking(scene, whole.sq, own)]
+    left_out = lacks and [f"likely changes of f at {own:g} m/s, by closed forms:", *lacks]
+    sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | {
+        "transient": told,
+        "surface": [*map_in_words(surface, strips), *(n for n in whole.notes if "nm as it is" in n), *_map_rows(whole)],
+        "contact": [f"{_plan(scene, surface)}; {over}"],
+        "model": _model(scene, strips, surface, speeds),
+        "left out": left_out or ["nothing that would change f by its tolerance"],
+        "validity": known or ["no assumption of the model fails by what is known before the solve"],
+    }
+    rows = [f"  {'' if i else name:<14} {text}" for name, texts in sections.items() for i, text in enumerate(texts)]
+    return "\n".join([f"scene {scene.name}", *rows, *_speed_rows(scene, strips, surface, speeds)])
 
 
 def _plan(scene: Scene, surface: Surface) -> str:
-    cells = "{} x {} cells".format(*surface.shape)
+    what = {"flat": "a periodic contact", "cylinder": "a semi-periodic contact"}[scene.contact.geometry]
     if scene.numerics.model == "deterministic":
-        how = "one strip, whose cells are not corrected" if scene.transient else "grids of the map halved and doubled"
-        what = f"one gap and one pressure, on {how}"
-    elif scene.contact.geometry == "flat":
-        what = f"periodic contact curve on {cells}, once, then read at every speed"
-    elif takes_strips(scene):
-        what = "semi-periodic contact on strips of the roughness under the film at every speed"
-    else:
-        what = f"semi-periodic contact on {cells} under the film at every speed"
-    return f"{what}; f within {100 * scene.numerics.tolerance:g} % by the numerics"
+        what = "one gap and one pressure"
+    on = "strips of the roughness" if takes_strips(scene) else "{} x {} cells".format(*surface.shape)
+    return f"{what} on {on}; f within {100 * scene.numerics.tolerance:g} % by the numerics"
 
 
 def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
@@ -125,14 +112,12 @@ def _histories(scene: Scene) -> list[str]:
         history = getattr(plan, name)
         if history is not None:
             low, high = history.range(plan.duration)
-            periods = f", {_laps(history, plan.duration):.3g} periods" if _laps(history, plan.duration) else ""
-            said = f"{name}: {type(history).__name__.lower()}, {low:.4g} to {high:.4g} {unit}{periods}"
-            if isinstance(history, Harmonic):
-                said += f" of {1 / history.frequency:.4g} s, amplitude {abs(history.amplitude):.4g} {unit}"
-            rows.append(said + (": the motion reverses" if name == "speed" and low < 0 < high else ""))
+            laps = _laps(history, plan.duration)
+            reverses = ": the motion reverses" if name == "speed" and low < 0 < high else ""
+            said = f"{name}: {type(history).__name__.lower()}, {low:.4g} to {high:.4g} {unit}"
+            rows.append(f"{said}{f', {laps:.3g} periods' if laps else ''}{reverses}")
     start = "steady, where there is entrainment, else at rest" if plan.initial == "auto" else plan.initial
-    rows.append(f"start: {start if plan.initial_film is None else f'film of {plan.initial_film:.4g} m'}")
-    return rows
+    return [*rows, f"start: {start if plan.initial_film is None else f'film of {plan.initial_film:.4g} m'}"]
 
 
 def _laps(history: History, duration: float) -> float:
@@ -146,49 +131,41 @@ def _cost(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list
     """Steps, time and sample of a run, whose film is judged at the ``speeds`` [m/s]; by what runs of the paper's scene
     took (8 to 17 ms a step on 200 x 200 cells)."""
     assert (plan := scene.transient) is not None
-    tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
-    swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
-    steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
-    found = [forecast(scene, strips, surface, speed) for speed in speeds]
-    most, fastest = max(found, key=lambda one: one.strips), max(speeds)
-    cells, sample = surface.heights.size, []
+    found, cells, sample = [forecast(scene, strips, surface, speed) for speed in speeds], surface.heights.size, []
     if strips is not None and scene.numerics.model != "deterministic":
+        most = max(found, key=lambda one: one.strips)
         cells = round(strips.cells.count * most.length / strips.cells.coarse[1])
-        asked = f"f within {100 * scene.numerics.sampling_tolerance:g} %"
-        sample = [
-            f"sample: {counted(most.strips, 'strips')} of the roughness, {1e3 * most.length:.2g} mm, at all times: for "
-            f"{asked} at {most.speed:.3g} m/s, which needs most"
-        ]
-    seconds = sum(one.seconds for one in found) + steps * (FILM_STEP + CELL_STEP * cells)
+        asked = f"f within {100 * scene.numerics.sampling_tolerance:g} % at {most.speed:.3g} m/s, which needs most"
+        sample = [f"sample: {counted(most.strips, 'strips')} of the roughness, at all times: for {asked}"]
     if scene.numerics.model == "deterministic":
         steps, seconds = work_of_run(scene)
-    top = f"top speed {fastest:.4g} m/s" if fastest else "no entrainment"
+    else:
+        tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
+        swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
+        steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
+        seconds = sum(one.seconds for one in found) + steps * (FILM_STEP + CELL_STEP * cells)
+    top = f"top speed {max(speeds):.4g} m/s" if max(speeds) else "no entrainment"
     course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
     return [f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", *sample]
 
 
 def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
-    """At some speeds of the scene: Moes numbers and the expected film under the whole load, whether the summits touch,
-    and what the sample costs."""
-    head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (nm)':>10} {'lambda':>8}  {'summits':<22} {'clearance (Sq)':>14}"
-    rows = ["  film of the whole load by closed forms, and whether it clears the summits", head]
-    strips = strips if scene.transient is None else None  # a run in time has one sample for all
-    if strips is not None:
-        dx, dy = strips.cells.coarse
-        asked, cells = 100 * scene.numerics.sampling_tolerance, f"cells of {dx * 1e6:.3g} x {dy * 1e6:.3g} µm"
-        rows.insert(0, f"  strips of the roughness for f within {asked:g} %, on {cells} (orders of magnitude)")
-        rows[-1] += f" {'strips':>8} {'one gap':>8} {'length (mm)':>12} {'time (s)':>9}"
-    own = (scene.motion.entrainment_speed,) if scene.transient is None else ()
-    nothing = "no entrainment" + ": all contact" * len(own)
-    for speed in sorted({*speeds[:: max(1, len(speeds) // 6)], *own, speeds[-1]}):
-        one, film = forecast(scene, strips, surface, speed), f"{nothing:<38}"
+    """At some of the ``speeds`` [m/s]: Moes numbers and the expected film under the whole load, whether the summits
+    touch, and, unless a run in time has one sample for all, what the sample costs."""
+    steady = scene.transient is None
+    sampled = steady and strips is not None
+    head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (nm)':>10} {'lambda':>8}  {'summits':<22}"
+    head += f" {'strips':>8} {'one gap':>8} {'length (mm)':>12} {'time (s)':>9}" * sampled
+    rows = ["  film of the whole load by closed forms, and whether it clears the summits (orders of magnitude)", head]
+    own = (scene.motion.entrainment_speed,) if steady else ()
+    for speed in sorted({*speeds[:: max(1, len(speeds) // SHOWN)], *own, speeds[-1]}):
+        one, film = forecast(scene, strips, surface, speed), f"{'no entrainment' + ': all contact' * steady:<38}"
         if speed != 0:
             line = scene.line_contact(abs(speed))
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
             film = f"{line.M:9.3g} {line.L:8.3g} {line.expected_film * 1e9:10.4g} {ratio:8.3g}"
-        row = f"  {speed:<12.4g} {film}  {one.touching:<22} {one.clearance:>14.2g}"
-        if strips is not None:
-            row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}"
+        row = f"  {speed:<12.4g} {film}  {one.touching:<22}"
+        row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}" * sampled
         rows.append(row)
     return rows
 
@@ -208,22 +185,13 @@ def map_in_words(surface: Surface, strips: Strips | None) -> list[str]:
     return [made or map_of(surface, strips).describe(), f"solved first: {joined}: {first}"]
 
 
-def _map_rows(scene: Scene, surface: Surface, solved: int) -> list[str]:
-    """Statistics of the map on its own grid, how well that grid resolves them, and the memory of a contact solve on
-    the cells ``solved`` first."""
-    (dx, dy), b = surface.spacing, scene.bodies.half_width
+def _map_rows(surface: Surface) -> list[str]:
+    """Slopes and correlation lengths of the map, on its own grid."""
     along_x, along_y, total = rms_slope(surface)
-    in_um, in_cells = [["-", "-"] for _ in range(2)]  # of a map that has none: flat, one cell, or too short
-    for axis, step in enumerate((dx, dy)):
-        with suppress(InputError):
+    lengths = []
+    for axis, step in enumerate(surface.spacing):
+        with suppress(InputError):  # flat, one cell, or too short
             length = correlation_length(surface, axis)
-            in_um[axis], in_cells[axis] = f"{length * 1e6:.3g}", f"{length / step:.3g}"
-    lengths = f"{' x '.join(in_um)} µm = {' x '.join(in_cells)} cells  (along x and y, to 1/e)"
-    memory = f"about {SOLVE_FIELDS * 8 * solved / 2**20:.3g} MiB at a contact solve"
-    slopes = f"{total:.3g}  ({along_x:.3g} along x, {along_y:.3g} along y)"
-    rows = [
-        ("Sq", f"{surface.sq * 1e9:.4g} nm", "rms slope", slopes),
-        ("cells per b", f"{b / dx:.3g}", "correlation length", lengths),
-        ("length / 2b", f"{surface.size[0] / (2 * b):.3g}", "cells solved first", f"{solved}, {memory}"),
-    ]
-    return [f"    {left:<12} {value:<11} {right:<19} {text}" for left, value, right, text in rows]
+            lengths.append(f"{length * 1e6:.3g} µm = {length / step:.3g} cells along {'xy'[axis]}")
+    slopes = f"rms slope {total:.3g} ({along_x:.3g} along x, {along_y:.3g} along y)"
+    return [f"{slopes}; correlation length (to 1/e) {' and '.join(lengths) or 'not known'}"]

@@ -33,9 +33,7 @@ def plot_stribeck(
     c = type(columns)((name, column[order]) for name, column in columns.items())
     speed, film = np.abs(c["speed"]), c["central_film"] * 1e9
     if measured is not None:
-        error = None if measured.deviation is None else 1.96 * measured.deviation
-        points = dict(fmt="D", ms=4, color="k", mfc="none", lw=1, label=figures.plain_words(measured.source))
-        top.errorbar(np.abs(measured.x), measured.coefficient, error, **points)
+        measured.draw(top)
         top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
     _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
     figure.suptitle(title)

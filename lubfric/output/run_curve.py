@@ -222,25 +222,18 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
     ``most``."""
     if text is None:
         return []
-    refusal = InputError(
-        f"{option} {validate.shown(text)}; allowed: '0.001,0.01' or 'low:high:count' with 0 < low < high, "
-        f"1 <= count <= {MOST_SPEEDS}, {'' if unit == '-' else f'in {unit}, '}or each with its unit"
-    )
     ranged = ":" in text
     words = text.split(":" if ranged else ",")
     if not ranged and any(re.match(r"[+-]?0\d", word.strip()) for word in words):
         raise InputError(f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, 0.01")
-    try:
-        numbers = [number_of(option, word, "-" if i == 2 and ranged else unit) for i, word in enumerate(words)]
-    except InputError as error:
-        refusal.hint(error.said.removeprefix(" = "))
-        raise refusal from None
+    numbers = [number_of(option, word, "-" if i == 2 and ranged else unit) for i, word in enumerate(words)]
     for speed in numbers[:2] if ranged else numbers:
         validate.number(option, speed, unit, minimum=-most, maximum=most)
     if not ranged:
         return numbers
     if len(numbers) != 3 or not 0 < numbers[0] < numbers[1] or numbers[2] not in range(1, MOST_SPEEDS + 1):
-        raise refusal
+        ways = f"'0.001,0.01', or 'low:high:count' with 0 < low < high and 1 <= count <= {MOST_SPEEDS}"
+        raise InputError(f" {validate.shown(text)}", option, ways + f", in {unit}" * (unit != "-"))
     return np.geomspace(numbers[0], numbers[1], int(numbers[2])).tolist()
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from .. import studies
 from .._base import figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
-from ..quantities import KEYS, axis_label, counted, worded_value
+from ..quantities import KEYS, axis_label, counted
 from ..scene import Scene
 from ..units import number_of, worded
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
@@ -53,14 +53,12 @@ def _answer(result: studies.StudyResult) -> list[str]:
     f, rows = result["coefficient"], []
     ends = {"least": np.nanargmin, "largest": np.nanargmax} if np.isfinite(f).any() else {}
     for word, find in ends.items():
-        index = np.unravel_index(int(find(f)), f.shape)
-        at = [] if "speed" not in result.columns else [f"speed {worded(float(result['speed'][index]), 'm/s')}"]
-        for key, (dim, values) in result.coords.items():
-            value = values[index[result.dims.index(dim)]].item()
-            at.append(f"{key} {worded_value(key, value)}")
+        *curve, place = map(int, np.unravel_index(int(find(f)), f.shape))
+        index = (*curve, place)
+        at = [studies.label(result, index), f"speed {worded(float(result.speeds(tuple(curve))[place]), 'm/s')}"]
         low, high = (result[f"uncertainty_{end}"][index] for end in ("low", "high"))
         within = f", {low:.3g} to {high:.3g} at 95 %" if np.isfinite(low) else ", error not known"
-        rows.append(f"{word} f = {f[index]:.3g}{within}, at {', '.join(at)}")
+        rows.append(f"{word} f = {f[index]:.3g}{within}, at {', '.join(filter(None, at))}")
     return rows
 
 
@@ -143,22 +141,17 @@ def run_fit(scene: Scene, arguments) -> None:
         folder.put()
 
 
-def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
-    found = {}
+def _bounds(texts: list[str]) -> dict[str, tuple[float, ...]]:
+    found: dict[str, tuple[float, ...]] = {}
     for text in texts:
-        key, _, ends = text.partition("=")
-        try:
-            unit = KEYS[key.strip()].unit if key.strip() in KEYS else "-"
-            low, high = (number_of("--parameter", end, unit) for end in ends.split(":"))
-        except ValueError as error:
-            refusal = InputError(
-                f"--parameter {validate.shown(text)}; write 'section.key=lowest:highest', in SI or with units"
-            )
-            refusal.hint(getattr(error, "said", "").removeprefix(" = "))
-            raise refusal from None
-        if key.strip() in found:
-            raise InputError(f"--parameter {validate.shown(text)}: {key.strip()} is given twice; give it once")
-        found[key.strip()] = (low, high)
+        name, _, ends = text.partition("=")
+        key = name.strip()
+        unit = KEYS[key].unit if key in KEYS else "-"
+        both = tuple(number_of(f"--parameter {key}", end, unit) for end in ends.split(":"))
+        if len(both) != 2 or key in found:
+            ways = "write 'section.key=lowest:highest', in SI or with units, once for each key"
+            raise InputError(f" {validate.shown(text)}", "--parameter", way_out=ways)
+        found[key] = both
     return found
 
 

@@ -33,15 +33,14 @@ SURE = 2.0  # factor between the expected film and any film: outside of it conta
 
 @dataclass(frozen=True)
 class Forecast:
-    """To an order of magnitude, at one ``speed`` [m/s]: in words, whether the summits touch; ``clearance`` [Sq] between
-    the expected film of the whole load and the highest summit; ``error``: relative standard error of f after the first
-    strips; ``strips`` that ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the
-    deterministic model (0: Eq. (8) alone answers); and the processor time [s]. ``moving``: that of one strip of the
-    deterministic model if its roughness moves, else 0."""
+    """To an order of magnitude, at one ``speed`` [m/s]: in words, whether the summits touch by the expected film of the
+    whole load; ``error``: relative standard error of f after the first strips; ``strips`` that
+    ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the deterministic model (0:
+    Eq. (8) alone answers); and the processor time [s]. ``moving``: that of one strip of the deterministic model if its
+    roughness moves, else 0."""
 
     speed: float
     touching: str
-    clearance: float
     error: float
     strips: int
     length: float
@@ -62,13 +61,12 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     summit = float(surface.heights.max() - surface.heights.mean())
     seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
     touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
-    clearance = (film - summit) / max(sq, 1e-12)
     if strips is None or strips.whole:
         if touching != "none":
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
         patch = (0, 0.0, 0.0) if strips is None else _resolved(scene, strips, surface, speed, film, 0.0)
         resolved, work, moving = patch
-        return Forecast(speed, touching, clearance, math.nan, 1, math.nan, resolved, seconds + work, moving)
+        return Forecast(speed, touching, math.nan, 1, math.nan, resolved, seconds + work, moving)
     (lx, ly), first, asked = strips.lengths, strips.first * strips.length, scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR * sq:
@@ -85,7 +83,7 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
         seconds += CELL_SECONDS * cells.count * count * strips.length / dy + PIECE_SECONDS * piece
     resolved, work, moving = _resolved(scene, strips, surface, speed, film, error * math.sqrt(strips.first))
     length = count * strips.length
-    return Forecast(speed, touching, clearance, error, count, length, resolved, seconds + work, moving)
+    return Forecast(speed, touching, error, count, length, resolved, seconds + work, moving)
 
 
 def _resolved(

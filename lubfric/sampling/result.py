@@ -75,31 +75,23 @@ class FrictionResult(PointQuantities[float], Shown):
     @property
     def x(self) -> np.ndarray:
         """Cells of the contact along the motion [m], (nx,), around the line of contact. Needs ``fields=True``."""
-        if self.deterministic is not None:
-            return self.deterministic.result.x
-        return self._kept("x", None if self.balance is None else self.balance.contact.x)
+        return self._field("x")
 
     @property
     def y(self) -> np.ndarray:
         """Cells of the contact along the line [m], (ny,). Needs ``fields=True``."""
-        if self.deterministic is not None:
-            whole = self.deterministic.result
-            return np.arange(whole.pressure.shape[1]) * whole.spacing[1]
-        return self._kept("y", None if self.balance is None else self.balance.contact.y)
+        whole = self.deterministic and self.deterministic.result
+        return np.arange(whole.pressure.shape[1]) * whole.spacing[1] if whole else self._field("y")
 
     @property
     def pressure(self) -> np.ndarray:
         """Pressure of the rough contact [Pa], (nx, ny); 0 where it is separated. Needs ``fields=True``."""
-        if self.deterministic is not None:
-            return self.deterministic.result.pressure
-        return self._fields("pressure").pressure
+        return self._field("pressure")
 
     @property
     def gap(self) -> np.ndarray:
         """Gap of the rough contact [m], (nx, ny). Needs ``fields=True``, and contact."""
-        if self.deterministic is not None:
-            return self.deterministic.result.gap
-        return self._fields("gap").gap
+        return self._field("gap")
 
     def plot_contact(self, ax=None):
         """The pressure of the rough contact in the plane; returns the axes. Needs ``fields=True``, and contact."""
@@ -108,21 +100,16 @@ class FrictionResult(PointQuantities[float], Shown):
         axes.set_title(f"U = {self.speed:g} m/s, $F_C$ = {self.contact_load:.4g} N, $F_H$ = {self.film_load:.4g} N")
         return axes
 
-    def _kept(self, name: str, found: np.ndarray | None) -> np.ndarray:
-        if found is None:
-            raise InputError(
-                f"this point keeps no {name}; solve it by lubfric.friction(..., fields=True), under a cylinder"
-            )
-        return found
-
-    def _fields(self, name: str) -> Any:
-        if self.balance is None or self.balance.contact.fields is None:
-            no_fields = "its fields were not kept, or come from a contact curve"
-            why = "it is separated" if self.contact_load == 0 else no_fields
-            raise InputError(
-                f"this point has no {name} of its contact: {why}; a point in contact, solved with fields=True, has one"
-            )
-        return self.balance.contact.fields
+    def _field(self, name: str) -> np.ndarray:
+        source: Any = self.balance and self.balance.contact
+        if self.deterministic is not None:
+            source = self.deterministic.result
+        elif name not in ("x", "y"):
+            source = source and source.fields
+        if getattr(source, name, None) is None:
+            why = "it is separated" if self.contact_load == 0 else "it was not kept, or comes from a contact curve"
+            raise InputError(f"this point has no {name} of its contact: {why}; solve one in contact with fields=True")
+        return getattr(source, name)
 
 
 def _interval(interval: tuple[float, float]) -> str:

@@ -38,15 +38,13 @@ class FrictionTable:
 
     def __post_init__(self):
         validate.choice(f"{FRICTION} over", self.over, FRICTION_OVER)
-        for name, limits in (("at", (0.0, FASTEST)), ("values", (0.0, KEYS[FRICTION].most))):
-            given, unit = getattr(self, name), FRICTION_OVER[self.over] if name == "at" else "(-)"
-            if not isinstance(given, (list, tuple)) or len(given) < 2 or len(given) != len(self.at):
-                said = f" = {validate.shown(given)}, a table over {self.over}"
-                raise InputError(said, FRICTION, "two lists of numbers, as long as each other, of two numbers or more")
-            checked = (validate.number(FRICTION, v, unit, minimum=limits[0], maximum=limits[1]) for v in given)
-            object.__setattr__(self, name, tuple(checked))
-        if any(b <= a for a, b in zip(self.at, self.at[1:])):
-            raise InputError(f" = {self.at}, a table over {self.over}", FRICTION, "one that rises")
+        for name, unit, most in (("at", FRICTION_OVER[self.over], FASTEST), ("values", "(-)", KEYS[FRICTION].most)):
+            numbers = validate.numbers(FRICTION, getattr(self, name), unit, most)
+            object.__setattr__(self, name, tuple(numbers.tolist()))
+        rising = all(a < b for a, b in zip(self.at, self.at[1:]))
+        if not rising or not 2 <= len(self.at) == len(self.values) or min(*self.at, *self.values) < 0:
+            allowed = "two lists of two numbers or more, as long as each other, none below 0, the first rising"
+            raise InputError(f" = {self.values} at {self.at}, a table over {self.over}", FRICTION, allowed)
 
     def __call__(self, at: float) -> float:
         """f_b at a sliding speed [m/s] or a temperature [K]. Raises `InputError` outside the table."""

@@ -8,12 +8,10 @@ from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
-from .._base import Shown, changed, table, validate
+from .._base import Shown, changed, validate
 from ..errors import InputError
 from ..film import LineContact
 from ..oil import Lubricant
-from ..quantities import KEYS
-from ..units import worded
 from .bodies import Bodies, ContactDomain, Motion
 from .history import History
 from .numerics import Numerics
@@ -174,12 +172,6 @@ class Scene(Shown):
             "U": f"{self.motion.entrainment_speed:.4g} m/s",
             "surface": " ".join(part for part in (rough.file or "generated", sq) if part),
         }
-
-    def _repr_html_(self) -> str:
-        parts = {section: part for section in SECTIONS if (part := getattr(self, section)) is not None}
-        values = {f"{section}.{key}": value for section, part in parts.items() for key, value in changed(part).items()}
-        unit = {key: KEYS[key].unit if key in KEYS else "-" for key in values}
-        return table({key: worded(getattr(v, "name", v), unit[key]) for key, v in values.items()}, self.name)
 
 
 def _halved(text: str) -> bool:

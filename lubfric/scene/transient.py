@@ -135,12 +135,7 @@ def checked_history(name: str, value, unit: str, duration: float, *, positive: b
         if given.repeat and duration > MOST_LAPS * last:
             said = f": the table of {last:g} s is repeated {duration / last:.3g} times"
             raise InputError(said, name, f"up to {MOST_LAPS:g}")
-    low, high = given.range(duration)
-    if positive and low <= 0.0:
-        raise InputError(f" falls to {low:g} {unit} during the run; it must stay above 0 {unit}", name)
     least, most = LIMITS.get(unit, (1e-30, 1e30))
-    for value in (low, high):
-        if abs(value) > most or (positive or value != 0) and abs(value) < max(least, validate.LEAST):
-            allowed = f"magnitudes up to {most:g} {unit}{f', at least {least:g}' if positive else ''}"
-            raise InputError(f" reaches {value:g} {unit} during the run", name, allowed)
+    for end in given.range(duration):
+        validate.number(f"{name} during the run", end, unit, minimum=least if positive else -most, maximum=most)
     return given

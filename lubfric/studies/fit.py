@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._base import validate
-from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, InputError, LubfricError, Report, returned
+from ..errors import CONVERGED, ITERATION_LIMIT, InputError, LubfricError, Report, returned
 from ..quantities import counted, worded_value
 from ..sampling import FrictionResult
 from ..scene import Scene
@@ -131,9 +131,8 @@ def _begin(scene: Scene, found: dict[str, Between], start: dict) -> np.ndarray:
         own = vars(getattr(scene, section)).get(name)  # a short form has none there
         if key in start:
             own = validate.number(f"start[{key!r}]", start[key], unit_of(key), minimum=bounds.low, maximum=bounds.high)
-        elif not isinstance(own, (int, float)) or not bounds.low < own < bounds.high:
-            continue
-        unit[i] = bounds.share(own)
+        if isinstance(own, (int, float)) and bounds.low <= own <= bounds.high:
+            unit[i] = bounds.share(own)
     return np.clip(unit, 0.02, 0.98)
 
 
@@ -186,15 +185,10 @@ class Search:
         if np.abs(unit - self._base).max() <= STEP:
             return self._slopes
         columns = []
-        for i, key in enumerate(self.parameters):
+        for i in range(unit.size):
             moved = unit.copy()
             moved[i] += STEP if moved[i] + STEP <= 1.0 else -STEP  # within the bounds
-            try:
-                away = self.coefficient(moved)
-            except ConvergenceError as error:
-                said = f"{key} moved by {STEP:g} of its range: {error}"
-                raise ConvergenceError(said, error.report, error.result) from error
-            columns.append((away - self.coefficient(unit)) / (moved[i] - unit[i]))
+            columns.append((self.coefficient(moved) - self.coefficient(unit)) / (moved[i] - unit[i]))
         self._base, self._slopes = unit.copy(), np.stack(columns, axis=1)
         return self._slopes
 

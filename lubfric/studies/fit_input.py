@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import read_columns, validate
+from .._base import figures, read_columns, validate
 from ..errors import InputError
 from ..scene import Scene
-from .vary import Between, check_temperature, unit_of
+from .vary import FITTED, Between, check_key, check_temperature, unit_of
 
 SPEED, SLIP = "speed", "slide_roll_ratio"
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
@@ -38,10 +38,9 @@ class Measured:
         validate.choice("over", self.over, (SPEED, SLIP))
         validate.instance("rolling", self.rolling, bool, "True, or False if rolling is taken out of the coefficients")
         x = validate.array("x", self.x, "m/s" if self.over == SPEED else "-", ndim=1)
-        values = {"x": x, "coefficient": validate.array("coefficient", self.coefficient, "-", ndim=1)}
-        if self.deviation is not None:
-            values["deviation"] = validate.array("deviation", self.deviation, "-", ndim=1)
-        for name, value in values.items():
+        object.__setattr__(self, "x", x.copy())
+        for name in ("coefficient", "deviation") if self.deviation is not None else ("coefficient",):
+            value = validate.array(name, getattr(self, name), "-", ndim=1)
             if value.size != x.size:
                 raise InputError(f"{name} has {value.size} values for {x.size} of x; give as many")
             object.__setattr__(self, name, value.copy())
@@ -57,6 +56,20 @@ class Measured:
     def scale(self) -> np.ndarray:
         """What misfits are counted in: the deviations, or the coefficients themselves, (n,)."""
         return self.coefficient if self.deviation is None else self.deviation
+
+    def draw(self, axes) -> None:
+        """The points on ``axes``, with their 95 % intervals, over the magnitude of what they are over."""
+        error = None if self.deviation is None else 1.96 * self.deviation
+        style = {"fmt": "D", "ms": 4, "color": "k", "mfc": "none", "lw": 1, "label": figures.plain_words(self.source)}
+        axes.errorbar(np.abs(self.x), self.coefficient, error, **style)
+
+    def label(self, axes) -> None:
+        """The axis of what they are over."""
+        if self.over == SPEED:
+            axes.set(xscale="log", xlabel=figures.speed_label(self.x))
+            figures.plain_ticks(axes.xaxis)
+        else:
+            axes.set_xlabel("slide-roll ratio (-)")
 
 
 def read_measured(
@@ -117,17 +130,13 @@ def parameters_of(scene: Scene, bounds) -> dict[str, Between]:
     if not isinstance(bounds, dict) or not bounds:
         raise InputError('parameters must be a dict such as {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
     check_temperature("parameters", scene, set(bounds))
-    found = {}
+    found: dict[str, Between] = {}
     for key, pair in bounds.items():
+        check_key("parameters", scene, key, found, FITTED)
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
             raise InputError(f"parameters[{key!r}] = {pair!r}; allowed: a pair (lowest, highest)")
         low = validate.number(f"parameters[{key!r}] lowest", pair[0], unit_of(key))
         high = validate.number(f"parameters[{key!r}] highest", pair[1], unit_of(key), above=low)
-        section, _, name = str(key).partition(".")
-        if section not in ("bodies", "lubricant", "motion", "surface") or not name:
-            raise InputError(f"parameters: {key!r}; allowed: a number of [bodies], [lubricant], [motion] or [surface]")
-        if key in ("motion.entrainment_speed", "motion.speeds"):
-            raise InputError(f"parameters: {key!r} is measured, not fitted; name another number of the scene")
         for end in (low, high):
             scene.with_keys({key: end})
         found[key] = Between(low, high, "log" if low > 0 and high >= LOGARITHMIC * low else "linear")

@@ -170,16 +170,13 @@ class FitResult(Shown):
 
     def plot(self, ax=None):
         """Measured points, fitted curve and its 95 % band; returns the axes."""
-        axes = figures.axes_or_new(ax)
-        x, (low, high) = np.abs(self.measured.x), self.band
-        order = np.argsort(x)
-        error = None if self.measured.deviation is None else 1.96 * self.measured.deviation
-        source = figures.plain_words(self.measured.source)
-        axes.errorbar(x, self.measured.coefficient, error, fmt="o", ms=4, color=figures.RED, lw=1, label=source)
+        axes, (low, high) = figures.axes_or_new(ax), self.band
+        self.measured.draw(axes)
+        order = np.argsort(x := np.abs(self.measured.x))
         axes.plot(x[order], self.predicted[order], color=figures.BLUE, label="fit")
         axes.fill_between(x[order], low[order], high[order], color=figures.BLUE, alpha=0.2, lw=0, label="95 % band")
-        self._label(axes, "friction coefficient (-)")
-        axes.set_ylim(bottom=0)
+        self.measured.label(axes)
+        axes.set(ylim=(0.0, None), ylabel=figures.FRICTION)
         axes.legend(frameon=False)
         return axes
 
@@ -189,17 +186,10 @@ class FitResult(Shown):
         miss = 100 * (self.measured.coefficient / self.predicted - 1)
         axes.axhline(0, color=figures.GREY, lw=0.8)
         axes.plot(np.abs(self.measured.x), miss, "o", ms=4, color=figures.RED)
+        self.measured.label(axes)
         reach = 1.15 * max(np.abs(miss).max(), 1e-3)
-        axes.set_ylim(-reach, reach)
-        self._label(axes, "measured - fit (%)")
+        axes.set(ylim=(-reach, reach), ylabel="measured - fit (%)")
         return axes
-
-    def _label(self, axes, label: str) -> None:
-        over_speed = self.measured.over == SPEED
-        if over_speed:
-            axes.set_xscale("log")
-            figures.plain_ticks(axes.xaxis)
-        axes.set(xlabel=figures.speed_label(self.measured.x) if over_speed else "slide-roll ratio (-)", ylabel=label)
 
     @property
     def _slopes(self) -> np.ndarray:

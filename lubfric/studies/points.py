@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
-from .._base import validate
 from ..errors import LubfricError, ValidityError
 from ..quantities import NUMBERS
 from ..sampling import FrictionResult, friction
@@ -83,16 +82,6 @@ def key_of(prepared: Prepared) -> str:
     """The key of a scene that was made ready: a hash of the scene, and of a surface and a contact given to
     `lubfric.prepare`."""
     return fingerprint(prepared) if prepared.given else fingerprint(prepared.scene)
-
-
-def made_ready(scene: Scene | Prepared, tolerance: float | None = None, model: str | None = None) -> Prepared:
-    """``scene`` made ready, with another tolerance on f and another model if they are given."""
-    validate.instance("scene", scene, (Scene, Prepared), "what lubfric.load_scene or lubfric.prepare returned")
-    changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
-    if isinstance(scene, Scene):
-        return prepare(scene.with_(numerics=changed))
-    asked = scene.scene.with_(numerics=changed)
-    return scene if asked == scene.scene else prepare(asked, like=scene)
 
 
 def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:

@@ -139,6 +139,10 @@ class StudyResult(Shown):
         counts = {"failed": self.failed, "not computed": self.missing, "with cautions": self.cautioned}
         return facts | {name: str(count) for name, count in counts.items()}
 
+    def speeds(self, index: tuple[int, ...]) -> np.ndarray:
+        """Those [m/s] of the curve at one position along the axes."""
+        return self.columns[SPEED][index] if self.chosen else np.array(self.plan.speeds)
+
     def at(self, speed) -> np.ndarray:
         """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over
         the axes and, for several speeds, over these. NaN outside the speeds for which a curve is known, and in the
@@ -163,9 +167,9 @@ class StudyResult(Shown):
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
         """The curve at one position along the axes, or None if fewer than three of its points are solved, if they run
         both ways, or if no curve goes through their numbers, as those of a store that somebody changed."""
-        numbers = {name: values[index] for name, values in self.columns.items()}
+        numbers = {name: values[index] for name, values in self.columns.items()} | {SPEED: self.speeds(index)}
         try:
-            found = through(numbers if self.chosen else numbers | {SPEED: self.coords[SPEED][1]})
+            found = through(numbers)
             s = found.samples
             return found if np.allclose(found.at(s.speed), s.boundary + s.film, rtol=1e-2) else None
         except ValueError:  # InputError, or that of an interpolation

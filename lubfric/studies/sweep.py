@@ -10,13 +10,13 @@ from ..errors import ITERATION_LIMIT, InputError, Report
 from ..quantities import PointQuantities, described_in_doc
 from ..sampling import FrictionResult
 from ..scene import FASTEST, LARGEST_RATIO, Scene
-from ..sharing import Prepared
+from ..sharing import Prepared, at_tolerance, scene_of
 from .choose import asked_speeds, next_speed, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
 from .law import Law, conditions_of, law_of
-from .points import Outcome, at_ratios, key_of, made_ready, outcome_of, solved
+from .points import Outcome, at_ratios, key_of, outcome_of, solved
 from .store import opened
 from .tables import curve_axes
 
@@ -119,9 +119,8 @@ def stribeck(
 
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
-    validate.instance("scene", scene, (Scene, Prepared), "what lubfric.load_scene or lubfric.prepare returned")
-    asked, kept = _asked(speeds, fields, scene.scene if isinstance(scene, Prepared) else scene)
-    executor, prepared = checked_executor(executor), made_ready(scene, tolerance, model)
+    asked, kept = _asked(speeds, fields, scene_of(scene))
+    executor, prepared = checked_executor(executor), at_tolerance(scene, tolerance, model)
     if not asked:
         span(prepared.scene, prepared.surface.sq)  # raises where there is no range to choose from
     found: dict[float, Outcome] = {}
@@ -208,11 +207,6 @@ class TractionResult(CurveResult):
         ``without_rolling`` is f without it."""
         return self["coefficient"]
 
-    def _facts(self) -> dict[str, str]:
-        rolling = np.abs(self.coefficient - self.without_rolling)
-        known = rolling[np.isfinite(rolling)]
-        return super()._facts() | ({"rolling part of f": f"up to {known.max():.2g}"} if known.size else {})
-
 
 def traction(
     scene: Scene | Prepared,
@@ -252,7 +246,7 @@ def traction(
     ratios = validate.numbers("ratios", ratios, "(-)", LARGEST_RATIO)
     if speed is not None:
         speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
-    base = made_ready(scene, tolerance, model)
+    base = at_tolerance(scene, tolerance, model)
     speed = base.scene.motion.entrainment_speed if speed is None else speed
     outcomes: list[Outcome] = []
     for prepared, ratio in zip(at_ratios(base, ratios.tolist()), ratios.tolist()):

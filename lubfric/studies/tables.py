@@ -76,47 +76,40 @@ def plot(result, ax=None, **style):
     from matplotlib.colors import Normalize
 
     axes, indices = figures.axes_or_new(ax), list(np.ndindex(*result.status.shape[:-1]))
-    picked = np.unique(np.linspace(0, len(indices) - 1, min(MOST, len(indices))).astype(int))
-    few = picked.size <= NAMED
+    indices = indices[:: -(-len(indices) // MOST)]
+    few = len(indices) <= NAMED
+    shades: np.ndarray = np.linspace(0.0, 0.9, len(indices))
+    colours = colormaps["viridis"]
     key = next((k for k, (_, v) in result.coords.items() if k != SPEED and v.dtype.kind == "f"), None)
-    place, colours = picked / max(len(indices) - 1, 1), colormaps["viridis"]
     if key is not None and not few:
         dim, values = result.coords[key]
         scale = Normalize(values.min(), values.max())
-        place = scale(np.array([values[indices[i][result.dims.index(dim)]] for i in picked]))
+        shades = np.array([scale(values[index[result.dims.index(dim)]]) for index in indices])
         axes.figure.colorbar(ScalarMappable(scale, colours), ax=axes, label=axis_label(key))
-    for index, colour in zip((indices[i] for i in picked), colours(place if key and not few else 0.9 * place)):
-        own = (
-            {"color": colour, "lw": 1.0}
-            | ({"label": figures.plain_words(_label(result, index))} if few else {})
-            | style
-        )
-        speed = np.abs(result.columns[SPEED][index] if result.chosen else result.coords[SPEED][1])
+    for index, colour in zip(indices, colours(shades)):
+        named = figures.plain_words(label(result, index)) if few else None
+        own = {"color": colour, "lw": 1.0, "label": named} | style
+        speed = np.abs(result.speeds(index))
         f, curve = result.columns["coefficient"][index], result.curve(index) if result.chosen else None
         good = np.flatnonzero(np.isfinite(f) & (speed > 0))
         good = good[np.argsort(speed[good])]
         if curve is not None:
             fine = np.geomspace(speed[good][0], speed[good][-1], FINE)
             axes.plot(fine, curve.at(fine), **own)
-            own = {"color": own["color"], "ls": ""}
-        axes.plot(
-            speed[good], f[good], **({"marker": "o", "ms": 3} if few or curve is None and good.size < 2 else {}) | own
-        )
+            own |= {"ls": "", "label": None}
+        axes.plot(speed[good], f[good], **{"marker": "o", "ms": 3} | own)
     axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION)
     figures.plain_ticks(axes.xaxis)
-    some = "" if picked.size == len(indices) else f": {picked.size} of {len(indices)} curves"
-    rows = figures.key_above(axes, 2) if few and picked.size > 1 else 0
-    axes.set_title(figures.plain_words(result.plan.scene.name) + some, pad=6 + 13 * rows)
+    rows = figures.key_above(axes, 2) if few and len(indices) > 1 else 0
+    axes.set_title(figures.plain_words(result.plan.scene.name), pad=6 + 13 * rows)
     return axes
 
 
-def _label(result, index) -> str:
-    words = []
-    for key, (dim, values) in result.coords.items():
-        if key != SPEED:
-            value, of = values[index[result.dims.index(dim)]], KEYS.get(key, Quantity("-", key.rpartition(".")[2]))
-            words.append(f"{of.label} {worded_value(key, value.item())}")
-    return ", ".join(words)
+def label(result, index) -> str:
+    """What is varied at the position ``index`` along the axes of a study, in words."""
+    along = {key: values[index[result.dims.index(dim)]] for key, (dim, values) in result.coords.items() if key != SPEED}
+    kinds = {key: KEYS.get(key, Quantity("-", key.rpartition(".")[2])) for key in along}
+    return ", ".join(f"{kind.label} {worded_value(key, along[key].item())}" for key, kind in kinds.items())
 
 
 def check_tools(netcdf: bool, parquet: bool) -> None:

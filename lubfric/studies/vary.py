@@ -20,6 +20,8 @@ MOST_POINTS = 1_000_000  # combinations of a study, and points of a sample
 SPEEDS = ("motion.speeds", "motion.entrainment_speed", "motion.surface_speeds", "motion.speed_range")
 TEMPERATURES = {"lubricant.temperature", "lubricant.temperature_celsius"}
 VISCOSITIES = {f"lubricant.{key}" for key in (*SOURCES, "viscosity")} | {"lubricant"}
+FITTED = ("bodies", "lubricant", "motion", "surface")  # sections that have what a measurement may tell
+SECTIONS = (*FITTED, "counterface", "contact", "numerics")
 CASE = "case"  # name of the dimension of keys that go together
 
 
@@ -88,7 +90,8 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
     for key, values in vary.items():
         keys = key if isinstance(key, tuple) else (key,)
         for name in keys:
-            _check_key(scene, name, seen)
+            check_key("vary", scene, name, seen)
+            seen.add(name)
         cases += len(keys) > 1
         name = keys[0] if len(keys) == 1 else CASE if cases == 1 else f"{CASE}_{cases}"
         axis = _listed(name, keys, values)
@@ -140,22 +143,18 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
     return list(zip(*told))
 
 
-def _check_key(scene: Scene, key, seen: set) -> None:
+def check_key(what: str, scene: Scene, key, seen, sections=SECTIONS) -> None:
+    """Raise `InputError` for a ``key`` of the argument ``what`` that is none in the ``sections`` of a scene, that is
+    what a curve is over, or that was ``seen``."""
     section, _, field = str(key).partition(".")
-    sections = [name for name in scene.__dataclass_fields__ if name not in ("name", "transient")]
-    if section not in sections:
-        raise InputError(f"vary: {key!r} is no key of a scene{validate.nearest(section, sections)}; write section.key")
+    validate.keys(what, [section], sections)
     part = getattr(scene, section) or Roughness  # a body without roughness has its keys all the same
-    fields = (*part.__dataclass_fields__, *short_keys(section))
-    if field and field not in fields:
-        said = f"vary: [{section}] has no key {field!r}{validate.nearest(field, fields)}"
-        raise InputError(said, allowed=", ".join(fields))
+    validate.keys(f"{what}: [{section}]", [field] * bool(field), (*part.__dataclass_fields__, *short_keys(section)))
     if key == "motion" or key in SPEEDS:
-        ways = "give speeds = [...] in m/s, and vary motion.slide_roll_ratio"
-        raise InputError(f"vary: {key!r} is not varied as a key", way_out=ways)
+        ways = "give speeds = [...] in m/s beside it; motion.slide_roll_ratio is a key"
+        raise InputError(f"{what}: {key!r} is what a curve is over", way_out=ways)
     if key in seen:
-        raise InputError(f"vary: {key!r} is given twice; give it once")
-    seen.add(key)
+        raise InputError(f"{what}: {key!r} is given twice; give it once")
 
 
 def check_temperature(what: str, scene: Scene, keys: set[str]) -> None:

@@ -71,23 +71,6 @@ def test_info_names_the_regime(capsys):
         assert word in text, text
 
 
-def test_the_memory_said_covers_a_contact_solve():
-    """Fields of 8 bytes a cell at the peak of a solve, as traced; neither too few nor twice as many."""
-    import tracemalloc
-
-    from lubfric.output.describe import SOLVE_FIELDS
-
-    surface = lubfric.generate_surface((256, 256), 1e-6, sq=1e-7, correlation_length=8e-6, seed=1)
-    for boundary in ("periodic", ("free", "periodic")):
-        options = {"mean_pressure": 2e7, "boundary": boundary, "tolerance": 1e-3}
-        lubfric.solve_contact(-surface.heights[:64, :64], 1e-6, 2.3e11, **options)
-        tracemalloc.start()
-        lubfric.solve_contact(-surface.heights, 1e-6, 2.3e11, **options)
-        fields = tracemalloc.get_traced_memory()[1] / (8 * 256**2)
-        tracemalloc.stop()
-        assert SOLVE_FIELDS / 2 < fields < SOLVE_FIELDS
-
-
 def test_a_map_where_a_gap_is_expected_is_told_apart():
     surface = lubfric.generate_surface((32, 32), 1e-6, sq=1e-7, correlation_length=3e-6, seed=1)
     with pytest.raises(lubfric.InputError, match=r"gap0 .*gap0 = -surface.heights in m"):

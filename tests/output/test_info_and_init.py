@@ -128,7 +128,7 @@ SWINGING = lubfric.load_scene("paper").with_(
     [
         (
             {"speed": Harmonic(amplitude=0.05, frequency=100.0), "duration": 0.02},
-            ("harmonic, -0.05 to 0.05 m/s, 2 periods of 0.01 s, amplitude 0.05 m/s: the motion reverses", "0.05 m/s;"),
+            ("harmonic, -0.05 to 0.05 m/s, 2 periods: the motion reverses", "0.05 m/s;"),
         ),
         (
             {"speed": Table(times=(0, 5e-3, 1e-2), values=(0.0, 0.2, 0.0), repeat=True), "duration": 0.01},

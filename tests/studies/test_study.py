@@ -249,7 +249,7 @@ def test_samples_fill_their_ranges():
         ({("bodies.load", "bodies.radius"): [(1.0,)]}, None, "go together"),
         ({"bodies.load": [1.0], ("bodies.load", "bodies.width"): [(1, 2)]}, None, "given twice"),
         ({"motion.speeds": [(1.0,)]}, None, "speeds = "),
-        ({"transient.duration": [1.0]}, None, "no key of a scene"),
+        ({"transient.duration": [1.0]}, None, "unknown key 'transient' in vary"),
         ([1], None, "a dict"),
         ({}, [0.1, 0.1], "twice"),
         ({}, "aut", "speeds in m/s, or 'auto'"),

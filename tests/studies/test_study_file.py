@@ -73,7 +73,7 @@ def test_maps_of_the_other_body_are_found_beside_the_file(tmp_path):
 @pytest.mark.parametrize(
     "study, words",
     [
-        ("speeds = [0.1]\nspeed_range = [0.1, 1.0, 3]\n", "speeds or speed_range"),
+        ("speeds = [0.1]\nspeed_range = [0.1, 1.0, 3]\n", "speeds and speed_range"),
         ("speed_rnage = [0.1, 1.0, 3]\n", "did you mean 'speed_range'"),
         ("speed_range = [0.1, 1.0]\n", "must be .lowest, highest, count"),
         ("speed_range = [0.1, 1.0, 1000000000000]\n", "speed_range count"),

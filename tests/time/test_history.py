@@ -76,7 +76,7 @@ def test_bad_histories_are_refused(table, words):
     "values, words",
     [
         ({"load": Ramp(start=5.0, end=-1.0, until=1.0)}, "-1 N"),
-        ({"viscosity": Harmonic(mean=0.1, amplitude=0.2)}, "above 0 Pa s"),
+        ({"viscosity": Harmonic(mean=0.1, amplitude=0.2)}, "viscosity during the run = -0.1 Pa s"),
         ({"speed": Table(times=(0.0, 0.5), values=(1.0, 0.0))}, "table ends at 0.5 s"),
         ({"duration": 0.0}, "duration"),
         ({"outputs": 0}, "outputs"),
