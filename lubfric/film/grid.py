@@ -16,6 +16,7 @@ import numpy as np
 FAR_INLET = 30.0  # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
 RISE_CELL, RISE_GROWTH = 0.3, 0.35  # smallest cell where the pressure rises / rise length; growth
 RUPTURE_CELL, RUPTURE_GROWTH = 0.1, 0.28  # the same at the rupture point, where film and pressure spike are
+UPWIND = (-1, 0, 1)  # nodes of a face, of third order
 CORE = 1.2  # cells spread evenly over the contact, relative to the above
 
 
@@ -91,7 +92,7 @@ def make_grid(xi: np.ndarray) -> Grid:
     """The operators on node positions ``xi``."""
     cells = np.diff(xi)
     kernel = hat_kernel(xi, xi)
-    columns, values = _upwind(xi)
+    columns, values = face_weights(xi, UPWIND)
     n = cells.size
     face_film = np.zeros((n, n + 1))
     face_film[np.arange(n)[:, None], columns] = values
@@ -103,17 +104,16 @@ def make_grid(xi: np.ndarray) -> Grid:
     return Grid(xi, kernel, face_film, face_kernel, cells, trapezoidal(cells))
 
 
-def _upwind(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (i-1, i, i+1) and Lagrange weights of the face between i and i+1 (the first: 0, 1, 2)."""
+def face_weights(x: np.ndarray, stencil: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (n, k) around the faces between the nodes ``x`` (n + 1,), and their Lagrange weights there. ``stencil``:
+    their distances from the node before a face, moved inwards at the ends."""
     n = x.size - 1
-    columns = np.maximum(np.arange(n), 1)[:, None] + np.array([-1, 0, 1])
-    a, b, c = x[columns].T
-    f = 0.5 * (x[1:] + x[:-1])
-    weights = [
-        (f - b) * (f - c) / ((a - b) * (a - c)),
-        (f - a) * (f - c) / ((b - a) * (b - c)),
-        (f - a) * (f - b) / ((c - a) * (c - b)),
-    ]
+    first = np.clip(np.arange(n) + stencil[0], 0, n + 1 - len(stencil))
+    columns = first[:, None] + np.arange(len(stencil))
+    face, nodes, weights = 0.5 * (x[1:] + x[:-1]), x[columns].T, []
+    for k, own in enumerate(nodes):
+        others = [node for m, node in enumerate(nodes) if m != k]
+        weights.append(np.prod([face - node for node in others], axis=0) / np.prod([own - o for o in others], axis=0))
     return columns, np.stack(weights, axis=1)
 
 

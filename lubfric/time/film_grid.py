@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from itertools import permutations
 
 import numpy as np
 
-from ..film import hat_kernel, trapezoidal
+from ..film import UPWIND, face_weights, hat_kernel, trapezoidal
 
 EDGE_CELL, EDGE_GROWTH = 0.16, 0.3  # smallest cell / length of the pressure rise; growth with distance
 CORE = 12.0  # cells spread evenly over the contact, which fronts of the film travel through
@@ -69,22 +68,11 @@ class Faces:
 
 def make_fixed_grid(x: np.ndarray) -> FixedGrid:
     """The grid and its operators on increasing nodes ``x``."""
-    cells = np.diff(x)
-    kernel = hat_kernel(x, x)
-    faces = (_faces(x, kernel, stencil) for stencil in ((-1, 0, 1), (0, 1, 2), (-1, 0, 1, 2)))
+    cells, kernel, faces = np.diff(x), hat_kernel(x, x), []
+    for stencil in (UPWIND, (0, 1, 2), (-1, 0, 1, 2)):
+        columns, values = face_weights(x, stencil)
+        faces.append(Faces(columns, values, np.einsum("fk,fkj->fj", values, kernel[columns])))
     return FixedGrid(x, cells, trapezoidal(cells), kernel, *faces)
-
-
-def _faces(x: np.ndarray, kernel: np.ndarray, stencil: tuple[int, ...]) -> Faces:
-    n = x.size - 1
-    first = np.clip(np.arange(n) + stencil[0], 0, n + 1 - len(stencil))
-    columns = first[:, None] + np.arange(len(stencil))
-    face = 0.5 * (x[1:] + x[:-1])
-    nodes = x[columns]
-    values = np.ones_like(nodes)
-    for k, m in permutations(range(len(stencil)), 2):
-        values[:, k] *= (face - nodes[:, m]) / (nodes[:, k] - nodes[:, m])
-    return Faces(columns, values, np.einsum("fk,fkj->fj", values, kernel[columns]))
 
 
 def symmetric_nodes(

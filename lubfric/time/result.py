@@ -144,11 +144,6 @@ class TransientResult(Shown):
         friction, begin = np.where(moving, self.coefficient, np.nan), np.flatnonzero(moving)[:1]
         axes.plot(speed, friction, color=figures.BLUE)
         axes.plot(speed[begin], friction[begin], "o", color=figures.GREY, label="start")
-        middle = self.time.size // 2
-        if self.time.size > 2 and moving[middle : middle + 2].all():
-            ends = [(speed[i], friction[i]) for i in (middle, middle + 1)]
-            arrow = {"arrowstyle": "->", "color": figures.BLUE, "mutation_scale": 18}
-            axes.annotate("", ends[1], ends[0], arrowprops=arrow)
         axes.set(xlabel=axis_label("speed"), ylabel=figures.FRICTION)
         axes.legend(frameon=False)
         return axes
