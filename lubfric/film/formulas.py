@@ -1,17 +1,11 @@
-"""Closed forms of the smooth line contact: fitted films, starved inlets, and the shear of a film that heats itself.
+"""Closed forms of the smooth line contact: fitted films and starved inlets.
 
 Film formulas are in Moes' numbers M and L, and films in his unit (`lubfric.film.hertz`), unless said otherwise.
 They are fits to isothermal, Newtonian, fully flooded solutions. Sources: H. Moes, Lubrication and Beyond, Univ. Twente
 2000, and G. Nijenbanning, C. H. Venner, H. Moes, Wear 176 (1994) 217-229, doi:10.1016/0043-1648(94)90150-3.
-
-Nahme's shear is exact for ``eta = eta_w exp(-beta (T - T_w))`` across a film of thickness h and conductivity k between
-isothermal walls that slide at dU: with the Nahme (or Brinkman) number ``Na = beta eta_w dU²/k`` the stress is constant
-across the film. R. Nahme, Ingenieur-Archiv 11 (1940) 191-209, doi:10.1007/BF02086920.
 """
 
 import math
-
-import numpy as np
 
 from .._base import validate
 
@@ -72,11 +66,3 @@ def flooded_inlet(length, half_width) -> float:
 
 def _narrowness(length, half_width) -> float:
     return 1.0 / (1.0 + 1.54 * half_width / (half_width + length))
-
-
-def nahme_stress(nahme):
-    """tau over the isothermal stress [-]: ``asinh(√(Na/8))/√((Na/8)(1 + Na/8))``, 1 - Na/12 at first."""
-    a = np.asarray(nahme, dtype=float) / 8
-    with np.errstate(divide="ignore", invalid="ignore"):
-        exact = np.arcsinh(np.sqrt(a)) / np.sqrt(a * (1 + a))
-    return np.where(a < 1e-8, 1 - 2 * a / 3, exact)

@@ -21,8 +21,8 @@ L = 1; 0.21 by the note itself), and which is right is not known. Every factor c
 Across the film, between walls of a given temperature, the stress is constant. If the viscosity falls as
 exp(-beta (T - T_w)) from the walls, the heat equation k T'' = -tau gamma integrates in closed form for any law gamma =
 gamma_w(tau) exp(beta (T - T_w)), Newtonian, Ree-Eyring, Carreau: with a = exp(beta (T_middle - T_w)) and G = beta tau
-gamma_w h²/k, ``a - 1 = beta tau dU²/(8 k gamma_w)`` and ``asinh²√(a - 1) = a G/8``, one root for tau (for a Newtonian
-fluid `lubfric.film.formulas.nahme_stress`).
+gamma_w h²/k, ``a - 1 = beta tau dU²/(8 k gamma_w)`` and ``asinh²√(a - 1) = a G/8``, one root for tau. (Of a Newtonian
+fluid that is the closed form of R. Nahme, Ingenieur-Archiv 11 (1940) 191-209, doi:10.1007/BF02086920.)
 
 With the temperature change:
 
