@@ -24,7 +24,6 @@ from ..scene import Scene
 from .asperity import AsperityResult, closest, find_asperities
 from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 
-
 CLOSER = 0.01  # of the tolerance of the contact: error of the load at which its gap is found
 
 
@@ -51,13 +50,13 @@ class AsperityContact(FieldsOnly, RoughContact):
         under = shape - float((shape - self.heights).min())
         if load == 0:
             return self._state(film, under, None)
-        span, pressure = float(np.ptp(self.heights) + np.ptp(shape)), load / (bodies.width * self.x.size * self.spacing[0])
+        span, area = float(np.ptp(self.heights) + np.ptp(shape)), bodies.width * self.x.size * self.spacing[0]
         tolerance = CLOSER * numerics.tolerance_of("contact")
-        found, _, history = closest(lambda approach: self._at(under - approach), span, pressure, tolerance)
+        found, _, history = closest(lambda approach: self._at(under - approach), span, load / area, tolerance)
         if not history:
             raise ConvergenceError(
                 f"{self.scene.contact.model} cannot carry {load:.4g} N on a width of {bodies.width:.3g} m: "
-                f"{found.mean_pressure / pressure:.3g} of it at most, down to the deepest valley"
+                f"{found.mean_pressure * area:.4g} N at most, down to the deepest valley"
             )
         return self._state(film, found.separation, found)
 

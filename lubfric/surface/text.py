@@ -151,13 +151,13 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
     rows: list[np.ndarray] = []
     width = len(lines[0][1].split(separator))
     for number, text in lines:
-        cells = [cell.strip() for cell in text.split(separator)]
-        bad = [cell for cell in cells if _NUMBER.fullmatch(cell) is None or "," in cell]
-        if bad or len(cells) != width:
-            fault = repr(bad[0][:40]) if bad else f"{len(cells)} values, the first one {width}"
+        values = [value.strip() for value in text.split(separator)]
+        bad = [value for value in values if _NUMBER.fullmatch(value) is None or "," in value]
+        if bad or len(values) != width:
+            fault = repr(bad[0][:40]) if bad else f"{len(values)} values, the first one {width}"
             said = f"path = {str(path)!r} is not a table of numbers: line {number} has {fault}"
             raise InputError(said, allowed="lines of equally many numbers, 'nan' where unmeasured")
-        rows.append(np.array(cells, dtype=float))
+        rows.append(np.array(values, dtype=float))
     return np.array(rows), notes, steps
 
 
