@@ -51,16 +51,16 @@ def after(problem, bodies, steps, step=None, **how):
 @pytest.mark.parametrize("cells, steps", [(8, 60), (1, 120)])
 def test_roughness_at_rest_settles_to_the_steady_film(cells, steps):
     """From the film of the smooth bodies, in time, to the solution that the steady solver finds; in steps in which the
-    lubricant passes so many cells. In those of one its mass is followed along with it, and where the film ruptures the
-    last cells differ."""
+    lubricant passes so many cells. In those of one its mass is followed along with it, and the rupture differs by
+    a cell or so."""
     surface = rough(1)
     problem = laid(surface, sliding=0.6)
     start = solve_point(replace(problem, heights=0 * problem.heights)).state
     steady = solve_point(problem, tolerance=1e-8)
     moment = next(islice(moments(lambda t: problem, cells * CELL / 0.3, start=start, tolerance=1e-5), steps, None))
     assert moment.result.coefficient == pytest.approx(steady.coefficient, rel=1e-4)
-    where = problem.x < (np.inf if cells > 1 else LINE.half_width)
-    assert np.abs(moment.at.gap - steady.gap)[where].max() < 1e-3 * steady.mean_gap
+    where, least = (problem.x < np.inf, 1e-3) if cells > 1 else (problem.x < 0, 2e-3)
+    assert np.abs(moment.at.gap - steady.gap)[where].max() < least * steady.gap[where].mean()
 
 
 def test_two_rough_bodies_at_one_speed_are_one():
@@ -234,7 +234,9 @@ def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
     scene, surface = scene_of(slide_roll_ratio=0.5), rough(5)
     strip = solve_moving_strip(scene, [RoughBody(surface, 0.225)], 0.3, slope=True)
     f, discarded = strip.series["coefficient"], strip.discarded
-    assert f.size - discarded == round(32 * 0.3 / 0.225) and strip.result.coefficient == pytest.approx(f[discarded:].mean(), rel=1e-12)
+    assert f.size - discarded == round(32 * 0.3 / 0.225) and strip.result.coefficient == pytest.approx(
+        f[discarded:].mean(), rel=1e-12
+    )
     share = strip.series["share"][discarded:]
     assert strip.result.split.spots / strip.result.load == pytest.approx(share.mean()) and share[-1] < share.mean()
     assert strip.times[discarded - 1] * 0.3 >= 2.5 * scene.bodies.half_width
