@@ -39,8 +39,8 @@ def test_a_steady_scene_stays_at_the_steady_answer():
 
 
 def test_pure_rolling_backwards_has_the_resistance_of_rolling_forwards():
-    """The map is mirrored with the motion; the coefficient is that of the steady model, sign and all. That the roughness
-    moves is said to be left out; nothing is said where it rests."""
+    """The map is mirrored with the motion; the coefficient is that of the steady model, sign and all. That its
+    motion is left out is said, and nothing where it rests."""
     rolling = SCENE.with_(motion={"slide_roll_ratio": 0.0, "entrainment_speed": -0.02})
     heights = prepare(rolling).surface
     mirrored = prepare(rolling, replace(heights, heights=heights.heights[::-1]))
