@@ -62,10 +62,10 @@ def at_rest(smooth: Smooth, k: float, height: float, phase: float = 0.0) -> Dete
 
 def history(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times [s] of one period of moving waves of ``height`` [m], when their start is forgotten; gap [m] and pressure
-    [Pa] then (time, x). In a step the waves move by about a cell."""
+    [Pa] then (time, x). In a step the lubricant moves by a cell, or nearly."""
     x, pace = smooth.film.x, smooth.speed * smooth.problem.speed
     period = 2 * math.pi / (k * pace)
-    count = max(8, round(2 * math.pi / k / smooth.problem.spacing[0]))
+    count = max(8, round(period * smooth.problem.speed / smooth.problem.spacing[0]))
     first = math.ceil(SWEEP * smooth.half_width / smooth.problem.speed / (period / count))
 
     def problem(time: float) -> Problem:

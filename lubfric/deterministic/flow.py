@@ -69,7 +69,7 @@ class CouetteFlow:
     by_fill: np.ndarray
 
 
-def couette_flow(problem: Problem, mass, fill) -> CouetteFlow:
+def couette_flow(problem: Problem, mass, fill, U: float) -> CouetteFlow:
     """Couette flow U rho h through the faces. ``mass`` (nx, ny): rho h [m]; ``fill``: the filled part of the cells. In
     the first cell the parabola gives the upstream difference."""
     step = np.empty_like(mass)
@@ -81,7 +81,6 @@ def couette_flow(problem: Problem, mass, fill) -> CouetteFlow:
     by_before = np.where(free, -0.5, 0.0)
     by_own[0] = np.where(free[0], 0.0, by_own[0])
     by_before[0] = 0.0
-    U = problem.speed
     full = U * (mass + half)
     return CouetteFlow(fill * full, fill * U * (1 + by_own), fill * U * by_before, full)
 
@@ -104,15 +103,16 @@ class Balance:
     inlet: Inlet
 
 
-def balance(problem: Problem, pressure, gap, fill=1.0) -> Balance:
-    """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny)."""
+def balance(problem: Problem, pressure, gap, fill=1.0, carried=False) -> Balance:
+    """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny); ``carried``: without the
+    Couette flow, of cells that move with it (`state.Past`)."""
     dx, dy = problem.spacing
     film = np.maximum(gap, problem.floor)
     fluid = cell_fluid(problem.lubricant, np.maximum(pressure, 0.0))
     along, across = (pressure_flow(problem, fluid, pressure, film, axis) for axis in (0, 1))
     last = np.stack([np.maximum(pressure[-1], 0.0), np.zeros_like(pressure[-1])])
     end = pressure_flow(problem, cell_fluid(problem.lubricant, last), last, np.stack([film[-1]] * 2), 0)
-    couette = couette_flow(problem, fluid.density * film, fill)
+    couette = couette_flow(problem, fluid.density * film, fill, 0.0 if carried else problem.speed)
     upstream = inlet(problem, pressure[0], film[0])
     residual = couette.flow.copy()
     residual[1:] -= couette.flow[:-1]

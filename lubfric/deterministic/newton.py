@@ -8,7 +8,7 @@ import numpy as np
 
 from .linear import Change, System
 from .problem import Problem
-from .state import TOUCHING, Iterate, State, evaluated, residuals, settled
+from .state import TOUCHING, Iterate, Past, State, evaluated, residuals, settled
 
 KEEP, BELOW = 0.2, 3.0  # of h that a step must leave, and floors it may go below that
 SHORTEST = 0.1  # step, whatever the gap says
@@ -134,7 +134,7 @@ def march(problem: Problem, state: State, work: Work, *, most: int) -> State:
         goal = max(SETTLED, min(LOOSE, PART * left))
         begun = work.factorisations
         most = min(INNER, last - begun)
-        found = newton(problem, at.state, work, tolerance=goal, most=most, past=(at.mass, step, None))
+        found = newton(problem, at.state, work, tolerance=goal, most=most, past=Past(at.mass, step))
         work.steps += 1
         if found.residual <= goal:
             at = evaluated(problem, found.at.state)

@@ -1,6 +1,7 @@
 """The unknowns of an iteration, and the equation that each cell obeys."""
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -8,8 +9,18 @@ from .flow import Balance, balance
 from .problem import Problem
 
 FLUID, RUPTURED, TOUCHING = 0, 1, 2
-Past = tuple[np.ndarray, float, tuple[np.ndarray, float] | None]  # of `stored`
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
+
+
+class Past(NamedTuple):
+    """Of an implicit step in time: the mass that was ``kept`` before it [m], its length [s]; and, if it is of second
+    order (BDF2), the mass then [m], and the part of the change since then that is kept. ``carried``: both masses are
+    those of the cell before, since in a step the lubricant moves by one; so nothing more flows with U."""
+
+    kept: np.ndarray
+    step: float
+    then: tuple[np.ndarray, float] | None = None
+    carried: bool = False
 
 
 @dataclass(frozen=True)
@@ -57,11 +68,8 @@ class Iterate:
 
 
 def stored(mass: np.ndarray, past: Past) -> tuple[np.ndarray, np.ndarray]:
-    """What cells of this ``mass`` rho h [m] have stored in a step [m/s], and its derivative [1/s]. ``past``: the mass
-    that was kept before it [m], its length [s]; and, if it is of second order (BDF2), the mass then [m], and the part
-    of the change since then that is kept.
-    """
-    before, step, then = past
+    """What cells of this ``mass`` rho h [m] have stored in a step [m/s], and its derivative [1/s]."""
+    before, step, then, _ = past
     if then is None:
         return (mass - before) / step, np.full_like(mass, 1 / step)
     now, free = kept(mass, *then), then[1] * (then[0] - mass) < 0.5 * mass
@@ -78,7 +86,7 @@ def kept(mass: np.ndarray, then: np.ndarray, part: float = 0.5) -> np.ndarray:
 def evaluated(problem: Problem, state: State, past: Past | None = None) -> Iterate:
     """Gap and mass balance of ``state``; with ``past``, of an implicit step in time."""
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
-    found = balance(problem, state.pressure, gap, state.fill)
+    found = balance(problem, state.pressure, gap, state.fill, past is not None and past.carried)
     at = Iterate(problem, state, gap, found, past, found.residual)
     return at if past is None else replace(at, residual=found.residual + stored(at.mass, past)[0])
 

@@ -13,7 +13,7 @@ from .moving import solved_strip, strip_surface
 from .scatter import mirrored
 
 PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
-MOVING = 4.0  # the former along x where roughness moves: on 2, what the film carries dies away (docs/levels.md)
+MOVING = 4.0  # the former along x where roughness moves (docs/levels.md)
 
 
 @dataclass(frozen=True)

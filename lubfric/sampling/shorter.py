@@ -22,8 +22,9 @@ from .scatter import BlockError, block_error
 
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
 MOST_PIECES, PIECES_WORK = 32, 30.0  # s, counted: beyond it no more are solved
-MOVING = 3.0  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
-# small by chance (on six Gaussian maps f moved by 0 to 76 % to cells of a quarter, and by 0 to 19 % to an eighth)
+MOVING = 0.5  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
+# small by chance (to cells of an eighth, f of nine Gaussian maps moved by 0 to 10 % from a half, and 0 to 2 % from a
+# quarter)
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 LENGTH, SHORTEST = 42.0, 14.0  # correlation lengths: pieces of the third level, and the one of the last

@@ -130,10 +130,11 @@ class OneGap:
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: State) -> Step:
         """The step that ends at ``time`` [s]; the payload is its state."""
         back = self.back(time)
-        past: Past = memory.film[::back], 1.0 / memory.rate, None
+        past = Past(memory.film[::back], 1.0 / memory.rate)
         if memory.then is not None:
             then, part = memory.then[::back], memory.rate * memory.step - 1.0
-            past = np.maximum((1.0 + part) * past[0] - part * then, 0.5 * then), memory.step, (then, part)
+            left = np.maximum((1.0 + part) * past.kept - part * then, 0.5 * then)
+            past = Past(left, memory.step, (then, part))
         start = _turned(replace(payload, approach=float(z[0])), back)
         found = newton(self.problem_at(time), start, Work(MOST), tolerance=EXACT, most=MOST, past=past)
         return self._step(found.at, back, CONVERGED if found.residual <= EXACT else ITERATION_LIMIT)

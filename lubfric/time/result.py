@@ -10,7 +10,7 @@ from ..errors import Report
 from ..quantities import OF_MOMENT, axis_label
 from ..sampling import UncertaintyCurve, percent, student
 from ..scene import FRICTION as FRICTION_KEY
-from ..scene import value_of
+from ..scene import moves, value_of
 from ..sharing import Validity, gathered
 from .march import Plan, Progress, report_of
 from .one_gap import OneGap
@@ -21,6 +21,7 @@ Solver = Sharing | OneGap
 Output = tuple[dict[str, float], tuple[Validity, ...], np.ndarray, np.ndarray]
 MANY = 30  # blocks less one: of a strip
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
+STANDS = "roughness that moves is taken as if it stood still; numerics.model = 'deterministic' moves it"
 TINY = 1e-30  # no f is divided by less
 MASS = 1e-3  # largest residual of a step's mass
 
@@ -178,6 +179,7 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
+    stands = (STANDS,) if isinstance(solver, Sharing) and moves(prepared.scene) else ()
     report = report_of("transient, BDF2", plan, now, f"{solver.cells}; surface: {surface}", worst)
     if prepared.strips is not None and not prepared.strips.whole:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
@@ -186,7 +188,7 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
         x=solver.x,
         pressure=P,
         film_thickness=H,
-        report=replace(report, notes=(*report.notes, *not_in)),
+        report=replace(report, notes=(*report.notes, *stands, *not_in)),
         entries=tuple(entries for _, entries, _, _ in outputs),
         inputs=np.outer((-low, high), by_load),
         not_in=not_in,

@@ -42,22 +42,25 @@ def laid(surface, **how):
 
 
 def after(problem, bodies, steps, step=None, **how):
-    """The moment after so many steps, each of a cell of the fastest body."""
-    step = step or CELL / max(abs(body.speed) for body in bodies)
+    """The moment after so many steps, in each of which the lubricant passes a cell."""
+    step = step or CELL / problem.speed
     how = {"tolerance": 1e-6} | how
     return next(islice(moments(travelling(problem, bodies), step, **how), steps, None))
 
 
-def test_roughness_at_rest_settles_to_the_steady_film():
-    """From the film of the smooth bodies, in time, to the solution that the steady solver finds."""
+@pytest.mark.parametrize("cells, steps", [(8, 60), (1, 120)])
+def test_roughness_at_rest_settles_to_the_steady_film(cells, steps):
+    """From the film of the smooth bodies, in time, to the solution that the steady solver finds; in steps in which the
+    lubricant passes so many cells. In those of one its mass is followed along with it, and the rupture differs by
+    a cell or so."""
     surface = rough(1)
     problem = laid(surface, sliding=0.6)
     start = solve_point(replace(problem, heights=0 * problem.heights)).state
     steady = solve_point(problem, tolerance=1e-8)
-    step = 8 * CELL / 0.3
-    moment = next(islice(moments(lambda t: problem, step, start=start), 60, None))
+    moment = next(islice(moments(lambda t: problem, cells * CELL / 0.3, start=start, tolerance=1e-5), steps, None))
     assert moment.result.coefficient == pytest.approx(steady.coefficient, rel=1e-4)
-    assert np.abs(moment.at.gap - steady.gap).max() < 1e-3 * steady.mean_gap
+    where, least = (problem.x < np.inf, 1e-3) if cells > 1 else (problem.x < 0, 2e-3)
+    assert np.abs(moment.at.gap - steady.gap)[where].max() < least * steady.gap[where].mean()
 
 
 def test_two_rough_bodies_at_one_speed_are_one():
@@ -87,7 +90,7 @@ def test_where_summits_close_cells_hardly_any_lubricant_is_given_off():
     """With nine tenths of the load on spots. In steps that are not limited there cells gave off 8 % of all."""
     surface, line = rough(1, sq=0.15e-6, shape=(24, 12)), replace(LINE, entrainment_speed=0.05)
     problem = lay_out(surface, line, sliding=0.025, boundary_friction=0.1)
-    passing = moments(travelling(problem, [RoughBody(surface, 0.0625)]), CELL / 0.0625)
+    passing = moments(travelling(problem, [RoughBody(surface, 0.0625)]), CELL / 0.05)
     found = [moment.result for moment in islice(passing, 1, 13)]
     given, enters = (sum(getattr(one, name) for one in found) for name in ("given", "flow_film"))
     assert found[-1].split.spots > 0.9 * found[-1].load and given < 3e-3 * enters
@@ -191,14 +194,14 @@ def test_a_step_that_newtons_method_does_not_solve_is_taken_in_parts(monkeypatch
     """Four Euler steps in the place of each: nearly the same film."""
     surface = rough(3, sq=0.05e-6)
     problem, bodies = laid(surface), [RoughBody(surface, 0.15)]
-    whole, real = after(problem, bodies, 6), moving.newton
+    whole, real = after(problem, bodies, 6, CELL / 0.15), moving.newton
 
     def of_parts_only(*given, past, **how):
         found = real(*given, past=past, **how)
-        return found if past[1] < 0.5 * CELL / 0.15 else replace(found, residuals={"mass": 1.0})
+        return found if past.step < 0.5 * CELL / 0.15 else replace(found, residuals={"mass": 1.0})
 
     monkeypatch.setattr(moving, "newton", of_parts_only)
-    parts = after(problem, bodies, 6)
+    parts = after(problem, bodies, 6, CELL / 0.15)
     assert 1e-4 < np.abs(parts.at.gap - whole.at.gap).max() / whole.at.gap.mean() < 0.03
     assert parts.result.coefficient == pytest.approx(whole.result.coefficient, rel=0.015)
 
@@ -221,8 +224,8 @@ def waves(steps_a_cell: float, count: float = 0.5):
 
 
 def test_steps_are_of_second_order():
-    fine = waves(8)
-    whole, half = (np.abs(waves(n) - fine).max() for n in (1, 2))
+    fine = waves(16)
+    whole, half = (np.abs(waves(n) - fine).max() for n in (2, 4))
     assert np.log2(whole / half) == pytest.approx(2.0, abs=0.35)
 
 
@@ -231,7 +234,9 @@ def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
     scene, surface = scene_of(slide_roll_ratio=0.5), rough(5)
     strip = solve_moving_strip(scene, [RoughBody(surface, 0.225)], 0.3, slope=True)
     f, discarded = strip.series["coefficient"], strip.discarded
-    assert f.size - discarded == 32 and strip.result.coefficient == pytest.approx(f[discarded:].mean(), rel=1e-12)
+    assert f.size - discarded == round(32 * 0.3 / 0.225) and strip.result.coefficient == pytest.approx(
+        f[discarded:].mean(), rel=1e-12
+    )
     share = strip.series["share"][discarded:]
     assert strip.result.split.spots / strip.result.load == pytest.approx(share.mean()) and share[-1] < share.mean()
     assert strip.times[discarded - 1] * 0.3 >= 2.5 * scene.bodies.half_width
@@ -256,24 +261,28 @@ def test_moments_are_read_back_by_another_reader(tmp_path):
         np.testing.assert_array_equal(mesh.point_data[name].reshape(12, -1), values.T)
 
 
-def test_amplitudes_are_reduced_as_published():
-    """Waves of a half-width, a tenth of the film high, in pure rolling, M 100, L 11 (C. H. Venner, F.
+@pytest.mark.parametrize("length, kept, cells", [(1.0, 0.183, 40), (1.0, 0.183, 16), (0.5, 0.394, 8), (0.25, 0.660, 8)])
+def test_amplitudes_are_reduced_as_published(length, kept, cells):
+    """Waves of so many half-widths, a tenth of the film high, in pure rolling, M 100, L 11 (C. H. Venner, F.
     Couhier, A. A. Lubrecht, J. A. Greenwood, Tribology Series 32 (1997) 103-112, doi:10.1016/s0167-8922(08)70440-1):
-    within 5 %."""
+    within 5 %, on 8 cells a wave of .5 b too. (Where the mass is not followed along with the lubricant, there
+    .09 is left.)"""
     line = LineContact(4.41e6 * 0.02, 0.02, 2.2e11, 1.0, Lubricant(0.04, 2e-8, density_law="dowson-higginson"))
     line = replace(line, entrainment_speed=(11 / line.L) ** 4)
     line = replace(line, load_per_width=line.load_per_width * 100 / line.M)
     b, u = line.half_width, line.entrainment_speed
-    dx = b / 40
+    dx = length * b / cells
     flat = Surface(np.zeros((32, 1)), (dx, dx), periodic_axes=(True, True))
     smooth = lay_out(flat, line, sliding=0.0, boundary_friction=0.1, ends=(4 * b, 1.5 * b))
     base = solve_point(smooth, tolerance=1e-8)
-    height, k, middle = 0.1 * base.central_gap, 2 * np.pi / b, int(np.argmin(np.abs(smooth.x)))
+    height, k, middle = 0.1 * base.central_gap, 2 * np.pi / (length * b), int(np.argmin(np.abs(smooth.x)))
 
     def at(time):  # the waves come in with their surface
         edge = np.clip((u * time - 4 * b - smooth.x) / b, 0, 1)
         return replace(smooth, heights=(height * edge * np.cos(k * (smooth.x - u * time)))[:, None])
 
     passing = moments(at, dx / u, start=base.state, tolerance=1e-5)
-    film = [moment.at.gap[middle, 0] for moment in islice(passing, 280, 321)]
-    assert np.ptp(film) / (2 * height) == pytest.approx(0.183, rel=0.05)
+    first = round(7 * b / dx)
+    film = [moment.at.gap[middle, 0] for moment in islice(passing, first, first + cells + 1)]
+    turn = np.exp(2j * np.pi * np.arange(cells) / cells)
+    assert abs(turn @ film[:-1]) * 2 / cells / height == pytest.approx(kept, rel=0.05)

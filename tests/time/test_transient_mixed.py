@@ -39,7 +39,8 @@ def test_a_steady_scene_stays_at_the_steady_answer():
 
 
 def test_pure_rolling_backwards_has_the_resistance_of_rolling_forwards():
-    """The map is mirrored with the motion; the coefficient is that of the steady model, sign and all."""
+    """The map is mirrored with the motion; the coefficient is that of the steady model, sign and all. That its
+    motion is left out is said, and nothing where it rests."""
     rolling = SCENE.with_(motion={"slide_roll_ratio": 0.0, "entrainment_speed": -0.02})
     heights = prepare(rolling).surface
     mirrored = prepare(rolling, replace(heights, heights=heights.heights[::-1]))
@@ -47,6 +48,8 @@ def test_pure_rolling_backwards_has_the_resistance_of_rolling_forwards():
     forwards = lubfric.friction(rolling.with_(motion={"entrainment_speed": 0.02}))
     np.testing.assert_allclose(found.coefficient, lubfric.friction(mirrored).coefficient, rtol=5e-3)
     np.testing.assert_allclose(found.coefficient, forwards.coefficient, rtol=5e-3)
+    assert "as if it stood still" in found.report.notes[-1]
+    assert "stood still" not in " ".join(run(Transient(0.1), [0.0, 0.1]).report.notes)
 
 
 def test_a_slow_ramp_follows_the_stribeck_curve():
