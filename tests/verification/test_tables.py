@@ -19,6 +19,7 @@ TABLE = Table("one", "Friction", *CELLS)
 TYPED = {  # limits and what drawings ask for, not results
     ("theory.md", "| checked | caution | no answer |"),
     ("inputs.md", "| process | Ra, µm |"),
+    ("inputs.md", "| key, name | value (range) | seen in print |"),
 }
 
 
