@@ -20,23 +20,22 @@ WAYS: dict[str, dict] = {
 ASKED = {True: ((0.02, 0.05),), False: ((0.05, 0.1), (0.02, 0.05), (0.01, 0.03))}  # of surface and model
 
 
-def cases(quick: bool) -> dict[str, tuple[Case, bool]]:
-    """One panel for each surface, under the light load, at a smooth film of 0.8 Sq."""
-    return {name: (Case(name, "5.5 N", 2.0, 0.8), quick) for name in SURFACES[: 1 if quick else None]}
+def cases(quick: bool) -> dict[str, tuple[Case, str, bool]]:
+    """A panel for each surface, under the light load at a smooth film of 0.8 Sq, with a curve for each way."""
+    surfaces = [Case(name, "5.5 N", 2.0, 0.8) for name in SURFACES[: 1 if quick else None]]
+    return {f"{case.surface}, {way}": (case, way, quick) for case in surfaces for way in WAYS}
 
 
-def measured(case_and_quick: tuple[Case, bool]) -> list[dict]:
-    """Every way at every setting, against the deterministic model on another surface, or on all of the map."""
-    (case, quick), found = case_and_quick, []
-    truth = reference(case)["f"]
-    for way, numerics in WAYS.items():
-        for sampling, model in ASKED[quick]:
-            asked = {"sampling_tolerance": sampling, "model_tolerance": model} | numerics
-            rows = [solved(case, seed, asked) for seed in (SEEDS[quick] if case.surface not in MEASURED else (1,))]
-            rows = [row for row in rows if "failure" not in row]
-            if rows:
-                off = float(np.sqrt(np.mean([(row["f"] / truth - 1) ** 2 for row in rows])))
-                seconds = quartiles([row["seconds"] for row in rows])
-                at = {"default": way == "default" and sampling == 0.02, "apart": True}
-                found.append(point(case.surface, way, f"surface {sampling:g}, model {model:g}", off, seconds, **at))
+def measured(chosen: tuple[Case, str, bool]) -> list[dict]:
+    """One way at every setting, against the deterministic model on another surface, or on all of the map."""
+    (case, way, quick), found = chosen, []
+    truth, seeds = reference(case)["f"], SEEDS[quick] if case.surface not in MEASURED else (1,)
+    for sampling, model in ASKED[quick]:
+        asked = {"sampling_tolerance": sampling, "model_tolerance": model} | WAYS[way]
+        rows = [row for row in (solved(case, seed, asked) for seed in seeds) if "failure" not in row]
+        if rows:
+            off = float(np.sqrt(np.mean([(row["f"] / truth - 1) ** 2 for row in rows])))
+            at = {"default": way == "default" and sampling == 0.02, "apart": True}
+            seconds = quartiles([row["seconds"] for row in rows])
+            found.append(point(case.surface, way, f"surface {sampling:g}, model {model:g}", off, seconds, **at))
     return found
