@@ -16,7 +16,7 @@ from . import against
 
 DENSE = "dowson-higginson"
 ROLLING: dict[str, dict[float, tuple[float, tuple[int, ...]]]] = {  # wavelength/b: cells in a half-width, amplitudes
-    "default": {2: (40, (0,)), 1: (48, (0, 2)), 0.5: (64, (0,))},
+    "default": {2: (40, (0,)), 1: (48, (0,)), 0.5: (64, (0, 2))},
     "full": {n: (max(48, 32 / n), (0, 1, 2)) for n in references.AMPLITUDES},
 }
 HEIGHTS = (0.1, 0.2, 0.5)  # of the film
