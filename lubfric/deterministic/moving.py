@@ -36,7 +36,7 @@ from .solve import solve_point
 from .state import RUPTURED, Iterate, Past, State, evaluated, kept, residuals
 
 EXACT = 1e-3  # tolerance of the residuals of a step
-LOOSE = 2e-4  # and of a strip, times its cells along x: f moves by .1 %
+LOOSE = 1e-4  # and of a strip, times its cells along x: f moves by .1 %
 MOST, PARTS = 80, 4  # factorisations of a step; Euler steps that stand for one that fails
 RESOLVED = 8  # cells in the Hertz half-width, from which on the pressure is carried with the roughness
 SMOOTH = 0.4  # half-widths over which the pressure is smoothed to tell what goes with the roughness

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from ..quantities import depending_on
-from ..scene import Scene, budget, gap_not_resolved
+from ..scene import Scene, budget, gap_not_resolved, moves
 from ..sharing import Balance, Forces
 from .heated import error_by_heat
 from .sample import Found
@@ -186,9 +186,8 @@ def model_error(scene: Scene, found: Found) -> tuple[tuple[float, float], tuple[
     sq, film = float(found.contact.heights.std()), balance.film.central_film  # type: ignore[attr-defined]
     share = balance.contact_load / scene.bodies.load
     forces, load = balance.forces, scene.bodies.load
-    return load_sharing_error(
-        film / sq if sq else math.inf, share, forces.boundary / load, forces.shear.total / load
-    ), ()
+    parts = forces.boundary, forces.shear.total, forces.shear.rolling if moves(scene) else 0.0
+    return load_sharing_error(film / sq if sq else math.inf, share, *(part / load for part in parts)), ()
 
 
 def _area_needed(found: Found, scene: Scene) -> float:

@@ -10,6 +10,7 @@ from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuant
 CONFIDENCE = 0.95
 OF_SHARE, IN_CONTACT = 0.7, 0.25  # error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
 OF_FILM, MOST_OF_FILM = 3.2, 0.3  # error of the film's shear by load sharing: times (film/Sq)², and at most
+OF_ROLLING = 8.0  # of the rolling force: what the pressure on the flanks of roughness that moves may add; 7 were seen
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 FEW = 10.0  # effective contact spots below which an interval covers less often than it says
 EVEN = 0.1  # of half an interval: f farther off its middle is told with both ends
@@ -75,20 +76,21 @@ def too_few(spots: float, reached: float, asked: float) -> bool:
 
 
 def load_sharing_error(
-    film_to_roughness_ratio: float, share: float, boundary: float, shear: float
+    film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float = 0.0
 ) -> tuple[float, float]:
     """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md): by how much f may be lower, and higher.
 
-    ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film. Three things may be
-    off: the load that asperities carry, by up to 0.7 sqrt(s (1 - s)) of the whole, but never below 0 or above the
-    whole, which exchanges the friction of one part for that of the other; the shear of the film, which is that of
-    smooth surfaces, by 3.2/λ² of it, at most 30 %; and in contact all of f by 0.25 sqrt(1 - s): below, of what the
-    others leave. 0 without roughness.
+    ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film; ``rolling``: the part
+    of rolling in the latter, if roughness moves. Four things may be off: the load that asperities carry, by up to 0.7
+    sqrt(s (1 - s)) of the whole, but never below 0 or above the whole, which exchanges the friction of one part for
+    that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %; in
+    contact all of f by 0.25 sqrt(1 - s): below, of what the others leave; and the pressure on the flanks of moving
+    roughness, which is left out, by up to 8 times the rolling force. 0 without roughness.
     """
     f = abs(boundary + shear)
     if film_to_roughness_ratio == math.inf or f == 0:
         return 0.0, 0.0
-    of_film = min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) / f
+    of_film = min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) / f + OF_ROLLING * abs(rolling) / f
     if not 0 < share < 1:
         return of_film, of_film
     exchanged, rooms = (boundary / share - shear / (1 - share)) / f, (share, 1 - share)

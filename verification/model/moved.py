@@ -16,7 +16,7 @@ from ..fem.fluid import Fluid
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 SWEEP = 2.5  # half-widths that the film travels before anything counts
 SLOW = 0.5  # of the entrainment speed: faster roughness moves while the lubricant passes one cell in a step
-EXACT = 2e-4  # residual of a step, times the cells along x
+EXACT = 1e-4  # residual of a step, times the cells along x
 FLOOR = 1e-9  # m
 BALANCES = "mass", "load", "gap", "bounds"
 
