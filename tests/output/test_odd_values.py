@@ -21,7 +21,37 @@ def curve():
     return lubfric.stribeck(SCENE, "auto")
 
 
+FLAT = lubfric.load_scene("flat").with_(
+    contact={"shape": (48, 48), "spacing": 2e-6},
+    surface={"sq": 1e-7, "correlation_length": 8e-6, "acf": "gaussian"},
+    motion={"speeds": (), "entrainment_speed": 0.05},
+)
+WARM = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 343.0}
+OILED = FLAT.with_(lubricant=WARM | {"eyring_stress": 5e6})
+HOT = OILED.with_(numerics={"heat": "on"})
+MANY = np.linspace(1, 2, 100_000)
+
+
+def table(rows):
+    return partial(FLAT.with_, lubricant={"viscosity_table": rows, "temperature": 343.0})
+
+
 ODD = {
+    "heat beyond any film": partial(lubfric.friction, HOT, 1e5),
+    "absolute zero": partial(FLAT.with_, lubricant=OIL | {"temperature_celsius": -273.15}),
+    "viscosity index not a number": partial(FLAT.with_, lubricant=WARM | {"viscosity_index": float("nan")}),
+    "a grade in a list": partial(FLAT.with_, lubricant=WARM | {"grade": ["ISO VG 68"]}),
+    "a table that falls": table([[373.0, 8e-6], [313.0, 68e-6]]),
+    "a table of one row": table([[313.0, 8e-6]]),
+    "a table that is a word": table("313"),
+    "a coefficient that boils": partial(FLAT.with_, lubricant={"temperature": 300.0, "temperature_coefficient": 1e6}),
+    "bodies that keep all heat": partial(FLAT.with_, bodies={"conductivity": (0.0, 46.0)}),
+    "a film of vacuum": partial(OILED.with_, lubricant={"conductivity": 1e-9}),
+    "two planes": partial(FLAT.with_, bodies={"radii": (float("inf"), float("inf"))}),
+    "a pressure of stars": partial(FLAT.with_, bodies={"hertz_pressure": 1e13}),
+    "a study of 1e10 points": partial(lubfric.study, FLAT, {"bodies.load": MANY, "bodies.radius": 1e-3 * MANY}),
+    "a sample without end": partial(lubfric.sample, [lubfric.Between(1, 2)], 2**40),
+    "ratios without end": partial(lubfric.traction, OILED, [1e300]),
     "speeds of a curve": partial(lubfric.stribeck, SCENE, RAGGED),
     "speeds of a study": partial(lubfric.study, SCENE, {"bodies.load": [1.0]}, RAGGED),
     "ratios": partial(lubfric.traction, SCENE, RAGGED),
@@ -77,3 +107,14 @@ def test_a_key_of_nothing_is_a_key_left_out():
     }
     nothing = table | {"motion": {"entrainment_speed": 0.01, "sliding_speed": None}}
     assert lubfric.load_scene(nothing) == lubfric.load_scene(table)
+
+
+@pytest.mark.parametrize("speed, ratio", [(1e-12, 2.0), (0.05, 0.0), (0.05, -4.0), (0.05, 1e4), (0.0, 1.0)])
+def test_heat_at_the_ends_of_motion_is_finite_or_told(speed, ratio):
+    try:
+        found = lubfric.friction(HOT.with_(motion={"slide_roll_ratio": ratio}), speed)
+    except lubfric.ConvergenceError as error:
+        assert f"slide_roll_ratio = {ratio:.3g}" in str(error) and ratio > 1e3
+        return
+    assert np.isfinite(found.coefficient)
+    assert (abs(ratio) <= 2) == (not any("slide-roll ratio" in entry.what for entry in found.validity))

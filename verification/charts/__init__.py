@@ -14,7 +14,6 @@ from ..kept import Run
 CHARTS = {
     "contact": "Dry contact: error against time",
     "film": "Smooth film: error against time",
-    "job": "Load sharing on one patch: error against time per point",
     "models": "Both models on four kinds of surface: error against time per point",
 }
 PARTS = [(name, "charts:chart", title, {"name": name}) for name, title in CHARTS.items()]
