@@ -164,7 +164,7 @@ class TransientResult(Shown):
 
 def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
     """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
-    columns = {name: np.array([row[name] for row, *_ in outputs], float) for name in OF_MOMENT}
+    columns = {name: np.array([row.get(name, math.nan) for row, *_ in outputs], float) for name in OF_MOMENT}
     P, H = (np.array([output[k] for output in outputs]).reshape(-1, solver.x.size) for k in (2, 3))
     worst = {
         "mass": float(np.max(columns["mass_residual"], initial=0.0)) / MASS,

@@ -167,7 +167,7 @@ def answers(level: str, run: Run = Run(), rollers: bool = False) -> Iterator[Ite
 def compared(name: str, found: list[tuple], failed: int, source: str) -> Iterator[Item]:
     """Table, checks and picture of answers ``found``: the groups of each, and by both ways what is `judged`."""
     every = {way: np.array([both[k] for _, both in found]).reshape(-1, 3) for k, way in enumerate(WAYS)}
-    names = dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in found))))
+    names = [name for name in dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in found)))) if name != ROLLER]
     rows = [
         [group, str(sum(here)), *told(every["default"][here]), *told(every["load sharing"][here])]
         for group in (*names, "all")
