@@ -21,10 +21,8 @@ import numpy as np
 from .._base import FieldsOnly
 from ..errors import ConvergenceError
 from ..scene import Scene
-from .asperity import AsperityResult, closest, find_asperities
+from .asperity import AsperityResult, find_asperities
 from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
-
-CLOSER = 0.01  # of the tolerance of the contact: error of the load at which its gap is found
 
 
 @dataclass(frozen=True)
@@ -46,19 +44,12 @@ class AsperityContact(FieldsOnly, RoughContact):
         The load of patches jumps where two of them join. Then the offset of the jump is taken, at which the gap is
         continuous. Raises `ConvergenceError` if the load cannot be reached.
         """
-        shape, bodies, numerics = (film if shape is None else shape)[:, None], self.scene.bodies, self.scene.numerics
-        under = shape - float((shape - self.heights).min())
+        under = (film if shape is None else shape)[:, None]
+        touch = float((under - self.heights).min())
         if load == 0:
-            return self._state(film, under, None)
-        span, area = float(np.ptp(self.heights) + np.ptp(shape)), bodies.width * self.x.size * self.spacing[0]
-        tolerance = CLOSER * numerics.tolerance_of("contact")
-        found, _, history = closest(lambda approach: self._at(under - approach), span, load / area, tolerance)
-        if not history:
-            raise ConvergenceError(
-                f"{self.scene.contact.model} cannot carry {load:.4g} N on a width of {bodies.width:.3g} m: "
-                f"{found.mean_pressure * area:.4g} N at most, down to the deepest valley"
-            )
-        return self._state(film, found.separation, found)
+            return self._state(film, under - touch, None)
+        separation = under - touch - self._approach(film, load, lambda a: self._at(under - touch - a).load)
+        return self._state(film, separation, self._at(separation))
 
     @cached_property
     def _at(self) -> Callable[..., AsperityResult]:
@@ -72,6 +63,24 @@ class AsperityContact(FieldsOnly, RoughContact):
             hardness=bodies.hardness,
             periodic=(False, True),
         )
+
+    def _approach(self, film, load, carried) -> float:
+        """The approach [m] from first touch at which ``carried(approach)`` [N] of the map is ``load`` of the width."""
+        from scipy.optimize import brentq
+
+        width = self.scene.bodies.width
+        target = load * self.heights.shape[1] * self.spacing[1] / width
+        span = float(np.ptp(self.heights))
+        last, approach = 0.0, 0.02 * span
+        while carried(approach) < target:
+            last, approach = approach, 1.5 * approach
+            if approach > 20 * span:
+                raise ConvergenceError(
+                    f"{self.scene.contact.model} cannot carry {load:.4g} N on a width of {width:.3g} m: below the "
+                    "deepest valley at the end of the search"
+                )
+        nearest = 0.1 * self.scene.numerics.tolerance_of("contact") * max(weighted_mean(film, self.weight), 1e-3 * span)
+        return brentq(lambda a: carried(a) / target - 1, last, approach, xtol=nearest, rtol=1e-12)
 
     @property
     def name(self) -> str:

@@ -163,8 +163,7 @@ def separation_for_load(
     tolerance = validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
     if np.ptp(heights) == 0:
         raise InputError("heights are all equal: no asperities; give a rough surface in m")
-    top, span = float(np.max(heights)), float(np.ptp(heights))
-    best, scanned, history = closest(lambda approach: found(top - approach), span, target, tolerance)
+    best, scanned, history = _closest(found, float(np.max(heights)), float(np.ptp(heights)), target, tolerance)
     error = abs(best.mean_pressure / target - 1)
     most = f"at most {best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m"
     advice = "" if history else f"{definition} cannot carry a mean pressure of {target:.4g} Pa: {most}"
@@ -174,13 +173,13 @@ def separation_for_load(
     return returned(replace(best, report=report), raise_on_failure)
 
 
-def closest(pressed, span: float, target: float, tolerance: float):
-    """The `AsperityResult` whose mean pressure is closest to ``target`` [Pa], of those that are ``pressed`` by an
-    approach [m] from first touch on, up to ``span``; the number of approaches scanned, and the errors of the search in
-    the last of them; none if the asperities carry less at every approach (then: the most)."""
+def _closest(found, top: float, span: float, target: float, tolerance: float):
+    """The `AsperityResult` whose mean pressure is closest to ``target`` [Pa], of those that are ``found`` at
+    separations from the ``top`` down over the ``span`` of the heights [m]; the number of approaches scanned, and the
+    errors of the search in the last of them; none if the asperities carry less at every approach (then: the most)."""
 
     def excess(approach, _=None):
-        result = pressed(float(approach))
+        result = found(float(top - approach))
         return result.mean_pressure / target - 1, result
 
     before, best = 0.0, excess(0.0)[1]

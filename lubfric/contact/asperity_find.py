@@ -1,6 +1,7 @@
 """Where the asperities of a height map are, and how sharp: summits, or patches above a separation."""
 
 import math
+from collections import defaultdict
 
 import numpy as np
 
@@ -57,31 +58,53 @@ def _labelled(touching) -> np.ndarray:
     return ndimage.label(touching, np.ones((3, 3)))[0]
 
 
+def _crossings(label, periodic) -> np.ndarray:
+    """Regions that touch across a periodic edge, also diagonally: rows (region, region, by how many periods the second
+    lies ahead along each axis)."""
+    cells, found = np.argwhere(label), []
+    for step in AHEAD:
+        periods, there = np.divmod(cells + step, label.shape)
+        across = periods.any(axis=1) & ((periods == 0) | periodic).all(axis=1)
+        pair = (label[tuple(part[across].T)] for part in (cells, there))
+        found.append(np.column_stack([*pair, periods[across]]))
+    rows = np.concatenate(found)
+    return rows[rows[:, 1] > 0]
+
+
 def _joined(label, periodic) -> np.ndarray:
     """Regions that touch across a periodic edge (also diagonally) get one number."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
-    around, (nx, ny) = label, label.shape
-    for axis, closed in enumerate(periodic):
-        width = [(1, 1) if axis == other else (0, 0) for other in range(2)]
-        around = np.pad(around, width, mode="wrap" if closed else "constant")
-    pairs = [np.stack([label, around[1 + i : 1 + i + nx, 1 + j : 1 + j + ny]]).reshape(2, -1) for i, j in AHEAD]
-    a, b = np.concatenate(pairs, axis=1)
-    joins = (a > 0) & (b > 0) & (a != b)
+    a, b = _crossings(label, periodic)[:, :2].T
+    if not a.size:
+        return label
     count = label.max()
-    graph = coo_matrix((np.ones(np.count_nonzero(joins)), (a[joins] - 1, b[joins] - 1)), shape=(count, count))
+    graph = coo_matrix((np.ones(a.size), (a - 1, b - 1)), shape=(count, count))
     return np.concatenate([[0], connected_components(graph, directed=False)[1] + 1])[label]
 
 
 def ridges(heights, bearing: float, periodic) -> int:
     """How many patches have no ends: above the separation at which ``bearing`` of the map touches, a way along them
-    leads to the same cell of another period. (As a way that does not cross itself goes round at least one axis an odd
-    number of times, it leads to the same cell of two maps side by side.)"""
-    touching, (nx, ny) = heights > np.quantile(heights, 1 - bearing), heights.shape
-    copies = [2 if closed else 1 for closed in periodic]
-    twice = _joined(_labelled(np.tile(touching, copies)), periodic)
-    endless = np.zeros(heights.shape, bool)
-    for i, j in list(np.ndindex(*copies))[1:]:
-        endless |= twice[:nx, :ny] == np.roll(twice, (i * nx, j * ny), (0, 1))[:nx, :ny]
-    return np.unique(_joined(_labelled(touching), periodic)[endless & touching]).size
+    leads to the same cell of another period."""
+    label = _labelled(heights > np.quantile(heights, 1 - bearing))
+    ways = defaultdict(list)
+    for a, b, i, j in np.unique(_crossings(label, periodic), axis=0).tolist():
+        ways[a].append((b, i, j))
+        ways[b].append((a, -i, -j))
+    period: dict[int, tuple[int, int]] = {}
+    count = 0
+    for region in ways:
+        if region in period:
+            continue
+        period[region], reached, endless = (0, 0), [region], False
+        while reached:
+            here = reached.pop()
+            for there, i, j in ways[here]:
+                met = period[here][0] + i, period[here][1] + j
+                if there not in period:
+                    period[there] = met
+                    reached.append(there)
+                endless |= period[there] != met
+        count += endless
+    return count

@@ -8,8 +8,8 @@ of the one and two cells before: along the way of the lubricant both first terms
 with it lose nothing, and of a film at rest that is second-order upwind, as of the steady one. (In steps and cells that
 stand still, waves of 12 cells lost half of their height in a half-width.)
 
-Where all roughness is slower than U/2, the fastest rough body moves by one cell in a step, m' and m'' are of the cell
-itself, and the first step is implicit Euler.
+Where all roughness is slower than U/2, or some is faster than 2 U, the fastest rough body moves by one cell in a step,
+m' and m'' are of the cell itself, and the first step is implicit Euler.
 
 f is that of surface 2, the upper one, against its sliding u2 - u1, or against U in pure rolling (`Problem.sense`).
 """
@@ -43,7 +43,10 @@ SMOOTH = 0.4  # half-widths over which the pressure is smoothed to tell what goe
 SWEEP = 2.5  # half-widths that the film travels before anything counts: from -1.5 to 1
 STEPS, KRYLOV = 4.0, 25.0  # factorisations and iterations in a step in time, about
 SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film"
-SLOW = 0.5  # of U: roughness that moves at less passes a cell in a step; else the lubricant does
+SLOW, FAST = (
+    0.5,
+    2.0,
+)  # of U: roughness that moves at less, or at more, passes a cell in a step; else the lubricant does
 SAME = 1e-9  # relative: the lubricant passes one cell in a step
 AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
 
@@ -259,7 +262,7 @@ def _plan(contact: LineContact, cell: float, fastest: float, length: float) -> t
     """Length [s] of a step, and the numbers of steps that are discarded and that count, for cells [m] along x and a
     ``fastest`` body [m/s] whose map has this ``length`` [m]."""
     speed = contact.entrainment_speed
-    step = cell / (speed if abs(fastest) >= SLOW * speed else abs(fastest))
+    step = cell / (speed if SLOW <= abs(fastest) / speed <= FAST else abs(fastest))
     discarded = math.ceil(SWEEP * half_width(contact) / (speed * step))
     return step, discarded, max(1, round(length / (abs(fastest) * step)))
 

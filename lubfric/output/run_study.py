@@ -145,13 +145,11 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, ...]]:
     found: dict[str, tuple[float, ...]] = {}
     for text in texts:
         name, _, ends = text.partition("=")
-        key = name.strip()
+        key, ways = name.strip(), "write 'section.key=lowest:highest', in SI or with units, once for each key"
         unit = KEYS[key].unit if key in KEYS else "-"
-        both = tuple(number_of(f"--parameter {key}", end, unit) for end in ends.split(":"))
-        if len(both) != 2 or key in found:
-            ways = "write 'section.key=lowest:highest', in SI or with units, once for each key"
+        if ends.count(":") != 1 or key in found:
             raise InputError(f" {validate.shown(text)}", "--parameter", way_out=ways)
-        found[key] = both
+        found[key] = tuple(number_of(f"--parameter {key}", end, unit) for end in ends.split(":"))
     return found
 
 

@@ -146,9 +146,7 @@ def _pieces(prepared: Prepared, speed: float, first: Pair | None) -> tuple[tuple
     assert strips is not None
     pieces: list[Piece] = []
     error, spent = BlockError(math.inf, 0), 0.0
-    while len(pieces) < min(strips.pieces, MOST_PIECES) and not (
-        error.error <= asked or spent > PIECES_WORK * MOST_WORK
-    ):
+    while len(pieces) < min(strips.pieces, MOST_PIECES) and not (error.error <= asked or spent > PIECES_WORK):
         slope = pieces[0][1].slope if pieces else None
         pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))
         error, spent = _error(pieces, strips), spent + sum(strip.work for strip in pieces[-1])

@@ -10,7 +10,11 @@ from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuant
 CONFIDENCE = 0.95
 OF_SHARE, IN_CONTACT = 0.7, 0.25  # error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
 OF_FILM, MOST_OF_FILM = 3.2, 0.3  # error of the film's shear by load sharing: times (film/Sq)², and at most
-OF_ROLLING = 8.0  # of the rolling force: what the pressure on the flanks of roughness that moves may add; 7 were seen
+OF_ROLLING, FLANKS = (
+    8.0,
+    1.5,
+)  # of the rolling force: what the pressure on the flanks of roughness that moves may add (7
+# were seen at λ = 0.6 and 1, 2.4 at 2); film/Sq from which on it falls, with its square
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 FEW = 10.0  # effective contact spots below which an interval covers less often than it says
 EVEN = 0.1  # of half an interval: f farther off its middle is told with both ends
@@ -85,19 +89,21 @@ def load_sharing_error(
     sqrt(s (1 - s)) of the whole, but never below 0 or above the whole, which exchanges the friction of one part for
     that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %; in
     contact all of f by 0.25 sqrt(1 - s): below, of what the others leave; and the pressure on the flanks of moving
-    roughness, which is left out, by up to 8 times the rolling force. 0 without roughness.
+    roughness, which is left out, by up to 8 times the rolling force, and 18/λ² times for thick films. 0 without
+    roughness.
     """
     f = abs(boundary + shear)
     if film_to_roughness_ratio == math.inf or f == 0:
         return 0.0, 0.0
-    of_film = min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) / f + OF_ROLLING * abs(rolling) / f
+    of_flanks = OF_ROLLING * min(1.0, (FLANKS / film_to_roughness_ratio) ** 2) * abs(rolling)
+    of_film = (min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) + of_flanks) / f
     if not 0 < share < 1:
         return of_film, of_film
     exchanged, rooms = (boundary / share - shear / (1 - share)) / f, (share, 1 - share)
     of_share = OF_SHARE * math.sqrt(share * (1 - share))
     down, up = (of_film + min(of_share, room) * abs(exchanged) for room in rooms[:: 1 if exchanged > 0 else -1])
     of_all = IN_CONTACT * math.sqrt(1 - share)
-    return 1 - (1 - down) * (1 - of_all), up + of_all
+    return down + max(1 - down, 0.0) * of_all, up + of_all
 
 
 @described_in_doc

@@ -76,7 +76,8 @@ def plot(result, ax=None, **style):
     from matplotlib.colors import Normalize
 
     axes, indices = figures.axes_or_new(ax), list(np.ndindex(*result.status.shape[:-1]))
-    indices = indices[:: -(-len(indices) // MOST)]
+    count = len(indices)
+    indices = indices[:: -(-count // MOST)]
     few = len(indices) <= NAMED
     shades: np.ndarray = np.linspace(0.0, 0.9, len(indices))
     colours = colormaps["viridis"]
@@ -97,11 +98,12 @@ def plot(result, ax=None, **style):
             fine = np.geomspace(speed[good][0], speed[good][-1], FINE)
             axes.plot(fine, curve.at(fine), **own)
             own |= {"ls": "", "label": None}
-        axes.plot(speed[good], f[good], **{"marker": "o", "ms": 3} | own)
+        axes.plot(speed[good], f[good], **({"marker": "o", "ms": 3} if few or curve is None else {}) | own)
     axes.set(xscale="log", xlabel=axis_label(SPEED), ylabel=figures.FRICTION)
     figures.plain_ticks(axes.xaxis)
     rows = figures.key_above(axes, 2) if few and len(indices) > 1 else 0
-    axes.set_title(figures.plain_words(result.plan.scene.name), pad=6 + 13 * rows)
+    some = "" if len(indices) == count else f": {len(indices)} of {count} curves"
+    axes.set_title(figures.plain_words(result.plan.scene.name) + some, pad=6 + 13 * rows)
     return axes
 
 

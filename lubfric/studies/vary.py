@@ -151,8 +151,10 @@ def check_key(what: str, scene: Scene, key, seen, sections=SECTIONS) -> None:
     part = getattr(scene, section) or Roughness  # a body without roughness has its keys all the same
     validate.keys(f"{what}: [{section}]", [field] * bool(field), (*part.__dataclass_fields__, *short_keys(section)))
     if key == "motion" or key in SPEEDS:
-        ways = "give speeds = [...] in m/s beside it; motion.slide_roll_ratio is a key"
-        raise InputError(f"{what}: {key!r} is what a curve is over", way_out=ways)
+        ways = "give speeds = [...] in m/s beside it (a fit takes those of the measurement)"
+        raise InputError(
+            f"{what}: {key!r} is what a curve is over", way_out=f"{ways}; motion.slide_roll_ratio is a key"
+        )
     if key in seen:
         raise InputError(f"{what}: {key!r} is given twice; give it once")
 

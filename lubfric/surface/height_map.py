@@ -94,14 +94,19 @@ class Surface(FrozenArrays, Shown):
         return f"{self.source}: {text}" if self.source else text
 
     def plot(self, ax=None):
-        """The heights in the plane, on ``ax`` or new axes, which are returned. The colours span all but the lowest and
-        the highest half percent of the points; the title tells the ends."""
+        """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
+        which the title then tells."""
         axes = figures.axes_or_new(ax, "compressed")
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
         z = (self.heights - np.nanmean(self.heights)) * 1e9
-        least, low, high, most = np.nanpercentile(z, (0, 0.5, 99.5, 100))
-        figures.field_image(axes, x, y, z, "cividis", "height (nm)", "both", vmin=low, vmax=high)
-        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm, lowest {least:.4g}, highest {most:.4g} nm")
+        (low, high), (least, most) = np.nanpercentile(z, (0.5, 99.5)), (np.nanmin(z), np.nanmax(z))
+        reach = 0.4 * (high - low)  # to some four times Sq, were the heights normally distributed
+        ends = {"vmin": max(least, low - reach), "vmax": min(most, high + reach)}
+        beyond = least < ends["vmin"], most > ends["vmax"]
+        extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get(beyond, "neither")
+        figures.field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
+        ends_in_words = f"\nlowest {least:.4g}, highest {most:.4g} nm" if any(beyond) else ""
+        axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{ends_in_words}")
         return axes
 
     def _facts(self) -> dict[str, str]:

@@ -148,17 +148,12 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
         if empty := sum(row.count("") for _, row in cells):
             lines = [(number, separator.join(cell or "nan" for cell in row)) for number, row in cells]
             notes += (f"{counted(empty, 'empty cells')} taken for unmeasured",)
-    rows: list[np.ndarray] = []
-    width = len(lines[0][1].split(separator))
-    for number, text in lines:
-        values = [value.strip() for value in text.split(separator)]
-        bad = [value for value in values if _NUMBER.fullmatch(value) is None or "," in value]
-        if bad or len(values) != width:
-            fault = repr(bad[0][:40]) if bad else f"{len(values)} values, the first one {width}"
-            said = f"path = {str(path)!r} is not a table of numbers: line {number} has {fault}"
-            raise InputError(said, allowed="lines of equally many numbers, 'nan' where unmeasured")
-        rows.append(np.array(values, dtype=float))
-    return np.array(rows), notes, steps
+    try:
+        table = np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None)
+    except ValueError as problem:
+        said = f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}"
+        raise InputError(said, allowed="lines of equally many numbers, 'nan' where unmeasured") from None
+    return table, notes, steps
 
 
 def _step(title: str) -> tuple[str, float] | None:
@@ -217,3 +212,16 @@ def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
         said = "and all others have commas that can separate values or be decimal marks"
         raise _wrong(path, *commas[0], f"{said}; give {ways_out}")
     return ",", False
+
+
+def _fault(lines: Lines, separator) -> str:
+    """The first line that is not numbers or not as long as the first, in words."""
+    width = len(lines[0][1].split(separator))
+    for number, text in lines:
+        fields = [f.strip() for f in text.split(separator)]
+        bad = [f for f in fields if _NUMBER.fullmatch(f) is None or "," in f]
+        if bad:
+            return f"line {number} has {bad[0][:40]!r}"
+        if len(fields) != width:
+            return f"line {number} has {len(fields)} values, the first one {width}"
+    return ""

@@ -117,26 +117,28 @@ def _increment(root, axis, axis_type="I") -> float:
     found = _text(root, f"Record1/Axes/{axis}/AxisType")
     if found != axis_type:
         raise _bad(f"{axis} AxisType", found, f"{axis_type} (uniform spacing)")
-    return _number(root, f"Record1/Axes/{axis}/Increment", above=0.0, allowed="a number in (0, inf) m")
+    step = _number(root, f"Record1/Axes/{axis}/Increment")
+    if not step > 0:
+        raise _bad(f"{axis} Increment", f"{step:g} m", "(0, inf) m")
+    return step
 
 
-def _number(root, where, default=None, above=-math.inf, allowed="a finite number") -> float:
+def _number(root, where, default=None) -> float:
     text = _text(root, where, required=default is None)
     try:
         value = default if text == "" else float(text)
     except ValueError:
         value = math.nan
-    if not above < value < math.inf:
-        raise _bad(where, text[:40], allowed)
+    if not math.isfinite(value):
+        raise _bad(where, text, "a finite number")
     return value
 
 
 def _count(root, where) -> int:
-    allowed = "a whole number >= 1"
-    value = _number(root, where, above=0.0, allowed=allowed)
-    if value % 1:
-        raise _bad(where, value, allowed)
-    return int(value)
+    text = _text(root, where)
+    if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
+        raise _bad(where, text[:40], "a whole number >= 1")
+    return int(text)
 
 
 def _text(root, where, required=True) -> str:

@@ -10,7 +10,7 @@ from ..errors import Report
 from ..quantities import OF_MOMENT, axis_label
 from ..sampling import UncertaintyCurve, percent, student
 from ..scene import FRICTION as FRICTION_KEY
-from ..scene import moves, value_of
+from ..scene import moving_bodies, value_of
 from ..sharing import Validity, gathered
 from .march import Plan, Progress, report_of
 from .one_gap import OneGap
@@ -179,7 +179,9 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
-    stands = (STANDS,) if isinstance(solver, Sharing) and moves(prepared.scene) else ()
+    half, rough = 0.5 * columns["sliding_speed"], [name for name, _ in moving_bodies(prepared.scene)]
+    ways = {"surface": columns["entrainment_speed"] - half, "counterface": columns["entrainment_speed"] + half}
+    stands = (STANDS,) if isinstance(solver, Sharing) and any(ways[name].any() for name in rough) else ()
     report = report_of("transient, BDF2", plan, now, f"{solver.cells}; surface: {surface}", worst)
     if prepared.strips is not None and not prepared.strips.whole:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]

@@ -70,7 +70,9 @@ def test_the_error_of_load_sharing_itself_is_that_of_its_rule():
         8.0, 0.9, 0.009, 0.03
     )  # the film rubs more: all of its tenth may go to the asperities
     assert down == pytest.approx(1 - (1 - (0.1 * 0.29 + 0.05 * 0.03) / 0.039) * (1 - 0.25 * math.sqrt(0.1)))
-    assert load_sharing_error(8.0, 0.0, 0.0, 4e-4, 4e-4) == pytest.approx((8.05, 8.05))  # pure rolling
+    assert load_sharing_error(1.0, 0.0, 0.0, 4e-4, 4e-4) == pytest.approx((8.3, 8.3))  # pure rolling
+    assert load_sharing_error(30.0, 0.0, 0.0, 4e-4, 4e-4) == pytest.approx(((3.2 + 18) / 900,) * 2)
+    assert load_sharing_error(1.0, 1e-9, 0.0, 4e-4, 4e-4)[0] == pytest.approx(8.3, rel=1e-3)  # no less for a touch
     assert load_sharing_error(math.inf, 0.0, 0.0, 0.03) == (0.0, 0.0)
     assert max(load_sharing_error(0.1, 0.99999, 0.0899991, 1e-7)) < 3e-3
 
