@@ -66,9 +66,7 @@ def test_the_error_of_load_sharing_itself_is_that_of_its_rule():
     down, up = load_sharing_error(8.0, 0.1, 0.012, 0.0)
     of_all = 0.25 * math.sqrt(0.9)
     assert (down, up) == pytest.approx((1.0, 0.7 * 0.3 * 0.12 / 0.012 + of_all))
-    down, up = load_sharing_error(
-        8.0, 0.9, 0.009, 0.03
-    )  # the film rubs more: all of its tenth may go to the asperities
+    down, up = load_sharing_error(8.0, 0.9, 0.009, 0.03)  # the film rubs more: its tenth may go to the asperities
     assert down == pytest.approx(1 - (1 - (0.1 * 0.29 + 0.05 * 0.03) / 0.039) * (1 - 0.25 * math.sqrt(0.1)))
     assert load_sharing_error(1.0, 0.0, 0.0, 4e-4, 4e-4) == pytest.approx((8.3, 8.3))  # pure rolling
     assert load_sharing_error(30.0, 0.0, 0.0, 4e-4, 4e-4) == pytest.approx(((3.2 + 18) / 900,) * 2)
