@@ -134,6 +134,8 @@ def _in_parts(problem_at, at: Iterate, time: float, step: float, work: Work, tol
     for part in range(1, PARTS + 1):
         problem, past = problem_at(time + part * step / PARTS), Past(at.mass, step / PARTS)
         found = newton(problem, at.state, work, tolerance=tolerance, most=MOST // 4, past=past)
+        if not found.residual <= tolerance:
+            break  # the next would rest on a film that is none
         at = found.at
     return found
 

@@ -46,7 +46,7 @@ def test_it_opens_whole_and_runs_nothing(run, width):
     shown = browse(run, f"--window-size={width},900", "--dump-dom", (run / "look.html").as_uri()).stdout
     seen = json.loads(unescape(re.search(r'data-seen="(.*?)"', shown)[1]))
     assert seen["title"] == NAME and seen["head"].startswith(NAME)
-    assert seen["drawn"] and seen["images"] == 1 and seen["beyond"] <= 0
+    assert seen["drawn"] and seen["images"] == 2 and seen["beyond"] <= 0
     parts = ["Question", "Answer", "Cautions", "Results", "Errors of f", "Inputs", "Sources", "Made by"]
     assert seen["sections"] == parts
     point = json.loads((run / "out" / "result.json").read_text())["points"][1]
