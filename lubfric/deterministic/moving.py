@@ -28,7 +28,7 @@ from ..errors import CONVERGED, ITERATION_LIMIT, Report
 from ..film import LineContact
 from ..scene import Scene
 from ..surface import Surface
-from .newton import Found, Work, newton
+from .newton import Work, newton
 from .point import Strip, solve_strip, work_of_steps
 from .problem import Problem, shifted
 from .result import DeterministicResult, LoadSplit, assemble
@@ -37,7 +37,7 @@ from .state import RUPTURED, Iterate, Past, State, evaluated, kept, residuals
 
 EXACT = 1e-3  # tolerance of the residuals of a step
 LOOSE = 1e-4  # and of a strip, times its cells along x: f moves by .1 %
-MOST, PARTS = 80, 4  # factorisations of a step; Euler steps that stand for one that fails
+MOST, PARTS = 160, 4  # factorisations of a step; Euler steps that lead to one that fails
 RESOLVED = 8  # cells in the Hertz half-width, from which on the pressure is carried with the roughness
 SMOOTH = 0.4  # half-widths over which the pressure is smoothed to tell what goes with the roughness
 SWEEP = 2.5  # half-widths that the film travels before anything counts: from -1.5 to 1
@@ -104,7 +104,8 @@ def moments(
             if found.residual <= tolerance:
                 break
         else:
-            found = _in_parts(problem_at, at, (count - 1) * step, step, work, tolerance)
+            nearby = _in_parts(problem_at, at, (count - 1) * step, step, work, tolerance)
+            found = newton(problem, nearby, work, tolerance=tolerance, most=MOST // 4, past=past)
         if not found.residual <= tolerance:
             name = f"film under moving roughness, step {count} of {step:.3g} s"
             advice = "shorter cells make the step shorter, and a higher speed the film thicker"
@@ -129,15 +130,16 @@ def _past(problem: Problem, at: Iterate, before: Iterate, step: float, first: bo
     return Past(left, step, (then, 0.5), carried=True)
 
 
-def _in_parts(problem_at, at: Iterate, time: float, step: float, work: Work, tolerance: float) -> Found:
-    """The step after ``time`` in `PARTS` Euler steps."""
+def _in_parts(problem_at, at: Iterate, time: float, step: float, work: Work, tolerance: float) -> State:
+    """The state after the step after ``time`` in `PARTS` Euler steps, as far as they are solved: a start only, because
+    they do not keep the mass that the steps of second order keep."""
     for part in range(1, PARTS + 1):
         problem, past = problem_at(time + part * step / PARTS), Past(at.mass, step / PARTS)
         found = newton(problem, at.state, work, tolerance=tolerance, most=MOST // 4, past=past)
         if not found.residual <= tolerance:
-            break  # the next would rest on a film that is none
+            break
         at = found.at
-    return found
+    return at.state
 
 
 def _carried(state: State, before: State, cells: int, smooth: int) -> State:
