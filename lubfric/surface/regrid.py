@@ -25,7 +25,7 @@ def pair(name, value) -> tuple[int, int]:
 def points(name: str, shape: tuple[int, ...]) -> None:
     """Check that a grid of that many points fits into memory."""
     if math.prod(shape) > MOST_POINTS:
-        said = f" = {validate.shown(shape)} has {float(math.prod(shape)):.3g} points"
+        said = f" = {validate.shown(shape)} has some 1e{math.log10(math.prod(shape)):.0f} points"  # of any whole number
         raise InputError(said, name, f"up to {MOST_POINTS:.3g}")
 
 

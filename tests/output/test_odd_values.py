@@ -45,6 +45,7 @@ ODD = {
     "a table that is a word": table("313"),
     "a coefficient that boils": partial(FLAT.with_, lubricant={"temperature": 300.0, "temperature_coefficient": 1e6}),
     "bodies that keep all heat": partial(FLAT.with_, bodies={"conductivity": (0.0, 46.0)}),
+    "a map of 1e800 points": partial(lubfric.generate_surface, 10**400, 1e-6, sq=1e-7, correlation_length=8e-6, seed=1),
     "two planes": partial(FLAT.with_, bodies={"radii": (float("inf"), float("inf"))}),
     "a study of 1e10 points": partial(lubfric.study, FLAT, {"bodies.load": MANY, "bodies.radius": 1e-3 * MANY}),
     "a sample without end": partial(lubfric.sample, [lubfric.Between(1, 2)], 2**40),
