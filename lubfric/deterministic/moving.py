@@ -43,10 +43,7 @@ SMOOTH = 0.4  # half-widths over which the pressure is smoothed to tell what goe
 SWEEP = 2.5  # half-widths that the film travels before anything counts: from -1.5 to 1
 STEPS, KRYLOV = 4.0, 25.0  # factorisations and iterations in a step in time, about
 SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film"
-SLOW, FAST = (
-    0.5,
-    2.0,
-)  # of U: roughness that moves at less, or at more, passes a cell in a step; else the lubricant does
+SLOW, FAST = 0.5, 2.0  # of U: roughness that is slower or faster passes a cell in a step; else the lubricant does
 SAME = 1e-9  # relative: the lubricant passes one cell in a step
 AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
 

@@ -10,11 +10,8 @@ from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuant
 CONFIDENCE = 0.95
 OF_SHARE, IN_CONTACT = 0.7, 0.25  # error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
 OF_FILM, MOST_OF_FILM = 3.2, 0.3  # error of the film's shear by load sharing: times (film/Sq)², and at most
-OF_ROLLING, FLANKS = (
-    8.0,
-    1.5,
-)  # of the rolling force: what the pressure on the flanks of roughness that moves may add (7
-# were seen at λ = 0.6 and 1, 2.4 at 2); film/Sq from which on it falls, with its square
+OF_ROLLING = 8.0  # of the rolling force: what pressure on the flanks of moving roughness may add; up to 7 were seen
+FLANKS = 1.5  # film/Sq from which on that falls, with the square of it; 2.4 times the rolling force were seen at 2
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 FEW = 10.0  # effective contact spots below which an interval covers less often than it says
 EVEN = 0.1  # of half an interval: f farther off its middle is told with both ends

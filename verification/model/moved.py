@@ -15,7 +15,7 @@ from ..fem.fluid import Fluid
 
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 SWEEP = 2.5  # half-widths that the film travels before anything counts
-SLOW = 0.5  # of the entrainment speed: faster roughness moves while the lubricant passes one cell in a step
+SLOW, FAST = 0.5, 2.0  # of U: between them roughness moves while the lubricant passes one cell in a step
 EXACT = 1e-4  # residual of a step, times the cells along x
 FLOOR = 1e-9  # m
 BALANCES = "mass", "load", "gap", "bounds"
@@ -36,7 +36,7 @@ def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
         return first | {"rest": first, "off": balances(problem, rest.result, [], 0.0, first["given"]), "steps": 0}
     line, dx = problem.contact, problem.spacing[0]
     U, width = line.entrainment_speed, max(line.half_width, math.sqrt(2 * line.radius * line.moes_film))
-    step = dx / (U if fastest >= SLOW * U else fastest)
+    step = dx / (U if SLOW <= fastest / U <= FAST else fastest)
     start, count = math.ceil(SWEEP * width / (U * step)), max(4, round(whole.size[0] / (fastest * step)))
     moving = moments(
         travelling(problem, bodies),
