@@ -52,13 +52,14 @@ class Found:
         return max(self.residuals.values())
 
 
-def newton(problem: Problem, state: State, work: Work, *, tolerance, most, past=None) -> Found:
+def newton(problem: Problem, state: State, work: Work, *, tolerance, most, least=0.0, past=None) -> Found:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
     Before every step each cell gets the equation that its state asks for (`settled`). A step leaves every cell at least
-    a fifth of its gap, and is halved while the mass residual of the fluid cells grows. The method gives up when a
-    number is not finite, or when for `PATIENCE` steps neither the residual has fallen nor the residual that the whole
-    step would have led to. (The latter falls first, while a heavily loaded film finds its shape in short steps.)
+    a fifth of its gap, and is halved while the mass residual of the fluid cells grows. The method gives up after a step
+    shorter than ``least`` of the whole; when a number is not finite; or when for `PATIENCE` steps neither the residual
+    has fallen nor the residual that the whole step would have led to. (The latter falls first, while a heavily loaded
+    film finds its shape in short steps.)
     """
     history: list[float] = []
     promised: list[float] = []
@@ -81,17 +82,19 @@ def newton(problem: Problem, state: State, work: Work, *, tolerance, most, past=
         work.krylov += iterations
         if not np.all(np.isfinite(step.gap)):
             return found
-        at, whole = _advanced(at, step)
+        at, whole, length = _advanced(at, step)
         promised.append(whole)
+        if length < least:
+            return found
 
 
 def _stalled(history) -> bool:
     return len(history) > PATIENCE and not min(history[-PATIENCE:]) <= PROGRESS * min(history[:-PATIENCE])
 
 
-def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float]:
-    """The state after the longest part of ``step`` that is accepted, and the merit of the longest part that was
-    tried."""
+def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float, float]:
+    """The state after the longest part of ``step`` that is accepted, the merit of the longest part that was tried, and
+    the part that was accepted."""
     apart = at.state.kind != TOUCHING
     length, before = _longest(at, step), _merit(at, apart)
     merits: list[float] = []
@@ -101,7 +104,7 @@ def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float]:
         if merits[-1] <= (GROWTH if length > SHORTEST else SURGE) * before:
             break
         length /= 2
-    return new, merits[0]
+    return new, merits[0], length
 
 
 def _longest(at: Iterate, step: Change) -> float:

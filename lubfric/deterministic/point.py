@@ -79,8 +79,8 @@ def solve_strip(
         with suppress(ConvergenceError):
             start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE, upper=upper)
             work = start.work
-    near = None if start is None else refined_start(start.problem, problem, start.result)
-    result = solve_point(problem, start=near, tolerance=tolerance)
+    near, least = (None, 0.0) if start is None else refined_start(start.problem, problem, start.result)
+    result = solve_point(problem, start=near, least=least, tolerance=tolerance)
     work += work_of(result)
     if slope:
         heavier = problem.at_load(HEAVIER * problem.load)

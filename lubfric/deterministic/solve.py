@@ -25,14 +25,18 @@ THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and a
 DRY_TOLERANCE = 1e-4
 RUPTURE = 0.55  # of sqrt(2 R h): a little behind where a rigid film ruptures, 0.475
 SHARP, WORSE = 0.02, 2.0  # share of the load on spots from which on a finer grid starts from its dry contact
+WET = 0.1  # share up to which the film of longer cells is laid on the dry contact of shorter ones
+WHOLE = 0.3  # of a Newton step: from there the solution follows by longer ones, or not at all
 
 
-def solve_point(problem: Problem, *, start: State | None = None, tolerance=TOLERANCE, most=MOST) -> DeterministicResult:
+def solve_point(
+    problem: Problem, *, start: State | None = None, least=0.0, tolerance=TOLERANCE, most=MOST
+) -> DeterministicResult:
     """Gap, pressure and friction of ``problem`` on its own grid.
 
     Tried in turn until one converges:
 
-    - Newton's method from ``start``, a state on the same grid;
+    - Newton's method from ``start``, a state on the same grid, until a step is shorter than ``least``;
     - from the dry contact, lifted by Moes' film;
     - for a Newtonian lubricant, from the solution with a limiting shear stress;
     - from the state that implicit steps in time reach from ``start``;
@@ -45,7 +49,7 @@ def solve_point(problem: Problem, *, start: State | None = None, tolerance=TOLER
     """
     work = Work(most)
     tried: list[tuple[str, Found]] = []
-    for attempt in _attempts(problem, start, tolerance, work):
+    for attempt in _attempts(problem, start, least, tolerance, work):
         tried.append(attempt)
         if attempt[1].residual <= tolerance:
             break
@@ -71,9 +75,10 @@ def solve_point(problem: Problem, *, start: State | None = None, tolerance=TOLER
     return returned(assemble(found.at, report))
 
 
-def _attempts(problem: Problem, start: State | None, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
+def _attempts(problem: Problem, start: State | None, least, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
     if start is not None:
-        yield "from a neighbouring state", newton(problem, start, work, tolerance=tolerance, most=NEAR)
+        near = newton(problem, start, work, tolerance=tolerance, most=NEAR, least=least)
+        yield "from a neighbouring state", near
     dry = dry_contact(problem)
     cold = dry_start(problem, dry)
     yield "from the dry contact", newton(problem, cold, work, tolerance=tolerance, most=DIRECT)
@@ -142,13 +147,20 @@ def _in_time(problem: Problem, state: State, tolerance, work: Work) -> Found:
     return newton(problem, settled, work, tolerance=tolerance, most=DIRECT)
 
 
-def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> State | None:
-    """The state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells.
+def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> tuple[State | None, float]:
+    """The state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells; and
+    the least Newton step to take from there.
 
     Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the dry
     contact of the finer grid is taken, with half of the pressure of the film between the spots. (With none of it
-    Newton's method takes a third more steps.) None if its residuals are `WORSE` times those of `dry_start` on that
-    grid, as under heavy loads. Beyond the old grid p = 0, with fluid upstream and rupture downstream.
+    Newton's method takes a third more steps.)
+
+    If the residuals are `WORSE` times those of `dry_start` on that grid, as under heavy loads, it is the dry contact of
+    the finer grid plus what the film changes of the coarser one (as in a full approximation scheme: A. Brandt, Math.
+    Comput. 31 (1977) 333-390, doi:10.1090/S0025-5718-1977-0431719-X). That is far away and yet a few whole steps from
+    the solution, or it leads nowhere: none where spots carry more than `WET` of the load.
+
+    Beyond the old grid p = 0, with fluid upstream and rupture downstream.
     h0 is corrected, because the half-space has its zero, u = 0, at the length of the grid from a line load. The cells
     may also be those of ``coarse`` on a longer or shorter grid.
     """
@@ -157,26 +169,42 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     across = (np.arange(ny) + 0.5) * (ny_old / ny) - 0.5
     nearest = old.kind[np.clip(np.rint(along).astype(int), 0, nx_old - 1)][:, np.rint(across).astype(int) % ny_old]
     kind = np.where((along < -0.5)[:, None], FLUID, np.where((along > nx_old - 0.5)[:, None], RUPTURED, nearest))
-    pressure, dent = (_interpolated(field, along, across) for field in (old.pressure, old.dent))
+    fill = _interpolated(old.fill, np.clip(along, 0, nx_old - 1), across)
+
+    def state(pressure, kind, dent, approach) -> State:
+        ruptured = kind == RUPTURED
+        pressure = np.where(ruptured, 0.0, np.clip(pressure, 0.0, problem.hardness))
+        yielded = pressure >= problem.hardness
+        kind, dent = kind.astype(np.int8), np.where(yielded, dent, 0.0)
+        return State(pressure, np.where(ruptured, fill, 1.0), dent, kind, yielded, approach)
+
     longer = nx * problem.spacing[0] / (nx_old * coarse.spacing[0])
     approach = old.approach - 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)
-    new = None if problem.spacing == coarse.spacing else dry_contact(problem)
-    if new is not None and result.split.spots >= SHARP * result.load:
-        bare = dry_contact(coarse)
+    smooth = state(_interpolated(old.pressure, along, across), kind, _interpolated(old.dent, along, across), approach)
+    if problem.spacing == coarse.spacing:
+        return smooth, 0.0
+    new, spots = dry_contact(problem), result.split.spots / result.load
+
+    def near(one: State) -> bool:
+        left, others = (max(residuals(evaluated(problem, at)).values()) for at in (one, dry_start(problem, new)))
+        return left <= WORSE * others
+
+    if spots < SHARP and near(smooth):
+        return smooth, 0.0
+    bare = dry_contact(coarse)
+
+    def on_dry(pressure) -> State:
+        sunk = np.where((kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID), np.maximum(-new.gap, 0.0)
+        return state(pressure, *sunk, old.approach + bare.approach - new.approach)
+
+    if spots >= SHARP:
         film = _interpolated(np.where(bare.pressure > 0, 0.0, old.pressure), along, across)
-        pressure = np.where(new.pressure > 0, new.pressure, 0.5 * film)
-        kind = np.where((kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID)
-        dent, approach = np.maximum(-new.gap, 0.0), old.approach + bare.approach - new.approach
-    ruptured = kind == RUPTURED
-    pressure = np.where(ruptured, 0.0, np.minimum(pressure, problem.hardness))
-    fill = np.where(ruptured, _interpolated(old.fill, np.clip(along, 0, nx_old - 1), across), 1.0)
-    yielded = pressure >= problem.hardness
-    found = State(pressure, fill, np.where(yielded, dent, 0.0), kind.astype(np.int8), yielded, approach)
-    if new is None:
-        return found
-    cold = dry_start(problem, new)
-    left, others = (max(residuals(evaluated(problem, state)).values()) for state in (found, cold))
-    return found if left <= WORSE * others else None
+        sharp = on_dry(np.where(new.pressure > 0, new.pressure, 0.5 * film))
+        if near(sharp):
+            return sharp, 0.0
+    if spots > WET:
+        return None, 0.0
+    return on_dry(new.pressure + _interpolated(old.pressure - bare.pressure, along, across)), WHOLE
 
 
 def _interpolated(field, along, across) -> np.ndarray:
