@@ -174,8 +174,7 @@ def test_a_forecast_is_right_to_a_factor_of_four():
     for ratio, speed in ((0.02, 0.3), (0.02, 0.7), (1.0, 0.3), (1.0, 0.5), (2.0, 0.15), (2.0, 0.2)):
         scene = PAPER.with_(motion={"slide_roll_ratio": ratio}, numerics={"model": "auto"})
         error = lubfric.friction(scene, speed, model="load-sharing").uncertainty.model
-        told = forecast(scene, prepared.strips, prepared.surface, speed)
-        assert (told.resolved > 0) == (error > scene.numerics.model_tolerance)
+        assert (forecast(scene, prepared.strips, prepared.surface, speed).resolved > 0) == (error > 0.05)
 
 
 @pytest.mark.parametrize("sampling, speeds", [("strips", [0.003, 0.03]), ("patch", [0.01, 0.03])])
