@@ -93,7 +93,7 @@ def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None
             upper = point
         if lower is not None and upper is not None:
             return upper, lower
-        if slope and len(search.points) == 1:
+        if slope and slope > 0 and len(search.points) == 1:
             step = min(step, abs(point[1]) / slope)
         edge = bounds[1] if upper is None else bounds[0]
         if x == edge:

@@ -64,6 +64,7 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
             plastic_area_fraction=plastic,
             fields=found,
             y=self.y,
+            gap_error=found.report.residual * found.length,
         )
 
     @property

@@ -26,8 +26,8 @@ class ContactState:
       ``plastic_area_fraction``: of the area A.
     - ``fields``: pressure and gap on the contact grid, (nx, ny) (None: separated, or the contact has none); ``y`` [m]
       (ny,): of their cells.
-    - ``gap_error`` [m], ``area_error`` [-]: estimated errors of ``mean_gap`` and ``real_contact_area_fraction`` where
-      they are interpolated.
+    - ``gap_error`` [m]: estimated error of ``mean_gap`` by its solver or by interpolation; ``area_error`` [-]: of
+      ``real_contact_area_fraction``, where it is interpolated.
     """
 
     mean_gap: float
@@ -90,7 +90,7 @@ class RoughContact:
 
     @property
     def adjustable_tolerance(self) -> float | None:
-        """The tolerance of the mean gap, relative to Sq, that `tightened` changes (None: it changes nothing)."""
+        """The tolerance of the gap, relative to ``fields.length``, that `tightened` changes (None: nothing)."""
         return None
 
     def tightened(self, tolerance: float) -> RoughContact:

@@ -39,12 +39,13 @@ class ContactResult(Shown):
     mean_gap : volume between the bodies per area [m]; overlapping cells count as zero
     contact_area_fraction : share of the cells with p > 0 [-]
     plastic_area_fraction : share of the cells with p = hardness [-]
+    length : L [m], in which the report measures the gap (infinite without load)
     report : how the solve ended
 
     Notes
     -----
     The residuals of the report are computed from the returned pressure alone, in double precision, after the iteration
-    has ended. L is the length of `length_scale`:
+    has ended. L is ``length``, by `length_scale`:
 
     - complementarity: ``Σ p m / (L Σ p)``, with the misfit m = |gap|, or max(gap, 0) where p = H
     - penetration: ``max(-gap)/L`` over cells with p < H
@@ -59,6 +60,7 @@ class ContactResult(Shown):
     mean_gap: float
     contact_area_fraction: float
     plastic_area_fraction: float
+    length: float
     report: Report
 
     def _facts(self) -> dict[str, str]:
@@ -217,6 +219,7 @@ def concluded(problem, found: Found, control: dict[str, float], failed: str) -> 
         mean_gap=state.mean_gap,
         contact_area_fraction=np.count_nonzero(pressure) / pressure.size,
         plastic_area_fraction=np.count_nonzero(pressure >= problem.hardness) / pressure.size,
+        length=state.scale,
         report=report,
     )
 

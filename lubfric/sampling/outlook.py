@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 from ..contact import Strips
 from ..deterministic import reach, work_of_steps
+from ..film import LineContact, flooded_inlet
+from ..oil import shear_stress
 from ..scene import FRICTION, Scene, gap_not_resolved, moves
 from ..surface import Surface
 from .levels import DIFFERENCE
@@ -13,7 +15,7 @@ from .moving import MOST_WORK, ON_LONGER, moving_strip_work
 from .pair import cells_of
 from .sample import SAFETY
 from .shorter import SHORT
-from .uncertainty import OF_FILM, ORDER, student
+from .uncertainty import ORDER, load_sharing_error, student
 
 CELL_SECONDS = 1.3e-6  # processor time of a cell of the strips in balance, about
 PIECE_SECONDS = 0.7e-6  # of a cell of a piece on finer and finer cells, of the finest
@@ -37,7 +39,7 @@ class Forecast:
     whole load; ``error``: relative standard error of f after the first strips; ``strips`` that
     ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the deterministic model (0:
     Eq. (8) alone answers); and the processor time [s]. ``moving``: that of one strip of the deterministic model if its
-    roughness moves, else 0."""
+    roughness moves and the film is not so thick that Eq. (8) is enough, else 0."""
 
     speed: float
     touching: str
@@ -93,15 +95,11 @@ def _resolved(
     ``film`` [m]: expected; ``scatter``: of f between strips, relative."""
     numerics, sq, both = scene.numerics, surface.sq, cells_of(strips, scene.bodies.half_width)
     moving = moving_strip_work(scene, strips, sq, speed, both) if speed and moves(scene) else 0.0
-    thick = film**2 * numerics.model_tolerance > OF_FILM * sq**2
-    if (
-        speed == 0
-        or scene.transient is not None
-        or numerics.model == "load-sharing"
-        or gap_not_resolved(scene)
-        or thick
-    ):
+    if speed == 0 or scene.transient is not None or numerics.model == "load-sharing" or gap_not_resolved(scene):
         return 0, 0.0, moving
+    rolling = rolling_share(scene.line_contact(speed), scene.bodies.mean_hertz_pressure) if moving else 0.0
+    if sq == 0 or load_sharing_error(film / sq, 0.0, 0.0, 1.0, rolling)[1] <= numerics.model_tolerance:
+        return 0, 0.0, 0.0
     allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
     count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)
     ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
@@ -116,3 +114,13 @@ def _resolved(
     work = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
     again = work_of_steps(finer if strips.whole else cells, AGAIN) * (ends + (ends > 0))
     return count, count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again + work, 0.0
+
+
+def rolling_share(line: LineContact, pressure: float) -> float:
+    """Expected share of rolling in the friction of the film of ``line`` under a mean ``pressure`` [Pa], to a factor of
+    two: pressure builds up in the inlet, and the Hertz strip and the film about it are sheared."""
+    oil, film, b, sliding = line.lubricant, line.expected_film, line.half_width, abs(line.sliding or 0.0)
+    length, eta = math.sqrt(2 * line.radius * film), oil.viscosity
+    rolling = eta * abs(line.entrainment_speed) * flooded_inlet(length, b)
+    sheared = film * float(shear_stress(oil, pressure, sliding / film)) * b + eta * sliding * length
+    return rolling / (rolling + sheared)

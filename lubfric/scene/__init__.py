@@ -8,6 +8,6 @@ from .plausible import doubts, source_of, told_doubts, typical
 from .roughness import Roughness, named
 from .scene import Scene, check_resolved_gap, gap_not_resolved, moves, moving_bodies, value_of
 from .sections import ROUGH, SECTIONS
-from .short_forms import MOST_SPEEDS, SOURCES, resolve, short_keys
+from .short_forms import MOST_SPEEDS, SOURCES, short_keys, speeds_of_range
 from .transient import HISTORIES, Transient, checked_history, read_history
 from .transient import UNITS as CHANGING

@@ -134,7 +134,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
         if start.film.entrainment_speed == point.speed:
             response = start.split, start.response
     for _ in range(ROUNDS):
-        root = _root(point, split, slope, step, (value, last))
+        point, root = _seen_root(point, split, slope, step, (value, last))
         trial = root.payload
         if trial is None:
             return _dry(point.scene, point.contact, "what arrives does not fill the gap: all contact")
@@ -142,7 +142,7 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
             response = root.x, _response(point, trial)
         balance = _balance(point, root, response[1])
         closed = balance if root.status == CONVERGED else closed
-        settings = _needed(point, balance, sq)
+        settings = _needed(point, balance)
         if settings == point.settings or root.status != CONVERGED:
             break
         same = replace(settings, balance_tolerance=point.settings.balance_tolerance)
@@ -156,7 +156,7 @@ def _response(point: Point, trial: Trial) -> Response:
         return point.film(load, trial.film, trial.film.cells)
 
     shape = point.on(point.contact, trial.film)
-    return respond(point.scene, point.contact, trial.contact, trial.contact_load, *shape, film_of)
+    return respond(point.scene, point.tight(point.contact), trial.contact, trial.contact_load, *shape, film_of)
 
 
 def _beginning(point: Point, sq: float, start: Balance | None):
@@ -198,6 +198,28 @@ def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
     return split, 0.5 * steepness
 
 
+def _seen_root(point: Point, split: float, slope: float | None, step: float, first) -> tuple[Point, Root]:
+    """The root, and ``point`` with a contact so tight that its gap at the root is known as closely as it is closed: a
+    root of the errors of a loose contact is none."""
+    while True:
+        root = _root(point, split, slope, step, first)
+        now, volume = point.settings.contact_tolerance, point.settings.balance_tolerance
+        tighter = now if root.payload is None else _contact_tolerance(point, root.payload.contact, volume)
+        if tighter == now:
+            return point, root
+        point = replace(point, settings=replace(point.settings, contact_tolerance=tighter))
+        split, first = root.x, (None, root.payload)
+
+
+def _contact_tolerance(point: Point, contact: ContactState, volume: float) -> float | None:
+    """The tolerance that leaves less than ``volume`` of the gap of ``contact`` open: that of ``point`` if it does."""
+    now, own, fields = point.settings.contact_tolerance, point.contact.adjustable_tolerance, contact.fields
+    if own is None or fields is None or point.scene.numerics.contact_tolerance is not None:
+        return now
+    enough = max(volume * contact.mean_gap / fields.length, budget.TIGHTEST_CONTACT)
+    return now if (now or own) <= budget.SLACK * enough else 0.5 * enough
+
+
 def _root(point: Point, split: float, slope: float | None, step: float, first) -> Root:
     load, most = point.scene.bodies.load, point.contact.capacity
     lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
@@ -230,12 +252,12 @@ def _first_settings(scene: Scene, alone: bool = False) -> Settings:
     return Settings(film, numerics.balance_tolerance or budget.LOOSEST_VOLUME)
 
 
-def _needed(point: Point, balance: Balance, sq: float) -> Settings:
+def _needed(point: Point, balance: Balance) -> Settings:
     """The settings that ``balance`` shows to be needed: those of ``point`` if they are enough."""
     numerics, now, response = point.scene.numerics, point.settings, balance.response
     assert response is not None and balance.film is not None
     mean_film = balance.contact.mean_film
-    film, volume, contact = now.film_tolerance, now.balance_tolerance, now.contact_tolerance
+    film, volume = now.film_tolerance, now.balance_tolerance
     if numerics.film_tolerance is None:
         share = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
         film = _tightened(film, max(min(share, budget.FIRST_FILM), budget.TIGHTEST_FILM))
@@ -246,10 +268,7 @@ def _needed(point: Point, balance: Balance, sq: float) -> Settings:
             allowed /= budget.SLOPE
             allowed = min(allowed, budget.MOST_MOVED / abs(response.split))
         volume = _tightened(volume, max(min(0.5 * allowed / mean_film, budget.LOOSEST_VOLUME), budget.TIGHTEST_VOLUME))
-    own = point.contact.adjustable_tolerance
-    if own is not None and sq > 0 and numerics.contact_tolerance is None:
-        enough = max(volume * balance.contact.mean_gap / sq, budget.TIGHTEST_CONTACT)
-        contact = contact if (contact or own) <= budget.SLACK * enough else 0.5 * enough
+    contact = _contact_tolerance(point, balance.contact, volume)
     return Settings(film, volume, _cells(point, balance.film, balance.forces), contact, now.correctable)
 
 

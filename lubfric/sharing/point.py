@@ -87,8 +87,12 @@ class Point:
     def pressed(self, contact: RoughContact, film: EHLResult, load: float, start: ContactState | None) -> ContactState:
         """``contact`` under ``film``, with ``load`` [N]."""
         thickness, shape = self.on(contact, film)
+        return self.tight(contact).close(thickness, load, start, shape)
+
+    def tight(self, contact: RoughContact) -> RoughContact:
+        """``contact``, solved as closely as the settings ask."""
         tolerance = self.settings.contact_tolerance
-        return (contact if tolerance is None else contact.tightened(tolerance)).close(thickness, load, start, shape)
+        return contact if tolerance is None else contact.tightened(tolerance)
 
     @cached_property
     def oil(self) -> Lubricant:

@@ -16,6 +16,7 @@ from ..errors import InputError
 WATCH = 0.2  # s between two looks at whether the command still lives
 MOST_WORKERS = 1024
 LAST = 2.0  # s that an interrupted process is waited for
+ENDING, MASKS = (signal.SIGINT, signal.SIGTERM), hasattr(signal, "pthread_sigmask")
 
 
 def checked_executor(executor):
@@ -88,8 +89,9 @@ def pool(workers: int):
         return
     executor = ProcessPoolExecutor(workers, initializer=_follow, initargs=(os.getpid(),))
     try:
-        for _ in range(workers):
-            executor.submit(os.getpid)
+        with _held():
+            for _ in range(workers):
+                executor.submit(os.getpid)
         yield executor
     except BaseException:  # its own thread is waited for, but not for ever: an interrupt may have left a lock it needs
         ending = threading.Thread(target=executor.shutdown, kwargs={"cancel_futures": True}, daemon=True)
@@ -103,10 +105,23 @@ def pool(workers: int):
     executor.shutdown()
 
 
+@contextmanager
+def _held():
+    """Signals wait while processes start: one that came before `_follow` would end in a traceback, or be lost."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING) if MASKS else ()
+    try:
+        yield
+    finally:
+        if MASKS:
+            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _follow(parent: int) -> None:
     """Runs in a worker: leave Ctrl-C to the command, and end when the command is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    if MASKS:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, ENDING)
 
     def watch():
         while os.getppid() == parent:

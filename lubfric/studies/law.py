@@ -180,8 +180,8 @@ def law_of(scene: Scene, curves: Iterable[tuple[Any, Interpolant]], f, low, high
     numbers = {"u0": AT_REST * U.min()}
     numbers |= {name: float(np.exp(np.log(v).mean())) for name, v in (("U0", U), ("eta0", eta), ("p0", p))}
     numbers |= _viscosity(T, eta, slope)
-    known = scene.bodies.boundary_friction_coefficient
-    rest = float(np.max(getattr(known, "values", known)))
+    sliding = scene.motion.slide_roll_ratio * U
+    rest = max(scene.bodies.boundary_friction(*at) for at in zip(sliding.tolist(), T.tolist()))
     numbers |= _fitted(numbers, (U, T, p), boundary, film, eta, rest)
     off = value(numbers, U, T, p) / (boundary + film) - 1
     ranges = {n: (float(v.min()), float(v.max())) for n, v in (("speed", U), ("temperature", T), ("pressure", p))}

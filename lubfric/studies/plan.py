@@ -10,7 +10,7 @@ from typing import Any
 
 from .._base import FieldsOnly, validate
 from ..errors import InputError
-from ..scene import Scene, load_scene, read_toml, resolve
+from ..scene import Scene, load_scene, read_toml, speeds_of_range
 from .choose import CHOSEN, MOST, asked_speeds
 from .explain import explain
 from .store import fingerprint
@@ -118,8 +118,12 @@ def load_study(path) -> StudyPlan:
         _add(vary, tuple(lists), list(zip(*lists.values())))
     if "sample" in table:
         _add(vary, *_sampled(table["sample"], path.name))
-    speeds = resolve("motion", {key: table[key] for key in ("speeds", "speed_range") if key in table})
-    return plan_study(scene, vary, speeds.get("speeds"))
+    speeds = table.get("speeds")
+    if "speed_range" in table:
+        if speeds is not None:
+            raise InputError(f"{path.name} has speeds and speed_range, which say the same thing; give one of them")
+        speeds = speeds_of_range("speed_range", table["speed_range"])
+    return plan_study(scene, vary, speeds)
 
 
 def _add(known: dict, key, values) -> None:

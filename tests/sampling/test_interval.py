@@ -15,6 +15,7 @@ from verification.hostile.soak_force import friction_force
 
 PAPER = paper_scene()
 PATCH = PAPER.with_(numerics={"sampling": "patch"})
+FLAT = lubfric.load_scene("flat").with_(contact={"shape": (48, 48), "spacing": 9e-6})
 
 
 def seeds(scene, speed, numbers):
@@ -151,14 +152,7 @@ def test_one_patch_is_too_short_for_an_interval():
     assert "too short along y to tell what contact it misses" in cleared.text
 
 
-@pytest.mark.parametrize(
-    "scene",
-    [
-        PATCH.with_(contact={"model": "summits"}),
-        lubfric.load_scene("flat").with_(contact={"shape": (48, 48), "spacing": 9e-6}),
-    ],
-    ids=["summits", "flat"],
-)
+@pytest.mark.parametrize("scene", [PATCH.with_(contact={"model": "summits"}), FLAT], ids=["summits", "flat"])
 def test_contacts_without_places_along_y_say_so(scene):
     known = lubfric.friction(scene, 0.02).uncertainty
     assert "no places along y to compare" in known.text
@@ -169,6 +163,7 @@ def test_contacts_without_places_along_y_say_so(scene):
 
 
 def test_a_forecast_is_right_to_a_factor_of_four():
+    """And it knows from where on the film is so thick that load sharing is enough, near pure rolling later."""
     prepared = lubfric.prepare(PAPER)
     for speed in (0.003, 0.01, 0.03):
         told = forecast(PAPER, prepared.strips, prepared.surface, speed)
@@ -176,6 +171,10 @@ def test_a_forecast_is_right_to_a_factor_of_four():
         assert 0.25 < told.length / found.length < 4
         assert speed > 0.02 or 0.3 < told.error / found.sampling < 3
     assert " 1.4 " in describe_scene(PAPER)  # mm
+    for ratio, speed in ((0.02, 0.3), (0.02, 0.7), (1.0, 0.3), (1.0, 0.5), (2.0, 0.15), (2.0, 0.2)):
+        scene = PAPER.with_(motion={"slide_roll_ratio": ratio}, numerics={"model": "auto"})
+        error = lubfric.friction(scene, speed, model="load-sharing").uncertainty.model
+        assert (forecast(scene, prepared.strips, prepared.surface, speed).resolved > 0) == (error > 0.05)
 
 
 @pytest.mark.parametrize("sampling, speeds", [("strips", [0.003, 0.03]), ("patch", [0.01, 0.03])])

@@ -66,9 +66,9 @@ def test_the_judge_of_the_soak_sees_a_wrong_answer():
     assert verdict(prepared, dataclasses.replace(thinner, speed=result.speed))["contact share"] > 1
 
 
-@pytest.mark.parametrize("seed, index", [(2, 5202), pytest.param(2, 5988, marks=pytest.mark.slow), (11, 4291)])
-def test_scenes_that_the_soak_found_wrong_are_answered_right(seed, index):
+@pytest.mark.parametrize("seed, k", [(2, 5202), pytest.param(2, 5988, marks=pytest.mark.slow), (11, 4291), (1, 755)])
+def test_scenes_that_the_soak_found_wrong_are_answered_right(seed, k):
     """Forces of film and contact that cancel, summed beside the contacts of one line only; a light contact whose
-    further lines were closed too loosely; five short lines, each of its own load, that share one film."""
-    prepared = lubfric.prepare(random_scene(np.random.default_rng((seed, index)), any_material=seed == 11))
+    further lines were closed too loosely; five short lines of one film; bodies that deflect far more than the gap."""
+    prepared = lubfric.prepare(random_scene(np.random.default_rng((seed, k)), any_material=k % 2 == 1))
     assert verdict(prepared, lubfric.friction(prepared))["friction"] < 0.6

@@ -15,7 +15,7 @@ from small_study import SCENE, same, slowness
 
 import lubfric
 from lubfric._base import FolderLock
-from lubfric.studies import points
+from lubfric.studies import points, pool
 
 ROOT = Path(__file__).parents[2]
 SPEEDS = (0.003, 0.03, 0.3)
@@ -52,8 +52,7 @@ def test_keys_of_several_dimensions_act_together(first):
     vary = {"bodies.hertz_pressure": [1e8, 2e8], "bodies.radius": [2e-3, 4e-3]}
     plan = lubfric.plan_study(SCENE, {first: vary[first], **vary}, SPEEDS)
     for index, scene in zip(np.ndindex(*plan.shape[:-1]), plan.scenes):
-        at = {axis.name: axis.values[i][0] for axis, i in zip(plan.axes, index)}
-        bodies = scene.bodies
+        at, bodies = {axis.name: axis.values[i][0] for axis, i in zip(plan.axes, index)}, scene.bodies
         assert bodies.radius == at["bodies.radius"]
         load = 2 * np.pi * bodies.radius * at["bodies.hertz_pressure"] ** 2 / bodies.e_prime * bodies.width
         assert bodies.load == pytest.approx(load, rel=1e-12)
@@ -108,8 +107,7 @@ def test_oils_and_whole_sections_are_named_in_the_tables(tmp_path):
     oils = [lubfric.oil.from_grade("ISO VG 68", index) for index in (60, 160)]
     warm = SCENE.with_(lubricant={"oil": oils[0], "temperature": 330.0}, surface={"sq": 0.0})
     warm = warm.with_(counterface={"sq": 0.0, "correlation_length": 4e-6})
-    rough = [warm.surface, replace(warm.surface, seed=5)]
-    vary = {"lubricant.oil": oils, "surface": rough, "counterface.sq": [0.0]}
+    vary = {"lubricant.oil": oils, "surface": [warm.surface, replace(warm.surface, seed=5)], "counterface.sq": [0.0]}
     result = lubfric.study(warm, vary, [1.0], store=tmp_path / "study")
     result.to_csv(tmp_path / "table.csv")
     lines = (tmp_path / "table.csv").read_text().splitlines()
@@ -126,9 +124,9 @@ def test_paths_and_numbers_of_numpy_are_kept_with_the_plan(tmp_path):
     same(lubfric.open_study(tmp_path), study)
 
 
-@pytest.mark.parametrize("pool", [ThreadPoolExecutor, ProcessPoolExecutor])
-def test_any_executor_gives_the_same_bits(serial, pool, tmp_path):
-    with pool(2) as executor:
+@pytest.mark.parametrize("kind", [ThreadPoolExecutor, ProcessPoolExecutor])
+def test_any_executor_gives_the_same_bits(serial, kind, tmp_path):
+    with kind(2) as executor:
         same(lubfric.study(SCENE, VARY, SPEEDS, executor=executor, store=tmp_path), serial)
     same(lubfric.open_study(tmp_path), serial)
 
@@ -210,6 +208,15 @@ def test_an_interrupt_keeps_what_is_done_and_progress_counts_it(tmp_path):
     assert told == [(done, 6) for done in (0, 1, 2, 3, 4, 4, 5, 6)]
 
 
+def test_an_interrupt_waits_until_all_processes_have_begun(monkeypatch):
+    """Else one of them ends with a traceback, before it leaves interrupts to the command."""
+    begun, submit, send = [], ProcessPoolExecutor.submit, signal.raise_signal
+    monkeypatch.setattr(ProcessPoolExecutor, "submit", lambda *a: begun.append(submit(*a)) or send(signal.SIGINT))
+    with pytest.raises(KeyboardInterrupt), pool(3):
+        pass
+    assert len(begun) == 3
+
+
 # what can be varied
 
 
@@ -228,12 +235,10 @@ def test_a_range_with_units_is_that_of_its_key():
 
 def test_samples_fill_their_ranges():
     ranges = [lubfric.Between(1.0, 10.0), lubfric.Between(0.01, 1.0, "log")]
-    sobol = np.array(lubfric.sample(ranges, 64, seed=3))
-    shares = np.stack([(sobol[:, 0] - 1) / 9, np.log(sobol[:, 1] / 0.01) / np.log(100)], axis=1)
-    for column in shares.T:  # one point in each of the 64 equal parts of every range
+    sobol = np.array(first := lubfric.sample(ranges, 64, seed=3))
+    for column in ((sobol[:, 0] - 1) / 9, np.log(sobol[:, 1] / 0.01) / np.log(100)):  # one point in each of 64 parts
         assert sorted((column * 64).astype(int)) == list(range(64))
-    again, other = (lubfric.sample(ranges, 64, seed=seed) for seed in (3, 4))
-    assert lubfric.sample(ranges, 64, seed=3) == again != other
+    assert lubfric.sample(ranges, 64, seed=3) == first != lubfric.sample(ranges, 64, seed=4)
     spread = np.array(lubfric.sample(ranges, 4000, "random", seed=1))
     assert np.log10(spread[:, 1]).mean() == pytest.approx(-1.0, abs=0.05)
     assert spread[:, 0].mean() == pytest.approx(5.5, abs=0.2)
@@ -274,14 +279,12 @@ def test_bad_samples(arguments):
 
 def test_explain_counts_before_anything_is_solved(monkeypatch):
     monkeypatch.setattr(points, "friction", None)
-    plan = lubfric.plan_study(
-        SCENE, VARY | {"lubricant.viscosity": [0.1, 0.2, 0.3, 0.4, 0.5]}, np.geomspace(1e-3, 1, 60)
-    )
+    many = VARY | {"lubricant.viscosity": [0.1, 0.2, 0.3, 0.4, 0.5]}
+    plan = lubfric.plan_study(SCENE, many, np.geomspace(1e-3, 1, 60))
     text = plan.explain()
     for words in ("1200 points", "2 x bodies.load 3 N, 5.5 N", "viscosity 100 mPa s to 500 mPa s", "60 speeds"):
         assert words in text, text
-    one = lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
-    assert "cannot be solved: correlation_length" in one
+    assert "cannot be solved: correlation_length" in lubfric.plan_study(SCENE, {"contact.spacing": [1e-4]}).explain()
     moving = SCENE.with_(transient=lubfric.Transient(duration=0.1))
     assert "[transient]) is left out" in lubfric.plan_study(moving, {}, [0.1]).explain()
     assert "about 12 speeds that each curve chooses" in lubfric.plan_study(SCENE, {}, "auto").explain()
@@ -299,8 +302,7 @@ def test_the_time_is_foretold_within_a_factor_of_four(scene, speeds):
     number, unit = plan.explain().partition("time     about ")[2].split()[:2]
     before, begun = slowness(), time.process_time()
     lubfric.study(plan)
-    took = time.process_time() - begun
-    took /= 0.5 * (before + slowness())
+    took = (time.process_time() - begun) / (0.5 * (before + slowness()))
     assert unit == "s" and 1 / 3 < float(number) / took < 3, (number, took)
 
 

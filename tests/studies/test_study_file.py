@@ -73,9 +73,9 @@ def test_maps_of_the_other_body_are_found_beside_the_file(tmp_path):
 @pytest.mark.parametrize(
     "study, words",
     [
-        ("speeds = [0.1]\nspeed_range = [0.1, 1.0, 3]\n", "speeds and speed_range"),
+        ("speeds = [0.1]\nspeed_range = [0.1, 1.0, 3]\n", "study.toml has speeds and speed_range"),
         ("speed_rnage = [0.1, 1.0, 3]\n", "did you mean 'speed_range'"),
-        ("speed_range = [0.1, 1.0]\n", "must be .lowest, highest, count"),
+        ("speed_range = [0.1, 1.0]\n", "^speed_range = .* must be .lowest, highest, count"),
         ("speed_range = [0.1, 1.0, 1000000000000]\n", "speed_range count"),
         ("[[together]]\nbodies.load = [1.0]\nbodies.width = [1e-3, 2e-3]\n", "lists of one length"),
         ("[sample]\ncount = 3\nbodies.load = { low = 1.0, high = 2.0 }\n", "powers of two"),
