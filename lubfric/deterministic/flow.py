@@ -30,10 +30,10 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     behind all (periodic)."""
 
     def before(f):
-        return f[:-1] if axis == 0 else f
+        return f[:-1] if axis == 0 and np.ndim(f) else f
 
     def behind(f):
-        return f[1:] if axis == 0 else np.roll(f, -1, axis=1)
+        return (f[1:] if axis == 0 else np.roll(f, -1, axis=1)) if np.ndim(f) else f
 
     def mean(f):
         return 0.5 * (before(f) + behind(f))
@@ -41,17 +41,18 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     film, density = mean(h), mean(fluid.density)
     log_fluidity, l_before, l_behind = mean_fluidity(before(fluid.log_viscosity), behind(fluid.log_viscosity))
     fluidity = np.exp(log_fluidity)
-    limit = None if fluid.limit is None else mean(fluid.limit)
+    critical = [mean(stress) for stress, _ in fluid.critical]
     newtonian = problem.lubricant.viscosity * problem.sliding / (film * fluidity)
-    thinner, exponent, limit_exponent = thinning(problem.lubricant, newtonian, limit, along=axis == 0)
+    thinner, exponent, parts = thinning(problem.lubricant, newtonian, critical, along=axis == 0)
     cubed = (before(h) * behind(h)) ** 2 / film
     mobility = density * cubed * fluidity / (12 * problem.lubricant.viscosity * problem.spacing[axis]) * thinner
     flow = mobility * (before(p) - behind(p))
 
     def by_p(side, by_log, sign):
         laws = (1 - exponent) * by_log * side(fluid.log_slope) + 0.5 * side(fluid.density_slope) / density
-        if limit is not None:
-            laws = laws - limit_exponent * 0.5 * fluid.limit_slope / limit
+        for part, stress, (_, slope) in zip(parts, critical, fluid.critical):
+            if np.any(slope):
+                laws = laws - part * 0.5 * side(slope) / stress
         return sign * mobility + flow * laws
 
     by_before, by_behind = (flow * (2 / side(h) - (1 + exponent) / (2 * film)) for side in (before, behind))

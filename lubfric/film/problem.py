@@ -92,9 +92,8 @@ class Problem:
         if math.isinf(times):
             return replace(self, contact=replace(self.contact, sliding=None))
         oil = self.contact.lubricant
-        stress = times * (oil.critical_stress or 0.0)
-        law = {"eyring_stress": stress} if oil.carreau is None else {"carreau": (stress, oil.carreau[1])}
-        return replace(self, contact=replace(self.contact, lubricant=replace(oil, **law)))
+        raised = {} if oil.flow_law is None else oil.flow_law.raised(times)
+        return replace(self, contact=replace(self.contact, lubricant=replace(oil, **raised)))
 
     def softened(self, share: float) -> Problem:
         """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
@@ -107,16 +106,18 @@ class Problem:
     @property
     def thins(self) -> bool:
         """Whether shear makes the flow thinner than a Newtonian one."""
-        return self.contact.sliding is not None and self.contact.lubricant.critical_stress is not None
+        law = self.contact.lubricant.flow_law
+        return self.contact.sliding is not None and law is not None and law.thins
 
     def thinned(self, fluidity, H, gradient) -> tuple:
         """Factor Φ of the pressure flow where 1/eta, film and dP/dX are given (n,), s dΦ/ds and b dΦ/db (`thinned`)."""
-        contact, critical = self.contact, self.contact.lubricant.critical_stress
-        if contact.sliding is None or critical is None:
+        contact, law = self.contact, self.contact.lubricant.flow_law
+        if contact.sliding is None or law is None or not law.thins:
             return 1.0, 0.0, 0.0
+        critical = law.critical(0.0)[0]
         s = contact.lubricant.viscosity * abs(contact.sliding) / (self.film_unit * critical) / (fluidity * H)
         b = 0.5 * self.pressure_unit * self.film_unit / (self.length_unit * critical) * np.abs(gradient) * H
-        return thinned(contact.lubricant, s, b)
+        return thinned(law, s, b)
 
     def log_viscosity(self, P) -> tuple[np.ndarray, np.ndarray]:
         """ln(eta/eta0) and its derivative with respect to P."""

@@ -11,7 +11,6 @@ from scipy.integrate import solve_bvp
 
 import lubfric
 from lubfric.film import Surroundings, heated_film, heated_stress, hertz, isothermal_heat
-from lubfric.film.heat import limiting_stress_at
 from lubfric.oil import Lubricant, shear_stress
 from verification import references
 
@@ -88,7 +87,7 @@ def test_stress_and_temperature_satisfy_both_equations(ratio):
         rise = swept(lambda at: np.interp(at, x, heat), x[i], x[i] - x[0])
         assert found.wall[i] - T0 == pytest.approx(rise / math.sqrt(math.pi) / carried, rel=2e-5)
     assert found.stress == pytest.approx(heated_stress(OIL, p, h, ratio * 2.0, found.wall)[0], rel=1e-12)
-    assert np.all(found.stress <= limiting_stress_at(OIL, p, found.wall + found.film_rise) * (1 + 1e-9))
+    assert np.all(found.stress <= OIL.limit.critical_at(p, found.wall + found.film_rise) * (1 + 1e-9))
 
 
 @settings(max_examples=12)
