@@ -113,13 +113,8 @@ def test_heat_of_the_inlet_is_modelled_where_parts_of_f_cancel():
     """Film -0.15 % moves an f that is a small difference of large parts by 3 %: beside a hundredth of the tolerance."""
     scene = paper_scene(
         bodies={"radius": 0.0236, "width": 1e-2, "load": 96.15, "boundary_friction_coefficient": 0.0557},
-        lubricant={
-            "viscosity": 0.0238,
-            "pressure_viscosity_coefficient": 7.1e-9,
-            "eyring_stress": 5e6,
-            "temperature": 350.0,
-            "temperature_coefficient": 0.035,
-        },
+        lubricant={"viscosity": 0.0238, "pressure_viscosity_coefficient": 7.1e-9, "eyring_stress": 5e6}
+        | {"temperature": 350.0, "temperature_coefficient": 0.035},
         motion={"entrainment_speed": 0.0923, "slide_roll_ratio": -1.11},
         surface={"sq": 2.6e-8, "correlation_length": 2.2e-5, "seed": 1122854145},
         contact={"shape": (48, 48), "spacing": 6.25e-6},

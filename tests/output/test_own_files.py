@@ -32,10 +32,7 @@ NAMES = {  # of files of the user in the folder of the results: (refused with th
         "history.csv history.png fields.npz report.html result.json unfinished",
         "stribeck.csv animation.gif contact.png .lock .part-x unfinished/notes.bin checkpoint",
     ),
-    "study": (
-        "study.csv .lubfric",
-        "study.nc study.parquet result.json .part-x points/notes.txt .lock fitted.toml",
-    ),
+    "study": ("study.csv .lubfric", "study.nc study.parquet result.json .part-x points/notes.txt .lock fitted.toml"),
     "fit": ("fitted.toml fit.png fit.json", ""),
 }
 CASES = [
