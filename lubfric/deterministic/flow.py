@@ -30,10 +30,10 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     behind all (periodic)."""
 
     def before(f):
-        return f[:-1] if axis == 0 and np.ndim(f) else f
+        return f[:-1] if axis == 0 else f
 
     def behind(f):
-        return (f[1:] if axis == 0 else np.roll(f, -1, axis=1)) if np.ndim(f) else f
+        return f[1:] if axis == 0 else np.roll(f, -1, axis=1)
 
     def mean(f):
         return 0.5 * (before(f) + behind(f))
@@ -41,7 +41,7 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     film, density = mean(h), mean(fluid.density)
     log_fluidity, l_before, l_behind = mean_fluidity(before(fluid.log_viscosity), behind(fluid.log_viscosity))
     fluidity = np.exp(log_fluidity)
-    critical = [mean(stress) for stress, _ in fluid.critical]
+    critical = [mean(tau_c) if np.ndim(tau_c) else tau_c for tau_c, _ in fluid.critical]
     newtonian = problem.lubricant.viscosity * problem.sliding / (film * fluidity)
     thinner, exponent, parts = thinning(problem.lubricant, newtonian, critical, along=axis == 0)
     cubed = (before(h) * behind(h)) ** 2 / film
@@ -50,9 +50,9 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
 
     def by_p(side, by_log, sign):
         laws = (1 - exponent) * by_log * side(fluid.log_slope) + 0.5 * side(fluid.density_slope) / density
-        for part, stress, (_, slope) in zip(parts, critical, fluid.critical):
-            if np.any(slope):
-                laws = laws - part * 0.5 * side(slope) / stress
+        for part, tau_c, (_, slope) in zip(parts, critical, fluid.critical):
+            if np.ndim(tau_c):
+                laws = laws - part * 0.5 * (side(slope) if np.ndim(slope) else slope) / tau_c
         return sign * mobility + flow * laws
 
     by_before, by_behind = (flow * (2 / side(h) - (1 + exponent) / (2 * film)) for side in (before, behind))

@@ -46,7 +46,7 @@ def _by_quadrature(law: FlowLaw, s, b):
 
     def rates(a):
         rate = law.inverse(a + b * t)
-        return rate, 1 / law.slope(np.abs(rate))[0]
+        return rate, law.tangent(np.abs(rate))[0]
 
     a = law.f(s)  # without pressure flow: above the root, from where Newton's method falls
     for _ in range(ROUNDS):

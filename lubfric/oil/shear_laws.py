@@ -9,7 +9,6 @@ A lubricant has at most one law of each kind, by the keys that it is given. Both
 What a law leaves out and a model asks for is refused with an `InputError`. CONTRIBUTING.md shows how to add one.
 """
 
-from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import numpy as np
@@ -21,13 +20,14 @@ LIMIT_ACTIVATION = 585.0  # K
 SMALL = 1e-6  # of s: below, a fluid is Newtonian
 
 
-@dataclass(frozen=True)
 class ShearLaw:
     """A law of the lubricant ``oil`` (`lubfric.Lubricant`), which has its ``key``; ``others``: keys beside it."""
 
-    oil: Any
     key = ""
     others: tuple = ()
+
+    def __init__(self, oil: Any):
+        self.oil = oil
 
     @classmethod
     def checked(cls, value):
@@ -66,9 +66,9 @@ class FlowLaw(ShearLaw):
         """tau/tau_c, odd in s."""
         self.refuse("f", "everything", "leave the key out")
 
-    def slope(self, s) -> tuple:
-        """f' and d ln f'/d ln s, at s >= 0."""
-        self.refuse("slope", "the deterministic model", "set numerics.model = 'load-sharing'")
+    def tangent(self, s) -> tuple:
+        """Φ = 1/f' and s dΦ/ds, at s >= 0."""
+        self.refuse("tangent", "the deterministic model", "set numerics.model = 'load-sharing'")
 
     def inverse(self, x):
         """s of tau/tau_c = x, odd in x."""
@@ -91,11 +91,10 @@ class FlowLaw(ShearLaw):
         across (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987) 648-654,
         doi:10.1115/1.3261526)."""
         if along:
-            slope, bend = self.slope(s)
-            return 1 / slope, -bend / slope
+            return self.tangent(s)
         s = np.maximum(s, SMALL)
         factor = s / self.f(s)
-        return factor, factor - factor**2 * self.slope(s)[0]
+        return factor, factor - factor**2 / self.tangent(s)[0]
 
 
 class Limit(ShearLaw):
@@ -129,9 +128,9 @@ class Eyring(FlowLaw):
     def f(self, s):
         return np.arcsinh(s)
 
-    def slope(self, s):
-        slope = 1 / np.hypot(1.0, s)
-        return slope, -((s * slope) ** 2)
+    def tangent(self, s):
+        factor = np.hypot(1.0, s)
+        return factor, s * (s / factor)
 
     def inverse(self, x):
         return np.sinh(x)
@@ -160,10 +159,10 @@ class Carreau(FlowLaw):
     def f(self, s):
         return s * (1 + s**2) ** (0.5 * (self.oil.carreau[1] - 1))
 
-    def slope(self, s):
+    def tangent(self, s):
         n, square = self.oil.carreau[1], s**2
-        slope = (1 + square) ** ((n - 3) / 2) * (1 + n * square)
-        return slope, (n - 3) * square / (1 + square) + 2 * n * square / (1 + n * square)
+        factor = (1 + square) ** ((3 - n) / 2) / (1 + n * square)
+        return factor, factor * ((3 - n) * square / (1 + square) - 2 * n * square / (1 + n * square))
 
     def inverse(self, x):
         n, log_x = self.oil.carreau[1], np.log(np.maximum(np.abs(x), 1e-300))
