@@ -104,7 +104,7 @@ def change_by_flow(strip: Strip, lubricant: Lubricant) -> float:
 def thinned_less(lubricant: Lubricant) -> Lubricant:
     """``lubricant``, the limit of its stress, if it has one, twice as high: it thins the flow half as much. How fast a
     sheared oil at its limit flows is not known well."""
-    return lubricant if lubricant.limit is None else replace(lubricant, **lubricant.limit.raised(2.0))
+    return lubricant if lubricant.limit is None else replace(lubricant, **lubricant.limit.twice())
 
 
 def work_of(result: DeterministicResult) -> float:

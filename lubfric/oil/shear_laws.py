@@ -42,10 +42,6 @@ class ShearLaw:
         """tau_c at a temperature [K] over that at the temperature of the lubricant."""
         self.refuse("warmth", "the heat of the film", "set numerics.heat = 'off'")
 
-    def raised(self, times: float) -> dict[str, Any]:
-        """Fields of the lubricant with so many ``times`` the critical stress."""
-        return {self.key: times * getattr(self.oil, self.key)}
-
     def critical_at(self, pressure, temperature):
         """tau_c [Pa] at pressure [Pa] and temperature [K]."""
         return self.critical(pressure)[0] * self.warmth(temperature)
@@ -100,6 +96,10 @@ class FlowLaw(ShearLaw):
 class Limit(ShearLaw):
     """The largest stress that the lubricant bears."""
 
+    def twice(self) -> dict[str, Any]:
+        """Fields of a lubricant with twice this tau_c."""
+        return {self.key: 2 * getattr(self.oil, self.key)}
+
     def stress(self, newtonian, critical):
         """The stress [Pa] at the ``newtonian`` one."""
         return np.clip(newtonian, -critical, critical)
@@ -153,9 +153,6 @@ class Carreau(FlowLaw):
     def critical(self, pressure):
         return self.oil.carreau[0], 0.0
 
-    def raised(self, times):
-        return {"carreau": (times * self.oil.carreau[0], self.oil.carreau[1])}
-
     def f(self, s):
         return s * (1 + s**2) ** (0.5 * (self.oil.carreau[1] - 1))
 
@@ -187,8 +184,8 @@ class LimitingStress(Limit):
     def warmth(self, temperature):
         return np.exp(LIMIT_ACTIVATION * (1 / np.asarray(temperature) - 1 / self.oil.temperature))
 
-    def raised(self, times):
-        return super().raised(times) | {"limiting_stress_offset": times * self.oil.limiting_stress_offset}
+    def twice(self):
+        return super().twice() | {"limiting_stress_offset": 2 * self.oil.limiting_stress_offset}
 
 
 FLOW_LAWS: tuple[type[FlowLaw], ...] = (Eyring, Carreau)
