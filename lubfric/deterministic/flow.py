@@ -41,17 +41,18 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     film, density = mean(h), mean(fluid.density)
     log_fluidity, l_before, l_behind = mean_fluidity(before(fluid.log_viscosity), behind(fluid.log_viscosity))
     fluidity = np.exp(log_fluidity)
-    limit = None if fluid.limit is None else mean(fluid.limit)
+    critical = [mean(tau_c) if np.ndim(tau_c) else tau_c for tau_c, _ in fluid.critical]
     newtonian = problem.lubricant.viscosity * problem.sliding / (film * fluidity)
-    thinner, exponent, limit_exponent = thinning(problem.lubricant, newtonian, limit, along=axis == 0)
+    thinner, exponent, parts = thinning(problem.lubricant, newtonian, critical, along=axis == 0)
     cubed = (before(h) * behind(h)) ** 2 / film
     mobility = density * cubed * fluidity / (12 * problem.lubricant.viscosity * problem.spacing[axis]) * thinner
     flow = mobility * (before(p) - behind(p))
 
     def by_p(side, by_log, sign):
         laws = (1 - exponent) * by_log * side(fluid.log_slope) + 0.5 * side(fluid.density_slope) / density
-        if limit is not None:
-            laws = laws - limit_exponent * 0.5 * fluid.limit_slope / limit
+        for part, tau_c, (_, slope) in zip(parts, critical, fluid.critical):
+            if np.ndim(tau_c):
+                laws = laws - part * 0.5 * (side(slope) if np.ndim(slope) else slope) / tau_c
         return sign * mobility + flow * laws
 
     by_before, by_behind = (flow * (2 / side(h) - (1 + exponent) / (2 * film)) for side in (before, behind))

@@ -103,9 +103,8 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
 
 def _ambient_thinning(problem: Problem, gap):
     lubricant = problem.lubricant
-    limited = lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset > 0
-    stress = lubricant.viscosity * problem.sliding / gap
-    return thinning(lubricant, stress, lubricant.limiting_stress_offset if limited else None, along=True)[0]
+    critical = [law.critical(0.0)[0] or np.inf for law in lubricant.shear_laws]
+    return thinning(lubricant, lubricant.viscosity * problem.sliding / gap, critical, along=True)[0]
 
 
 def _reduced(lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:

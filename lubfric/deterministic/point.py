@@ -102,12 +102,9 @@ def change_by_flow(strip: Strip, lubricant: Lubricant) -> float:
 
 
 def thinned_less(lubricant: Lubricant) -> Lubricant:
-    """``lubricant``, its limiting stress, if it has one, twice as high: it thins the flow half as much. How fast a
+    """``lubricant``, the limit of its stress, if it has one, twice as high: it thins the flow half as much. How fast a
     sheared oil at its limit flows is not known well."""
-    limit, offset = lubricant.limiting_stress_coefficient, lubricant.limiting_stress_offset
-    if limit is None:
-        return lubricant
-    return replace(lubricant, limiting_stress_coefficient=2 * limit, limiting_stress_offset=2 * offset)
+    return lubricant if lubricant.limit is None else replace(lubricant, **lubricant.limit.twice())
 
 
 def work_of(result: DeterministicResult) -> float:

@@ -28,13 +28,11 @@ With the temperature change:
 
 - the viscosity, by Roelands, ``(ln eta + 9.67) ~ (T - 138 K)^-S0``, with S0 from the temperature coefficient (C. J. A.
   Roelands, thesis, Delft 1966); by exp(-beta (T - T0)) for the other laws;
-- the Eyring stress ~ T (H. Eyring, J. Chem. Phys. 4 (1936) 283, doi:10.1063/1.1749836: tau_E = k T/v), and Carreau's
-  critical stress alike;
-- the limiting stress ~ exp(585 K (1/T - 1/T0)) (L. Houpert, L. Flamand, D. Berthe, J. Lubr. Technol. 103 (1981)
-  526-532, doi:10.1115/1.3251731).
+- the critical stresses of the shear laws (`lubfric.oil.shear_laws`), at the mean temperature of the film, T_w + tau dU
+  h/(12 k).
 
-Both stresses are taken at the mean temperature of the film, T_w + tau dU h/(12 k). Since the viscosity is linearised
-about the walls, it is somewhat too low if the middle of the film is tens of kelvin hotter.
+Since the viscosity is linearised about the walls, it is somewhat too low if the middle of the film is tens of kelvin
+hotter.
 """
 
 import math
@@ -44,7 +42,7 @@ import numpy as np
 from scipy.linalg import solve_triangular
 
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
-from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, carreau_rate, log_viscosity_ratio, shear_stress
+from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio, shear_stress
 
 FAST = 5.0  # Péclet number u b rho c/(2 k) from which a source moves fast
 NODES = 257  # at most, of the flash temperature
@@ -54,9 +52,9 @@ TOLERANCE = 1e-6  # of the largest rise
 SLIDING = 0.5  # |S| above which the factors of the inlet are used outside the range they were made for
 LARGEST = 20.0  # L above which neither is supported by the solutions they were fitted to
 ROELANDS_ZERO = 138.0  # K
-LIMIT_ACTIVATION = 585.0  # K
 LEAST = 1e-14  # of the Newtonian stress, and
 LEAST_STRESS = 1e-3  # Pa, the lower of which is where a heated stress is sought from
+MOST_STRESS = 1e300  # Pa, of a Newtonian one
 HALVINGS = 64  # of the logarithm of the stress: to 1e-12 and less
 
 
@@ -219,17 +217,6 @@ def viscosity_at(lubricant: Lubricant, pressure, temperature) -> tuple[np.ndarra
     return over_pole - ROELANDS_LOG_VISCOSITY, over_pole * power / above
 
 
-def critical_stress_at(lubricant: Lubricant, temperature):
-    """tau_E, or Carreau's G [Pa], at ``temperature`` [K]."""
-    return (lubricant.critical_stress or 0.0) * np.asarray(temperature) / _thermal(lubricant)[0]
-
-
-def limiting_stress_at(lubricant: Lubricant, pressure, temperature):
-    """Largest stress [Pa] at each pressure [Pa] and temperature [K]."""
-    cold = lubricant.limiting_stress_offset + lubricant.limiting_stress_coefficient * np.maximum(pressure, 0.0)
-    return cold * np.exp(LIMIT_ACTIVATION * (1 / np.asarray(temperature) - 1 / _thermal(lubricant)[0]))
-
-
 def heated_stress(
     lubricant: Lubricant, pressure, film, sliding: float, wall_temperature
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -258,24 +245,12 @@ def heated_stress(
 def _too_high(lubricant, p, h, speed, tau, log_eta, beta, mean) -> np.ndarray:
     """Where ``tau`` is above the root: the film would be sheared faster than ``speed``, or carry more than its
     limit."""
-    log_rate = np.log(tau) - log_eta  # of gamma_w
-    if lubricant.carreau is not None:
-        x = tau / critical_stress_at(lubricant, mean)
-        log_rate = log_rate + np.log(carreau_rate(x, lubricant.carreau[1])[0] / x)
-    elif lubricant.eyring_stress is not None:
-        log_rate = log_rate + _log_sinhc(tau / critical_stress_at(lubricant, mean))
-    k = lubricant.conductivity
+    newtonian, k = tau, lubricant.conductivity
     with np.errstate(over="ignore"):
+        for law in reversed(lubricant.shear_laws):
+            newtonian = np.minimum(law.newtonian(newtonian, law.critical_at(p, mean)), MOST_STRESS)
+        log_rate = np.log(newtonian) - log_eta  # of gamma_w
         excess = np.exp(np.log(beta * tau * speed**2 / (8 * k)) - log_rate)  # a - 1
         left = np.arcsinh(np.sqrt(excess)) ** 2
         right = np.exp(np.log(beta * tau * h**2 / (8 * k)) + log_rate) + (beta * tau * h * speed / (8 * k)) ** 2
-    above = right > left
-    if lubricant.limiting_stress_coefficient is not None:
-        above |= tau > limiting_stress_at(lubricant, p, mean)
-    return above
-
-
-def _log_sinhc(x):
-    """ln(sinh(x)/x), x >= 0."""
-    small = np.maximum(x, 1e-6)
-    return np.where(x < 1e-4, x**2 / 6, small + np.log(-np.expm1(-2 * small)) - np.log(2 * small))
+    return right > left

@@ -115,8 +115,8 @@ def first_state(problem: Problem, n: int, max_steps: int) -> tuple[State, list[S
     inlets = _inwards(problem)
     widest = replace(problem, inlet=inlets[0])
     stages = [widest.softened(share) for share in shares]
-    if problem.thins:
-        stages = [stage.stiffened(math.inf) for stage in stages] + [widest.stiffened(times) for times in STIFFER]
+    if problem.thins_by is not None:
+        stages = [replace(s, times=math.inf) for s in stages] + [replace(widest, times=times) for times in STIFFER]
     stages += [replace(problem, inlet=inlet) for inlet in inlets[1:]]
     states: list[State] = []
     solutions: list[Solution] = []

@@ -18,7 +18,7 @@ from operator import attrgetter
 import numpy as np
 
 from ..errors import InputError
-from ..oil import density_ratio, log_viscosity_ratio
+from ..oil import FlowLaw, density_ratio, log_viscosity_ratio
 from .formulas import moes_film, starved_inlet, starved_share
 from .hertz import LineContact
 from .thinning import thinned
@@ -44,12 +44,14 @@ class Problem:
     """A line contact in Moes' units, seen along its motion: X points downstream.
 
     The lubricant begins at ``inlet``, None: nowhere, it is fully flooded. fed: None, or the flow q that arrives, with
-    which the inlet is not known, and ``inlet`` is a guess of it; both in Moes' units.
+    which the inlet is not known, and ``inlet`` is a guess of it; both in Moes' units. On the way to a solution the
+    lubricant has so many ``times`` its critical stress (inf: its flow is Newtonian).
     """
 
     contact: LineContact
     inlet: float | None = None
     fed: float | None = None
+    times: float = 1.0
 
     # the numbers and units of the contact: M, L [-]; units of x [m], h [m], p [Pa]
     M = property(attrgetter("contact.M"))
@@ -87,15 +89,6 @@ class Problem:
         share = min(flow / self.flooded_film, MOST_STARVED)
         return starved_inlet(share, self.rise, self.half_width)
 
-    def stiffened(self, times: float) -> Problem:
-        """The same contact of a lubricant with so many ``times`` the critical stress (inf: its flow is Newtonian)."""
-        if math.isinf(times):
-            return replace(self, contact=replace(self.contact, sliding=None))
-        oil = self.contact.lubricant
-        stress = times * (oil.critical_stress or 0.0)
-        law = {"eyring_stress": stress} if oil.carreau is None else {"carreau": (stress, oil.carreau[1])}
-        return replace(self, contact=replace(self.contact, lubricant=replace(oil, **law)))
-
     def softened(self, share: float) -> Problem:
         """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
         if share == 1.0:
@@ -105,18 +98,20 @@ class Problem:
         return replace(self, contact=replace(self.contact, lubricant=oil))
 
     @property
-    def thins(self) -> bool:
-        """Whether shear makes the flow thinner than a Newtonian one."""
-        return self.contact.sliding is not None and self.contact.lubricant.critical_stress is not None
+    def thins_by(self) -> FlowLaw | None:
+        """The law by which shear makes the flow thinner than a Newtonian one; None: it does not."""
+        law, sheared = self.contact.lubricant.flow_law, self.contact.sliding is not None and self.times < math.inf
+        return law if law is not None and law.thins and sheared else None
 
     def thinned(self, fluidity, H, gradient) -> tuple:
         """Factor Φ of the pressure flow where 1/eta, film and dP/dX are given (n,), s dΦ/ds and b dΦ/db (`thinned`)."""
-        contact, critical = self.contact, self.contact.lubricant.critical_stress
-        if contact.sliding is None or critical is None:
+        contact, law = self.contact, self.thins_by
+        if law is None:
             return 1.0, 0.0, 0.0
-        s = contact.lubricant.viscosity * abs(contact.sliding) / (self.film_unit * critical) / (fluidity * H)
+        critical, sliding = self.times * law.critical(0.0)[0], abs(contact.sliding or 0.0)
+        s = contact.lubricant.viscosity * sliding / (self.film_unit * critical) / (fluidity * H)
         b = 0.5 * self.pressure_unit * self.film_unit / (self.length_unit * critical) * np.abs(gradient) * H
-        return thinned(contact.lubricant, s, b)
+        return thinned(law, s, b)
 
     def log_viscosity(self, P) -> tuple[np.ndarray, np.ndarray]:
         """ln(eta/eta0) and its derivative with respect to P."""

@@ -12,12 +12,12 @@ tangent of the law at the sliding (T. F. Conry, S. Wang, C. Cusano, J. Tribol. 1
 doi:10.1115/1.3261526); without sliding, the flow between plates.
 
 - Eyring: r = sinh x, in closed form: with S = sinh(b)/b and c = b coth b - 1, Φ = 3 c/b² sqrt(S² + s²).
-- Carreau: x = r (1 + r²)^((n - 1)/2), by quadrature.
+- Other laws (`lubfric.oil.FlowLaw`, x = f(r)): by quadrature.
 """
 
 import numpy as np
 
-from ..oil import Lubricant, carreau_rate
+from ..oil import Eyring, FlowLaw
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 WEIGHTS = WEIGHTS / 2
@@ -25,9 +25,9 @@ SMALL = 1e-2  # of b: series below
 ROUNDS, CLOSE = 40, 1e-13  # of Newton's method for a
 
 
-def thinned(lubricant: Lubricant, s: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def thinned(law: FlowLaw, s: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Φ, s dΦ/ds and b dΦ/db [-] at s and b, >= 0, (n,) each."""
-    return _carreau(lubricant.carreau[1], s, b) if lubricant.carreau is not None else _eyring(s, b)
+    return _eyring(s, b) if isinstance(law, Eyring) else _by_quadrature(law, s, b)
 
 
 def _eyring(s, b):
@@ -41,17 +41,22 @@ def _eyring(s, b):
     return factor, factor * tanh_squared, factor * by_b
 
 
-def _carreau(n: float, s, b):
+def _by_quadrature(law: FlowLaw, s, b):
     t = POINTS[:, None]
-    a = s * (1 + s**2) ** ((n - 1) / 2)  # without pressure flow: above the root, from where Newton's method falls
+
+    def rates(a):
+        rate = law.inverse(a + b * t)
+        return rate, law.tangent(np.abs(rate))[0]
+
+    a = law.f(s)  # without pressure flow: above the root, from where Newton's method falls
     for _ in range(ROUNDS):
-        rate, slope = carreau_rate(a + b * t, n)
+        rate, slope = rates(a)
         mean = WEIGHTS @ slope
         step = (WEIGHTS @ rate - s) / mean
         a = a - step
         if np.max(np.abs(step) / (a + b + 1e-300)) < CLOSE:
             break
-    rate, slope = carreau_rate(a + b * t, n)
+    rate, slope = rates(a)
     mean, first, second = (WEIGHTS @ (slope * t**k) for k in range(3))
     safe = np.maximum(b, 1e-6)
     factor = np.where(b < 1e-6, mean, 3 / safe * (WEIGHTS @ (rate * t)))

@@ -5,7 +5,6 @@ from .lubricant import (
     NO_LIQUID,
     ROELANDS_LOG_VISCOSITY,
     Lubricant,
-    carreau_rate,
     carried_stress,
     density_ratio,
     log_viscosity_ratio,
@@ -25,4 +24,5 @@ from .make import (
 )
 from .oil import Oil
 from .pressure import Estimate, gold, so_klaus
+from .shear_laws import FLOW_LAWS, LIMITS, Eyring, FlowLaw, Limit
 from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_at_100, viscosity_index, walther

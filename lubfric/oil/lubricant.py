@@ -12,6 +12,7 @@ import numpy as np
 from .._base import Brief, validate
 from ..errors import InputError
 from .oil import Oil
+from .shear_laws import FLOW_LAWS, LIMITS, FlowLaw, Limit
 from .viscosity import checked_temperature
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
@@ -81,29 +82,29 @@ class Lubricant(Brief):
         if self.viscosity_law == "roelands" and self.viscosity <= least:
             said = f" = {self.viscosity:g} Pa s is out of range for the Roelands law"
             raise InputError(said, "viscosity", f"> exp(-9.67) = {least:.4g} Pa s")
-        if self.carreau is not None:
-            self._check_carreau()
+        for kind, what in ((FLOW_LAWS, "two laws of one flow"), (LIMITS, "two limits of one stress")):
+            keys = [law.key for law in kind if getattr(self, law.key) is not None]
+            if len(keys) > 1:
+                raise InputError(f" and {keys[0]} are {what}", keys[1], way_out="give one of them")
+        for law in self.shear_laws:
+            object.__setattr__(self, law.key, law.checked(getattr(self, law.key)))
         if self.temperature is not None:
             checked_temperature(self.temperature, "lubricant.temperature")
 
-    def _check_carreau(self) -> None:
-        if not isinstance(self.carreau, (list, tuple)) or len(self.carreau) != 2:
-            raise InputError(
-                f" = {validate.shown(self.carreau)}", "carreau", "[G, n]: critical stress in Pa and exponent"
-            )
-        if self.eyring_stress is not None:
-            raise InputError(" and eyring_stress are two laws of one flow", "carreau", way_out="give one of them")
-        G, n = self.carreau
-        G, n = (
-            validate.positive("carreau (G)", G, "Pa"),
-            validate.number("carreau (n)", n, "(-)", minimum=0.1, maximum=0.999),
-        )
-        object.__setattr__(self, "carreau", (G, n))
+    @property
+    def shear_laws(self) -> tuple[FlowLaw | Limit, ...]:
+        """The laws of its shear stress, in the order in which they act; none: Newtonian."""
+        return tuple(law for law in (self.flow_law, self.limit) if law is not None)
 
     @property
-    def critical_stress(self) -> float | None:
-        """The stress [Pa] from which shear thins the lubricant, by Eyring's or Carreau's law; None: it does not."""
-        return self.eyring_stress if self.carreau is None else self.carreau[0]
+    def flow_law(self) -> FlowLaw | None:
+        """How shear thins it; None: it does not."""
+        return next((law(self) for law in FLOW_LAWS if getattr(self, law.key) is not None), None)
+
+    @property
+    def limit(self) -> Limit | None:
+        """The law of its largest stress; None: it has none."""
+        return next((law(self) for law in LIMITS if getattr(self, law.key) is not None), None)
 
     @property
     def heats(self) -> bool:
@@ -118,7 +119,7 @@ class Lubricant(Brief):
     @property
     def newtonian(self) -> bool:
         """True where the shear stress grows with the shear rate without end."""
-        return self.critical_stress is None and self.limiting_stress_coefficient is None
+        return not self.shear_laws
 
     @property
     def roelands_exponent(self) -> float:
@@ -159,32 +160,12 @@ def density_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarra
 def shear_stress(lubricant: Lubricant, pressure, shear_rate) -> np.ndarray:
     """Shear stress [Pa] of a simple shear flow at pressure [Pa] and signed shear rate [1/s].
 
-    Newtonian ``eta(p) shear_rate``; with ``eyring_stress`` the Ree-Eyring law
-    ``tau_E asinh(eta shear_rate/tau_E)`` (Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129); with ``carreau``
-    ``eta shear_rate (1 + (eta shear_rate/G)²)^((n - 1)/2)`` (P. J. Carreau, Trans. Soc. Rheol. 16 (1972) 99-127);
-    with ``limiting_stress_coefficient`` the result is cut at ``tau_0 + Lambda p``.
+    Newtonian ``eta(p) shear_rate``, thinned and cut by the laws of the lubricant (`lubfric.oil.shear_laws`).
     """
     tau = viscosity(lubricant, pressure) * np.asarray(shear_rate, dtype=float)
-    if lubricant.eyring_stress is not None:
-        tau = lubricant.eyring_stress * np.arcsinh(tau / lubricant.eyring_stress)
-    if lubricant.carreau is not None:
-        tau = tau * (1 + (tau / lubricant.carreau[0]) ** 2) ** (0.5 * (lubricant.carreau[1] - 1))
-    if lubricant.limiting_stress_coefficient is not None:
-        limit = lubricant.limiting_stress_offset + lubricant.limiting_stress_coefficient * np.maximum(pressure, 0.0)
-        tau = np.clip(tau, -limit, limit)
+    for law in lubricant.shear_laws:
+        tau = law.stress(tau, law.critical(pressure)[0])
     return tau
-
-
-def carreau_rate(stress, n: float) -> tuple[np.ndarray, np.ndarray]:
-    """r of Carreau's law x = r (1 + r²)^((n - 1)/2) and dr/dx, at x = stress/G, any shape and sign; r = eta rate/G."""
-    log_x = np.log(np.maximum(np.abs(stress), 1e-300))
-    y = log_x + 0.5 * (1 / n - 1) * np.logaddexp(0, 2 * log_x)  # ln r by a law alike
-    for _ in range(6):  # doubling digits: to the last bit
-        steep = 1 + (n - 1) / (1 + np.exp(np.minimum(-2 * y, 700.0)))  # d ln x/d ln r
-        y = y - (y + 0.5 * (n - 1) * np.logaddexp(0, 2 * y) - log_x) / steep
-    r = np.exp(y)
-    slope = np.exp(y - log_x) / (1 + (n - 1) / (1 + np.exp(np.minimum(-2 * y, 700.0))))
-    return np.copysign(r, stress), slope
 
 
 def carried_stress(pressure) -> np.ndarray:

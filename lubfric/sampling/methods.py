@@ -49,7 +49,7 @@ def _film(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     return {
         "scaled modulus": scene.numerics.film_deflection == "scaled" and result.contact_load > 0 and not whole,
         "kept mass": whole,
-        "sheared flow": scene.lubricant.critical_stress is not None,
+        "sheared flow": scene.lubricant.flow_law is not None,
     }
 
 
@@ -76,6 +76,6 @@ def _heat(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
         "inlet heat": result.inlet_film_factor != 1.0,
         "film heat": warm,
         "flash": result.flash_temperature_rise > 0,
-        "hot Eyring stress": warm and lubricant.critical_stress is not None,
+        "hot Eyring stress": warm and lubricant.flow_law is not None,
         "hot limiting stress": warm and lubricant.limiting_stress_coefficient is not None,
     }

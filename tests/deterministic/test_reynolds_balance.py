@@ -21,6 +21,7 @@ RADIUS, SPEED = 2e-3, 0.1
 LAWS = {
     "Newtonian": Lubricant(0.36, 25e-9),
     "Eyring": Lubricant(0.36, 25e-9, density_law="dowson-higginson", eyring_stress=5e6),
+    "Carreau": Lubricant(0.36, 25e-9, carreau=(5e6, 0.6)),
     "limit": Lubricant(0.36, 25e-9, "barus", limiting_stress_coefficient=0.09, limiting_stress_offset=2e6),
     "both": Lubricant(0.1, 20e-9, eyring_stress=3e6, limiting_stress_coefficient=0.05),
     "constant": Lubricant(0.1, viscosity_law="constant", density_law="dowson-higginson"),
@@ -226,7 +227,7 @@ def test_the_narrowest_place_limits_the_flow():
 def test_sliding_thins_by_eyrings_law_and_by_the_limit(s):
     """Conry et al. (1987): the tangent √(1 + s²) along the sliding, the secant s/asinh(s) across; a limit adds s."""
     oil, tau = Lubricant(ETA, 1e-8, eyring_stress=5e6), np.array([s * 5e6])
-    along, across = (float(thinning(oil, tau, None, way)[0][0]) for way in (True, False))
+    along, across = (float(thinning(oil, tau, [5e6], way)[0][0]) for way in (True, False))
     assert along == pytest.approx(math.sqrt(1 + s * s)) and across == pytest.approx(s / math.asinh(s))
     limited = Lubricant(ETA, 1e-8, limiting_stress_coefficient=0.05)
-    assert float(thinning(limited, tau, np.array([2e7]), True)[0][0]) == pytest.approx(1 + s * 5e6 / 2e7)
+    assert float(thinning(limited, tau, [2e7], True)[0][0]) == pytest.approx(1 + s * 5e6 / 2e7)

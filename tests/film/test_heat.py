@@ -11,7 +11,6 @@ from scipy.integrate import solve_bvp
 
 import lubfric
 from lubfric.film import Surroundings, heated_film, heated_stress, hertz, isothermal_heat
-from lubfric.film.heat import limiting_stress_at
 from lubfric.oil import Lubricant, shear_stress
 from verification import references
 
@@ -88,7 +87,7 @@ def test_stress_and_temperature_satisfy_both_equations(ratio):
         rise = swept(lambda at: np.interp(at, x, heat), x[i], x[i] - x[0])
         assert found.wall[i] - T0 == pytest.approx(rise / math.sqrt(math.pi) / carried, rel=2e-5)
     assert found.stress == pytest.approx(heated_stress(OIL, p, h, ratio * 2.0, found.wall)[0], rel=1e-12)
-    assert np.all(found.stress <= limiting_stress_at(OIL, p, found.wall + found.film_rise) * (1 + 1e-9))
+    assert np.all(found.stress <= OIL.limit.critical_at(p, found.wall + found.film_rise) * (1 + 1e-9))
 
 
 @settings(max_examples=12)
@@ -114,13 +113,8 @@ def test_heat_of_the_inlet_is_modelled_where_parts_of_f_cancel():
     """Film -0.15 % moves an f that is a small difference of large parts by 3 %: beside a hundredth of the tolerance."""
     scene = paper_scene(
         bodies={"radius": 0.0236, "width": 1e-2, "load": 96.15, "boundary_friction_coefficient": 0.0557},
-        lubricant={
-            "viscosity": 0.0238,
-            "pressure_viscosity_coefficient": 7.1e-9,
-            "eyring_stress": 5e6,
-            "temperature": 350.0,
-            "temperature_coefficient": 0.035,
-        },
+        lubricant={"viscosity": 0.0238, "pressure_viscosity_coefficient": 7.1e-9, "eyring_stress": 5e6}
+        | {"temperature": 350.0, "temperature_coefficient": 0.035},
         motion={"entrainment_speed": 0.0923, "slide_roll_ratio": -1.11},
         surface={"sq": 2.6e-8, "correlation_length": 2.2e-5, "seed": 1122854145},
         contact={"shape": (48, 48), "spacing": 6.25e-6},

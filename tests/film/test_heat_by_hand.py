@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 import lubfric
 from lubfric.film import heated_stress, inlet_heat
-from lubfric.film.heat import critical_stress_at, limiting_stress_at, viscosity_at
+from lubfric.film.heat import viscosity_at
 from lubfric.oil import Lubricant
 
 T0, BETA, ETA, ALPHA, K = 350.0, 0.035, 0.05, 2.0e-8, 0.15
@@ -30,8 +30,8 @@ def test_stresses_and_viscosity_over_temperature(temperature):
     """Houpert et al. (1981), Eyring (1936) and Roelands (1966): hotter oil bears less and thins later."""
     p = np.array([0.0, 5e8, 1.2e9])
     limit = (2e6 + 0.06 * p) * math.exp(585.0 / temperature - 585.0 / T0)
-    np.testing.assert_allclose(limiting_stress_at(OIL, p, temperature), limit, rtol=1e-12)
-    assert critical_stress_at(OIL, temperature) == pytest.approx(5e6 * temperature / T0)
+    np.testing.assert_allclose(OIL.limit.critical_at(p, temperature), limit, rtol=1e-12)
+    assert OIL.flow_law.critical_at(p, temperature) == pytest.approx(5e6 * temperature / T0)
     pole = math.log(ETA) + 9.67
     z, s0 = ALPHA * 1.96e8 / pole, BETA * (T0 - 138.0) / pole
     exponent = pole * (1 + p / 1.96e8) ** z * ((temperature - 138.0) / (T0 - 138.0)) ** -s0

@@ -18,16 +18,9 @@ OIL = Lubricant(ETA, 1e-13, "barus")
 
 
 def film(speed=U, tolerance=1e-4):
-    return lubfric.solve_ehl(
-        load_per_width=100.0,
-        radius=R,
-        e_prime=231e12,
-        entrainment_speed=speed,
-        viscosity=ETA,
-        pressure_viscosity_coefficient=1e-13,
-        viscosity_law="barus",
-        tolerance=tolerance,
-    )
+    oil = {"viscosity": ETA, "pressure_viscosity_coefficient": 1e-13, "viscosity_law": "barus"}
+    line = {"load_per_width": 100.0, "radius": R, "e_prime": 231e12, "entrainment_speed": speed}
+    return lubfric.solve_ehl(**line, **oil, tolerance=tolerance)
 
 
 def evenly(share):
@@ -104,21 +97,10 @@ def test_couette_of_a_heated_film_does_not_depend_on_where_its_nodes_begin():
     warm = SimpleNamespace(stress=lambda x, p, h: 0.8 * 0.1 * sliding / h, inlet_viscosity=0.1)
     for first in (-4e-3, -1e-3):
         x = np.linspace(first, 0.0, 4001)
-        film = SimpleNamespace(
-            x=x,
-            pressure=np.zeros(x.size),
-            film_thickness=2e-6 + x**2 / (2 * radius),
-            entrainment_speed=4.0,
-            radius=radius,
-            rupture=0.0,
-            flow_film=2e-6,
-            rolling=None,
-            inlet=None,
-        )
-        sheared = shear_force(
-            film, oil, slide_roll_ratio=0.5, width=0.01, contact_fraction=lambda at: np.zeros(at.size - 1), warm=warm
-        )
-        found.append(sheared.couette)
+        film = {"x": x, "pressure": np.zeros(x.size), "film_thickness": 2e-6 + x**2 / (2 * radius), "rolling": None}
+        film |= {"entrainment_speed": 4.0, "radius": radius, "rupture": 0.0, "flow_film": 2e-6, "inlet": None}
+        how = {"slide_roll_ratio": 0.5, "width": 0.01, "contact_fraction": lambda at: np.zeros(at.size - 1)}
+        found.append(shear_force(SimpleNamespace(**film), oil, **how, warm=warm).couette)
     exact = 0.01 * 0.8 * 0.1 * sliding * np.sqrt(2 * radius / 2e-6) * np.pi / 2  # B eta U ∫ dx/h from -∞ to 0
     np.testing.assert_allclose(found, exact, rtol=1e-4)
 

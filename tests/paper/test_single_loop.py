@@ -109,14 +109,9 @@ def test_a_film_above_the_summits_needs_no_contact():
 
 @pytest.mark.parametrize(
     "change,match",
-    [
-        ({"film": 0.0}, "mean of film"),
-        ({"film": np.zeros((3, 4))}, "film has shape"),
-        ({"weight": -1.0}, "weight"),
-        ({"form": "print"}, "printed"),
-        ({"stop": "step"}, "stop"),
-        ({"separation_tolerance": 0}, "separation_tolerance"),
-    ],
+    [({"film": 0.0}, "mean of film"), ({"film": np.zeros((3, 4))}, "film has shape")]
+    + [({"weight": -1.0}, "weight"), ({"form": "print"}, "printed"), ({"stop": "step"}, "stop")]
+    + [({"separation_tolerance": 0}, "separation_tolerance")],
 )
 def test_bad_input(change, match):
     z = lubfric.generate_surface((32, 32), D, sq=1e-7, correlation_length=3e-6, acf="gaussian", seed=1).heights

@@ -125,18 +125,8 @@ def measured(tmp_path_factory):
     return folder
 
 
-FILE = {
-    "spacing": (2e-6, 2.5e-6),
-    "unit": "um",
-    "decimal": ",",
-    "missing_value": -99.0,
-    "form": "quadratic",
-    "outliers": "mask",
-    "s_filter": 1.5e-5,
-    "l_filter": 6e-5,
-    "motion_axis": "y",
-    "extension": "mirror",
-}
+FILE = {"spacing": (2e-6, 2.5e-6), "unit": "um", "decimal": ",", "missing_value": -99.0, "form": "quadratic"}
+FILE |= {"outliers": "mask", "s_filter": 1.5e-5, "l_filter": 6e-5, "motion_axis": "y", "extension": "mirror"}
 PLAIN = {"spacing": None, "unit": None, "decimal": None, "missing_value": None, "form": "plane", "outliers": "keep"}
 PLAIN |= {"s_filter": None, "l_filter": None, "motion_axis": "x", "extension": "none"}
 
@@ -433,19 +423,11 @@ def test_the_counterface_adds_its_square():
         assert answer(two, mode) == pytest.approx(answer(two), rel=0.6 * MOVES)
 
 
-SOLVED_OTHERWISE = [
-    {"workers": 2},
-    {"model": "load-sharing"},
-    {"grid": "given"},
-    {"film_tolerance": 1e-3},
-    {"contact_tolerance": 1e-6},
-    {"balance_tolerance": 1e-5},
-    {"tolerance": 1e-3},
-    {"heat": "auto"},
-    {"sampling": "strips"},
-    {"sampling_tolerance": 0.1},
-    {"accept": False},
-]
+SOLVED_OTHERWISE = (
+    [{"workers": 2}, {"model": "load-sharing"}, {"grid": "given"}, {"film_tolerance": 1e-3}]
+    + [{"contact_tolerance": 1e-6}, {"balance_tolerance": 1e-5}, {"tolerance": 1e-3}, {"heat": "auto"}]
+    + [{"sampling": "strips"}, {"sampling_tolerance": 0.1}, {"accept": False}]
+)
 STEADY_ONLY = [  # a run in time refuses them by name
     {"model": "deterministic"},
     {"cavitated_shear": "striated"},
@@ -570,7 +552,8 @@ ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, sh
     "bodies": {"hardness", "boundary_film", "boundary_friction_table"},  # the last: tests/scene/test_ranges.py
     "motion": {"speeds"},
     "contact": set(),
-    "lubricant": {"inlet_length", "inlet_film", "carreau"},  # the last: below, and tests/film/test_thinned.py
+    "lubricant": {"inlet_length", "inlet_film"}  # and, in tests/oil/test_shear_laws.py, the shear laws
+    | {law.key for law in (*lubfric.oil.FLOW_LAWS, *lubfric.oil.LIMITS)},
     "surface": {"file", *FILE},
     "counterface": set(lubfric.Roughness.__dataclass_fields__),
     "numerics": {

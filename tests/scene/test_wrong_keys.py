@@ -23,16 +23,10 @@ def scene(**sections):
 
 @pytest.mark.parametrize(
     "section, key, meant",
-    [
-        ("bodies", "diameters", "'radii' in m, half of the diameters"),
-        ("bodies", "length", "'width' in m"),
-        ("bodies", "E", "'young_modulus' and 'poisson_ratio'"),
-        ("oil", "grade", r"\[lubricant\]"),
-        ("lubricant", "alpha", "'pressure_viscosity_coefficient'"),
-        ("motion", "SRR", "'slide_roll_ratio'"),
-        ("numerics", "tolerence", "'tolerance'"),
-        ("motion", "entrainment-speed", "'entrainment_speed'"),
-    ],
+    [("bodies", "diameters", "'radii' in m, half of the diameters"), ("bodies", "length", "'width' in m")]
+    + [("bodies", "E", "'young_modulus' and 'poisson_ratio'"), ("oil", "grade", r"\[lubricant\]")]
+    + [("lubricant", "alpha", "'pressure_viscosity_coefficient'"), ("motion", "SRR", "'slide_roll_ratio'")]
+    + [("numerics", "tolerence", "'tolerance'"), ("motion", "entrainment-speed", "'entrainment_speed'")],
 )
 def test_a_wrong_key_leads_to_the_right_one(section, key, meant):
     with pytest.raises(lubfric.InputError, match=rf"unknown key .*did you mean {meant}"):

@@ -59,13 +59,8 @@ def test_band_between_both_indices_is_left():
 
 @pytest.mark.parametrize(
     "indices, words",
-    [
-        ({"s": 4e-6}, "s_filter"),
-        ({"l": 1.0}, "l_filter"),
-        ({"s": 20e-6, "l": 20e-6}, "below l_filter"),
-        ({"s": True}, "s_filter"),
-        ({"l": float("nan")}, "l_filter"),
-    ],
+    [({"s": 4e-6}, "s_filter"), ({"l": 1.0}, "l_filter"), ({"s": 20e-6, "l": 20e-6}, "below l_filter")]
+    + [({"s": True}, "s_filter"), ({"l": float("nan")}, "l_filter")],
 )
 def test_indices_out_of_range(indices, words):
     with pytest.raises(InputError, match=words):

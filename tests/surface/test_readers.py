@@ -346,18 +346,12 @@ HUGE_NPY = (
 
 @pytest.mark.parametrize(
     "name, content, options",
-    [
-        ("missing.npy", None, {"spacing": 1e-6}),
-        ("a.npy", HUGE_NPY, {"spacing": 1e-6}),
-        ("a.txt", b"\xff\xfe\x00\x81", {"spacing": 1e-6}),
-        ("a.txt", b"1 2\n3 inf\n", {"spacing": 1e-6}),
-        ("a.txt", b"nan nan\nnan nan\n", {"spacing": 1e-6}),
-        ("a.txt", b"1 2\n3 4\n", {}),
-        ("a.txt", b"1 2\n3 4\n", {"spacing": 1e-6, "unit": "inch"}),
-        ("a.txt", b"# spacing = 1e-6 1e-6\n1 2\n3 4\n", {"spacing": 1e-6}),
-        ("a.xyz", b"0 0 1\n0 1 1\n1 0 1\n1 1 1\n", {"spacing": 1e-6}),
-        ("a.x3p", b"PK", {"spacing": 1e-6}),
-    ],
+    [("missing.npy", None, {"spacing": 1e-6}), ("a.npy", HUGE_NPY, {"spacing": 1e-6})]
+    + [("a.txt", b"\xff\xfe\x00\x81", {"spacing": 1e-6}), ("a.txt", b"1 2\n3 inf\n", {"spacing": 1e-6})]
+    + [("a.txt", b"nan nan\nnan nan\n", {"spacing": 1e-6}), ("a.txt", b"1 2\n3 4\n", {})]
+    + [("a.txt", b"1 2\n3 4\n", {"spacing": 1e-6, "unit": "inch"})]
+    + [("a.txt", b"# spacing = 1e-6 1e-6\n1 2\n3 4\n", {"spacing": 1e-6})]
+    + [("a.xyz", b"0 0 1\n0 1 1\n1 0 1\n1 1 1\n", {"spacing": 1e-6}), ("a.x3p", b"PK", {"spacing": 1e-6})],
 )
 def test_reader_refuses(tmp_path, name, content, options):
     if content is not None:

@@ -55,18 +55,11 @@ def test_each_quantity_has_its_units(tmp_path, name, unit, heading, si):
 
 @pytest.mark.parametrize(
     "content, words",
-    [
-        ("time [fortnight],speed\n0,1\n1,1\n", "fortnight"),
-        ("time,speed [N]\n0,1\n1,1\n", "'N' is not known"),
-        ("time,speed,speed\n0,1,2\n1,1,2\n", "2 columns 'speed'"),
-        ("time;speed\n0;1.234,5\n1;1\n", "line 2"),
-        ("time,speed\n0,1\n1\n", "line 3"),
-        ("time,speed\n0,1\n1,nan\n", "line 3"),
-        ("time,speed\n", "1 rows"),
-        (b"time,speed\n\x00\x01\x02", "not text"),
-        (b"time,speed\n0,\x81\n1,2", "not text"),
-        ('time,speed\n0,"1\n1,2"\n', "not a number"),
-    ],
+    [("time [fortnight],speed\n0,1\n1,1\n", "fortnight"), ("time,speed [N]\n0,1\n1,1\n", "'N' is not known")]
+    + [("time,speed,speed\n0,1,2\n1,1,2\n", "2 columns 'speed'"), ("time;speed\n0;1.234,5\n1;1\n", "line 2")]
+    + [("time,speed\n0,1\n1\n", "line 3"), ("time,speed\n0,1\n1,nan\n", "line 3"), ("time,speed\n", "1 rows")]
+    + [(b"time,speed\n\x00\x01\x02", "not text"), (b"time,speed\n0,\x81\n1,2", "not text")]
+    + [('time,speed\n0,"1\n1,2"\n', "not a number")],
 )
 def test_bad_files_are_refused_by_name_and_line(tmp_path, content, words):
     path = write(tmp_path, content)
@@ -108,16 +101,12 @@ def test_repeat_is_a_truth_value(repeat):
 
 @pytest.mark.parametrize(
     "table, words",
-    [
-        ({"kind": "file", "file": 3, "column": "speed"}, "file = 3"),
-        ({"kind": "file", "file": "a\0b", "column": "speed"}, "file"),
-        ({"kind": "file", "file": "run.csv"}, "needs column"),
-        ({"kind": "file", "file": ".", "column": "speed"}, "does not exist"),
-        ({"kind": "table", "times": [0, True], "values": [1, 2]}, "truth values"),
-        ({"kind": ["ramp"]}, "kind"),
-        ({"kind": "ramp", "value": 3.0}, "unknown key 'value'"),
-        ({"kind": "ramp", "start": "1"}, "start"),
-    ],
+    [({"kind": "file", "file": 3, "column": "speed"}, "file = 3")]
+    + [({"kind": "file", "file": "a\0b", "column": "speed"}, "file")]
+    + [({"kind": "file", "file": "run.csv"}, "needs column")]
+    + [({"kind": "file", "file": ".", "column": "speed"}, "does not exist")]
+    + [({"kind": "table", "times": [0, True], "values": [1, 2]}, "truth values"), ({"kind": ["ramp"]}, "kind")]
+    + [({"kind": "ramp", "value": 3.0}, "unknown key 'value'"), ({"kind": "ramp", "start": "1"}, "start")],
 )
 def test_bad_tables_of_a_scene_are_refused(tmp_path, table, words):
     write(tmp_path, LINES)

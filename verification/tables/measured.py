@@ -1,4 +1,4 @@
-"""What each table measures. Each function returns `Cells`, and `TABLES` names the functions."""
+"""What each table says. Each function returns `Cells`, and `TABLES` names the functions."""
 
 import time
 from collections.abc import Callable, Sequence
@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 import lubfric
+from lubfric.oil import FLOW_LAWS, LIMITS
+from lubfric.quantities import KEYS
 
 from ..parts import case_of_scene
 
@@ -66,8 +68,12 @@ def _seconds(job: Callable[[], object]) -> float:
     return min(found)
 
 
-TABLES: dict[str, Callable[[], Cells]] = {
-    "stribeck": stribeck,
-    "roughness": roughness,
-    "times": times,
-}
+def shear_laws() -> Cells:
+    """The keys of the shear laws."""
+    keys = [key for law in (*FLOW_LAWS, *LIMITS) for key in (law.key, *law.others)]
+    rows = [(key, KEYS[f"lubricant.{key}"]) for key in keys]
+    return ["key, unit", "meaning"], [[f"`{key}`, {told.unit}".removesuffix(", -"), told.note] for key, told in rows]
+
+
+TABLES: dict[str, Callable[[], Cells]]
+TABLES = {"stribeck": stribeck, "roughness": roughness, "times": times, "shear-laws": shear_laws}
