@@ -18,7 +18,7 @@ from operator import attrgetter
 import numpy as np
 
 from ..errors import InputError
-from ..oil import FlowLaw, density_ratio, log_viscosity_ratio
+from ..oil import ShearLaw, density_ratio, log_viscosity_ratio
 from .formulas import moes_film, starved_inlet, starved_share
 from .hertz import LineContact
 from .thinning import thinned
@@ -98,7 +98,7 @@ class Problem:
         return replace(self, contact=replace(self.contact, lubricant=oil))
 
     @property
-    def thins_by(self) -> FlowLaw | None:
+    def thins_by(self) -> ShearLaw | None:
         """The law by which shear makes the flow thinner than a Newtonian one; None: it does not."""
         law, sheared = self.contact.lubricant.flow_law, self.contact.sliding is not None and self.times < math.inf
         return law if law is not None and law.thins and sheared else None

@@ -12,12 +12,12 @@ tangent of the law at the sliding (T. F. Conry, S. Wang, C. Cusano, J. Tribol. 1
 doi:10.1115/1.3261526); without sliding, the flow between plates.
 
 - Eyring: r = sinh x, in closed form: with S = sinh(b)/b and c = b coth b - 1, Φ = 3 c/b² sqrt(S² + s²).
-- Other laws (`lubfric.oil.FlowLaw`, x = f(r)): by quadrature.
+- Other laws (`lubfric.oil.ShearLaw`, x = f(r)): by quadrature.
 """
 
 import numpy as np
 
-from ..oil import Eyring, FlowLaw
+from ..oil import Eyring, ShearLaw
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 WEIGHTS = WEIGHTS / 2
@@ -25,7 +25,7 @@ SMALL = 1e-2  # of b: series below
 ROUNDS, CLOSE = 40, 1e-13  # of Newton's method for a
 
 
-def thinned(law: FlowLaw, s: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def thinned(law: ShearLaw, s: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Φ, s dΦ/ds and b dΦ/db [-] at s and b, >= 0, (n,) each."""
     return _eyring(s, b) if isinstance(law, Eyring) else _by_quadrature(law, s, b)
 
@@ -41,7 +41,7 @@ def _eyring(s, b):
     return factor, factor * tanh_squared, factor * by_b
 
 
-def _by_quadrature(law: FlowLaw, s, b):
+def _by_quadrature(law: ShearLaw, s, b):
     t = POINTS[:, None]
 
     def rates(a):

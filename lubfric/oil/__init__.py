@@ -24,5 +24,5 @@ from .make import (
 )
 from .oil import Oil
 from .pressure import Estimate, gold, so_klaus
-from .shear_laws import FLOW_LAWS, LIMITS, Eyring, FlowLaw, Limit
+from .shear_laws import FLOW_LAWS, LIMITS, Eyring, LimitingStress, ShearLaw
 from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_at_100, viscosity_index, walther

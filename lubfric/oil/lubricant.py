@@ -12,7 +12,7 @@ import numpy as np
 from .._base import Brief, validate
 from ..errors import InputError
 from .oil import Oil
-from .shear_laws import FLOW_LAWS, LIMITS, FlowLaw, Limit
+from .shear_laws import FLOW_LAWS, LIMITS, LimitingStress, ShearLaw
 from .viscosity import checked_temperature
 
 ROELANDS_PRESSURE = 1.96e8  # Pa
@@ -92,17 +92,17 @@ class Lubricant(Brief):
             checked_temperature(self.temperature, "lubricant.temperature")
 
     @property
-    def shear_laws(self) -> tuple[FlowLaw | Limit, ...]:
+    def shear_laws(self) -> tuple[ShearLaw, ...]:
         """The laws of its shear stress, in the order in which they act; none: Newtonian."""
         return tuple(law for law in (self.flow_law, self.limit) if law is not None)
 
     @property
-    def flow_law(self) -> FlowLaw | None:
+    def flow_law(self) -> ShearLaw | None:
         """How shear thins it; None: it does not."""
         return next((law(self) for law in FLOW_LAWS if getattr(self, law.key) is not None), None)
 
     @property
-    def limit(self) -> Limit | None:
+    def limit(self) -> LimitingStress | None:
         """The law of its largest stress; None: it has none."""
         return next((law(self) for law in LIMITS if getattr(self, law.key) is not None), None)
 

@@ -2,9 +2,9 @@
 
 A lubricant has at most one law of each kind, by the keys that it is given. Both know a critical stress tau_c:
 
-- a `FlowLaw` says how shear thins the lubricant, a generalised Newtonian fluid: its stress over tau_c is a function f
-  of s, the Newtonian stress eta gamma over tau_c;
-- a `Limit` cuts the stress that is left at tau_c.
+- a flow law (`ShearLaw`) says how shear thins the lubricant, a generalised Newtonian fluid: its stress over tau_c is a
+  function f of s, the Newtonian stress eta gamma over tau_c;
+- a limit (`LimitingStress`) cuts the stress that is left at tau_c.
 
 What a law leaves out and a model asks for is refused with an `InputError`. CONTRIBUTING.md shows how to add one.
 """
@@ -21,10 +21,13 @@ SMALL = 1e-6  # of s: below, a fluid is Newtonian
 
 
 class ShearLaw:
-    """A law of the lubricant ``oil`` (`lubfric.Lubricant`), which has its ``key``; ``others``: keys beside it."""
+    """How shear thins the lubricant ``oil`` (`lubfric.Lubricant`), which has the ``key`` of the law; ``others``: keys
+    beside it. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c has to be the same at
+    any pressure."""
 
     key = ""
     others: tuple = ()
+    thins = False
 
     def __init__(self, oil: Any):
         self.oil = oil
@@ -50,13 +53,6 @@ class ShearLaw:
         """Raise `InputError`: this law does not have the ``part`` that the ``model`` needs."""
         said = f" has a shear law without {part}, which {model} needs"
         raise InputError(said, f"lubricant.{self.key}", way_out=f"give it in lubfric/oil/shear_laws.py, or {way_out}")
-
-
-class FlowLaw(ShearLaw):
-    """How shear thins the lubricant. ``thins``: whether the flow of the smooth film thins by it as well; for that tau_c
-    has to be the same at any pressure."""
-
-    thins = False
 
     def f(self, s):
         """tau/tau_c, odd in s."""
@@ -93,34 +89,13 @@ class FlowLaw(ShearLaw):
         return factor, factor - factor**2 / self.tangent(s)[0]
 
 
-class Limit(ShearLaw):
-    """The largest stress that the lubricant bears."""
-
-    def twice(self) -> dict[str, Any]:
-        """Fields of a lubricant with twice this tau_c."""
-        return {self.key: 2 * getattr(self.oil, self.key)}
-
-    def stress(self, newtonian, critical):
-        """The stress [Pa] at the ``newtonian`` one."""
-        return np.clip(newtonian, -critical, critical)
-
-    def newtonian(self, stress, critical):
-        """The Newtonian stress [Pa] at the ``stress`` >= 0 that there is; infinite above what it bears."""
-        return np.where(stress > critical, np.inf, stress)
-
-    def thinning(self, s, along: bool) -> tuple:
-        """Φ and s dΦ/ds by the secant of ``1/eta_eff = 1/eta + Δu/(h tau_c)``, 1 + s, in both directions. (The tangent
-        of a fluid at its limit is infinite.)"""
-        return 1.0 + s, s
-
-
-class Eyring(FlowLaw):
+class Eyring(ShearLaw):
     """Ree-Eyring: f = asinh s (Johnson & Tevaarwerk 1977, doi:10.1098/rspa.1977.0129), tau_E = k T/v (H. Eyring, J.
     Chem. Phys. 4 (1936) 283, doi:10.1063/1.1749836)."""
 
     key = "eyring_stress"
     thins = True
-    warmth = FlowLaw.as_temperature
+    warmth = ShearLaw.as_temperature
 
     def critical(self, pressure):
         return self.oil.eyring_stress, 0.0
@@ -136,12 +111,12 @@ class Eyring(FlowLaw):
         return np.sinh(x)
 
 
-class Carreau(FlowLaw):
+class Carreau(ShearLaw):
     """f = s (1 + s²)^((n - 1)/2) (P. J. Carreau, Trans. Soc. Rheol. 16 (1972) 99-127); G ~ T, as the Eyring stress."""
 
     key = "carreau"
     thins = True
-    warmth = FlowLaw.as_temperature
+    warmth = ShearLaw.as_temperature
 
     @classmethod
     def checked(cls, value):
@@ -170,9 +145,9 @@ class Carreau(FlowLaw):
         return np.copysign(np.exp(y), x)
 
 
-class LimitingStress(Limit):
-    """tau_0 + Λ p (Bair & Winer 1979, doi:10.1115/1.3453342), ~ exp(585 K (1/T - 1/T0)) (L. Houpert, L. Flamand, D.
-    Berthe, J. Lubr. Technol. 103 (1981) 526-532, doi:10.1115/1.3251731)."""
+class LimitingStress(ShearLaw):
+    """The largest stress that the lubricant bears, tau_0 + Λ p (Bair & Winer 1979, doi:10.1115/1.3453342), ~ exp(585 K
+    (1/T - 1/T0)) (L. Houpert, L. Flamand, D. Berthe, J. Lubr. Technol. 103 (1981) 526-532, doi:10.1115/1.3251731)."""
 
     key = "limiting_stress_coefficient"
     others = ("limiting_stress_offset",)
@@ -184,9 +159,23 @@ class LimitingStress(Limit):
     def warmth(self, temperature):
         return np.exp(LIMIT_ACTIVATION * (1 / np.asarray(temperature) - 1 / self.oil.temperature))
 
-    def twice(self):
-        return super().twice() | {"limiting_stress_offset": 2 * self.oil.limiting_stress_offset}
+    def twice(self) -> dict[str, Any]:
+        """Fields of a lubricant with twice this tau_c: those that it is proportional to."""
+        return {key: 2 * getattr(self.oil, key) for key in (self.key, *self.others)}
+
+    def stress(self, newtonian, critical):
+        """The stress [Pa] at the ``newtonian`` one."""
+        return np.clip(newtonian, -critical, critical)
+
+    def newtonian(self, stress, critical):
+        """The Newtonian stress [Pa] at the ``stress`` >= 0 that there is; infinite above what it bears."""
+        return np.where(stress > critical, np.inf, stress)
+
+    def thinning(self, s, along: bool) -> tuple:
+        """Φ and s dΦ/ds by the secant of ``1/eta_eff = 1/eta + Δu/(h tau_c)``, 1 + s, in both directions. (The tangent
+        of a fluid at its limit is infinite.)"""
+        return 1.0 + s, s
 
 
-FLOW_LAWS: tuple[type[FlowLaw], ...] = (Eyring, Carreau)
-LIMITS: tuple[type[Limit], ...] = (LimitingStress,)
+FLOW_LAWS: tuple[type[ShearLaw], ...] = (Eyring, Carreau)
+LIMITS: tuple[type[LimitingStress], ...] = (LimitingStress,)

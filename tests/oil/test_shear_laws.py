@@ -10,7 +10,7 @@ import lubfric
 from lubfric.deterministic import solve_strip
 from lubfric.deterministic.rheology import thinning
 from lubfric.film import heated_stress
-from lubfric.oil import FLOW_LAWS, LIMITS, Eyring, FlowLaw, Lubricant, lubricant
+from lubfric.oil import FLOW_LAWS, LIMITS, Eyring, Lubricant, ShearLaw, lubricant
 from lubfric.surface import Surface
 
 LAWS = {"eyring_stress": 1e6, "carreau": (1e6, 0.6), "limiting_stress_coefficient": 0.002}  # values that matter
@@ -63,7 +63,7 @@ def test_the_key_of_a_law_reaches_the_number_everywhere(key):
     assert found == pytest.approx(found[0], rel=0.06) and np.all(np.abs(found / newtonian - 1) > 0.08)
 
 
-class Bare(FlowLaw):
+class Bare(ShearLaw):
     """tau + tau³/tau_c² = Newtonian stress, with what friction needs of it."""
 
     key, critical = "eyring_stress", Eyring.critical
@@ -73,7 +73,7 @@ class Bare(FlowLaw):
 
 
 class Cubic(Bare):
-    thins, warmth = True, FlowLaw.as_temperature
+    thins, warmth = True, ShearLaw.as_temperature
 
     def tangent(self, s):
         x = self.f(s)
