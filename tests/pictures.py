@@ -3,7 +3,8 @@ run, also of one in a process of its own (``leave_out()``, with this folder on t
 
 from pathlib import Path
 
-PLOTS = ("run_curve.plot_stribeck", "run_curve.plot_traction", "run_curve.plot_contact", "run_history.plot_history")
+PLOTS = ("run_curve.plot_stribeck", "run_curve.plot_traction", "run_curve.plot_contact", "run_curve.plot_surface")
+PLOTS += ("run_history.plot_history", "run_history.plot_surface")
 
 
 def stand_in(path, *_) -> None:

@@ -5,7 +5,7 @@ from .asperity import AsperityResult, asperity_contact, find_asperities, separat
 from .asperity_find import ridges
 from .flat import ContactCurve, FlatContact, asperity_curve, contact_curve, flat_contact
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
-from .height_map import check_grid, contact_map, contact_maps, measured, rough_bodies, together, whole_maps
+from .height_map import check_grid, contact_maps, measured, rough_bodies, together, whole_maps
 from .kernels import semiperiodic_coefficients
 from .operator import HalfSpace, even_transform, half_space
 from .problem import Problem, make_problem, on_grid

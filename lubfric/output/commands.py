@@ -10,7 +10,7 @@ import tempfile
 import threading
 import time
 import tomllib
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -25,7 +25,7 @@ from ..scene import Scene
 from ..sharing import Prepared, Validity, prepare
 from ..studies import Store, fits
 from ..surface import rms_slope
-from .describe import map_in_words
+from .describe import Foretold, foretold, map_in_words
 
 INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them
 SAY_EVERY = 1.0  # s between two lines of progress
@@ -103,17 +103,21 @@ MOST_TOML = 2**20  # bytes: a larger file names no inputs
 INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
-    *("contact.png", "contact_*.vtk", "animation.gif", "fields.npz", "report.html", RESULT),
+    *("contact.png", "contact_*.vtk", "surface.png", "animation.gif", "law.json", "law.c", "fields.npz"),
+    *("report.html", RESULT),
 )
 
 
-def ready(scene: Scene) -> Prepared:
-    """``scene`` made ready, which is said."""
+def ready(scene: Scene, speeds: Sequence[float] | str = (), ratios: Sequence[float] = ()) -> tuple[Prepared, Foretold]:
+    """``scene`` made ready, and what is foretold of it at ``speeds`` [m/s] or ``ratios``; both are said."""
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
     for row in map_in_words(prepared.surface, prepared.strips):
         say(row)
-    return prepared
+    known = foretold(scene, prepared.strips, prepared.surface, speeds, ratios)
+    for row in (known.cost, *known.refused):
+        say(f"foretold: {row}")
+    return prepared, known
 
 
 def read_record(folder: Path) -> dict:

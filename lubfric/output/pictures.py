@@ -11,6 +11,7 @@ from .._base import figures
 from ..studies import friction_over_speed, interval_band
 from ..time import friction_over_time, time_scale
 from ..units import worded
+from .describe import map_of
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
 FRAMES = 150  # of an animation at most, spread over the run
@@ -208,6 +209,17 @@ def _section(axes, micro, surface, smooth, contact, row: int) -> None:
     room = 0.15 * (high - low)
     axes.set(ylim=(low - room, high + room), ylabel="height (nm)")
     figures.key_above(axes, 2)
+
+
+def plot_surface(path: Path, prepared) -> None:
+    """The map that the scene of ``prepared`` has, to scale, of a long line the beginning."""
+    surface = map_of(prepared.surface, prepared.strips)
+    x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
+    part = _part(x, y, 0)
+    figure = figures.new_figure(figsize=(4.5 if np.ptp(y[part]) > SLENDER * np.ptp(x) else 7, 5), layout="compressed")
+    axes = surface.cropped((x.size, y[part].size), (0, 0)).plot(figure.subplots())
+    axes.set_title(axes.get_title() + _partly(y, part), fontsize=10)
+    figure.savefig(path, dpi=150)
 
 
 def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:

@@ -17,21 +17,19 @@ from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
 from ..sharing import Prepared, Validity, lack_in_words, takes_strips
 from ..units import number_of
 from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
+from .describe import Foretold
 from .fields import fields_bytes, vtk_bytes
-from .pictures import plot_contact, plot_stribeck, plot_traction
+from .pictures import plot_contact, plot_stribeck, plot_surface, plot_traction
 from .report import report_page
 
+KNOWN = 0.05  # relative error of f between the speeds up to which a curve is told as a formula
 WORTH = 8  # speeds from which a second process gains more than it costs
-CAPTIONS = {
-    "stribeck.png": "Friction, shares of the load and film",
-    "traction.png": "Friction over the slide-roll ratio",
-    "contact.png": "Contact at one speed",
-}
 
 
 def run_sweep(scene: Scene, arguments) -> None:
-    """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, report.html and, last,
-    result.json to the folder ``arguments.out``; with ``.vtk`` also contact_0.vtk ... for ParaView.
+    """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, surface.png, report.html and,
+    last, result.json to the folder ``arguments.out``; where the curve has a formula, law.json and law.c; with ``.vtk``
+    also contact_0.vtk ... for ParaView.
 
     ``arguments``: of the command, with ``.speeds``, ``.fields`` and ``.workers`` (None: two if that pays) too. The
     scene is checked and made ready before the folder is touched. The results of an earlier run stay until those of this
@@ -53,39 +51,43 @@ def run_sweep(scene: Scene, arguments) -> None:
         enough = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
         workers = 2 if enough and studies.processors() > 1 else 1
     with studies.pool(workers) as executor:
-        prepared = ready(scene)
+        prepared, known = ready(scene, speeds)
         kept = keeping(lambda: f"{len(ended)} of {total} points are kept in {out}")
         with kept, run_folder(out, begun, studies.fingerprint(prepared, speeds, chosen)) as folder:
             threading.Thread(target=figures.make_ready, daemon=True).start()  # while the speeds are solved
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
             curve = studies.stribeck(prepared, speeds, None if speeds == studies.AUTO else executor, **options)
-            _write(folder, prepared, curve, arguments, chosen)
+            _write(folder, prepared, curve, arguments, known, chosen)
     _raise_if_failed(curve)
 
 
 def run_traction(scene: Scene, arguments) -> None:
-    """Compute a traction curve, and write traction.csv, traction.png, report.html and, last, result.json to
-    ``arguments.out``."""
+    """Compute a traction curve, and write traction.csv, traction.png, surface.png, report.html and, last,
+    result.json to ``arguments.out``."""
     begun = time.perf_counter()
     ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
     _check_outputs("traction", arguments, 0)
-    prepared = ready(scene)
+    prepared, known = ready(scene, ratios=ratios)
     with run_folder(arguments.out, begun, studies.fingerprint(prepared, ratios, "traction")) as folder:
         progress = _progress("slide-roll ratio {:<9.4g}")
         curve = studies.traction(prepared, ratios, on_point=progress, raise_on_failure=False)
-        _write(folder, prepared, curve, arguments, [])
+        _write(folder, prepared, curve, arguments, known, [])
     _raise_if_failed(curve)
 
 
 def _check_outputs(table: str, arguments, contacts: int) -> None:
     """Refuse a folder in which the files of a curve would replace others."""
     names = [f"{table}.csv", f"{table}.png", "fields.npz", "contact.png", RESULT]
-    names += ["report.html", *(f"contact_{i}.vtk" for i in range(contacts if arguments.vtk else 0))]
+    names += ["law.json", "law.c"] * (table == "stribeck")
+    names += ["surface.png", "report.html", *(f"contact_{i}.vtk" for i in range(contacts if arguments.vtk else 0))]
     check_outputs(arguments, arguments.out, names, OUTPUTS)
 
 
-def _write(folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, arguments, chosen: list[float]) -> None:
-    """The table, the fields of the ``chosen`` speeds, their pictures, the record; and what was asked for beside."""
+def _write(
+    folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, arguments, known: Foretold, chosen: list[float]
+) -> None:
+    """The table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what was asked for beside.
+    ``known``: before it was solved."""
     name, contents = "traction" if curve.SWEPT[0] == "ratio" else "stribeck", folder.contents
     contents[f"{name}.csv"] = studies.csv_bytes(curve)
     units = {number: COLUMNS[number] for number in (*NUMBERS, curve.SWEPT[0])}
@@ -103,9 +105,27 @@ def _write(folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, ar
         contents |= {f"contact_{i}.vtk": vtk_bytes(prepared, point) for i, point in enumerate(touching)}
         if not touching:
             say("no .vtk file: none of the speeds of --fields has a contact with fields")
-    images = {text: contents[file] for file, text in CAPTIONS.items() if file in contents}
-    contents["report.html"] = report_page(prepared, curve, record, images)
+    if prepared.surface.sq > 0:
+        folder.draw("surface.png", plot_surface, prepared)
+    law = _law(curve)
+    if isinstance(law, studies.Law):
+        contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
+    contents["report.html"] = report_page(prepared, curve, record, contents, known, law)
     folder.finish(record, *_doubts(prepared.scene, curve))
+
+
+def _law(curve: studies.CurveResult) -> studies.Law | str:
+    """The curve over the speed as a formula, or why there is none."""
+    if not isinstance(curve, studies.StribeckResult):
+        return ""
+    if any(entry.severe for i in range(len(curve.points)) for entry in curve.entries(i)):
+        return "some of its points are outside the range of the model"
+    try:
+        if curve.between > KNOWN:
+            return f"between the speeds f is known within {100 * curve.between:.2g} %; give more of them, or 'auto'"
+        return curve.law()
+    except InputError as why:
+        return str(why)
 
 
 def _drawable(columns) -> np.ndarray:

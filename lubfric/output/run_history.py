@@ -6,19 +6,19 @@ from .._base import figures, read_table, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
-from ..sharing import in_a_cell
+from ..sharing import Prepared, in_a_cell
 from ..studies import fingerprint
 from ..time import TransientResult, transient
 from . import commands
 from .fields import npz_bytes
-from .pictures import animate, plot_history
+from .pictures import animate, plot_history, plot_surface
 from .report import report_page
 from .run_curve import replot
 
 
 def run_history(scene: Scene, arguments) -> None:
-    """Compute and write history.csv, history.png, fields.npz, report.html (with ``arguments.animation``: animation.gif)
-    and, last, result.json to ``arguments.out``.
+    """Compute and write history.csv, history.png, fields.npz, surface.png, report.html (with ``arguments.animation``:
+    animation.gif) and, last, result.json to ``arguments.out``.
 
     The scene is checked and made ready before the folder is touched, and the results of an earlier run stay until those
     of this one are there. An interrupted run continues from where it was. A failed run writes what it has, and then
@@ -26,9 +26,9 @@ def run_history(scene: Scene, arguments) -> None:
     """
     begun, reached, due, out = time.perf_counter(), 0.0, commands.paced(), arguments.out
     failure: LubfricError | None = None
-    names = ["history.csv", "history.png", "fields.npz", "report.html", commands.RESULT]
+    names = ["history.csv", "history.png", "fields.npz", "surface.png", "report.html", commands.RESULT]
     commands.check_outputs(arguments, out, names + ["animation.gif"] * arguments.animation, commands.OUTPUTS)
-    prepared = commands.ready(scene)
+    prepared, known = commands.ready(scene)
 
     def on_step(now, duration, row):
         nonlocal reached
@@ -52,17 +52,17 @@ def run_history(scene: Scene, arguments) -> None:
             if error.result is None:
                 raise
             result, failure = error.result, error
-        _write(folder, scene, result, arguments.animation)
+        _write(folder, prepared, result, arguments.animation)
         record = folder.record(prepared, result, OF_MOMENT)
-        images = {"History": folder.contents["history.png"]} if "history.png" in folder.contents else {}
-        folder.contents["report.html"] = report_page(prepared, result, record, images)
+        folder.contents["report.html"] = report_page(prepared, result, record, folder.contents, known)
         folder.finish(record)
     if failure:
         raise failure
 
 
-def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
-    """All but the result."""
+def _write(folder: commands.RunFolder, prepared: Prepared, result: TransientResult, animation: bool) -> None:
+    """All but the page and the result."""
+    scene = prepared.scene
     columns = {heading(name): result.columns[name] for name in OF_MOMENT}
     told = {"validity": [in_a_cell(entries) for entries in result.entries]}
     folder.contents["history.csv"] = table_bytes(columns | told)
@@ -70,6 +70,8 @@ def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, an
     folder.contents["fields.npz"] = npz_bytes(fields)
     if result.time.size > 1:
         folder.draw("history.png", plot_history, result.columns, figures.plain_words(scene.name))
+    if prepared.surface.sq > 0:
+        folder.draw("surface.png", plot_surface, prepared)
     if animation:
         folder.draw("animation.gif", animate, result, scene.bodies.half_width)
 

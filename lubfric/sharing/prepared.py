@@ -138,19 +138,27 @@ def prepare(
         contact = None if like.own else like.contact
     given = bool(maps) or contact is not None
     with told_doubts(scene):
-        if not given and takes_strips(scene):
-            strips = strips_of(scene)
-            return _on_strips(scene, strips, given)
-        surface, *bodies = contact_maps(scene, maps)
+        surface, strips = sample_of(scene, maps, own=contact is None)
+        if strips is not None:
+            return _on_strips(scene, surface, strips, given)
         if contact is not None:
             return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
-        if scene.contact.geometry == "cylinder" and scene.contact.model == "half-space":
-            strips = one_patch(scene, _lengths(scene, surface, given), surface, *bodies)
-            return _on_strips(scene, strips, given, surface)
         heights = surface.heights - surface.heights.mean()
         flat = scene.contact.geometry == "flat"
         contact = (flat_contact if flat else asperities_under_cylinder)(scene, heights, surface.spacing)
         return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
+
+
+def sample_of(scene: Scene, maps: tuple[Surface, ...] = (), own: bool = True) -> tuple[Surface, Strips | None]:
+    """The map that is solved first, and the sample that it belongs to, if the rough contact is lubfric's ``own``, with
+    cells under a cylinder. ``maps``: `_given`."""
+    if own and not maps and takes_strips(scene):
+        strips = strips_of(scene)
+        return strips.stack(strips.first), strips
+    surface, *bodies = contact_maps(scene, maps)
+    if own and scene.contact.geometry == "cylinder" and scene.contact.model == "half-space":
+        return surface, one_patch(scene, _lengths(scene, surface, bool(maps)), surface, *bodies)
+    return surface, None
 
 
 def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -> tuple[Surface, ...]:
@@ -215,13 +223,11 @@ def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) ->
     return half_space_contact(scene, heights - heights.mean(), spacing, operator, x)
 
 
-def _on_strips(scene: Scene, strips: Strips, given: bool, surface: Surface | None = None) -> Prepared:
-    """``surface``: the whole patch (None: the first strips)."""
-    first = strips.stack(strips.first)
-    whole = first if surface is None else surface
-    check_map(scene, whole)
+def _on_strips(scene: Scene, surface: Surface, strips: Strips, given: bool) -> Prepared:
+    check_map(scene, surface)
+    first = strips.stack(strips.first) if strips.whole else surface
     contact = half_space_contact(scene, first.heights - first.heights.mean(), first.spacing, x=strips.cells.axis())
-    made = Prepared(scene, whole, contact, beforehand(scene, whole), strips, given)
+    made = Prepared(scene, surface, contact, beforehand(scene, surface), strips, given)
     made.memo[("stack", strips.cells.factors, strips.first)] = contact, contact.heights.size
     made.memo[("operator", first.heights.shape, tuple(first.spacing))] = contact.operator, contact.operator.symbol.size
     return made

@@ -67,6 +67,18 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         the curve does not reach it."""
         return None if self._curve.lift_off is None else self._curve.lifted
 
+    @property
+    def lift_off_range(self) -> tuple[float, float]:
+        """(lowest, highest) speed [m/s] at which ``lift_off`` may lie, by the interpolation between the points; NaN
+        where there is none."""
+        low, high = sorted(self._curve.sense * end for end in self._curve.lift_off_range)
+        return low, high
+
+    @property
+    def between(self) -> float:
+        """The largest relative error that `at` is estimated to have between the points."""
+        return next_speed(self._curve, np.inf)[1]
+
     @cached_property
     def _curve(self) -> Interpolant:
         return through(columns_of(self.points))
@@ -167,7 +179,7 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
     curve = StribeckResult(**numbers, points=points, errors=errors, report=report, scene=prepared.scene)
     if asked or len(points) - len(errors) < FEWEST:
         return curve
-    error, tolerance = next_speed(curve._curve, tolerance_between(prepared))[1], tolerance_between(prepared)
+    error, tolerance = curve.between, tolerance_between(prepared)
     close = error <= tolerance
     told = replace(  # its residual is the estimated error between the points
         report,

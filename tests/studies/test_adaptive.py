@@ -63,6 +63,7 @@ def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, e
     true = sum(curve.at(at))
     assert np.abs(found.at(at) / true - 1).max() <= tolerance
     assert found.lift_off == pytest.approx(lift_off, rel=0.01) and error <= tolerance
+    assert found.lift_off_range[0] <= lift_off <= found.lift_off_range[1]
     assert len(speeds) <= (14 if tolerance == 0.01 else 11)
 
 

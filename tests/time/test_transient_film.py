@@ -9,12 +9,7 @@ import pytest
 import lubfric
 from lubfric.film import solve_ehl
 from lubfric.scene import Harmonic, Ramp, Table
-from lubfric.time import (
-    Memory,
-    make_fixed_grid,
-    solve_transient_ehl,
-    symmetric_nodes,
-)
+from lubfric.time import Memory, make_fixed_grid, solve_transient_ehl, symmetric_nodes
 from lubfric.time.film_equations import Spring, StepEquations, outside, outside_shear
 from verification.check import Check
 from verification.studies import transient as study
