@@ -3,8 +3,7 @@ run, also of one in a process of its own (``leave_out()``, with this folder on t
 
 from pathlib import Path
 
-PLOTS = ("run_curve.plot_stribeck", "run_curve.plot_traction", "run_curve.plot_contact", "run_curve.plot_surface")
-PLOTS += ("run_history.plot_history", "run_history.plot_surface")
+PLOTS = ("run_curve.plot_stribeck", "run_curve.plot_traction", "run_curve.plot_contact", "run_history.plot_history")
 
 
 def stand_in(path, *_) -> None:
@@ -14,9 +13,10 @@ def stand_in(path, *_) -> None:
 
 def leave_out(replace=setattr) -> None:
     """No picture of a run is drawn, and matplotlib is not made ready for them; ``replace``: as `setattr`."""
-    from lubfric.output import run_curve, run_history
+    from lubfric.output import commands, run_curve, run_history
 
-    replace(run_curve.figures, "make_ready", lambda: None)
+    replace(commands.figures, "make_ready", lambda: None)
+    replace(commands, "plot_surface", stand_in)
     for name in PLOTS:
         module, plot = name.split(".")
         replace({"run_curve": run_curve, "run_history": run_history}[module], plot, stand_in)

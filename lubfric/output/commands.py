@@ -10,22 +10,24 @@ import tempfile
 import threading
 import time
 import tomllib
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import get_type_hints
 
 import numpy as np
 
-from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, read_json, validate
+from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
 from ..errors import InputError, OutputError
 from ..quantities import KEYS, Quantity
 from ..scene import Scene
 from ..sharing import Prepared, Validity, prepare
-from ..studies import Store, fits
+from ..studies import Law, Store, fingerprint, fits
 from ..surface import rms_slope
 from .describe import Foretold, foretold, map_in_words
+from .pictures import plot_surface
+from .report import report_page
 
 INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them
 SAY_EVERY = 1.0  # s between two lines of progress
@@ -108,16 +110,26 @@ OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
 )
 
 
-def ready(scene: Scene, speeds: Sequence[float] | str = (), ratios: Sequence[float] = ()) -> tuple[Prepared, Foretold]:
-    """``scene`` made ready, and what is foretold of it at ``speeds`` [m/s] or ``ratios``; both are said."""
+@contextmanager
+def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], str] | None, *key, **places):
+    """Begin a run of ``scene``, which writes files with these ``names``: its `RunFolder`, known again by ``key``, the
+    scene made ready, and what is `foretold` of it at ``places``. On an interrupt ``kept()`` is said, if anything is.
+
+    The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
+    """
+    begun = time.perf_counter()
+    check_outputs(arguments, arguments.out, [*names, "fields.npz", "surface.png", "report.html", RESULT], OUTPUTS)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
     for row in map_in_words(prepared.surface, prepared.strips):
         say(row)
-    known = foretold(scene, prepared.strips, prepared.surface, speeds, ratios)
+    known = foretold(scene, prepared.strips, prepared.surface, **places)
     for row in (known.cost, *known.refused):
         say(f"foretold: {row}")
-    return prepared, known
+    saying = keeping(kept) if kept else nullcontext()
+    with saying, run_folder(arguments.out, begun, fingerprint(prepared, *key)) as folder:
+        threading.Thread(target=figures.make_ready, daemon=True).start()  # while it is solved
+        yield folder, prepared, known
 
 
 def read_record(folder: Path) -> dict:
@@ -192,7 +204,7 @@ class RunFolder:
         except Exception as problem:  # of any kind: a picture must not cost the numbers
             self.failures.append(f"{name} was not drawn ({type(problem).__name__}: {validate.shown(str(problem))})")
 
-    def record(self, prepared: Prepared, result, units: dict[str, Quantity], **numbers: object) -> dict:
+    def _record(self, prepared: Prepared, result, units: dict[str, Quantity], **numbers: object) -> dict:
         """The record of a run: date, resolved input, map, versions, timing, report, violated assumptions, ``numbers``;
         ``units`` of these, beside those of the input."""
         import scipy
@@ -214,9 +226,16 @@ class RunFolder:
             **numbers,
         }
 
-    def finish(self, record: dict, *doubts: str) -> None:
-        """Put all of a run in the place of an earlier one; ``record``, which names the files, last as result.json. Then
-        violated assumptions, ``doubts`` and files are said, and what was saved for a resume is removed."""
+    def complete(
+        self, prepared: Prepared, known: Foretold, result, units, law: Law | str = "", doubts=(), **numbers: object
+    ) -> None:
+        """Add the picture of the roughness and the page, and put all of a run in the place of an earlier one; its
+        record, which names the files, last as result.json. Then violated assumptions, ``doubts`` and files are said,
+        and what was saved for a resume is removed."""
+        if prepared.surface.sq > 0:
+            self.draw("surface.png", plot_surface, prepared)
+        record = self._record(prepared, result, units, **numbers)
+        self.contents["report.html"] = report_page(prepared, result, record, self.contents, known, law)
         whole = plain({"files": sorted([*self.contents, RESULT])} | record)
         self.contents[RESULT] = json.dumps(whole, indent=1, allow_nan=False).encode()
         self.put(OUTPUTS, (*record["validity"], *doubts))

@@ -104,32 +104,32 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
 def plot_contact(path: Path, prepared, point) -> None:
     """The contact of ``point``, a `lubfric.FrictionResult` with fields, on the cells of ``prepared``, as PNG."""
     if point.deterministic is not None:
-        figure = _one_gap(point.deterministic.result, point.speed, prepared.scene.bodies.half_width)
+        figure = _one_gap(point, prepared.scene.bodies.half_width)
     else:
         figure = _two_pressures(prepared, point)
     figure.savefig(path, dpi=150)
 
 
-def _one_gap(result, speed: float, half_width: float):
+def _one_gap(point, half_width: float):
     """Pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
     from matplotlib.colors import LogNorm
 
-    near = np.abs(result.x) <= NEAR * half_width
-    x, y = result.x[near], np.arange(result.pressure.shape[1]) * result.spacing[1]
-    part = _part(x, y, int(result.pressure[near].max(axis=0).argmax()))
+    near = np.abs(point.x) <= NEAR * half_width
+    x, y = point.x[near], point.y
+    part = _part(x, y, int(point.pressure[near].max(axis=0).argmax()))
     figure = figures.new_figure(figsize=(10, 5.5), layout="compressed")
     for axes, (label, field, colours, norm) in zip(
         figure.subplots(1, 3, sharey=True),
         (
-            ("pressure (GPa)", result.pressure / 1e9, "magma_r", None),
-            ("gap (nm)", result.gap * 1e9, "viridis", LogNorm()),
-            ("shear stress (MPa)", result.shear / 1e6, "cividis", None),
+            ("pressure (GPa)", point.pressure / 1e9, "magma_r", None),
+            ("gap (nm)", point.gap * 1e9, "viridis", LogNorm()),
+            ("shear stress (MPa)", point.deterministic.result.shear / 1e6, "cividis", None),
         ),
     ):
         figures.field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)
         _hertz_strip(axes, half_width)
         axes.label_outer()
-    figure.suptitle(f"U = {speed:g} m/s{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
+    figure.suptitle(f"U = {point.speed:g} m/s{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
     return figure
 
 

@@ -2,8 +2,6 @@
 
 import math
 import re
-import threading
-import time
 from collections.abc import Callable
 from dataclasses import asdict
 
@@ -16,11 +14,10 @@ from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
 from ..sharing import Prepared, Validity, lack_in_words, takes_strips
 from ..units import number_of
-from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
+from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import Foretold
 from .fields import fields_bytes, vtk_bytes
-from .pictures import plot_contact, plot_stribeck, plot_surface, plot_traction
-from .report import report_page
+from .pictures import plot_contact, plot_stribeck, plot_traction
 
 KNOWN = 0.05  # relative error of f between the speeds up to which a curve is told as a formula
 WORTH = 8  # speeds from which a second process gains more than it costs
@@ -36,14 +33,18 @@ def run_sweep(scene: Scene, arguments) -> None:
     one are there. Every point is on disk when it ends, so an interrupted run continues from there. A failed run writes
     what it has, then raises `ConvergenceError`.
     """
-    begun, out, ended = time.perf_counter(), arguments.out, []
+    ended: list[tuple] = []
     speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
     total, progress = "some" if speeds == studies.AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
-    _check_outputs("stribeck", arguments, len(chosen))
+    names = ["stribeck.csv", "stribeck.png", "contact.png", "law.json", "law.c"]
+    names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
     def on_point(*point):
         ended.append(point)
         progress(*point)
+
+    def kept() -> str:
+        return f"{len(ended)} of {total} points are kept in {arguments.out}"
 
     if arguments.workers is not None:
         workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
@@ -51,10 +52,7 @@ def run_sweep(scene: Scene, arguments) -> None:
         enough = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
         workers = 2 if enough and studies.processors() > 1 else 1
     with studies.pool(workers) as executor:
-        prepared, known = ready(scene, speeds)
-        kept = keeping(lambda: f"{len(ended)} of {total} points are kept in {out}")
-        with kept, run_folder(out, begun, studies.fingerprint(prepared, speeds, chosen)) as folder:
-            threading.Thread(target=figures.make_ready, daemon=True).start()  # while the speeds are solved
+        with run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds) as (folder, prepared, known):
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
             curve = studies.stribeck(prepared, speeds, None if speeds == studies.AUTO else executor, **options)
             _write(folder, prepared, curve, arguments, known, chosen)
@@ -64,23 +62,13 @@ def run_sweep(scene: Scene, arguments) -> None:
 def run_traction(scene: Scene, arguments) -> None:
     """Compute a traction curve, and write traction.csv, traction.png, surface.png, report.html and, last,
     result.json to ``arguments.out``."""
-    begun = time.perf_counter()
-    ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
-    _check_outputs("traction", arguments, 0)
-    prepared, known = ready(scene, ratios=ratios)
-    with run_folder(arguments.out, begun, studies.fingerprint(prepared, ratios, "traction")) as folder:
+    ratios, names = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO), ["traction.csv", "traction.png"]
+    begun = run_begun(scene, arguments, names, None, ratios, "traction", ratios=ratios)
+    with begun as (folder, prepared, known):
         progress = _progress("slide-roll ratio {:<9.4g}")
         curve = studies.traction(prepared, ratios, on_point=progress, raise_on_failure=False)
         _write(folder, prepared, curve, arguments, known, [])
     _raise_if_failed(curve)
-
-
-def _check_outputs(table: str, arguments, contacts: int) -> None:
-    """Refuse a folder in which the files of a curve would replace others."""
-    names = [f"{table}.csv", f"{table}.png", "fields.npz", "contact.png", RESULT]
-    names += ["law.json", "law.c"] * (table == "stribeck")
-    names += ["surface.png", "report.html", *(f"contact_{i}.vtk" for i in range(contacts if arguments.vtk else 0))]
-    check_outputs(arguments, arguments.out, names, OUTPUTS)
 
 
 def _write(
@@ -91,10 +79,10 @@ def _write(
     name, contents = "traction" if curve.SWEPT[0] == "ratio" else "stribeck", folder.contents
     contents[f"{name}.csv"] = studies.csv_bytes(curve)
     units = {number: COLUMNS[number] for number in (*NUMBERS, curve.SWEPT[0])}
-    record = folder.record(prepared, curve, units, points=[_point(curve, i) for i in range(len(curve.points))])
+    numbers = [_point(curve, i) for i in range(len(curve.points))]
     columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
     if _drawable(columns).any():
-        folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, record["points"])
+        folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, numbers)
     points = [p for p in curve.points if p is not None and (p.balance is not None or p.deterministic is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
@@ -105,13 +93,10 @@ def _write(
         contents |= {f"contact_{i}.vtk": vtk_bytes(prepared, point) for i, point in enumerate(touching)}
         if not touching:
             say("no .vtk file: none of the speeds of --fields has a contact with fields")
-    if prepared.surface.sq > 0:
-        folder.draw("surface.png", plot_surface, prepared)
     law = _law(curve)
     if isinstance(law, studies.Law):
         contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
-    contents["report.html"] = report_page(prepared, curve, record, contents, known, law)
-    folder.finish(record, *_doubts(prepared.scene, curve))
+    folder.complete(prepared, known, curve, units, law, _doubts(prepared.scene, curve), points=numbers)
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:

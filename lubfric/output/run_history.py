@@ -1,18 +1,14 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
-import time
-
 from .._base import figures, read_table, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
-from ..sharing import Prepared, in_a_cell
-from ..studies import fingerprint
+from ..sharing import in_a_cell
 from ..time import TransientResult, transient
 from . import commands
 from .fields import npz_bytes
-from .pictures import animate, plot_history, plot_surface
-from .report import report_page
+from .pictures import animate, plot_history
 from .run_curve import replot
 
 
@@ -24,11 +20,9 @@ def run_history(scene: Scene, arguments) -> None:
     of this one are there. An interrupted run continues from where it was. A failed run writes what it has, and then
     raises `ConvergenceError`.
     """
-    begun, reached, due, out = time.perf_counter(), 0.0, commands.paced(), arguments.out
+    reached, due = 0.0, commands.paced()
     failure: LubfricError | None = None
-    names = ["history.csv", "history.png", "fields.npz", "surface.png", "report.html", commands.RESULT]
-    commands.check_outputs(arguments, out, names + ["animation.gif"] * arguments.animation, commands.OUTPUTS)
-    prepared, known = commands.ready(scene)
+    names = ["history.csv", "history.png", *["animation.gif"] * arguments.animation]
 
     def on_step(now, duration, row):
         nonlocal reached
@@ -41,9 +35,9 @@ def run_history(scene: Scene, arguments) -> None:
             )
 
     def kept() -> str:
-        return f"the state at t = {reached:.5g} s is kept in {out}"
+        return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
 
-    with commands.keeping(kept), commands.run_folder(out, begun, fingerprint(prepared)) as folder:
+    with commands.run_begun(scene, arguments, names, kept) as (folder, prepared, known):
         if folder.unfinished.is_dir():
             commands.say(f"going on from {folder.unfinished}")
         try:
@@ -52,17 +46,14 @@ def run_history(scene: Scene, arguments) -> None:
             if error.result is None:
                 raise
             result, failure = error.result, error
-        _write(folder, prepared, result, arguments.animation)
-        record = folder.record(prepared, result, OF_MOMENT)
-        folder.contents["report.html"] = report_page(prepared, result, record, folder.contents, known)
-        folder.finish(record)
+        _write(folder, scene, result, arguments.animation)
+        folder.complete(prepared, known, result, OF_MOMENT)
     if failure:
         raise failure
 
 
-def _write(folder: commands.RunFolder, prepared: Prepared, result: TransientResult, animation: bool) -> None:
-    """All but the page and the result."""
-    scene = prepared.scene
+def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
+    """The table, the fields and the pictures of the run alone."""
     columns = {heading(name): result.columns[name] for name in OF_MOMENT}
     told = {"validity": [in_a_cell(entries) for entries in result.entries]}
     folder.contents["history.csv"] = table_bytes(columns | told)
@@ -70,8 +61,6 @@ def _write(folder: commands.RunFolder, prepared: Prepared, result: TransientResu
     folder.contents["fields.npz"] = npz_bytes(fields)
     if result.time.size > 1:
         folder.draw("history.png", plot_history, result.columns, figures.plain_words(scene.name))
-    if prepared.surface.sq > 0:
-        folder.draw("surface.png", plot_surface, prepared)
     if animation:
         folder.draw("animation.gif", animate, result, scene.bodies.half_width)
 

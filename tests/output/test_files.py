@@ -193,7 +193,7 @@ def test_a_page_that_cannot_be_made_leaves_the_earlier_run(tmp_path, monkeypatch
     def broken(*_):
         raise ZeroDivisionError("no page")
 
-    monkeypatch.setattr("lubfric.output.run_curve.report_page", broken)
+    monkeypatch.setattr("lubfric.output.commands.report_page", broken)
     with pytest.raises(ZeroDivisionError):
         main(["run", str(tmp_path / "s.toml"), "--out", str(out)])
     assert {path.name: path.read_bytes() for path in out.iterdir() if path.is_file()} == before
