@@ -20,12 +20,12 @@ import numpy as np
 
 from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
 from ..errors import InputError, OutputError
-from ..quantities import KEYS, Quantity
+from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
 from ..sharing import Prepared, Validity, prepare
 from ..studies import Law, Store, fingerprint, fits
 from ..surface import rms_slope
-from .describe import Foretold, foretold, map_in_words
+from .describe import Foretold, foretold
 from .pictures import plot_surface
 from .report import report_page
 
@@ -100,13 +100,13 @@ def keeping(what: Callable[[], str]):
         raise Interrupted(said, getattr(error, "code", INTERRUPTED)) from None
 
 
-RESULT, UNFINISHED = "result.json", "unfinished"
+RESULT, RESOLVED, UNFINISHED = "result.json", "resolved.toml", "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
 INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
-    *("contact.png", "contact_*.vtk", "surface.png", "animation.gif", "law.json", "law.c", "fields.npz"),
-    *("report.html", RESULT),
+    *("contact.png", "contact_*.vtk", "sharing.png", "surface.png", "animation.gif", "law.json", "law.c"),
+    *("fields.npz", "report.html", RESOLVED, RESULT),
 )
 
 
@@ -118,14 +118,14 @@ def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], 
     The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
     """
     begun = time.perf_counter()
-    check_outputs(arguments, arguments.out, [*names, "fields.npz", "surface.png", "report.html", RESULT], OUTPUTS)
+    check_outputs(
+        arguments, arguments.out, [*names, "fields.npz", "surface.png", "report.html", RESOLVED, RESULT], OUTPUTS
+    )
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
-    for row in map_in_words(prepared.surface, prepared.strips):
-        say(row)
     known = foretold(scene, prepared.strips, prepared.surface, **places)
-    for row in (known.cost, *known.refused):
-        say(f"foretold: {row}")
+    for row in (*known.told["surface"], *(f"foretold: {text}" for text in (known.cost, *known.refused))):
+        say(row)
     saying = keeping(kept) if kept else nullcontext()
     with saying, run_folder(arguments.out, begun, fingerprint(prepared, *key)) as folder:
         threading.Thread(target=figures.make_ready, daemon=True).start()  # while it is solved
@@ -217,6 +217,7 @@ class RunFolder:
             "date": time.strftime("%Y-%m-%d %H:%M:%S UTC", time.gmtime()),
             "scene": asdict(prepared.scene),
             "units": {name: q.unit for name, q in (KEYS | units).items()},
+            "long_names": {name: described(name, KEYS | units)["long_name"] for name in units},
             "surface": map_,
             "versions": versions | {"scipy": scipy.__version__, "python": platform.python_version()},
             "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
@@ -229,9 +230,11 @@ class RunFolder:
     def complete(
         self, prepared: Prepared, known: Foretold, result, units, law: Law | str = "", doubts=(), **numbers: object
     ) -> None:
-        """Add the picture of the roughness and the page, and put all of a run in the place of an earlier one; its
-        record, which names the files, last as result.json. Then violated assumptions, ``doubts`` and files are said,
-        and what was saved for a resume is removed."""
+        """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run in the place
+        of an earlier one; its record, which names the files, last as result.json. Then violated assumptions, ``doubts``
+        and files are said, and what was saved for a resume is removed."""
+        with suppress(InputError):  # a path that is not Unicode has no place in a scene file
+            self.contents[RESOLVED] = prepared.scene.to_toml().encode()
         if prepared.surface.sq > 0:
             self.draw("surface.png", plot_surface, prepared)
         record = self._record(prepared, result, units, **numbers)

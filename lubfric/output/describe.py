@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact import MeasuredStrips, Strips, check_grid
+from ..contact import MeasuredStrips, Strips, check_grid, sample_of, takes_strips
 from ..errors import InputError
 from ..quantities import counted
 from ..sampling import MOST_WORK, forecast
 from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, moves, told_doubts
-from ..sharing import expected, gathered, lack_in_words, lacking, sample_of, takes_strips
+from ..sharing import expected, gathered, lack_in_words, lacking
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
@@ -30,16 +30,15 @@ class Foretold:
 
     Attributes
     ----------
-    told : lines on "transient" (what changes in time), "contact", "model" and "left out"
+    told : lines on "transient" (what changes in time), "surface", "contact", "model", "left out" and "validity"
     cost : the time that it will take, in words; "" where it is not known
     table : of some speeds, their headings first: expected film, whether it clears the summits, what the sample costs
-    doubts : assumptions that fail by what is known so far; refused : those of them that make f meaningless
+    refused : assumptions that fail by what is known so far, so that f means nothing
     """
 
     told: dict[str, list[str]]
     cost: str
     table: list[tuple[str, ...]]
-    doubts: list[str]
     refused: list[str]
 
 
@@ -49,14 +48,8 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     with told_doubts(scene):
         surface, strips = sample_of(scene)
         check_grid(scene, surface)
-    whole, known = map_of(surface, strips), foretold(scene, strips, surface, speeds)
-    notes = [note for note in whole.notes if "nm as it is" in note]
-    sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | {
-        "transient": known.told["transient"],
-        "surface": [*map_in_words(surface, strips), *notes, slopes_in_words(whole)],
-        **{name: known.told[name] for name in ("contact", "model", "left out")},
-        "validity": known.doubts or ["no assumption of the model fails by what is known before the solve"],
-    }
+    known = foretold(scene, strips, surface, speeds)
+    sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | known.told
     rows = [f"  {'' if i else name:<14} {text}" for name, texts in sections.items() for i, text in enumerate(texts)]
     widths = [max(map(len, column)) for column in zip(*known.table)]
     table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in known.table]
@@ -76,6 +69,7 @@ def foretold(
         speeds, over = list(speeds_of_run(scene)) or [0.0], "a run in time"
         own = max(speeds)
     model, cost = _model(scene, strips, surface, speeds, ratios)
+    cost = cost and f"about {cost} of processor time for {over} (an order of magnitude)"
     if scene.transient is not None:
         cost, sample = _course(scene, strips, surface, speeds)
         changing = [*_histories(scene), cost, *sample]
@@ -83,16 +77,18 @@ def foretold(
         model.append(f"cost: {cost}")
     at = expected(scene, surface, sorted(set(speeds)))
     refused = _doubts([(speed, entry) for speed, entry in at if entry.severe])
-    lacks = [lack_in_words(lack) for lack in lacking(scene, map_of(surface, strips).sq, own)]
+    whole = map_of(surface, strips)
+    notes, lacks = [note for note in whole.notes if "nm as it is" in note], lacking(scene, whole.sq, own)
+    left_out = [f"likely changes of f at {own:g} m/s, by closed forms:", *map(lack_in_words, lacks)]
     told = {
         "transient": changing,
+        "surface": [*map_in_words(surface, strips), *notes, slopes_in_words(whole)],
         "contact": [f"{_plan(scene, surface)}; {over}"],
         "model": model,
-        "left out": [f"likely changes of f at {own:g} m/s, by closed forms:", *lacks]
-        if lacks
-        else ["nothing that would change f by its tolerance"],
+        "left out": left_out if lacks else ["nothing that would change f by its tolerance"],
+        "validity": _doubts(at) or ["no assumption of the model fails by what is known before the solve"],
     }
-    return Foretold(told, cost, _speed_table(scene, strips, surface, speeds), _doubts(at), refused)
+    return Foretold(told, cost, _speed_table(scene, strips, surface, speeds), refused)
 
 
 def _doubts(at) -> list[str]:
@@ -147,11 +143,8 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds, ratios
         beyond = f"; beyond {MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
         takes = f"one strip with one gap and one pressure takes about {in_words(strip)}"
         rows.append(f"the roughness moves{unseen}: {takes}{beyond * (asked == 'auto')}")
-    if not found:
-        return rows, ""
-    many, what = (len(ratios), "ratios") if len(ratios) else (len(moving), "speeds")
-    seconds = in_words(sum(one.seconds for one in found) * many / len(found))
-    return rows, f"about {seconds} of processor time for {counted(many, what)} (an order of magnitude)"
+    many = len(ratios) or len(moving)
+    return rows, in_words(sum(one.seconds for one in found) * many / len(found)) if found else ""
 
 
 def _histories(scene: Scene) -> list[str]:

@@ -16,7 +16,7 @@ from ..scene import Scene
 from ..sharing import Prepared, lack_in_words
 from ..studies import CurveResult, Law, StribeckResult
 from ..units import converted, printed, unit_for, worded
-from .describe import ABOUT_TABLE, Foretold, map_in_words, map_of, slopes_in_words
+from .describe import ABOUT_TABLE, Foretold
 from .inputs import FACTS, SECTIONS, inputs
 
 OF_POINT = ["coefficient", "contact_load", "film_load", "central_film", "film_to_roughness_ratio"]
@@ -26,6 +26,7 @@ CAPTIONS = {
     "traction.png": "Friction over the slide-roll ratio",
     "history.png": "History",
     "contact.png": "Contact at one speed",
+    "sharing.png": "The same by load sharing, Eq. (8), alone: contact, and film and surfaces on a section",
     "surface.png": "Roughness",
 }
 UNKNOWN = "the error of the model is not known, and not in it"
@@ -37,7 +38,6 @@ def report_page(
     """The page of ``result``, a curve or a run in time. ``record``: what result.json holds; ``contents``: of the files
     of the run, its pictures among them; ``known``: before it was solved; ``law``: of a curve, or why it has none."""
     scene, curve = prepared.scene, result if isinstance(result, CurveResult) else None
-    known_map = slopes_in_words(map_of(prepared.surface, prepared.strips))
     answer, *more = _of_run(result) if curve is None else _of_curve(scene, curve)
     made = [*record["versions"].items(), ("seconds", f"{record['seconds']:.3g}"), ("solver", result.report.message)]
     page = Template((files(__package__) / "report.html").read_text(encoding="utf-8")).substitute(
@@ -51,12 +51,12 @@ def report_page(
         cautions=_list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
         results="" if curve is None else "".join(_points(curve)),
         inputs="".join(_inputs(scene, section) for section in SECTIONS),
-        law=_law(law, curve),
+        law=_law(law, curve, abs(scene.motion.entrainment_speed)),
         lacks=_lacks(scene, curve, known),
         solved=_list([text for name in ("transient", "contact", "model") for text in known.told[name]]),
         table=_rows(known.table[0], [_cells(row) for row in known.table[1:]]),
         about_table=escape(ABOUT_TABLE),
-        map=escape("; ".join([*map_in_words(prepared.surface, prepared.strips), known_map])),
+        map=escape("; ".join(known.told["surface"])),
         notes=_list(prepared.surface.notes),
         sources=_list([] if curve is None else curve.cite().splitlines(), head="<h2>Sources</h2>"),
         made=_rows((), [f"<th>{escape(name)}</th><td>{escape(value)}</td>" for name, value in made]),
@@ -91,6 +91,10 @@ def _of_curve(scene: Scene, curve: CurveResult) -> list[str]:
     model = f"; {UNKNOWN}" if np.isnan(known.uncertainty.model) else ", model included"
     within = f", between {low:.3g} and {high:.3g} (95 %{model})" if np.isfinite(low) else ", with an error not known"
     told = [f"f = {known.coefficient:.3g}{within}, {place}."]
+    if np.isfinite(known.central_film):
+        share = known.contact_load / (known.contact_load + known.film_load)
+        film = f"the film is {known.in_unit('central_film', 'nm'):.3g} nm thick in the middle"
+        told.append(f"There {100 * share:.3g} % of the load is on spots in contact, and {film}.")
     if f.size > 1:
         least = _place(curve, solved[f[solved].argmin()])
         ends = f"{f[solved].min():.4g} to {f[solved].max():.4g}, and least {least}"
@@ -103,27 +107,28 @@ def _lift_off(curve: CurveResult) -> list[str]:
     if not isinstance(curve, StribeckResult):
         return []
     try:
-        at, (low, high) = curve.lift_off, curve.lift_off_range
+        at, (low, high), least = curve.lift_off, curve.lift_off_range, curve.least
     except InputError:  # too few of them, or in both directions
         return []
     if at is None:
-        touching = "all" if curve.contact_load[-1] > 0 else "none"
+        touching = "all" if np.nanmax(curve.contact_load) > 0 else "none"
         return [f"Lift-off is not between these speeds: the surfaces touch at {touching} of them."]
     return [
+        f"Between the speeds f is least at U = {least[0]:.3g} m/s: {least[1]:.3g}.",
         f"The film lifts the surfaces off each other at U = {at:.4g} m/s, {low:.4g} to {high:.4g} m/s by the "
-        "interpolation between the speeds. Summits higher than those that were solved touch beyond it."
+        "interpolation between the speeds. Summits higher than those that were solved touch beyond it.",
     ]
 
 
-def _law(law: Law | str, curve: CurveResult | None) -> str:
+def _law(law: Law | str, curve: CurveResult | None, own: float) -> str:
     """The section on the formula of a curve, or on why it has none; "" of what is no curve over the speed."""
     if isinstance(law, Law) and isinstance(curve, StribeckResult):
-        off = (
-            f"It is off by at most {100 * law.largest:.2g} % from the curve through the solved points, which is known "
+        off, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
+        said = (
+            f"<p>For simulations of a machine, also as law.json and, in C, law.c. It is off by at most {off} from the "
+            f"curve through the solved points, which is known within {within} between them. At U = {own:.4g} m/s it "
+            f"gives f = {law(own, extrapolate=True):.3g}.</p><pre>{escape(law.text)}</pre>"
         )
-        off += f"within {100 * curve.between:.2g} % between them."
-        said = f"<p>For simulations of a machine, also as law.json and, in C, law.c. {off}</p>"
-        said += f"<pre>{escape(law.text)}</pre>"
     else:
         said = f"<p>None was fitted: {escape(str(law))}.</p>"
     return f"<h2>The curve as a formula</h2>{said}" if law else ""

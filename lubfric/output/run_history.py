@@ -1,6 +1,6 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
-from .._base import figures, read_table, table_bytes
+from .._base import figures, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
@@ -9,12 +9,11 @@ from ..time import TransientResult, transient
 from . import commands
 from .fields import npz_bytes
 from .pictures import animate, plot_history
-from .run_curve import replot
 
 
 def run_history(scene: Scene, arguments) -> None:
-    """Compute and write history.csv, history.png, fields.npz, surface.png, report.html (with ``arguments.animation``:
-    animation.gif) and, last, result.json to ``arguments.out``.
+    """Compute and write history.csv, history.png, fields.npz, surface.png, report.html, resolved.toml (with
+    ``arguments.animation``: animation.gif) and, last, result.json to ``arguments.out``.
 
     The scene is checked and made ready before the folder is touched, and the results of an earlier run stay until those
     of this one are there. An interrupted run continues from where it was. A failed run writes what it has, and then
@@ -63,10 +62,3 @@ def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, an
         folder.draw("history.png", plot_history, result.columns, figures.plain_words(scene.name))
     if animation:
         folder.draw("animation.gif", animate, result, scene.bodies.half_width)
-
-
-def plot_again(arguments) -> None:
-    """Draw history.png of ``arguments.folder`` again."""
-    folder = arguments.folder
-    columns, record = read_table(folder / "history.csv"), commands.read_record(folder)
-    replot(arguments, "history.png", plot_history, columns, figures.plain_words(record["scene"]["name"]))

@@ -16,16 +16,10 @@ from ..contact import (
     RoughContact,
     Strips,
     asperities_under_cylinder,
-    contact_maps,
-    correlation_lengths,
     flat_contact,
     half_space,
     half_space_contact,
-    length_or_half,
-    measured,
-    one_patch,
-    rough_bodies,
-    strips_of,
+    sample_of,
     together,
 )
 from ..contact import check_grid as check_map
@@ -149,18 +143,6 @@ def prepare(
         return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
 
 
-def sample_of(scene: Scene, maps: tuple[Surface, ...] = (), own: bool = True) -> tuple[Surface, Strips | None]:
-    """The map that is solved first, and the sample that it belongs to, if the rough contact is lubfric's ``own``, with
-    cells under a cylinder. ``maps``: `_given`."""
-    if own and not maps and takes_strips(scene):
-        strips = strips_of(scene)
-        return strips.stack(strips.first), strips
-    surface, *bodies = contact_maps(scene, maps)
-    if own and scene.contact.geometry == "cylinder" and scene.contact.model == "half-space":
-        return surface, one_patch(scene, _lengths(scene, surface, bool(maps)), surface, *bodies)
-    return surface, None
-
-
 def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -> tuple[Surface, ...]:
     """The maps that were given to `prepare`, `together`."""
     for name, one in (("surface", surface), ("counterface", counterface)):
@@ -171,14 +153,6 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
     if surface is None or scene.counterface is None or scene.counterface.sq == 0:
         raise InputError("counterface needs a surface beside it, the maps of both bodies, and a rough [counterface]")
     return together(surface, counterface)
-
-
-def takes_strips(scene: Scene) -> bool:
-    """Whether ``scene`` is solved on strips of its roughness: it has a rough half-space under a cylinder, and does not
-    ask for one patch."""
-    numerics, contact = scene.numerics, scene.contact
-    modelled = contact.geometry == "cylinder" and contact.model == "half-space"
-    return numerics.sampling != "patch" and modelled and any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
 
 
 def on_stack(prepared: Prepared, strips: Strips, count: int) -> HalfSpaceContact:
@@ -231,14 +205,6 @@ def _on_strips(scene: Scene, surface: Surface, strips: Strips, given: bool) -> P
     made.memo[("stack", strips.cells.factors, strips.first)] = contact, contact.heights.size
     made.memo[("operator", first.heights.shape, tuple(first.spacing))] = contact.operator, contact.operator.symbol.size
     return made
-
-
-def _lengths(scene: Scene, surface: Surface, given: bool) -> tuple[float, float]:
-    """Correlation lengths [m] of a patch: those of the scene, or of the map itself."""
-    if measured(scene) or given:
-        return length_or_half(surface, 0), length_or_half(surface, 1)
-    along_x, along_y = zip(*(correlation_lengths(rough) for rough, _ in rough_bodies(scene)))
-    return max(along_x), max(along_y)
 
 
 def scene_of(scene: Scene | Prepared) -> Scene:

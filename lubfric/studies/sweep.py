@@ -11,7 +11,7 @@ from ..quantities import PointQuantities, described_in_doc
 from ..sampling import FrictionResult
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from ..sharing import Prepared, at_tolerance, scene_of
-from .choose import asked_speeds, next_speed, span, tolerance_between
+from .choose import asked_speeds, between, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
@@ -19,6 +19,8 @@ from .law import Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, outcome_of, solved
 from .store import opened
 from .tables import curve_axes
+
+FINE = 2000  # speeds of a curve among which the least f is looked for
 
 
 @described_in_doc
@@ -45,6 +47,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     errors: dict[int, Exception]
     report: Report
     scene: Scene
+
+    plot = curve_axes
 
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.studies.interpolate`). They
@@ -75,9 +79,16 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         return low, high
 
     @property
+    def least(self) -> tuple[float, float]:
+        """(the speed [m/s] at which f is least between the slowest and the fastest, f there), interpolated."""
+        at = np.geomspace(*self._curve.range, FINE)
+        f = self.at(at)
+        return float(at[f.argmin()]), float(f.min())
+
+    @property
     def between(self) -> float:
         """The largest relative error that `at` is estimated to have between the points."""
-        return next_speed(self._curve, np.inf)[1]
+        return between(self._curve)
 
     @cached_property
     def _curve(self) -> Interpolant:
@@ -89,10 +100,6 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         low, high = self.uncertainty.interval.T
         curves = [(conditions_of(self.scene), self._curve)]
         return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)
-
-    def plot(self, ax=None, **style):
-        """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
-        return curve_axes(self, ax, **style)
 
     def to_csv(self, path) -> None:
         """The table that ``lubfric run`` writes as stribeck.csv: one row a speed, the unit in the heading."""
