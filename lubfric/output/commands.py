@@ -124,7 +124,7 @@ def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], 
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
     known = foretold(scene, prepared.strips, prepared.surface, **places)
-    for row in (*known.told["surface"], *(f"foretold: {text}" for text in (known.cost, *known.refused))):
+    for row in (*known.told["surface"], *(f"foretold: {text}" for text in (known.cost, *known.refused) if text)):
         say(row)
     saying = keeping(kept) if kept else nullcontext()
     with saying, run_folder(arguments.out, begun, fingerprint(prepared, *key)) as folder:

@@ -160,8 +160,7 @@ def plot_again(arguments) -> None:
     if given:
         if len(given) < 3:
             raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
-        headings = {"coefficient": arguments.coefficient, "speed": arguments.speed}
-        again += (studies.read_measured(arguments.measured, **headings),)
+        again += (studies.read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed),)
     check_outputs(arguments, folder, [f"{name}.png"])
     content = made(f"{name}.png", *again)
     with FolderLock(folder):

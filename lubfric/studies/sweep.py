@@ -11,7 +11,7 @@ from ..quantities import PointQuantities, described_in_doc
 from ..sampling import FrictionResult
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from ..sharing import Prepared, at_tolerance, scene_of
-from .choose import asked_speeds, between, span, tolerance_between
+from .choose import GRID, asked_speeds, between, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
@@ -19,8 +19,6 @@ from .law import Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, outcome_of, solved
 from .store import opened
 from .tables import curve_axes
-
-FINE = 2000  # speeds of a curve among which the least f is looked for
 
 
 @described_in_doc
@@ -81,11 +79,11 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     @property
     def least(self) -> tuple[float, float]:
         """(the speed [m/s] at which f is least between the slowest and the fastest, f there), interpolated."""
-        at = np.geomspace(*self._curve.range, FINE)
+        at = np.geomspace(*self._curve.range, 5 * GRID)
         f = self.at(at)
         return float(at[f.argmin()]), float(f.min())
 
-    @property
+    @cached_property
     def between(self) -> float:
         """The largest relative error that `at` is estimated to have between the points."""
         return between(self._curve)

@@ -177,9 +177,11 @@ def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
         curve = through(columns)
     except (InputError, KeyError):  # too few of them, both directions, or a table without what the curve needs
         return None
+    if between(curve) > KNOWN:
+        return None
     fine = np.geomspace(curve.samples.speed[0], curve.samples.speed[-1], 2 * FINE)
-    known = between(curve) <= KNOWN
-    return (fine, curve.at(fine), curve.boundary(fine), curve.film(fine)) if known else None
+    contact, film = curve.boundary(fine), curve.film(fine)
+    return fine, contact + film, contact, film
 
 
 def curve_axes(curve, ax=None, **style):
