@@ -13,9 +13,10 @@ def stand_in(path, *_) -> None:
 
 def leave_out(replace=setattr) -> None:
     """No picture of a run is drawn, and matplotlib is not made ready for them; ``replace``: as `setattr`."""
-    from lubfric.output import run_curve, run_history
+    from lubfric.output import commands, run_curve, run_history
 
-    replace(run_curve.figures, "make_ready", lambda: None)
+    replace(commands.figures, "make_ready", lambda: None)
+    replace(commands, "plot_surface", stand_in)
     for name in PLOTS:
         module, plot = name.split(".")
         replace({"run_curve": run_curve, "run_history": run_history}[module], plot, stand_in)

@@ -30,6 +30,13 @@ def make_ready() -> None:
     figure.savefig(io.BytesIO())
 
 
+def animated(path, figure, draw, frames, per_second: int, dpi: int) -> None:
+    """Save what ``draw(frame)`` makes of ``figure`` as a GIF."""
+    from matplotlib.animation import FuncAnimation, PillowWriter
+
+    FuncAnimation(figure, draw, frames=frames, blit=False).save(path, writer=PillowWriter(fps=per_second), dpi=dpi)
+
+
 def plain_words(text: str) -> str:
     """``text`` of a user, such as the name of a scene, for a picture, in which a $ would begin a formula."""
     return text.replace("$", r"\$")

@@ -19,11 +19,6 @@ TOO_SHORT = (
 )
 
 
-def contact_map(scene: Scene) -> Surface:
-    """The first of `contact_maps`."""
-    return contact_maps(scene)[0]
-
-
 def contact_maps(scene: Scene, given: tuple[Surface, ...] = ()) -> tuple[Surface, ...]:
     """Generate the heights of ``scene``, or read, turn, scale and cut them and make them periodic; those of both bodies
     become one map, which each body follows alone (`together`). Maps that are ``given`` are taken as they are.

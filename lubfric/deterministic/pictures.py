@@ -23,8 +23,6 @@ def plot_moments(path: Path | str, moments: Sequence[Moment]) -> None:
 
 def animate_moments(path: Path | str, moments: Sequence[Moment], frames_per_second: int = 10) -> None:
     """Gap and pressure as an animated GIF, one frame a moment."""
-    from matplotlib.animation import FuncAnimation, PillowWriter
-
     figure = figures.new_figure(figsize=(5, 5.5))
     limits = _limits(moments)
 
@@ -33,8 +31,7 @@ def animate_moments(path: Path | str, moments: Sequence[Moment], frames_per_seco
         _fields(figure.subplots(2, 1, sharex=True), moments[number], *limits)
         return []
 
-    animation = FuncAnimation(figure, draw, frames=len(moments), blit=False)
-    animation.save(path, writer=PillowWriter(fps=frames_per_second), dpi=90)
+    figures.animated(path, figure, draw, range(len(moments)), frames_per_second, 90)
 
 
 def plot_passing(path: Path | str, strip: MovingStrip) -> None:

@@ -4,7 +4,6 @@ runs."""
 import argparse
 import sys
 from pathlib import Path
-from typing import Any
 
 from .._base import __version__, packaged
 from ..errors import ConvergenceError, InputError, LubfricError
@@ -13,8 +12,7 @@ from .commands import INTERRUPTED, interruptible, put, say
 
 CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
 FOR = {"ratios": RATIOS, "animation": IN_TIME} | dict.fromkeys(("speeds", "fields", "workers", "vtk"), CURVE)
-KINDS: dict[str, dict[str, Any]] = {"path": {"type": Path}, "count": {"type": int}}
-KINDS["switch"] = {"action": "store_true"}
+KINDS: dict[str, dict] = {"path": {"type": Path}, "count": {"type": int}, "switch": {"action": "store_true"}}
 
 
 def main(argv=None) -> int:
@@ -60,7 +58,7 @@ def _scene(arguments):
 
 def run(arguments) -> None:
     """Compute a curve or a run in time, and write it to a folder."""
-    from ..sharing import takes_strips
+    from ..contact import takes_strips
     from . import run_curve, run_history
 
     scene = _scene(arguments)
@@ -111,16 +109,9 @@ def fit(arguments) -> None:
 
 def plot(arguments) -> None:
     """Draw the picture of a run again."""
-    from . import run_curve, run_history
+    from .run_curve import plot_again
 
-    given = [name for name in ("measured", "speed", "coefficient") if getattr(arguments, name) is not None]
-    if given and "measured" not in given:
-        raise InputError(f"--{given[0]} names a column of the measured curve; give --measured as well")
-    for table, what in (("history.csv", "a run in time"), ("traction.csv", "a traction curve")):
-        if given and (arguments.folder / table).is_file():
-            raise InputError(f"--measured is drawn beside a Stribeck curve, and {arguments.folder} holds {what}")
-    again = run_history if (arguments.folder / "history.csv").is_file() else run_curve
-    again.plot_again(arguments)
+    plot_again(arguments)
 
 
 def init(arguments) -> None:

@@ -11,21 +11,23 @@ import threading
 import time
 import tomllib
 from collections.abc import Callable, Iterable
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import get_type_hints
 
 import numpy as np
 
-from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, plain, read_json, validate
+from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
 from ..errors import InputError, OutputError
-from ..quantities import KEYS, Quantity
+from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
 from ..sharing import Prepared, Validity, prepare
-from ..studies import Store, fits
+from ..studies import Law, Store, fingerprint, fits
 from ..surface import rms_slope
-from .describe import map_in_words
+from .describe import Foretold, foretold
+from .pictures import plot_surface
+from .report import report_page
 
 INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them
 SAY_EVERY = 1.0  # s between two lines of progress
@@ -98,22 +100,36 @@ def keeping(what: Callable[[], str]):
         raise Interrupted(said, getattr(error, "code", INTERRUPTED)) from None
 
 
-RESULT, UNFINISHED = "result.json", "unfinished"
+RESULT, RESOLVED, UNFINISHED = "result.json", "resolved.toml", "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
 INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
-    *("contact.png", "contact_*.vtk", "animation.gif", "fields.npz", "report.html", RESULT),
+    *("contact.png", "contact_*.vtk", "sharing.png", "surface.png", "animation.gif", "law.json", "law.c"),
+    *("fields.npz", "report.html", RESOLVED, RESULT),
 )
 
 
-def ready(scene: Scene) -> Prepared:
-    """``scene`` made ready, which is said."""
+@contextmanager
+def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], str] | None, *key, **places):
+    """Begin a run of ``scene``, which writes files with these ``names``: its `RunFolder`, known again by ``key``, the
+    scene made ready, and what is `foretold` of it at ``places``. On an interrupt ``kept()`` is said, if anything is.
+
+    The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
+    """
+    begun = time.perf_counter()
+    check_outputs(
+        arguments, arguments.out, [*names, "fields.npz", "surface.png", "report.html", RESOLVED, RESULT], OUTPUTS
+    )
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
-    for row in map_in_words(prepared.surface, prepared.strips):
+    known = foretold(scene, prepared.strips, prepared.surface, **places)
+    for row in (*known.told["surface"], *(f"foretold: {text}" for text in (known.cost, *known.refused) if text)):
         say(row)
-    return prepared
+    saying = keeping(kept) if kept else nullcontext()
+    with saying, run_folder(arguments.out, begun, fingerprint(prepared, *key)) as folder:
+        threading.Thread(target=figures.make_ready, daemon=True).start()  # while it is solved
+        yield folder, prepared, known
 
 
 def read_record(folder: Path) -> dict:
@@ -188,7 +204,7 @@ class RunFolder:
         except Exception as problem:  # of any kind: a picture must not cost the numbers
             self.failures.append(f"{name} was not drawn ({type(problem).__name__}: {validate.shown(str(problem))})")
 
-    def record(self, prepared: Prepared, result, units: dict[str, Quantity], **numbers: object) -> dict:
+    def _record(self, prepared: Prepared, result, units: dict[str, Quantity], **numbers: object) -> dict:
         """The record of a run: date, resolved input, map, versions, timing, report, violated assumptions, ``numbers``;
         ``units`` of these, beside those of the input."""
         import scipy
@@ -201,6 +217,7 @@ class RunFolder:
             "date": time.strftime("%Y-%m-%d %H:%M:%S UTC", time.gmtime()),
             "scene": asdict(prepared.scene),
             "units": {name: q.unit for name, q in (KEYS | units).items()},
+            "long_names": {name: described(name, KEYS | units)["long_name"] for name in units},
             "surface": map_,
             "versions": versions | {"scipy": scipy.__version__, "python": platform.python_version()},
             "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
@@ -210,9 +227,18 @@ class RunFolder:
             **numbers,
         }
 
-    def finish(self, record: dict, *doubts: str) -> None:
-        """Put all of a run in the place of an earlier one; ``record``, which names the files, last as result.json. Then
-        violated assumptions, ``doubts`` and files are said, and what was saved for a resume is removed."""
+    def complete(
+        self, prepared: Prepared, known: Foretold, result, units, law: Law | str = "", doubts=(), **numbers: object
+    ) -> None:
+        """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run in the place
+        of an earlier one; its record, which names the files, last as result.json. Then violated assumptions, ``doubts``
+        and files are said, and what was saved for a resume is removed."""
+        with suppress(InputError):  # a path that is not Unicode has no place in a scene file
+            self.contents[RESOLVED] = prepared.scene.to_toml().encode()
+        if prepared.surface.sq > 0:
+            self.draw("surface.png", plot_surface, prepared)
+        record = self._record(prepared, result, units, **numbers)
+        self.contents["report.html"] = report_page(prepared, result, record, self.contents, known, law)
         whole = plain({"files": sorted([*self.contents, RESULT])} | record)
         self.contents[RESULT] = json.dumps(whole, indent=1, allow_nan=False).encode()
         self.put(OUTPUTS, (*record["validity"], *doubts))

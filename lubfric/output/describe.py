@@ -3,16 +3,16 @@
 import math
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact import MeasuredStrips, Strips, check_grid, contact_map, strips_of
+from ..contact import MeasuredStrips, Strips, check_grid, sample_of, takes_strips
 from ..errors import InputError
 from ..quantities import counted
 from ..sampling import MOST_WORK, forecast
 from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, moves, told_doubts
-from ..sharing import expected, gathered, lack_in_words, lacking, takes_strips
+from ..sharing import expected, gathered, lack_in_words, lacking
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
@@ -21,37 +21,80 @@ from .inputs import FACTS, input_rows
 STEP_TOLERANCE, SWING, START = 3e-5, 80.0, 30.0  # of a step; with it, steps in a period of a history; at the start
 FILM_STEP, CELL_STEP = 6e-3, 1.5e-7  # s of a step in time: its film, and a cell of its contact
 SOME, SHOWN = 25, 6  # speeds at which the work is counted, and that stand in the table, about
+ABOUT_TABLE = "film of the whole load by closed forms, and whether it clears the summits (orders of magnitude)"
+
+
+@dataclass(frozen=True)
+class Foretold:
+    """What is known of a scene before it is solved.
+
+    Attributes
+    ----------
+    told : lines on "transient" (what changes in time), "surface", "contact", "model", "left out" and "validity"
+    cost : the time that it will take, in words; "" where it is not known
+    table : of some speeds, their headings first: expected film, whether it clears the summits, what the sample costs
+    refused : assumptions that fail by what is known so far, so that f means nothing
+    """
+
+    told: dict[str, list[str]]
+    cost: str
+    table: list[tuple[str, ...]]
+    refused: list[str]
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved.
     ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
     with told_doubts(scene):
-        strips = strips_of(scene) if takes_strips(scene) else None
-        surface = contact_map(scene) if strips is None else strips.stack(strips.first)
+        surface, strips = sample_of(scene)
         check_grid(scene, surface)
-    whole, own = map_of(surface, strips), scene.motion.entrainment_speed
-    chosen = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
-    speeds = tuple(chosen) or scene.motion.speeds or (own,)
-    told, over = [], counted(len(speeds), "speeds")
-    if scene.transient is not None:
-        speeds, over = tuple(speeds_of_run(scene)) or (0.0,), "a run in time"
-        told, own = [*_histories(scene), *_cost(scene, strips, surface, speeds)], max(speeds)
-    at = expected(scene, surface, sorted(set(speeds)))  # None: of bodies and map
-    known = [entry.text for speed, entry in at if speed is None]
-    known += gathered([(speed, (entry,)) for speed, entry in at if speed is not None])
-    lacks = [lack_in_words(lack) for lack in lacking(scene, whole.sq, own)]
-    left_out = lacks and [f"likely changes of f at {own:g} m/s, by closed forms:", *lacks]
-    sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | {
-        "transient": told,
-        "surface": [*map_in_words(surface, strips), *(n for n in whole.notes if "nm as it is" in n), *_map_rows(whole)],
-        "contact": [f"{_plan(scene, surface)}; {over}"],
-        "model": _model(scene, strips, surface, speeds),
-        "left out": left_out or ["nothing that would change f by its tolerance"],
-        "validity": known or ["no assumption of the model fails by what is known before the solve"],
-    }
+    known = foretold(scene, strips, surface, speeds)
+    sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | known.told
     rows = [f"  {'' if i else name:<14} {text}" for name, texts in sections.items() for i, text in enumerate(texts)]
-    return "\n".join([f"scene {scene.name}", *rows, *_speed_rows(scene, strips, surface, speeds)])
+    widths = [max(map(len, column)) for column in zip(*known.table)]
+    table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in known.table]
+    return "\n".join([f"scene {scene.name}", *rows, f"  {ABOUT_TABLE}", *map(str.rstrip, table)])
+
+
+def foretold(
+    scene: Scene, strips: Strips | None, surface: Surface, speeds: Sequence[float] | str = (), ratios=()
+) -> Foretold:
+    """What is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own speed
+    and the slide-roll ``ratios``. ``strips`` and ``surface``: as `lubfric.prepare` makes them."""
+    own = scene.motion.entrainment_speed
+    chosen = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
+    speeds = [own] if len(ratios) else list(chosen) or list(scene.motion.speeds) or [own]
+    changing, over = [], counted(len(ratios), "ratios") if len(ratios) else counted(len(speeds), "speeds")
+    if scene.transient is not None:
+        speeds, over = list(speeds_of_run(scene)) or [0.0], "a run in time"
+        own = max(speeds)
+    model, cost = _model(scene, strips, surface, speeds, ratios)
+    cost = cost and f"about {cost} of processor time for {over} (an order of magnitude)"
+    if scene.transient is not None:
+        cost, sample = _course(scene, strips, surface, speeds)
+        changing = [*_histories(scene), cost, *sample]
+    elif cost:
+        model.append(f"cost: {cost}")
+    at = expected(scene, surface, sorted(set(speeds)))
+    refused = _doubts([(speed, entry) for speed, entry in at if entry.severe])
+    whole = map_of(surface, strips)
+    notes, lacks = [note for note in whole.notes if "nm as it is" in note], lacking(scene, whole.sq, own)
+    left_out = [f"likely changes of f at {own:g} m/s, by closed forms:", *map(lack_in_words, lacks)]
+    told = {
+        "transient": changing,
+        "surface": [*map_in_words(surface, strips), *notes, slopes_in_words(whole)],
+        "contact": [f"{_plan(scene, surface)}; {over}"],
+        "model": model,
+        "left out": left_out if lacks else ["nothing that would change f by its tolerance"],
+        "validity": _doubts(at) or ["no assumption of the model fails by what is known before the solve"],
+    }
+    return Foretold(told, cost, _speed_table(scene, strips, surface, speeds), refused)
+
+
+def _doubts(at) -> list[str]:
+    """Entries in words; ``at``: pairs of a speed [m/s], None for what is of bodies and map, and an entry."""
+    fixed = [entry.text for speed, entry in at if speed is None]
+    return [*fixed, *gathered([(speed, (entry,)) for speed, entry in at if speed is not None])]
 
 
 def _plan(scene: Scene, surface: Surface) -> str:
@@ -62,46 +105,46 @@ def _plan(scene: Scene, surface: Surface) -> str:
     return f"{what} on {on}; f within {100 * scene.numerics.tolerance:g} % by the numerics"
 
 
-def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
-    """Which model will answer at the ``speeds`` [m/s], why, and what all of them cost (`lubfric.sampling.friction`)."""
+def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds, ratios) -> tuple[list[str], str]:
+    """Which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the time that all of them cost
+    (`lubfric.sampling.friction`)."""
     asked, why = scene.numerics.model, gap_not_resolved(scene)
     unknown = "its error is not known, and not in the interval"
     if scene.transient is not None and asked == "deterministic":
-        return ["one gap and one pressure (the deterministic model) at all times, as asked"]
+        return ["one gap and one pressure (the deterministic model) at all times, as asked"], ""
     if scene.transient is not None:
         more = "; it does not see that the roughness moves, as numerics.model = 'deterministic' does" * moves(scene)
-        return [f"load sharing, Eq. (8), at all times; {unknown}{more}"]
+        return [f"load sharing, Eq. (8), at all times; {unknown}{more}"], ""
     moving = sorted({abs(u) for u in speeds if u != 0})
-    some = moving[:: max(1, len(moving) // 25)]
-    found = [forecast(scene, strips, surface, speed) for speed in some]
-    resolved = [one.speed for one in found if one.resolved]
+    points = [(scene, speed) for speed in moving[:: max(1, len(moving) // SOME)]]
+    if len(ratios):
+        points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
+    found = [forecast(at, strips, surface, speed) for at, speed in points]
+    resolved, strip = [one.speed for one in found if one.resolved], max((one.moving for one in found), default=0.0)
     if asked == "deterministic":
         rows = ["one gap and one pressure (the deterministic model), as asked"]
     elif asked == "load-sharing":
         rows = [f"load sharing, Eq. (8), as asked: the fast way; {unknown if why else 'its interval is wide'}"]
     elif why:
-        rows = [f"load sharing, Eq. (8), alone; {unknown}:", f"  {why}"]
-    elif not resolved and max((one.moving for one in found), default=0.0) > MOST_WORK:
+        rows = [f"load sharing, Eq. (8), alone; {unknown}: {why}"]
+    elif not resolved and strip > MOST_WORK:
         rows = ["load sharing, Eq. (8), alone; its interval is wide: the other model would take too long"]
     elif not resolved:
         rows = ["load sharing, Eq. (8), alone: the film is thick, or there is no roughness, and the models agree"]
     else:
         ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
+        to = f"to {100 * scene.numerics.model_tolerance:g} % of f"
         rows = [
-            f"load sharing, Eq. (8), on strips of the roughness; at {' to '.join(ends)} m/s",
-            f"  corrected by strips with one gap and one pressure to {100 * scene.numerics.model_tolerance:g} % of f",
-            "  (not where heat takes more than a fifth of f, or three tenths of the film)",
+            f"load sharing, Eq. (8), on the roughness; at {' to '.join(ends)} m/s corrected by strips with one gap "
+            f"and one pressure {to} (not where heat takes more than a fifth of f, or three tenths of the film)"
         ]
-    if strip := max((one.moving for one in found), default=0.0):
+    if strip:
         unseen = ", which Eq. (8) does not see" * (asked == "load-sharing")
         beyond = f"; beyond {MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
         takes = f"one strip with one gap and one pressure takes about {in_words(strip)}"
         rows.append(f"the roughness moves{unseen}: {takes}{beyond * (asked == 'auto')}")
-    if found:
-        seconds = in_words(sum(one.seconds for one in found) * len(moving) / len(some))
-        count = counted(len(moving), "speeds")
-        rows.append(f"cost: about {seconds} of processor time for {count} (an order of magnitude)")
-    return rows
+    many = len(ratios) or len(moving)
+    return rows, in_words(sum(one.seconds for one in found) * many / len(found)) if found else ""
 
 
 def _histories(scene: Scene) -> list[str]:
@@ -127,12 +170,12 @@ def _laps(history: History, duration: float) -> float:
     return duration / history.times[-1] if isinstance(history, Table) and history.repeat else 0.0
 
 
-def _cost(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
-    """Steps, time and sample of a run, whose film is judged at the ``speeds`` [m/s]; by what runs of the paper's scene
-    took (8 to 17 ms a step on 200 x 200 cells)."""
+def _course(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> tuple[str, list[str]]:
+    """Steps and time of a run, whose film is judged at the ``speeds`` [m/s], and its sample; by what runs of the
+    paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
     assert (plan := scene.transient) is not None
     found, cells, sample = [forecast(scene, strips, surface, speed) for speed in speeds], surface.heights.size, []
-    if strips is not None and scene.numerics.model != "deterministic":
+    if strips is not None and not strips.whole and scene.numerics.model != "deterministic":
         most = max(found, key=lambda one: one.strips)
         cells = round(strips.cells.count * most.length / strips.cells.coarse[1])
         asked = f"f within {100 * scene.numerics.sampling_tolerance:g} % at {most.speed:.3g} m/s, which needs most"
@@ -146,28 +189,30 @@ def _cost(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list
         seconds = sum(one.seconds for one in found) + steps * (FILM_STEP + CELL_STEP * cells)
     top = f"top speed {max(speeds):.4g} m/s" if max(speeds) else "no entrainment"
     course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
-    return [f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", *sample]
+    return f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", sample
 
 
-def _speed_rows(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[str]:
+def _speed_table(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[tuple[str, ...]]:
     """At some of the ``speeds`` [m/s]: Moes numbers and the expected film under the whole load, whether the summits
     touch, and, unless a run in time has one sample for all, what the sample costs."""
     steady = scene.transient is None
     sampled = steady and strips is not None
-    head = f"  {'U (m/s)':<12} {'M':>9} {'L':>8} {'h (nm)':>10} {'lambda':>8}  {'summits':<22}"
-    head += f" {'strips':>8} {'one gap':>8} {'length (mm)':>12} {'time (s)':>9}" * sampled
-    rows = ["  film of the whole load by closed forms, and whether it clears the summits (orders of magnitude)", head]
+    table: list[tuple[str, ...]] = [("U (m/s)", "M", "L", "h (nm)", "lambda", "summits")]
+    table[0] += ("strips", "one gap", "length (mm)", "time (s)") * sampled
     own = (scene.motion.entrainment_speed,) if steady else ()
     for speed in sorted({*speeds[:: max(1, len(speeds) // SHOWN)], *own, speeds[-1]}):
-        one, film = forecast(scene, strips, surface, speed), f"{'no entrainment' + ': all contact' * steady:<38}"
+        one, film = (
+            forecast(scene, strips, surface, speed),
+            ("", "", "0", "0", "no entrainment" + ": all contact" * steady),
+        )
         if speed != 0:
             line = scene.line_contact(abs(speed))
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
-            film = f"{line.M:9.3g} {line.L:8.3g} {line.expected_film * 1e9:10.4g} {ratio:8.3g}"
-        row = f"  {speed:<12.4g} {film}  {one.touching:<22}"
-        row += f" {one.strips:>8} {one.resolved:>8} {1e3 * one.length:>12.2g} {one.seconds:>9.1g}" * sampled
-        rows.append(row)
-    return rows
+            numbers = f"{line.M:.3g}", f"{line.L:.3g}", f"{line.expected_film * 1e9:.4g}", f"{ratio:.3g}"
+            film = *numbers, one.touching
+        sample = f"{one.strips}", f"{one.resolved}", f"{1e3 * one.length:.2g}", f"{one.seconds:.1g}"
+        table.append((f"{speed:.4g}", *film, *sample * sampled))
+    return table
 
 
 def map_of(surface: Surface, strips: Strips | None) -> Surface:
@@ -185,7 +230,7 @@ def map_in_words(surface: Surface, strips: Strips | None) -> list[str]:
     return [made or map_of(surface, strips).describe(), f"solved first: {joined}: {first}"]
 
 
-def _map_rows(surface: Surface) -> list[str]:
+def slopes_in_words(surface: Surface) -> str:
     """Slopes and correlation lengths of the map, on its own grid."""
     along_x, along_y, total = rms_slope(surface)
     lengths = []
@@ -194,4 +239,4 @@ def _map_rows(surface: Surface) -> list[str]:
             length = correlation_length(surface, axis)
             lengths.append(f"{length * 1e6:.3g} µm = {length / step:.3g} cells along {'xy'[axis]}")
     slopes = f"rms slope {total:.3g} ({along_x:.3g} along x, {along_y:.3g} along y)"
-    return [f"{slopes}; correlation length (to 1/e) {' and '.join(lengths) or 'not known'}"]
+    return f"{slopes}; correlation length (to 1/e) {' and '.join(lengths) or 'not known'}"

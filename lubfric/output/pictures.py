@@ -11,10 +11,12 @@ from .._base import figures
 from ..studies import friction_over_speed, interval_band
 from ..time import friction_over_time, time_scale
 from ..units import worded
+from .describe import map_of
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
 FRAMES = 150  # of an animation at most, spread over the run
 SLENDER = 1.5  # times as long along y as along x: a narrow picture
+QUANTILES = 401  # of the heights, of a bearing curve
 NEAR = 4.0  # half-widths of the Hertz strip around which a gap is drawn
 
 
@@ -103,32 +105,32 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
 def plot_contact(path: Path, prepared, point) -> None:
     """The contact of ``point``, a `lubfric.FrictionResult` with fields, on the cells of ``prepared``, as PNG."""
     if point.deterministic is not None:
-        figure = _one_gap(point.deterministic.result, point.speed, prepared.scene.bodies.half_width)
+        figure = _one_gap(point, prepared.scene.bodies.half_width)
     else:
         figure = _two_pressures(prepared, point)
     figure.savefig(path, dpi=150)
 
 
-def _one_gap(result, speed: float, half_width: float):
+def _one_gap(point, half_width: float):
     """Pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
     from matplotlib.colors import LogNorm
 
-    near = np.abs(result.x) <= NEAR * half_width
-    x, y = result.x[near], np.arange(result.pressure.shape[1]) * result.spacing[1]
-    part = _part(x, y, int(result.pressure[near].max(axis=0).argmax()))
+    near = np.abs(point.x) <= NEAR * half_width
+    x, y = point.x[near], point.y
+    part = _part(x, y, int(point.pressure[near].max(axis=0).argmax()))
     figure = figures.new_figure(figsize=(10, 5.5), layout="compressed")
     for axes, (label, field, colours, norm) in zip(
         figure.subplots(1, 3, sharey=True),
         (
-            ("pressure (GPa)", result.pressure / 1e9, "magma_r", None),
-            ("gap (nm)", result.gap * 1e9, "viridis", LogNorm()),
-            ("shear stress (MPa)", result.shear / 1e6, "cividis", None),
+            ("pressure (GPa)", point.pressure / 1e9, "magma_r", None),
+            ("gap (nm)", point.gap * 1e9, "viridis", LogNorm()),
+            ("shear stress (MPa)", point.deterministic.result.shear / 1e6, "cividis", None),
         ),
     ):
         figures.field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)
         _hertz_strip(axes, half_width)
         axes.label_outer()
-    figure.suptitle(f"U = {speed:g} m/s{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
+    figure.suptitle(f"U = {point.speed:g} m/s{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
     return figure
 
 
@@ -165,12 +167,10 @@ def _two_pressures(prepared, point):
     ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
     figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0))
     axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
-    both = worded(point.contact_load, "N"), worded(point.film_load, "N")
+    both = worded(point.balance.contact_load, "N"), worded(point.balance.film_load, "N")
     loads = "U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
     if contact is not None:
-        figures.field_image(
-            axes[0], x, point.y[part], point.pressure[:, part] / 1e9, "magma_r", "contact pressure (GPa)", vmin=0
-        )
+        point.plot_contact(axes[0], part).set_title("")  # it is above both
         _hertz_strip(axes[0], half_width)
         axes[0].axhline(point.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
         loads += _partly(point.y, part)
@@ -210,6 +210,23 @@ def _section(axes, micro, surface, smooth, contact, row: int) -> None:
     figures.key_above(axes, 2)
 
 
+def plot_surface(path: Path, prepared) -> None:
+    """The map that the scene of ``prepared`` has, to scale, of a long line the beginning; and the bearing
+    (Abbott-Firestone) curve of the whole of it."""
+    surface = map_of(prepared.surface, prepared.strips)
+    x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
+    part, higher = _part(x, y, 0), np.linspace(0.0, 1.0, QUANTILES)
+    figure = figures.new_figure(figsize=(9, 4.5), layout="compressed")
+    above, bearing = figure.subplots(1, 2)
+    surface.cropped((x.size, y[part].size), (0, 0)).plot(above)
+    above.set_title(above.get_title() + _partly(y, part), fontsize=10)
+    heights = 1e9 * (np.quantile(surface.measured, 1 - higher) - surface.measured.mean())
+    bearing.plot(100 * higher, heights, color=figures.BLUE)
+    bearing.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
+    bearing.set_title(f"all of it: Sq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}", fontsize=10)
+    figure.savefig(path, dpi=150)
+
+
 def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
     """Speed and load, film, shares of the load, and friction over time, from the columns of history.csv."""
     c = columns
@@ -244,9 +261,7 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
 
 
 def animate(path: Path, result, half_width: float) -> None:
-    """GIF of pressure and film along the contact over time (Pillow writer)."""
-    from matplotlib.animation import FuncAnimation, PillowWriter
-
+    """GIF of pressure and film along the contact over time."""
     count, x, h = result.time.size, result.x, result.film_thickness
     radius = (x[0] ** 2 - x[1] ** 2) / (2.0 * (h[0, 0] - h[0, 1]))  # of the undeformed gap, far out
     reach = 3.0 * max(half_width, float(np.sqrt(h.min(axis=1).max() * 2.0 * radius)))
@@ -275,4 +290,4 @@ def animate(path: Path, result, half_width: float) -> None:
     figure.canvas.draw()
     figure.set_layout_engine("none")  # laid out once: the frames must not jump, and are drawn faster
     frames = np.unique(np.linspace(0, count - 1, min(FRAMES, count)).round().astype(int)).tolist()
-    FuncAnimation(figure, draw, frames=frames, blit=False).save(path, writer=PillowWriter(fps=15), dpi=80)
+    figures.animated(path, figure, draw, frames, 15, 80)

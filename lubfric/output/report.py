@@ -2,29 +2,41 @@
 needs no other file, and prints."""
 
 import base64
+from collections.abc import Iterable
 from html import escape
 from importlib.resources import files
 from string import Template
 
 import numpy as np
 
+from ..errors import InputError
 from ..quantities import COLUMNS, counted
-from ..sampling import percent
+from ..sampling import FrictionResult, percent
 from ..scene import Scene
-from ..sharing import Prepared
-from ..studies import CurveResult
+from ..sharing import Prepared, lack_in_words
+from ..studies import CurveResult, Law, StribeckResult
 from ..units import converted, printed, unit_for, worded
-from .describe import map_in_words
+from .describe import ABOUT_TABLE, Foretold
 from .inputs import FACTS, SECTIONS, inputs
 
 OF_POINT = ["coefficient", "contact_load", "film_load", "central_film", "film_to_roughness_ratio"]
 OF_POINT += ["real_contact_area_fraction"]
+CAPTIONS = {
+    "stribeck.png": "Friction, shares of the load and film",
+    "traction.png": "Friction over the slide-roll ratio",
+    "history.png": "History",
+    "contact.png": "Contact at one speed",
+    "sharing.png": "The same by load sharing, Eq. (8), alone: contact, and film and surfaces on a section",
+    "surface.png": "Roughness",
+}
 UNKNOWN = "the error of the model is not known, and not in it"
 
 
-def report_page(prepared: Prepared, result, record: dict, images: dict[str, bytes]) -> bytes:
-    """The page of ``result``, a curve or a run in time. ``record``: what result.json holds; ``images``: PNG files by
-    their captions."""
+def report_page(
+    prepared: Prepared, result, record: dict, contents: dict[str, bytes], known: Foretold, law: Law | str = ""
+) -> bytes:
+    """The page of ``result``, a curve or a run in time. ``record``: what result.json holds; ``contents``: of the files
+    of the run, its pictures among them; ``known``: before it was solved; ``law``: of a curve, or why it has none."""
     scene, curve = prepared.scene, result if isinstance(result, CurveResult) else None
     answer, *more = _of_run(result) if curve is None else _of_curve(scene, curve)
     made = [*record["versions"].items(), ("seconds", f"{record['seconds']:.3g}"), ("solver", result.report.message)]
@@ -35,11 +47,16 @@ def report_page(prepared: Prepared, result, record: dict, images: dict[str, byte
         question=escape(_question(scene)),
         answer=escape(answer),
         more="".join(f"<p>{escape(text)}</p>" for text in more),
-        pictures="".join(_picture(content, caption) for caption, content in images.items()),
+        pictures="".join(_picture(contents[name], caption) for name, caption in CAPTIONS.items() if name in contents),
         cautions=_list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
         results="" if curve is None else "".join(_points(curve)),
         inputs="".join(_inputs(scene, section) for section in SECTIONS),
-        map=escape("; ".join(map_in_words(prepared.surface, prepared.strips))),
+        law=_law(law, curve, abs(scene.motion.entrainment_speed)),
+        lacks=_lacks(scene, curve, known),
+        solved=_list([text for name in ("transient", "contact", "model") for text in known.told[name]]),
+        table=_rows(known.table[0], [_cells(row) for row in known.table[1:]]),
+        about_table=escape(ABOUT_TABLE),
+        map=escape("; ".join(known.told["surface"])),
         notes=_list(prepared.surface.notes),
         sources=_list([] if curve is None else curve.cite().splitlines(), head="<h2>Sources</h2>"),
         made=_rows((), [f"<th>{escape(name)}</th><td>{escape(value)}</td>" for name, value in made]),
@@ -64,25 +81,80 @@ def _question(scene: Scene) -> str:
 
 def _of_curve(scene: Scene, curve: CurveResult) -> list[str]:
     """The answer of a curve: at its point nearest to the scene's own, and over all."""
-    name, symbol, unit, plural = curve.SWEPT
-    swept, f = getattr(curve, name), curve["coefficient"]
+    plural = curve.SWEPT[3]
+    f = curve["coefficient"]
     solved = np.flatnonzero(np.isfinite(f))
-    if not solved.size:
+    if (nearest := _nearest(scene, curve)) is None:
         return [f"0 of {counted(f.size, plural)} have an answer."]
-    own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
-    nearest = solved[np.abs(swept[solved] - own).argmin()]
-    unit = unit.removesuffix("(slide-roll ratio)")
-    place = f"at {symbol} = {swept[nearest]:.4g} {unit}".rstrip()
-    known = curve.points[nearest]
+    known, place = nearest
     low, high = known.uncertainty.interval
     model = f"; {UNKNOWN}" if np.isnan(known.uncertainty.model) else ", model included"
     within = f", between {low:.3g} and {high:.3g} (95 %{model})" if np.isfinite(low) else ", with an error not known"
-    told = [f"f = {f[nearest]:.3g}{within}, {place}."]
+    told = [f"f = {known.coefficient:.3g}{within}, {place}."]
+    if np.isfinite(known.central_film):
+        share = known.contact_load / (known.contact_load + known.film_load)
+        film = f"the film is {known.in_unit('central_film', 'nm'):.3g} nm thick in the middle"
+        told.append(f"There {100 * share:.3g} % of the load is on spots in contact, and {film}.")
     if f.size > 1:
-        least = swept[solved[f[solved].argmin()]]
-        ends = f"{f[solved].min():.4g} to {f[solved].max():.4g}, and least at {symbol} = {least:.4g} {unit}".rstrip()
+        least = _place(curve, solved[f[solved].argmin()])
+        ends = f"{f[solved].min():.4g} to {f[solved].max():.4g}, and least {least}"
         told.append(f"{solved.size} of {f.size} {plural} have an answer. f is {ends}.")
-    return told
+    return told + _lift_off(curve)
+
+
+def _lift_off(curve: CurveResult) -> list[str]:
+    """Where the contact of a curve over the speed ends, if its points tell."""
+    if not isinstance(curve, StribeckResult):
+        return []
+    try:
+        at, (low, high), least = curve.lift_off, curve.lift_off_range, curve.least
+    except InputError:  # too few of them, or in both directions
+        return []
+    if at is None:
+        touching = "all" if np.nanmax(curve.contact_load) > 0 else "none"
+        return [f"Lift-off is not between these speeds: the surfaces touch at {touching} of them."]
+    return [
+        f"Between the speeds f is least at U = {least[0]:.3g} m/s: {least[1]:.3g}.",
+        f"The film lifts the surfaces off each other at U = {at:.4g} m/s, {low:.4g} to {high:.4g} m/s by the "
+        "interpolation between the speeds. Summits higher than those that were solved touch beyond it.",
+    ]
+
+
+def _law(law: Law | str, curve: CurveResult | None, own: float) -> str:
+    """The section on the formula of a curve, or on why it has none; "" of what is no curve over the speed."""
+    if isinstance(law, Law) and isinstance(curve, StribeckResult):
+        off, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
+        said = (
+            f"<p>For simulations of a machine, also as law.json and, in C, law.c. It is off by at most {off} from the "
+            f"curve through the solved points, which is known within {within} between them. At U = {own:.4g} m/s it "
+            f"gives f = {law(own, extrapolate=True):.3g}.</p><pre>{escape(law.text)}</pre>"
+        )
+    else:
+        said = f"<p>None was fitted: {escape(str(law))}.</p>"
+    return f"<h2>The curve as a formula</h2>{said}" if law else ""
+
+
+def _lacks(scene: Scene, curve: CurveResult | None, known: Foretold) -> str:
+    """What is left out, and by how much f would change by it; of a curve at its point nearest to the scene's own."""
+    if curve is None or (nearest := _nearest(scene, curve)) is None:
+        return _list(known.told["left out"])
+    point, place = nearest
+    lacks, head = map(lack_in_words, point.lacks), f"<p>Likely changes of f {escape(place)}, by closed forms:</p>"
+    return _list([*lacks], "Nothing that would change f by its tolerance.", head=head)
+
+
+def _nearest(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str] | None:
+    """The solved point nearest to the scene's own, and its place in words; None if no point has an answer."""
+    name = curve.SWEPT[0]
+    own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
+    away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - own), np.inf)
+    index = int(away.argmin())
+    return None if (point := curve.points[index]) is None else (point, _place(curve, index))
+
+
+def _place(curve: CurveResult, index: int) -> str:
+    name, symbol, unit, _ = curve.SWEPT
+    return f"at {symbol} = {getattr(curve, name)[index]:.4g} {unit.removesuffix('(slide-roll ratio)')}".rstrip()
 
 
 def _of_run(result) -> list[str]:
@@ -136,7 +208,7 @@ def _points(curve: CurveResult) -> list[str]:
     return ["<h2>Results</h2>", _rows(heads, numbers), "<h2>Errors of f</h2>", _rows(head, errors), _list(told)]
 
 
-def _cells(texts: list[str]) -> str:
+def _cells(texts: Iterable[str]) -> str:
     return "".join(f'<td class="number">{text}</td>' for text in texts)
 
 

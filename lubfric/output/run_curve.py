@@ -2,50 +2,52 @@
 
 import math
 import re
-import threading
-import time
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
+from pathlib import Path
 
 import numpy as np
 
 from .. import studies
 from .._base import FolderLock, OwnFiles, figures, read_table, validate
+from ..contact import takes_strips
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
-from ..sharing import Prepared, Validity, lack_in_words, takes_strips
+from ..sharing import Prepared, Validity, lack_in_words
 from ..units import number_of
-from .commands import OUTPUTS, RESULT, RunFolder, check_outputs, keeping, made, read_record, ready, run_folder, say
+from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
+from .describe import Foretold
 from .fields import fields_bytes, vtk_bytes
-from .pictures import plot_contact, plot_stribeck, plot_traction
-from .report import report_page
+from .pictures import plot_contact, plot_history, plot_stribeck, plot_traction
 
+TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
 WORTH = 8  # speeds from which a second process gains more than it costs
-CAPTIONS = {
-    "stribeck.png": "Friction, shares of the load and film",
-    "traction.png": "Friction over the slide-roll ratio",
-    "contact.png": "Contact at one speed",
-}
 
 
 def run_sweep(scene: Scene, arguments) -> None:
-    """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, report.html and, last,
-    result.json to the folder ``arguments.out``; with ``.vtk`` also contact_0.vtk ... for ParaView.
+    """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, surface.png, report.html,
+    resolved.toml and, last, result.json to the folder ``arguments.out``; where strips with one gap corrected it,
+    sharing.png, the same contact without them; where the curve has a formula, law.json and law.c; with ``.vtk`` also
+    contact_0.vtk ... for ParaView.
 
     ``arguments``: of the command, with ``.speeds``, ``.fields`` and ``.workers`` (None: two if that pays) too. The
     scene is checked and made ready before the folder is touched. The results of an earlier run stay until those of this
     one are there. Every point is on disk when it ends, so an interrupted run continues from there. A failed run writes
     what it has, then raises `ConvergenceError`.
     """
-    begun, out, ended = time.perf_counter(), arguments.out, []
+    ended: list[tuple] = []
     speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
     total, progress = "some" if speeds == studies.AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
-    _check_outputs("stribeck", arguments, len(chosen))
+    names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
+    names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
     def on_point(*point):
         ended.append(point)
         progress(*point)
+
+    def kept() -> str:
+        return f"{len(ended)} of {total} points are kept in {arguments.out}"
 
     if arguments.workers is not None:
         workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
@@ -53,59 +55,68 @@ def run_sweep(scene: Scene, arguments) -> None:
         enough = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
         workers = 2 if enough and studies.processors() > 1 else 1
     with studies.pool(workers) as executor:
-        prepared = ready(scene)
-        kept = keeping(lambda: f"{len(ended)} of {total} points are kept in {out}")
-        with kept, run_folder(out, begun, studies.fingerprint(prepared, speeds, chosen)) as folder:
-            threading.Thread(target=figures.make_ready, daemon=True).start()  # while the speeds are solved
+        with run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds) as (folder, prepared, known):
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
             curve = studies.stribeck(prepared, speeds, None if speeds == studies.AUTO else executor, **options)
-            _write(folder, prepared, curve, arguments, chosen)
+            _write(folder, prepared, curve, arguments, known, chosen)
     _raise_if_failed(curve)
 
 
 def run_traction(scene: Scene, arguments) -> None:
-    """Compute a traction curve, and write traction.csv, traction.png, report.html and, last, result.json to
-    ``arguments.out``."""
-    begun = time.perf_counter()
-    ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
-    _check_outputs("traction", arguments, 0)
-    prepared = ready(scene)
-    with run_folder(arguments.out, begun, studies.fingerprint(prepared, ratios, "traction")) as folder:
+    """Compute a traction curve, and write traction.csv, traction.png, surface.png, report.html, resolved.toml
+    and, last, result.json to ``arguments.out``."""
+    ratios, names = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO), ["traction.csv", "traction.png"]
+    begun = run_begun(scene, arguments, names, None, ratios, "traction", ratios=ratios)
+    with begun as (folder, prepared, known):
         progress = _progress("slide-roll ratio {:<9.4g}")
         curve = studies.traction(prepared, ratios, on_point=progress, raise_on_failure=False)
-        _write(folder, prepared, curve, arguments, [])
+        _write(folder, prepared, curve, arguments, known, [])
     _raise_if_failed(curve)
 
 
-def _check_outputs(table: str, arguments, contacts: int) -> None:
-    """Refuse a folder in which the files of a curve would replace others."""
-    names = [f"{table}.csv", f"{table}.png", "fields.npz", "contact.png", RESULT]
-    names += ["report.html", *(f"contact_{i}.vtk" for i in range(contacts if arguments.vtk else 0))]
-    check_outputs(arguments, arguments.out, names, OUTPUTS)
-
-
-def _write(folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, arguments, chosen: list[float]) -> None:
-    """The table, the fields of the ``chosen`` speeds, their pictures, the record; and what was asked for beside."""
+def _write(
+    folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, arguments, known: Foretold, chosen: list[float]
+) -> None:
+    """The table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what was asked for beside.
+    ``known``: before it was solved."""
     name, contents = "traction" if curve.SWEPT[0] == "ratio" else "stribeck", folder.contents
     contents[f"{name}.csv"] = studies.csv_bytes(curve)
     units = {number: COLUMNS[number] for number in (*NUMBERS, curve.SWEPT[0])}
-    record = folder.record(prepared, curve, units, points=[_point(curve, i) for i in range(len(curve.points))])
+    numbers = [_point(curve, i) for i in range(len(curve.points))]
     columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
     if _drawable(columns).any():
-        folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, record["points"])
+        folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, numbers)
     points = [p for p in curve.points if p is not None and (p.balance is not None or p.deterministic is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
         contents["fields.npz"] = fields_bytes(prepared, points)
         folder.draw("contact.png", plot_contact, prepared, points[0])
+        beside = replace(points[0], deterministic=None)
+        if points[0].deterministic is not None and beside.shows_contact:
+            folder.draw("sharing.png", plot_contact, prepared, beside)
     if arguments.vtk:
         touching = [p for p in points if p.shows_contact]
         contents |= {f"contact_{i}.vtk": vtk_bytes(prepared, point) for i, point in enumerate(touching)}
         if not touching:
             say("no .vtk file: none of the speeds of --fields has a contact with fields")
-    images = {text: contents[file] for file, text in CAPTIONS.items() if file in contents}
-    contents["report.html"] = report_page(prepared, curve, record, images)
-    folder.finish(record, *_doubts(prepared.scene, curve))
+    law = _law(curve)
+    if isinstance(law, studies.Law):
+        contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
+    folder.complete(prepared, known, curve, units, law, _doubts(prepared.scene, curve), points=numbers)
+
+
+def _law(curve: studies.CurveResult) -> studies.Law | str:
+    """The curve over the speed as a formula, or why there is none."""
+    if not isinstance(curve, studies.StribeckResult):
+        return ""
+    if any(entry.severe for i in range(len(curve.points)) for entry in curve.entries(i)):
+        return "some of its points are outside the range of the model"
+    try:
+        if curve.between > studies.KNOWN:
+            return f"between the speeds f is known within {100 * curve.between:.2g} %; give more of them, or 'auto'"
+        return curve.law()
+    except InputError as why:
+        return str(why)
 
 
 def _drawable(columns) -> np.ndarray:
@@ -130,32 +141,41 @@ def _point(curve: studies.CurveResult, index: int) -> dict:
 
 
 def plot_again(arguments) -> None:
-    """Draw the picture of a curve again, with the measured curve that the ``arguments`` of ``lubfric plot`` name."""
+    """Draw the picture of a run again from its table; of a Stribeck curve with the measured curve that the
+    ``arguments`` of ``lubfric plot`` name."""
     folder = arguments.folder
-    name = "traction" if (folder / "traction.csv").is_file() else "stribeck"
-    source = folder / f"{name}.csv"
-    if not source.is_file():
-        raise InputError(f"{folder} holds no {source.name}; give a folder that 'lubfric run' wrote")
-    columns, record, measured = read_table(source), read_record(folder), None
-    if arguments.measured is not None:
-        if arguments.speed is None or arguments.coefficient is None:
+    name = next((name for name in TABLES if (folder / f"{name}.csv").is_file()), None)
+    given = [option for option in ("measured", "speed", "coefficient") if getattr(arguments, option) is not None]
+    if given and "measured" not in given:
+        raise InputError(f"--{given[0]} names a column of the measured curve; give --measured as well")
+    if name is None:
+        raise InputError(f"{folder} holds no stribeck.csv; give a folder that 'lubfric run' wrote")
+    if given and name != "stribeck":
+        raise InputError(f"--measured is drawn beside a Stribeck curve, and {folder} holds {TABLES[name]}")
+    columns, record = read_table(folder / f"{name}.csv"), read_record(folder)
+    if name == "history":
+        again: tuple = plot_history, columns, figures.plain_words(record["scene"]["name"])
+    else:
+        again = _plot, columns, record["scene"]["name"], _points_of(folder / f"{name}.csv", columns, record)
+    if given:
+        if len(given) < 3:
             raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
-        measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed)
+        again += (studies.read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed),)
+    check_outputs(arguments, folder, [f"{name}.png"])
+    content = made(f"{name}.png", *again)
+    with FolderLock(folder):
+        OwnFiles(folder).replace({f"{name}.png": content})
+
+
+def _points_of(source: Path, columns, record: dict) -> list[dict]:
+    """The points of a ``record`` that belong to the table ``source``, of which something can be drawn."""
     points, count = record.get("points", []), columns["coefficient"].size
     if len(points) != count:
         raise InputError(f"{source} has {count} rows and result.json {len(points)} points; run 'lubfric run' again")
     if not _drawable(columns).any():
         first = next((f"; first: {point['error']}" for point in points if "error" in point), "")
         raise InputError(f"nothing to draw: none of the {count} points in {source} moves and has an answer{first}")
-    replot(arguments, f"{name}.png", _plot, columns, record["scene"]["name"], points, measured)
-
-
-def replot(arguments, name: str, plot: Callable, *given) -> None:
-    """Draw the picture ``name`` in the folder of ``lubfric plot`` again by ``plot(path, *given)``."""
-    check_outputs(arguments, arguments.folder, [name])
-    content = made(name, plot, *given)
-    with FolderLock(arguments.folder):
-        OwnFiles(arguments.folder).replace({name: content})
+    return points
 
 
 def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:

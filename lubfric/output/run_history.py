@@ -1,34 +1,27 @@
 """``lubfric run`` on a scene whose motion, load or lubricant changes in time."""
 
-import time
-
-from .._base import figures, read_table, table_bytes
+from .._base import figures, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
 from ..sharing import in_a_cell
-from ..studies import fingerprint
 from ..time import TransientResult, transient
 from . import commands
 from .fields import npz_bytes
 from .pictures import animate, plot_history
-from .report import report_page
-from .run_curve import replot
 
 
 def run_history(scene: Scene, arguments) -> None:
-    """Compute and write history.csv, history.png, fields.npz, report.html (with ``arguments.animation``: animation.gif)
-    and, last, result.json to ``arguments.out``.
+    """Compute and write history.csv, history.png, fields.npz, surface.png, report.html, resolved.toml (with
+    ``arguments.animation``: animation.gif) and, last, result.json to ``arguments.out``.
 
     The scene is checked and made ready before the folder is touched, and the results of an earlier run stay until those
     of this one are there. An interrupted run continues from where it was. A failed run writes what it has, and then
     raises `ConvergenceError`.
     """
-    begun, reached, due, out = time.perf_counter(), 0.0, commands.paced(), arguments.out
+    reached, due = 0.0, commands.paced()
     failure: LubfricError | None = None
-    names = ["history.csv", "history.png", "fields.npz", "report.html", commands.RESULT]
-    commands.check_outputs(arguments, out, names + ["animation.gif"] * arguments.animation, commands.OUTPUTS)
-    prepared = commands.ready(scene)
+    names = ["history.csv", "history.png", *["animation.gif"] * arguments.animation]
 
     def on_step(now, duration, row):
         nonlocal reached
@@ -41,9 +34,9 @@ def run_history(scene: Scene, arguments) -> None:
             )
 
     def kept() -> str:
-        return f"the state at t = {reached:.5g} s is kept in {out}"
+        return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
 
-    with commands.keeping(kept), commands.run_folder(out, begun, fingerprint(prepared)) as folder:
+    with commands.run_begun(scene, arguments, names, kept) as (folder, prepared, known):
         if folder.unfinished.is_dir():
             commands.say(f"going on from {folder.unfinished}")
         try:
@@ -53,16 +46,13 @@ def run_history(scene: Scene, arguments) -> None:
                 raise
             result, failure = error.result, error
         _write(folder, scene, result, arguments.animation)
-        record = folder.record(prepared, result, OF_MOMENT)
-        images = {"History": folder.contents["history.png"]} if "history.png" in folder.contents else {}
-        folder.contents["report.html"] = report_page(prepared, result, record, images)
-        folder.finish(record)
+        folder.complete(prepared, known, result, OF_MOMENT)
     if failure:
         raise failure
 
 
 def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
-    """All but the result."""
+    """The table, the fields and the pictures of the run alone."""
     columns = {heading(name): result.columns[name] for name in OF_MOMENT}
     told = {"validity": [in_a_cell(entries) for entries in result.entries]}
     folder.contents["history.csv"] = table_bytes(columns | told)
@@ -72,10 +62,3 @@ def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, an
         folder.draw("history.png", plot_history, result.columns, figures.plain_words(scene.name))
     if animation:
         folder.draw("animation.gif", animate, result, scene.bodies.half_width)
-
-
-def plot_again(arguments) -> None:
-    """Draw history.png of ``arguments.folder`` again."""
-    folder = arguments.folder
-    columns, record = read_table(folder / "history.csv"), commands.read_record(folder)
-    replot(arguments, "history.png", plot_history, columns, figures.plain_words(record["scene"]["name"]))

@@ -73,6 +73,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         decision=decision,
         validity=entries,
         balance=None if found is None or strips.whole else found.balance,
+        heights=None if found is None or strips.whole else found.contact.heights,  # type: ignore[attr-defined]
         deterministic=Refined(tuple(strip.result for strip in grids), levels.numerical),
     )
 

@@ -24,6 +24,6 @@ from .forces import Forces, forces
 from .heat import Heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
 from .lacks import Lack, lack_in_words, lacking
 from .point import Point, exponents
-from .prepared import Prepared, at_speed, at_tolerance, on_piece, on_stack, on_strip, prepare, scene_of, takes_strips
+from .prepared import Prepared, at_speed, at_tolerance, on_piece, on_stack, on_strip, prepare, scene_of
 from .response import Response, Slopes, divided, grown, quantities, touched_length
 from .validity import Validity, entries_of, gathered, in_a_cell, refused

@@ -16,16 +16,10 @@ from ..contact import (
     RoughContact,
     Strips,
     asperities_under_cylinder,
-    contact_maps,
-    correlation_lengths,
     flat_contact,
     half_space,
     half_space_contact,
-    length_or_half,
-    measured,
-    one_patch,
-    rough_bodies,
-    strips_of,
+    sample_of,
     together,
 )
 from ..contact import check_grid as check_map
@@ -138,15 +132,11 @@ def prepare(
         contact = None if like.own else like.contact
     given = bool(maps) or contact is not None
     with told_doubts(scene):
-        if not given and takes_strips(scene):
-            strips = strips_of(scene)
-            return _on_strips(scene, strips, given)
-        surface, *bodies = contact_maps(scene, maps)
+        surface, strips = sample_of(scene, maps, own=contact is None)
+        if strips is not None:
+            return _on_strips(scene, surface, strips, given)
         if contact is not None:
             return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
-        if scene.contact.geometry == "cylinder" and scene.contact.model == "half-space":
-            strips = one_patch(scene, _lengths(scene, surface, given), surface, *bodies)
-            return _on_strips(scene, strips, given, surface)
         heights = surface.heights - surface.heights.mean()
         flat = scene.contact.geometry == "flat"
         contact = (flat_contact if flat else asperities_under_cylinder)(scene, heights, surface.spacing)
@@ -163,14 +153,6 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
     if surface is None or scene.counterface is None or scene.counterface.sq == 0:
         raise InputError("counterface needs a surface beside it, the maps of both bodies, and a rough [counterface]")
     return together(surface, counterface)
-
-
-def takes_strips(scene: Scene) -> bool:
-    """Whether ``scene`` is solved on strips of its roughness: it has a rough half-space under a cylinder, and does not
-    ask for one patch."""
-    numerics, contact = scene.numerics, scene.contact
-    modelled = contact.geometry == "cylinder" and contact.model == "half-space"
-    return numerics.sampling != "patch" and modelled and any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
 
 
 def on_stack(prepared: Prepared, strips: Strips, count: int) -> HalfSpaceContact:
@@ -215,24 +197,14 @@ def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) ->
     return half_space_contact(scene, heights - heights.mean(), spacing, operator, x)
 
 
-def _on_strips(scene: Scene, strips: Strips, given: bool, surface: Surface | None = None) -> Prepared:
-    """``surface``: the whole patch (None: the first strips)."""
-    first = strips.stack(strips.first)
-    whole = first if surface is None else surface
-    check_map(scene, whole)
+def _on_strips(scene: Scene, surface: Surface, strips: Strips, given: bool) -> Prepared:
+    check_map(scene, surface)
+    first = strips.stack(strips.first) if strips.whole else surface
     contact = half_space_contact(scene, first.heights - first.heights.mean(), first.spacing, x=strips.cells.axis())
-    made = Prepared(scene, whole, contact, beforehand(scene, whole), strips, given)
+    made = Prepared(scene, surface, contact, beforehand(scene, surface), strips, given)
     made.memo[("stack", strips.cells.factors, strips.first)] = contact, contact.heights.size
     made.memo[("operator", first.heights.shape, tuple(first.spacing))] = contact.operator, contact.operator.symbol.size
     return made
-
-
-def _lengths(scene: Scene, surface: Surface, given: bool) -> tuple[float, float]:
-    """Correlation lengths [m] of a patch: those of the scene, or of the map itself."""
-    if measured(scene) or given:
-        return length_or_half(surface, 0), length_or_half(surface, 1)
-    along_x, along_y = zip(*(correlation_lengths(rough) for rough, _ in rough_bodies(scene)))
-    return max(along_x), max(along_y)
 
 
 def scene_of(scene: Scene | Prepared) -> Scene:

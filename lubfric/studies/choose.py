@@ -100,6 +100,11 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
     return float(at[error.argmax()]), largest
 
 
+def between(curve: Interpolant) -> float:
+    """The largest relative error of f that a curve is estimated to have between its points."""
+    return next_speed(curve, math.inf)[1]
+
+
 def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:
     """The speeds of ``at`` that are not too close to a solved one."""
     return np.abs(np.log(at[:, None] / speeds[None, :])).min(axis=1) > np.log(APART)

@@ -83,6 +83,16 @@ class Interpolant:
         """Lift-off [m/s] in the direction of the curve; NaN without one."""
         return np.nan if self.lift_off is None else self.sense * self.lift_off
 
+    @property
+    def lift_off_range(self) -> tuple[float, float]:
+        """(lowest, highest) speed [m/s] that lift-off may have, by the points alone; NaN without one."""
+        s, knee = self.samples, knee_of(self.samples)
+        if knee is None:
+            return np.nan, np.nan
+        away = (s.speed[s.contacts] / knee) ** UNSURE  # a share of the way to the slowest film without contact
+        least = min(NEAR * s.speed[s.contacts - 1], knee)  # not where contact is known
+        return float(max(knee / away, least)), float(knee * away)
+
     def at(self, speed, smooth: bool = True) -> np.ndarray:
         """f at speeds [m/s] within the range. ``smooth=False``: by the other cubics."""
         speed = np.asarray(speed, dtype=float)
@@ -96,10 +106,7 @@ class Interpolant:
         spread = np.abs(self.at(speed, smooth=False) - value)
         s, others = self.samples, []
         if self.lift_off is not None:
-            low, high, knee = s.speed[s.contacts - 1], s.speed[s.contacts], knee_of(s)
-            away = (high / knee) ** UNSURE  # a share of the way to the slowest film without contact
-            ends = float(max(knee / away, min(NEAR * low, knee))), float(knee * away)  # not where contact is known
-            others = [replace(self, lift_off=end) for end in ends if end != self.lift_off]
+            others = [replace(self, lift_off=end) for end in self.lift_off_range if end != self.lift_off]
             others += [replace(self, end=power) for power in OTHERS]
         for other in others:
             spread = np.maximum(spread, np.abs(other.at(speed) - value))

@@ -11,7 +11,7 @@ from ..quantities import PointQuantities, described_in_doc
 from ..sampling import FrictionResult
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from ..sharing import Prepared, at_tolerance, scene_of
-from .choose import asked_speeds, next_speed, span, tolerance_between
+from .choose import GRID, asked_speeds, between, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
@@ -46,6 +46,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
     report: Report
     scene: Scene
 
+    plot = curve_axes
+
     def at(self, speed) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.studies.interpolate`). They
         have the direction of the curve: a finite piece of a surface slides differently back and forth."""
@@ -67,6 +69,25 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         the curve does not reach it."""
         return None if self._curve.lift_off is None else self._curve.lifted
 
+    @property
+    def lift_off_range(self) -> tuple[float, float]:
+        """(lowest, highest) speed [m/s] at which ``lift_off`` may lie, by the interpolation between the points; NaN
+        where there is none."""
+        low, high = sorted(self._curve.sense * end for end in self._curve.lift_off_range)
+        return low, high
+
+    @property
+    def least(self) -> tuple[float, float]:
+        """(the speed [m/s] at which f is least between the slowest and the fastest, f there), interpolated."""
+        at = np.geomspace(*self._curve.range, 5 * GRID)
+        f = self.at(at)
+        return float(at[f.argmin()]), float(f.min())
+
+    @cached_property
+    def between(self) -> float:
+        """The largest relative error that `at` is estimated to have between the points."""
+        return between(self._curve)
+
     @cached_property
     def _curve(self) -> Interpolant:
         return through(columns_of(self.points))
@@ -77,10 +98,6 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         low, high = self.uncertainty.interval.T
         curves = [(conditions_of(self.scene), self._curve)]
         return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)
-
-    def plot(self, ax=None, **style):
-        """Friction over speed, with its parts, on ``ax`` or new axes, which are returned; ``style``: of the line."""
-        return curve_axes(self, ax, **style)
 
     def to_csv(self, path) -> None:
         """The table that ``lubfric run`` writes as stribeck.csv: one row a speed, the unit in the heading."""
@@ -167,7 +184,7 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
     curve = StribeckResult(**numbers, points=points, errors=errors, report=report, scene=prepared.scene)
     if asked or len(points) - len(errors) < FEWEST:
         return curve
-    error, tolerance = next_speed(curve._curve, tolerance_between(prepared))[1], tolerance_between(prepared)
+    error, tolerance = curve.between, tolerance_between(prepared)
     close = error <= tolerance
     told = replace(  # its residual is the estimated error between the points
         report,

@@ -8,12 +8,15 @@ import numpy as np
 from .._base import __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
 from ..quantities import KEYS, Quantity, axis_label, described, heading, worded_value
+from .choose import between
 from .curve import numbers_of
+from .interpolate import through
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
 BAND = "95 %: solvers, grids, surface, inputs, model"
 MOST, NAMED, FINE = 500, 10, 200  # lines, lines with a label, points of a line between solved ones
+KNOWN = 0.05  # relative error of f between the points up to which a curve is told as a line or a formula
 SMOOTH = 6  # values along both axes of a map from which it is drawn by contours
 
 
@@ -146,20 +149,20 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
             ax.plot(wide, sides[1], **thin, label=f"of it: {name.partition('_')[0].replace('sampling', 'surface')}")
 
 
-def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **style) -> np.ndarray:
+def friction_over_speed(axes, columns: dict[str, np.ndarray], **style) -> np.ndarray:
     """Friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of a
-    `lubfric.StribeckResult`. ``between``: (speeds, f, its two parts) on a smooth curve through the points. Returns the
-    indices of the points drawn, in order: those that failed, and rest, are left out."""
+    `lubfric.StribeckResult`; between its points where f is `KNOWN` there. Returns the indices of the points drawn, in
+    order: those that failed, and rest, are left out."""
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
-    speed, load = np.abs(c["speed"]), c["contact_load"] + c["film_load"]
-    interval_band(axes, speed, c, between and between[:2])
-    if between is None:
+    speed, load, line = np.abs(c["speed"]), c["contact_load"] + c["film_load"], _line(c)
+    interval_band(axes, speed, c, line and line[:2])
+    if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
         figures.friction_lines(axes, speed, parts, **{"marker": "o", "ms": 4} | style)
     else:
-        figures.friction_lines(axes, between[0], between[1:], **style)
+        figures.friction_lines(axes, line[0], line[1:], **style)
         axes.plot(speed, c["coefficient"], "o", ms=4, color=style.get("color", figures.BLUE))
     axes.set(xscale="log", xlabel=figures.speed_label(c["speed"]), ylabel=figures.FRICTION)
     figures.plain_ticks(axes.xaxis)
@@ -168,15 +171,24 @@ def friction_over_speed(axes, columns: dict[str, np.ndarray], between=None, **st
     return order
 
 
+def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
+    """(speeds, f, its two parts) on the curve through the points, if f is `KNOWN` between them."""
+    try:
+        curve = through(columns)
+    except (InputError, KeyError):  # too few of them, both directions, or a table without what the curve needs
+        return None
+    if between(curve) > KNOWN:
+        return None
+    fine = np.geomspace(curve.samples.speed[0], curve.samples.speed[-1], 2 * FINE)
+    contact, film = curve.boundary(fine), curve.film(fine)
+    return fine, contact + film, contact, film
+
+
 def curve_axes(curve, ax=None, **style):
-    """Friction over speed of a `lubfric.StribeckResult`, with its parts and the band of its intervals; interpolated if
-    it chose its speeds."""
-    axes, between = figures.axes_or_new(ax), None
-    if "interpolation" in curve.report.residuals:
-        known = np.abs(curve.speed[np.isfinite(curve.coefficient) & (curve.speed != 0)])
-        fine = np.geomspace(known.min(), known.max(), 400)
-        between = fine, curve.at(fine), *curve.parts_at(fine)
-    friction_over_speed(axes, numbers_of(curve), between, **style)
+    """Friction over speed, with its parts and the band of its intervals, on ``ax`` or new axes, which are returned;
+    ``style``: of the line."""
+    axes = figures.axes_or_new(ax)
+    friction_over_speed(axes, numbers_of(curve), **style)
     return axes
 
 

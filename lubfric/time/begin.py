@@ -12,7 +12,7 @@ from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError
 from ..sampling import sampled
 from ..scene import Constant, Scene
 from ..sharing import Prepared, on_stack, prepare, scene_of, solve_balance
-from .film_setting import FINER, ContactHistory, discretisation, make_setting, steady_start
+from .film_setting import FINER, ContactHistory, make_setting, steady_start
 from .march import Step
 from .sharing import Contact, Sharing, changes, inlet_viscosity, looks, make_sharing, scene_at, sliding_at
 
@@ -127,10 +127,9 @@ def _steady(sharing: Sharing) -> tuple[Step, float]:
         numerics={"film_deflection": "hydrodynamic", "accept": True},  # judged with the other moments
     )
     balance = solve_balance(values, c.speed.before(0.0), sharing.patch, sharing.prepared.surface.sq)
-    film = steady_start(setting, balance.film_load)
+    film, error = steady_start(setting, balance.film_load)
     if film.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")
-    error = discretisation(setting, film)
     if balance.contact_load == 0.0:
         return _untouched(sharing, film), error
     state = balance.contact

@@ -9,7 +9,7 @@ from ..errors import CONVERGED, ConvergenceError, InputError, Report, returned
 from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
-from .film_setting import FINER, TIME_SHARE, ContactHistory, Setting, discretisation, make_setting, steady_start
+from .film_setting import FINER, TIME_SHARE, ContactHistory, Setting, make_setting, steady_start
 from .march import Plan, Step, begun, checked_times, plan_of, report_of, steps
 
 
@@ -106,12 +106,12 @@ def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, di
         raise InputError(said, "entrainment_speed", way_out="give initial_film > 0 m, or a speed")
     for finer in FINER:
         setting = make_setting(contact, tolerance, finer=finer)
-        start = steady_start(setting)
-        if start.status == CONVERGED:
-            error = discretisation(setting, start)
-            if error <= tolerance or finer == FINER[-1]:
-                return setting, start, {"grid": error / tolerance}
-    raise ConvergenceError("transient: no steady film on the grid of the run to start from")
+        start, error = steady_start(setting)
+        if error <= tolerance:
+            break
+    if start.status != CONVERGED:
+        raise ConvergenceError("transient: no steady film on the grid of the run to start from")
+    return setting, start, {"grid": error / tolerance}
 
 
 def _marched(setting: Setting, start: Step, plan: Plan, residuals: dict[str, float]) -> TransientFilm:

@@ -151,9 +151,9 @@ def _reference(contact: ContactHistory, sq: float) -> tuple[Problem, tuple[float
     return Problem(reference), (min(films) / reference.film_unit, max(films) / reference.film_unit)
 
 
-def steady_start(setting: Setting, load: float | None = None) -> Step:
-    """The steady state of the conditions just before t = 0, with ``load`` [N] instead of the history's if it is
-    given."""
+def steady_start(setting: Setting, load: float | None = None) -> tuple[Step, float]:
+    """The steady state of the conditions just before t = 0, with ``load`` [N] instead of the history's if it is given;
+    and its `discretisation` error, infinite where it did not converge."""
     c, p, grid, equations = setting.contact, setting.problem, setting.grid, setting.equations(0.0)
     load = load or c.load.before(0.0)
     oil = replace(c.lubricant, viscosity=c.viscosity.before(0.0))
@@ -168,7 +168,8 @@ def steady_start(setting: Setting, load: float | None = None) -> Step:
     guess[beyond] = pressure * (inlet / grid.x[beyond]) ** 3
     centre = grid.n // 2
     z = np.append(guess, found.central_film / p.film_unit - grid.kernel[centre] @ guess)
-    return solve_step(replace(equations, load=load / setting.load_unit), z, max_steps=40)
+    start = solve_step(replace(equations, load=load / setting.load_unit), z, max_steps=40)
+    return start, discretisation(setting, start) if start.status == CONVERGED else math.inf
 
 
 def discretisation(setting: Setting, solution: Step) -> float:

@@ -13,13 +13,11 @@ from scene_text import paper_scene
 import lubfric
 from lubfric._base.figures import field_image, new_figure
 from lubfric.output.fields import fields_bytes, grid_bytes
-from lubfric.output.pictures import plot_contact, plot_history, plot_stribeck, plot_traction
+from lubfric.output.pictures import plot_contact, plot_history, plot_stribeck, plot_surface, plot_traction
 from lubfric.studies import csv_bytes, plot_map
 
 UNITS = {  # of the columns of results, typed by hand
-    **dict.fromkeys(
-        ("contact_load", "film_load", "shear_force", "couette_force", "rolling_force", "boundary_force"), "N"
-    ),
+    **dict.fromkeys("contact_load film_load shear_force couette_force rolling_force boundary_force".split(), "N"),
     **dict.fromkeys(("min_film", "central_film", "mean_gap"), "m"),
     **dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), "K"),
     **{"speed": "m/s", "real_contact_area": "m2", "seconds": "s", "line_length": "m"},
@@ -153,9 +151,8 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     dotted = [line.get_ydata()[0] for line in above.lines if line.get_linestyle() == ":"]
     assert dotted == pytest.approx([1.7 * row])
     half = 1e6 * np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9))
-    assert sorted(line.get_xdata()[0] for line in above.lines if line.get_linestyle() == "--") == pytest.approx(
-        [-half, half]
-    )
+    dashed = sorted(line.get_xdata()[0] for line in above.lines if line.get_linestyle() == "--")
+    assert dashed == pytest.approx([-half, half])
     x, film = data(section, "smooth film h")
     np.testing.assert_allclose(film, 1e9 * point.balance.film.film_at(x * 1e-6))
     _, surface = data(section, "rough surface, not pressed")
@@ -164,6 +161,19 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     _, deformed = data(section, "rough surface, pressed")
     np.testing.assert_allclose(under - deformed, 1e9 * point.gap[:, row], atol=1e-6)
     assert "(nm)" in section.get_ylabel()
+    low, high = section.get_ylim()
+    assert high < 1.6e9 * max(point.heights.max(), point.balance.film.film_thickness.min()) and low > -1e3
+
+
+def test_the_picture_of_the_roughness_is_the_beginning_of_a_long_line(figures, solved):
+    for prepared, rows in ((solved[0], 32), (lubfric.prepare(lubfric.load_scene("paper")), 103)):
+        plot_surface("x.png", prepared)
+        (image,) = figures[-1].axes[0].images
+        part = 1e9 * prepared.surface.heights[:, :rows]
+        np.testing.assert_allclose(image.get_array(), (part - part.mean()).T, atol=1e-9)
+        assert f"Sq = {part.std():.4g} nm" in image.axes.get_title() and image.axes.get_aspect() == 1.0
+        (share, height), z = figures[-1].axes[1].lines[0].get_data(), prepared.surface.heights
+        assert np.mean(1e9 * (z - z.mean()) > height[100]) == pytest.approx(share[100] / 100, abs=2 / z.size)
 
 
 def test_fields_are_written_the_right_way_round(solved):
@@ -197,12 +207,8 @@ def test_the_table_of_a_curve_has_the_units_of_its_numbers():
 def test_a_study_over_two_keys_is_drawn_and_written_along_its_axes(figures, tmp_path):
     smooth = SCENE.with_(surface={"sq": 0.0, "correlation_length": 8e-6})
     study = lubfric.study(smooth, {"lubricant.viscosity": [0.2, 0.4]}, [1.0, 2.0, 4.0])
-    f = np.array(
-        [
-            lubfric.stribeck(smooth.with_(lubricant={"viscosity": eta}), [1.0, 2.0, 4.0]).coefficient
-            for eta in (0.2, 0.4)
-        ]
-    )
+    curves = (lubfric.stribeck(smooth.with_(lubricant={"viscosity": v}), [1.0, 2.0, 4.0]) for v in (0.2, 0.4))
+    f = np.array([curve.coefficient for curve in curves])
     for (across, up), expected in zip((("speed", "lubricant.viscosity"), ("lubricant.viscosity", "speed")), (f, f.T)):
         plot_map(tmp_path / "x.png", study, across, up)
         axes = figures[-1].axes[0]
@@ -213,10 +219,8 @@ def test_a_study_over_two_keys_is_drawn_and_written_along_its_axes(figures, tmp_
         assert ticks == [{"speed": [1.0, 2.0, 4.0]}.get(key, [0.2, 0.4]) for key in (across, up)]
     study.to_csv(tmp_path / "study.csv")
     with (tmp_path / "study.csv").open() as file:
-        rows = [
-            [float(row[name]) for name in ("lubricant.viscosity [Pa s]", "speed [m/s]", "coefficient [-]")]
-            for row in csv.DictReader(file)
-        ]
+        names = "lubricant.viscosity [Pa s]", "speed [m/s]", "coefficient [-]"
+        rows = [[float(row[name]) for name in names] for row in csv.DictReader(file)]
     assert rows == [[eta, u, f[i, j]] for i, eta in enumerate((0.2, 0.4)) for j, u in enumerate((1.0, 2.0, 4.0))]
 
 
@@ -269,9 +273,3 @@ def test_a_spike_does_not_take_the_colours_of_a_map_and_is_told():
     low, high = surface.plot(axes.figure.subplots()).images[0].get_clim()
     z = 1e9 * (surface.heights - surface.heights.mean())
     assert (low, high) == pytest.approx((z.min(), z.max()), rel=0.2)
-
-
-def test_the_section_of_a_contact_is_as_high_as_its_film_and_summits(figures, solved):
-    plot_contact("x.png", *solved)
-    low, high = figures[0].axes[1].get_ylim()
-    assert high < 1.6e9 * max(solved[1].heights.max(), solved[1].balance.film.film_thickness.min()) and low > -1e3

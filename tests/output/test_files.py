@@ -1,6 +1,7 @@
 """Files for eyes: a report that stands alone, a file for ParaView read by another reader, measured points drawn."""
 
 import json
+import math
 import tempfile
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -15,6 +16,7 @@ from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
 from lubfric.output import main
+from lubfric.sharing import lack_in_words
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.01, 0.3]\n"
 SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\n[contact]\nshape = [48, 40]\nspacing = [1.1e-6, 0.9e-6]\n"
@@ -53,12 +55,39 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
     page.feed((run / "report.html").read_text(encoding="utf-8"))
     assert page.open == [] and not any("http" in str(value) for _, attrs in page.seen for value in attrs.values())
     images = [attrs["src"] for tag, attrs in page.seen if tag == "img"]
-    assert len(images) == 2 and all(src.startswith("data:image/png;base64,iVBOR") for src in images)
+    assert len(images) == 3 and all(src.startswith("data:image/png;base64,iVBOR") for src in images)
     text = " ".join(page.text)
     f = lubfric.stribeck(lubfric.load_scene(run.parent / "s.toml"), fields=[0.01]).coefficient
     for words in (*(f"{value:.4g}" for value in f), "a < b & c", "360\xa0mPa\xa0s", "231\xa0GPa", lubfric.__version__):
         assert words in text, words
     assert "(95 %)" in text and "Errors of f" in text
+
+
+def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undrawn):
+    (tmp_path / "s.toml").write_text(SCENE)
+    out, scene = tmp_path / "o", lubfric.load_scene(tmp_path / "s.toml")
+    for speeds in (np.geomspace(0.01, 1.0, 9).tolist(), [0.01, 0.02, 0.03], [0.01, 0.3]):
+        given = ",".join(map(str, speeds))
+        assert main(["run", str(tmp_path / "s.toml"), "--speeds", given, "--out", str(out)]) == 0
+        curve, page = lubfric.stribeck(scene, speeds), Balanced()
+        page.feed((out / "report.html").read_text(encoding="utf-8"))
+        text = " ".join(page.text)
+        assert all(lack_in_words(lack) in text for lack in curve.points[0].lacks)
+        assert "How it was solved" in text and f"for {len(speeds)} speeds" in text
+        assert ("touch at all of them" in text) == (len(speeds) == 3)
+        assert (out / "law.json").exists() == (out / "law.c").exists() == (len(speeds) > 2)
+        if "None was fitted: 2 speeds are solved" in text and len(speeds) == 2:
+            continue
+        law = json.loads((out / "law.json").read_text())
+        assert f"at most {100 * law['largest']:.2g} %" in text
+        names = vars(math) | law["numbers"] | {"T": math.nan, "p": law["ranges"]["pressure"][0]}
+        for names["U"], f in zip(speeds, curve.coefficient):
+            for name, expression in law["formula"].items():
+                names[name] = eval(expression, {}, names)
+            assert abs(names["f"] / f - 1) <= law["largest"] * 1.001 < 0.05
+            assert names["U"] != 0.01 or f"At U = 0.01 m/s it gives f = {names['f']:.3g}." in text
+        told = "U = {:.4g} m/s, {:.4g} to {:.4g} m/s".format(curve.lift_off or 0, *curve.lift_off_range)
+        assert (told in text) == (curve.lift_off is not None) == (len(speeds) == 9)
 
 
 def test_the_file_for_paraview_is_read_back_by_another_reader(run):
@@ -165,7 +194,7 @@ def test_a_page_that_cannot_be_made_leaves_the_earlier_run(tmp_path, monkeypatch
     def broken(*_):
         raise ZeroDivisionError("no page")
 
-    monkeypatch.setattr("lubfric.output.run_curve.report_page", broken)
+    monkeypatch.setattr("lubfric.output.commands.report_page", broken)
     with pytest.raises(ZeroDivisionError):
         main(["run", str(tmp_path / "s.toml"), "--out", str(out)])
     assert {path.name: path.read_bytes() for path in out.iterdir() if path.is_file()} == before

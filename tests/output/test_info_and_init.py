@@ -27,11 +27,10 @@ def test_every_input_stands_with_its_unit():
     )
     text = describe_scene(scene)
     told = "reduced radius: 10 mm  (bodies.radius)|length of the line contact: 10 mm|N/mm|peak 900 MPa|°C|mPa s|Gold"
-    told += (
-        "|plastic limit of the contact pressure: 7.404 GPa|boundary friction coefficient: 0.09|46 and 46 W/(m K)|1/K|Sq"
-    )
-    told += "|/GPa by So and Klaus|Eyring stress: 5 MPa|limiting shear stress per pressure: 0.07|slide-roll ratio: 0.05"
-    told += "|limiting shear stress at ambient pressure: 2 MPa|surface speeds 0.975 and 1.025 m/s"
+    told += "|plastic limit of the contact pressure: 7.404 GPa|boundary friction coefficient: 0.09|46 and 46 W/(m K)"
+    told += "|1/K|Sq|/GPa by So and Klaus|Eyring stress: 5 MPa|limiting shear stress per pressure: 0.07"
+    told += "|slide-roll ratio: 0.05|limiting shear stress at ambient pressure: 2 MPa"
+    told += "|surface speeds 0.975 and 1.025 m/s"
     for words in told.split("|"):
         assert words in text, words
 
@@ -44,6 +43,7 @@ def test_info_foretells_what_friction_refuses():
     mended = HEAVY.with_(lubricant={"eyring_stress": 5e6, "limiting_stress_coefficient": 0.07})
     assert "not valid" not in describe_scene(mended)
     assert "no assumption of the model fails" in describe_scene(lubfric.load_scene("paper"))
+    assert "mm meant? 8 mm = 0.008 m" in describe_scene(HEAVY.with_(bodies={"radius": 8.0, "load": 1.0}))
 
 
 def test_info_looks_at_what_is_solved():
@@ -53,12 +53,10 @@ def test_info_looks_at_what_is_solved():
         scene = small.with_(numerics={"sampling": sampling})
         known = [entry.what for entry in lubfric.prepare(scene).known]
         assert ("few asperities" in describe_scene(scene)) == told == any("width of the map" in what for what in known)
+    patch = small.with_(numerics={"sampling": "patch", "model": "auto"})
+    assert lubfric.friction(patch).decision.model == "deterministic" and "with one gap" in describe_scene(patch)
     smaller = small.with_(contact={"shape": (64, 64)})  # too small to be generated, which it need not be
     assert lubfric.friction(smaller).coefficient > 0 and "strips of the roughness" in describe_scene(smaller)
-
-
-def test_info_tells_a_likely_slip():
-    assert "mm meant? 8 mm = 0.008 m" in describe_scene(HEAVY.with_(bodies={"radius": 8.0, "load": 1.0}))
 
 
 def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):
@@ -110,11 +108,9 @@ TRANSIENT = lubfric.load_scene("paper").with_(transient=lubfric.Transient(durati
     ],
 )
 def test_an_option_that_would_do_nothing_is_refused(tmp_path, capsys, scene, options, told):
-    path = "paper"
-    if scene is not None:
-        path = str(tmp_path / "scene.toml")
-        (tmp_path / "scene.toml").write_text(scene.to_toml())
-    assert main(["run", path, *options, "--out", str(tmp_path / "out")]) == 2
+    path = tmp_path / "scene.toml"
+    path.write_text((scene or lubfric.load_scene("paper")).to_toml())
+    assert main(["run", str(path), *options, "--out", str(tmp_path / "out")]) == 2
     assert told in capsys.readouterr().err and not (tmp_path / "out").exists()
 
 
@@ -156,12 +152,15 @@ def test_info_of_a_run_in_time_is_one_story():
     assert "strips" not in head and "time (s)" not in head and "(below)" not in told and "alone" not in told
     assert "which changes in time: transient.speed" in told and told.count("of the roughness, ") == 1
     assert "does not see that the roughness moves" in told
+    squeeze = describe_scene(SWINGING.with_(transient=lubfric.Transient(1e-3, speed=0.0, initial_film=2e-6)))
+    assert "no entrainment" in squeeze and "all contact" not in squeeze and "film of 2e-06 m" in squeeze
 
 
 def test_info_takes_the_speeds_of_a_run(capsys, tmp_path):
     for speeds, rows in (("1 mm/s:1 m/s:4", 4), ("auto", 6)):
         assert main(["info", "paper", "--speeds", speeds]) == 0
         told = capsys.readouterr().out
+        assert all(word in told for word in ("half-width 4.496 µm", "102 MPa", "lambda", "on strips of the roughness"))
         assert f"; {4 if rows == 4 else 12} speeds" in told and len(told.partition("U (m/s)")[2].splitlines()) > rows
     (tmp_path / "scene.toml").write_text(TRANSIENT.to_toml())
     assert main(["info", str(tmp_path / "scene.toml"), "--speeds", "1"]) == 2
@@ -188,9 +187,3 @@ def test_info_of_a_model_that_takes_too_long_says_that_the_interval_is_wide():
     assert "its interval is wide: the other model would take too long" in text
     found = lubfric.friction(moving.with_(numerics={"sampling_tolerance": 0.2})).uncertainty
     assert found.model > 0.2 and np.isfinite(found.interval).all()
-
-
-def test_info_of_a_squeeze_says_that_nothing_is_entrained():
-    scene = SWINGING.with_(transient=lubfric.Transient(1e-3, speed=0.0, initial_film=2e-6))
-    told = describe_scene(scene)
-    assert "no entrainment" in told and "all contact" not in told and "film of 2e-06 m" in told

@@ -23,14 +23,15 @@ MEASURED = "U [m/s],f\n0.1,0.05\n0.2,0.05\n0.3,0.05\n0.5,0.052\n"
 FIT = ["--coefficient", "f", "--speed", "U", "--parameter", "lubricant.viscosity=0.2:0.6"]
 NAMES = {  # of files of the user in the folder of the results: (refused with these, beside these), by kind of command
     "run": (
-        "stribeck.csv stribeck.png fields.npz contact.png report.html result.json .lubfric .lubfric.lock unfinished",
+        "stribeck.csv stribeck.png fields.npz contact.png surface.png law.json law.c report.html result.json "
+        "sharing.png resolved.toml .lubfric .lubfric.lock unfinished",
         "history.csv history.png animation.gif traction.csv traction.png contact_0.vtk contact_user.vtk .lock "
         ".part-mine .part-12345678-stribeck.csv study.csv fit.json notes.txt unfinished/notes.bin "
         "checkpoint/state.bin points/a.bin",
     ),
     "history": (
-        "history.csv history.png fields.npz report.html result.json unfinished",
-        "stribeck.csv animation.gif contact.png .lock .part-x unfinished/notes.bin checkpoint",
+        "history.csv history.png fields.npz surface.png report.html resolved.toml result.json unfinished",
+        "stribeck.csv law.c animation.gif contact.png .lock .part-x unfinished/notes.bin checkpoint",
     ),
     "study": ("study.csv .lubfric", "study.nc study.parquet result.json .part-x points/notes.txt .lock fitted.toml"),
     "fit": ("fitted.toml fit.png fit.json", ""),

@@ -46,9 +46,9 @@ def test_it_opens_whole_and_runs_nothing(run, width):
     shown = browse(run, f"--window-size={width},900", "--dump-dom", (run / "look.html").as_uri()).stdout
     seen = json.loads(unescape(re.search(r'data-seen="(.*?)"', shown)[1]))
     assert seen["title"] == NAME and seen["head"].startswith(NAME)
-    assert seen["drawn"] and seen["images"] == 2 and seen["beyond"] <= 0
-    parts = ["Question", "Answer", "Cautions", "Results", "Errors of f", "Inputs", "Sources", "Made by"]
-    assert seen["sections"] == parts
+    assert seen["drawn"] and seen["images"] == 3 and seen["beyond"] <= 0
+    parts = "Question|Answer|Cautions|Left out|Results|Errors of f|The curve as a formula|How it was solved|Inputs"
+    assert seen["sections"] == [*parts.split("|"), "Sources", "Made by"]
     point = json.loads((run / "out" / "result.json").read_text())["points"][1]
     low, high = point["uncertainty"]["interval"]
     told = f"f = {point['coefficient']:.3g}, between {low:.3g} and {high:.3g} (95 %, model included), at U = 0.3 m/s."

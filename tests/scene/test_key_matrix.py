@@ -17,10 +17,10 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.contact import contact_map
+from lubfric.contact import contact_maps
 from lubfric.scene import SECTIONS
 
-NOT_NOTHING = 1e-3  # the same for keys of a map, which every way of asking takes from one place (`contact_map`)
+NOT_NOTHING = 1e-3  # the same for keys of a map, which every way of asking takes from one place (`contact_maps`)
 MOVES = 0.02  # least relative change of f by an undone key: twice the tolerance of a scene
 BASE = lubfric.load_scene("flat").with_(
     lubricant={"viscosity_law": "barus", "pressure_viscosity_coefficient": 1e-8},
@@ -223,7 +223,7 @@ def test_a_sweep_and_a_transient_take_every_key_of_a_corner(corner, mode):
 
 @pytest.mark.parametrize("section", ["surface", "counterface"])
 def test_each_key_of_a_measured_map_moves_the_map_and_so_the_number(measured, section):
-    """Every way of asking takes its map from one place (`contact_map`)."""
+    """Every way of asking takes its map from one place (`contact_maps`)."""
     corner = file_corner(measured, section)
     unfiltered = {"s_filter": None, "l_filter": None}
     beside = {"missing_value": {"outliers": "keep"}, **dict.fromkeys(("motion_axis", "form", "outliers"), unfiltered)}
@@ -239,9 +239,9 @@ def test_each_key_of_a_measured_map_moves_the_map_and_so_the_number(measured, se
 
 def moved_map(scene, change):
     """Largest change of the heights over Sq by ``change``; infinite where the scene is refused or has another grid."""
-    there = contact_map(scene)
+    there = contact_maps(scene)[0]
     try:
-        here = contact_map(scene.with_(**change))
+        here = contact_maps(scene.with_(**change))[0]
     except lubfric.InputError:
         return math.inf
     if here.shape != there.shape or here.spacing != there.spacing:
@@ -367,7 +367,7 @@ def test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip(
     """Hardness and geometry: gap and area from a dry contact solved here, at F_C over the Hertz strip; the gap within
     its stated error, which is below two percent."""
     scene = BASE.with_(bodies={"hardness": 4e8})
-    result, surface = lubfric.friction(scene), contact_map(scene)
+    result, surface = lubfric.friction(scene), contact_maps(scene)[0]
     pressure = result.contact_load / (2 * scene.bodies.half_width * scene.bodies.width)
     dry = lubfric.solve_contact(
         surface.heights.max() - surface.heights,
@@ -404,7 +404,7 @@ def test_a_measured_map_is_prepared_as_its_keys_say(measured):
     fit = np.linalg.lstsq(terms[~hole], z[~hole], rcond=None)[0]
     rest = z - terms @ fit
     rest[hole] = np.nan
-    found = contact_map(scene).heights[: z.shape[1], : z.shape[0]].T
+    found = contact_maps(scene)[0].heights[: z.shape[1], : z.shape[0]].T
     known = ~hole
     factor = np.polyfit(rest[known], found[known], 1)
     assert np.corrcoef(rest[known], found[known])[0, 1] > 1 - 1e-9
@@ -415,7 +415,7 @@ def test_the_counterface_adds_its_square():
     two = BASE.with_(
         counterface={"sq": 2e-7, "correlation_length": 8e-6, "acf": "gaussian", "seed": 0}, surface={"seed": 0}
     )
-    squares = [contact_map(two.with_(surface={"seed": s}, counterface={"seed": s})).sq ** 2 for s in range(24)]
+    squares = [contact_maps(two.with_(surface={"seed": s}, counterface={"seed": s}))[0].sq ** 2 for s in range(24)]
     assert math.sqrt(np.mean(squares)) == pytest.approx(math.sqrt(1 + 4) * 1e-7, rel=0.04)
     smooth = BASE.with_(counterface={"sq": 0.0, "correlation_length": 8e-6})
     assert answer(smooth) == pytest.approx(answer(BASE), rel=1e-9)

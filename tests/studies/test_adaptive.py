@@ -63,6 +63,7 @@ def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, e
     true = sum(curve.at(at))
     assert np.abs(found.at(at) / true - 1).max() <= tolerance
     assert found.lift_off == pytest.approx(lift_off, rel=0.01) and error <= tolerance
+    assert found.lift_off_range[0] <= lift_off <= found.lift_off_range[1]
     assert len(speeds) <= (14 if tolerance == 0.01 else 11)
 
 
@@ -102,6 +103,9 @@ def test_an_adaptive_curve_is_that_of_many_solves(auto):
     speeds = np.sort(np.append(np.geomspace(1.1e-4, 0.9, 8), auto.lift_off * np.array([0.9, 0.97, 1.02])))
     direct = lubfric.stribeck(SCENE, speeds, tolerance=2e-3)
     np.testing.assert_allclose(auto.at(speeds), direct.coefficient, rtol=0.01)
+    assert auto.at(auto.least[0]) == pytest.approx(auto.least[1]) and auto.least[1] <= auto.coefficient.min() * 1.001
+    (line,) = (line for line in auto.plot().lines if line.get_label() == "friction coefficient")
+    np.testing.assert_allclose(line.get_ydata(), auto.at(line.get_xdata()))
     assert direct.contact_load[speeds < auto.lift_off][-1] > 0 == direct.contact_load[speeds > auto.lift_off][0]
 
 

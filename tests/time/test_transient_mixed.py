@@ -219,9 +219,8 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
     scene.write_text(text)
     assert main(["run", str(scene), "--out", str(tmp_path / "out"), "--animation"]) == 0
     names = {p.name for p in (tmp_path / "out").iterdir()}
-    assert names == {
-        *(".lubfric", "history.csv", "history.png", "fields.npz", "report.html", "result.json", "animation.gif")
-    }
+    told = ".lubfric history.csv history.png fields.npz surface.png report.html resolved.toml result.json animation.gif"
+    assert names == {*told.split()}
     rows = (tmp_path / "out" / "history.csv").read_text().splitlines()
     assert len(rows) == 8 and rows[0].startswith("time [s],entrainment_speed [m/s]")
     assert "t = 0.02     of 0.02 s" in capsys.readouterr().err
@@ -233,7 +232,7 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
         Path(path).write_bytes(b"half")
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("lubfric.output.run_history.plot_history", full_disk)
+    monkeypatch.setattr("lubfric.output.run_curve.plot_history", full_disk)
     assert main(["plot", str(tmp_path / "out")]) != 0
     assert (tmp_path / "out" / "history.png").read_bytes() == drawn
     assert {p.name for p in (tmp_path / "out").iterdir()} == names
