@@ -147,9 +147,7 @@ class UncertaintyQuantities(Generic[T]):
     )
     spots: T = quantity("-", "effective number of contact spots: alike, they would scatter as much", default=math.nan)
     length: T = quantity("m", "length of the line of rough surface", column="line_length", default=math.nan)
-    area_needed: T = quantity(
-        "-", "how many times more of a measured map would be needed", note="1: enough", default=1.0
-    )
+    area_needed: T = quantity("-", "how many times more of a measured map is needed", note="1: enough", default=1.0)
     model: T = quantity("-", "relative error of f by the model, at 95 %", column="model_error", default=math.nan)
     inputs: T = quantity("-", "relative change of f by the ranges of inputs", column="input_error", default=0.0)
 

@@ -29,21 +29,16 @@ class FieldsOnly:
 
 
 class Shown:
-    """Prints as one line of its ``_facts``, a dict of words by name."""
+    """Prints as one line of its ``_facts``, a dict of words by name; without any, as the call that makes it, its
+    defaults left out."""
 
     def _facts(self) -> dict[str, str]:
-        raise NotImplementedError
+        return {}
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {', '.join(f'{k} {v}' if k else v for k, v in self._facts().items())}>"
-
-
-class Brief:
-    """A dataclass that prints as the call that makes it, without its defaults."""
-
-    def __repr__(self) -> str:
-        told = ", ".join(f"{name}={value!r}" for name, value in changed(self).items())
-        return f"{type(self).__name__}({told})"
+        if facts := self._facts():
+            return f"<{type(self).__name__}: {', '.join(f'{k} {v}' if k else v for k, v in facts.items())}>"
+        return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed(self).items())})"
 
 
 def changed(part: Any) -> dict[str, Any]:

@@ -172,9 +172,8 @@ def left_out(x, y) -> np.ndarray:
     if x.size < 3:
         return np.zeros(0)
     x = x if x[0] < x[-1] else -x
-    return np.array(
-        [abs(PchipInterpolator(np.delete(x, i), np.delete(y, i))(x[i]) - y[i]) for i in range(1, x.size - 1)]
-    )
+    inner = range(1, x.size - 1)
+    return np.array([abs(PchipInterpolator(np.delete(x, i), np.delete(y, i))(x[i]) - y[i]) for i in inner])
 
 
 def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None) -> ContactCurve:

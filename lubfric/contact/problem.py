@@ -85,9 +85,8 @@ def make_problem(
         }
         for name, value in asked.items():
             if (built := getattr(operator, name)) != value:
-                raise InputError(
-                    f"operator was built for {name} = {built}, the contact has {value}; they must be the same"
-                )
+                said = f"operator was built for {name} = {built}, the contact has {value}"
+                raise InputError(said, way_out="they must be the same")
     offset = float(gap0.min())
     gap0 = gap0 - offset if offset else gap0
     return Problem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
@@ -112,9 +111,8 @@ def starting_pressure(problem: Problem, start) -> np.ndarray | None:
         raise InputError(f"start has shape {pressure.shape}; allowed: {problem.gap0.shape}, the shape of gap0")
     limit = ABSURD * problem.operator.e_prime
     if pressure.min() < 0 or pressure.max() > limit:
-        raise InputError(
-            f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa; allowed: 0 to {limit:g} Pa"
-        )
+        said = f"start has pressures from {pressure.min():g} to {pressure.max():g} Pa"
+        raise InputError(said, allowed=f"0 to {limit:g} Pa")
     return np.ascontiguousarray(np.minimum(pressure, problem.hardness))  # the solver writes through ravel()
 
 

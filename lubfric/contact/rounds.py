@@ -163,9 +163,8 @@ def state_of(problem, pressure, displacement, level=None) -> State:
     if level is None:
         loaded = np.flatnonzero(pressure > 0)
         elastic = loaded[pressure.ravel()[loaded] < problem.hardness]
-        level = (
-            gap.ravel()[elastic].mean(dtype=float) if elastic.size else zero_level(gap, pressure >= problem.hardness)
-        )
+        hard = pressure >= problem.hardness
+        level = gap.ravel()[elastic].mean(dtype=float) if elastic.size else zero_level(gap, hard)
     gap -= level
     scale = length_scale(pressure, displacement, problem.gap0, problem.operator, problem.roughness)
     residuals = contact_residuals(pressure, gap, scale, problem.hardness)

@@ -175,9 +175,8 @@ class MeasuredStrips(Strips):
 
     def _made(self, heights, spacing, note) -> Surface:
         notes = (*self.surface.notes, note)
-        return replace(
-            self.surface, heights=heights, spacing=spacing, mask=None, periodic_axes=(False, True), notes=notes
-        )
+        new = {"heights": heights, "spacing": spacing, "periodic_axes": (False, True), "notes": notes}
+        return replace(self.surface, mask=None, **new)
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,6 @@ from .moving import KRYLOV, STEPS, Moment, MovingStrip, RoughBody, moments, movi
 from .newton import Work, newton
 from .pictures import animate_moments, plot_moments, plot_passing
 from .point import (
-    Refined,
     Strip,
     change_by_flow,
     change_of,

@@ -65,9 +65,8 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
     gap = film[:, None] + shape
     thin = _ambient_thinning(problem, gap)
     viscous = 12 * lubricant.viscosity
-    a, b, a_h, b_h = (
-        viscous * stretch / (gap**n * thin) * c for n, c in ((2, speed), (3, 1.0), (3, -2 * speed), (4, -3.0))
-    )
+    powers = (2, speed), (3, 1.0), (3, -2 * speed), (4, -3.0)
+    a, b, a_h, b_h = (viscous * stretch / (gap**n * thin) * c for n, c in powers)
     A, B, A_h, B_h = (f @ weight for f in (a, b, a_h, b_h))
     reduced, reduced_slope = _reduced(lubricant, np.maximum(pressure, 0.0))
     T = 2 * film**3 * _ambient_thinning(problem, film) / (viscous * dx)

@@ -67,9 +67,8 @@ class System:
         scales = self.to_pressure, lifted, self.to_fill
         together = sum(data * scale.ravel()[Stencil.neighbours(*shape)] for data, scale in zip(rows, scales))
         self.order, matrix = patterns.order, patterns.ordered(together)
-        self.lu = splu(
-            matrix, permc_spec="NATURAL", diag_pivot_thresh=0.0, panel_size=PANEL, options={"SymmetricMode": True}
-        )
+        ordered = {"permc_spec": "NATURAL", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
+        self.lu = splu(matrix, panel_size=PANEL, **ordered)
         self.load_row = (self.load_by_p * self.to_pressure).ravel()
         self.solved_column = self._inner(self.by_h @ np.full(at.gap.size, self.film))  # of h0
         self.schur = float(self.load_by_h.sum()) * self.film - float(self.load_row @ self.solved_column)

@@ -149,19 +149,6 @@ def problem_of(
     )
 
 
-@dataclass(frozen=True)
-class Refined:
-    """The solution on every grid, the coarsest first; ``error``: estimated relative error of f on the last."""
-
-    results: tuple[DeterministicResult, ...]
-    error: float
-
-    @property
-    def result(self) -> DeterministicResult:
-        """The result on the finest grid."""
-        return self.results[-1]
-
-
 def estimate(changes: Sequence[float], left: float = math.inf) -> float:
     """Relative error of f on the last of several grids, each twice as fine as the one before, by its ``changes`` from
     grid to grid (`change_of`).

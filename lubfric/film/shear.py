@@ -50,6 +50,7 @@ def shear_force(
     contact_fraction,
     cavitated: str = "none",
     warm=None,
+    heated=None,
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
@@ -58,10 +59,9 @@ def shear_force(
     begins, or from far upstream (the parabola is followed to -infinity in closed form, as much thinned by its own heat
     as the first node: at any h that is the same factor), to the rupture. cavitated="striated" adds the streamers behind
     it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the
-    Couette term. ``warm``: `lubfric.sharing.heat.WarmFilm`, the stress of the heated film and the viscosity that it was
-    solved with; None:
-    isothermal. ∫ (h/2) dp is ``film.rolling`` less what the spots take; it is summed over the nodes if the film does
-    not know it (None).
+    Couette term. ``warm``: the viscosity [Pa s] that the film was solved with, and ``heated``: the stress of the
+    heated film, both of `lubfric.sharing.heat.point_heat`; None: isothermal. ∫ (h/2) dp is ``film.rolling`` less what
+    the spots take; it is summed over the nodes if the film does not know it (None).
     """
     entrainment_speed, radius = film.entrainment_speed, film.radius
     direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
@@ -74,7 +74,7 @@ def shear_force(
     def isothermal(at, pressure, thickness):
         return shear_stress(lubricant, pressure, sliding / thickness)
 
-    stress = isothermal if warm is None or warm.stress is None else warm.stress
+    stress = isothermal if heated is None else heated
     tau = stress(x, p, h)
     face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
     full = x[:-1] < film.rupture * direction  # the rupture point is a node
@@ -84,8 +84,8 @@ def shear_force(
     quadrature += off
     ratio, excess = above_carried(p, tau, np.diff(x) * wet * full)
     inlet, thin = _upstream(h[0], -x[0], radius) if film.inlet is None else (0.0, 0.0)  # nothing is sheared there
-    couette += (lubricant.viscosity * sliding if warm is None else tau[0] * h[0]) * inlet
-    viscosity = lubricant.viscosity if warm is None else warm.inlet_viscosity
+    couette += (lubricant.viscosity * sliding if warm is None and heated is None else tau[0] * h[0]) * inlet
+    viscosity = lubricant.viscosity if warm is None else warm
     resistance += 6 * viscosity * abs(entrainment_speed) * (inlet - film.flow_film * thin)
     if cavitated == "striated":
         h_rupture = np.interp(film.rupture * direction, x, h)
@@ -130,9 +130,8 @@ def rolling_error(p, h, share) -> float:
     last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one
     share = np.broadcast_to(share, p.size - 1)[: last - 1]
     shares = share, 0.5 * (share[::2] + share[1::2])
-    fine, coarse = (
-        np.sum(0.25 * (h[:last:n][1:] + h[:last:n][:-1]) * np.diff(p[:last:n]) * shares[n - 1]) for n in (1, 2)
-    )
+    grids = [(h[:last:n], p[:last:n], shares[n - 1]) for n in (1, 2)]
+    fine, coarse = (np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p) * share) for h, p, share in grids)
     return float(abs(coarse - fine)) / 3
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import Brief, validate
+from .._base import Shown, validate
 from ..errors import InputError
 from .oil import Oil
 from .shear_laws import FLOW_LAWS, LIMITS, LimitingStress, ShearLaw
@@ -23,7 +23,7 @@ NO_LIQUID = 1e10  # Pa: no oil flows there
 
 
 @dataclass(frozen=True, repr=False)
-class Lubricant(Brief):
+class Lubricant(Shown):
     """A lubricant at one temperature.
 
     Parameters

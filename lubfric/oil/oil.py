@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import Brief, validate
+from .._base import Shown, validate
 from ..errors import InputError
 from .pressure import BASES, Estimate, gold, so_klaus
 from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_index
@@ -20,7 +20,7 @@ STEP = 0.05  # K, of a central difference
 
 
 @dataclass(frozen=True, repr=False)
-class Oil(Brief):
+class Oil(Shown):
     """An oil at ambient pressure; temperatures in K, kinematic viscosity in m²/s, density in kg/m³.
 
     viscosity_law : kinematic viscosity over temperature, `Walther` (ASTM D341, constant 0.7) or `ViscosityTable`

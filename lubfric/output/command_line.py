@@ -1,8 +1,8 @@
-"""The ``lubfric`` command: a function for each of the commands in commands.toml. What it needs is imported when it
-runs."""
+"""The ``lubfric`` command. What one of the commands in commands.toml needs is imported when it runs."""
 
 import argparse
 import sys
+from importlib import import_module
 from pathlib import Path
 
 from .._base import __version__, packaged
@@ -21,18 +21,20 @@ def main(argv=None) -> int:
     arguments = parser().parse_args(argv)
     try:
         with interruptible():
-            arguments.command(arguments)
+            module, _, function = arguments.call.partition(".")
+            getattr(import_module(f".{module}", __package__), function)(arguments)
             return 0
     except (LubfricError, OSError) as error:  # OSError: a folder that cannot be written, a disk that is full
         say(f"lubfric: {error}")
         return 1 if isinstance(error, ConvergenceError) else 2
     except KeyboardInterrupt as error:
-        say(f"lubfric: {str(error) or 'interrupted'}")
-        return getattr(error, "code", INTERRUPTED)
+        said, code = error.args if len(error.args) == 2 else ("interrupted", INTERRUPTED)
+        say(f"lubfric: {said}")
+        return code
 
 
 def parser() -> argparse.ArgumentParser:
-    """The parser of the command. What it returns has the function to call as ``command``."""
+    """The parser of the command. What it returns has ``call``, the module and the function to call."""
     whole = argparse.ArgumentParser(prog="lubfric", description="Friction of mixed-lubricated rough line contacts.")
     whole.add_argument("--version", action="version", version=f"lubfric {__version__}")
     commands = whole.add_subparsers(required=True, metavar="COMMAND")
@@ -40,7 +42,7 @@ def parser() -> argparse.ArgumentParser:
     for name, row in table.items():
         if name != "groups":
             command = commands.add_parser(name, help=row["about"])
-            command.set_defaults(command=globals()[name])
+            command.set_defaults(call=row["call"])
             groups = [table["groups"][group] for group in row.get("with", ())]
             for argument, options in (pair for part in (*groups, row.get("arguments", {})) for pair in part.items()):
                 kind = KINDS.get(options.get("kind"), {})
@@ -50,7 +52,8 @@ def parser() -> argparse.ArgumentParser:
     return whole
 
 
-def _scene(arguments):
+def scene_of(arguments):
+    """The scene that the ``arguments`` name."""
     from ..scene import load_scene
 
     return load_scene(arguments.scene, surface_file=arguments.surface, counterface_file=arguments.counterface)
@@ -61,7 +64,7 @@ def run(arguments) -> None:
     from ..contact import takes_strips
     from . import run_curve, run_history
 
-    scene = _scene(arguments)
+    scene = scene_of(arguments)
     asked = arguments.sampling_tolerance
     changed = {} if asked is None else {"sampling_tolerance": number_of("--sampling-tolerance", asked, "-")}
     if changed and not takes_strips(scene):
@@ -83,35 +86,11 @@ def info(arguments) -> None:
     from .describe import describe_scene
     from .run_curve import parse_speeds
 
-    scene, speeds = _scene(arguments), arguments.speeds
+    scene, speeds = scene_of(arguments), arguments.speeds
     if speeds is not None and scene.transient is not None:
         raise InputError("--speeds is for a curve, and this is a scene with [transient]; leave it out")
     told = describe_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))
     put(sys.stdout, told + "\n")
-
-
-def study(arguments) -> None:
-    """Carry out a study file."""
-    from .run_study import run_study
-
-    run_study(arguments)
-
-
-def fit(arguments) -> None:
-    """Find numbers of a scene from a measured curve."""
-    from .run_study import run_fit
-
-    for name in ("measured", "coefficient"):
-        if getattr(arguments, name) is None:
-            raise InputError(f"lubfric fit needs --{name}, the measured curve with the heading of its coefficients")
-    run_fit(_scene(arguments), arguments)
-
-
-def plot(arguments) -> None:
-    """Draw the picture of a run again."""
-    from .run_curve import plot_again
-
-    plot_again(arguments)
 
 
 def init(arguments) -> None:

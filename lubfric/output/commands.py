@@ -29,16 +29,8 @@ from .describe import Foretold, foretold
 from .pictures import plot_surface
 from .report import report_page
 
-INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them
+INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them: the second argument of a KeyboardInterrupt
 SAY_EVERY = 1.0  # s between two lines of progress
-
-
-class Interrupted(KeyboardInterrupt):
-    """Ctrl-C or SIGTERM, with one line that says what is kept, and the exit ``code``."""
-
-    def __init__(self, text: str, code: int = INTERRUPTED):
-        super().__init__(text)
-        self.code = code
 
 
 def say(text: str) -> None:
@@ -81,7 +73,7 @@ def interruptible():
         return
 
     def terminate(*_):
-        raise Interrupted("terminated", TERMINATED)
+        raise KeyboardInterrupt("terminated", TERMINATED)
 
     before = signal.signal(signal.SIGTERM, terminate)
     try:
@@ -97,7 +89,7 @@ def keeping(what: Callable[[], str]):
         yield
     except KeyboardInterrupt as error:
         said = f"interrupted; {what()}: the same command goes on from there"
-        raise Interrupted(said, getattr(error, "code", INTERRUPTED)) from None
+        raise KeyboardInterrupt(said, *error.args[1:] or (INTERRUPTED,)) from None
 
 
 RESULT, RESOLVED, UNFINISHED = "result.json", "resolved.toml", "unfinished"
@@ -118,9 +110,8 @@ def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], 
     The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
     """
     begun = time.perf_counter()
-    check_outputs(
-        arguments, arguments.out, [*names, "fields.npz", "surface.png", "report.html", RESOLVED, RESULT], OUTPUTS
-    )
+    names = [*names, "fields.npz", "surface.png", "report.html", RESOLVED, RESULT]
+    check_outputs(arguments, arguments.out, names, OUTPUTS)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
     known = foretold(scene, prepared.strips, prepared.surface, **places)

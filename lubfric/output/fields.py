@@ -27,7 +27,7 @@ def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
     for i, point in enumerate(points):
         film, found = point.balance.film if point.balance else None, {}
         if point.deterministic is not None:
-            result = point.deterministic.result
+            result = point.deterministic
             found = {name: getattr(result, name) for name in OF_ONE_GAP} | {"spacing": np.array(result.spacing)}
         elif film is not None:
             found = {"film_x": film.x, "film_thickness": film.film_thickness, "film_pressure": film.pressure}

@@ -124,7 +124,7 @@ def _one_gap(point, half_width: float):
         (
             ("pressure (GPa)", point.pressure / 1e9, "magma_r", None),
             ("gap (nm)", point.gap * 1e9, "viridis", LogNorm()),
-            ("shear stress (MPa)", point.deterministic.result.shear / 1e6, "cividis", None),
+            ("shear stress (MPa)", point.deterministic.shear / 1e6, "cividis", None),
         ),
     ):
         figures.field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)

@@ -12,8 +12,8 @@ from .. import studies
 from .._base import figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
 from ..quantities import KEYS, axis_label, counted
-from ..scene import Scene
 from ..units import number_of, worded
+from .command_line import scene_of
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
 
 
@@ -114,8 +114,12 @@ def _progress(begun: float):
     return on_progress
 
 
-def run_fit(scene: Scene, arguments) -> None:
+def run_fit(arguments) -> None:
     """Say what it will cost, search, and write fitted.toml, fit.png and, last, fit.json."""
+    for name in ("measured", "coefficient"):
+        if getattr(arguments, name) is None:
+            raise InputError(f"lubfric fit needs --{name}, the measured curve with the heading of its coefficients")
+    scene = scene_of(arguments)
     check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "fit.json"))
     scene.to_toml()  # raises InputError now, rather than after the fit
     bounds, begun, due = _bounds(arguments.parameter), time.perf_counter(), paced()

@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..contact import measured
-from ..deterministic import DeterministicResult, Refined
+from ..deterministic import DeterministicResult
 from ..quantities import depending_on
 from ..scene import Scene, moves
 from ..sharing import Heat, Prepared, Validity, of_error, of_heat, of_inlet, of_motion, of_pressure, of_thickness
@@ -64,7 +64,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         *of_error(levels.numerical, numerics.tolerance, _way_out(prepared)),
         *_of_model(model, numerics.model_tolerance),
     )
-    grids = levels.pieces[0] if strips.whole and levels.pieces else (levels.pairs[0].resolved,)
+    finest = levels.pieces[0][-1] if strips.whole and levels.pieces else levels.pairs[0].resolved
     return FrictionResult(
         **(numbers | {"seconds": time.perf_counter() - begun}),
         report=replace(results[0].report, notes=(decision.text, *(e.text for e in entries), known.text)),
@@ -74,7 +74,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         validity=entries,
         balance=None if found is None or strips.whole else found.balance,
         heights=None if found is None or strips.whole else found.contact.heights,  # type: ignore[attr-defined]
-        deterministic=Refined(tuple(strip.result for strip in grids), levels.numerical),
+        deterministic=finest.result,
     )
 
 

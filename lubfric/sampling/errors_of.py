@@ -1,7 +1,6 @@
 """From the error of a gap to `Uncertainty` and to the errors of all reported quantities."""
 
 import math
-from dataclasses import dataclass
 
 from ..quantities import depending_on
 from ..scene import Scene, budget, gap_not_resolved, moves
@@ -35,39 +34,23 @@ MODEL_UNKNOWN = "the error of the model itself is not known and not in the inter
 MISSED = "not known: the patch is too short along y to tell what contact it misses"
 
 
-@dataclass(frozen=True)
-class Numerical:
-    """The errors of solvers and grids.
-
-    - ``film``: of the film, relative; ``gap``: of the mean gap at given load [m], by the closing of the volume and by
-      the cells of the contact; ``shear``: of the film's shear stress, by its sum over nodes and by the heat left out
-      of it, relative to f; ``area``: of the contact area, relative.
-    """
-
-    film: float
-    gap: float
-    shear: float
-    area: float
-
-
 def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty of f, and errors by field."""
-    balance, response, numerical = found.balance, found.response, _numerical(found)
+    balance, response, (of_film, of_gap, relative, of_area) = found.balance, found.response, _numerical(found)
     forces, scatter, sampling = balance.forces, found.scatter, found.sampling
     error, why = BlockError(0.0, ORDER), "there was none of it, or too little to tell"
-    relative = numerical.shear
     if balance.film is None:
         errors, why = _area_errors(scene, balance, scatter), "no entrainment: there is no film"  # only areas scatter
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
-        relative += forces.felt * numerical.film
-        errors, why = _given_load(forces, numerical.film), "no contact was met: it has no relative error"
+        relative += forces.felt * of_film
+        errors, why = _given_load(forces, of_film), "no contact was met: it has no relative error"
         errors |= {"film_load": 0.0}
     else:
         error, mean_film = found.friction_error, balance.contact.mean_film
-        relative += response.per_film(forces, mean_film) * numerical.film
-        relative += response.relative("coefficient", numerical.gap)
-        errors = _contact_errors(scene, found, numerical)
+        relative += response.per_film(forces, mean_film) * of_film
+        relative += response.relative("coefficient", of_gap)
+        errors = _contact_errors(scene, found, of_film, of_gap, of_area)
     notes = _notes(found, scene, sampling)
     if not math.isfinite(sampling):
         sampling = math.nan
@@ -93,7 +76,10 @@ def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
     return known, field_errors_of(errors | {"coefficient": both}, why, left_out)
 
 
-def _numerical(found: Found) -> Numerical:
+def _numerical(found: Found) -> tuple[float, float, float, float]:
+    """The errors of solvers and grids: of the film, relative; of the mean gap at given load [m], by the closing of the
+    volume and by the cells of the contact; of the film's shear stress, by its sum over nodes and by the heat left out
+    of it, relative to f; of the contact area, relative."""
     balance, effect, solved = found.balance, found.effect, found.solved
     film = 0.0
     if balance.film is not None:
@@ -112,30 +98,30 @@ def _numerical(found: Found) -> Numerical:
     if solved.contact.area_error and forces.total:
         open_ = max(1 - solved.contact.real_contact_area_fraction, solved.contact.area_error)
         by_area = solved.contact.area_error / open_ * forces.shear.felt / forces.total
-    return Numerical(film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read)
+    return film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read
 
 
-def _contact_errors(scene: Scene, found: Found, numerical: Numerical) -> dict[str, float]:
+def _contact_errors(scene: Scene, found: Found, film: float, gap: float, area: float) -> dict[str, float]:
     """Relative errors where film and contact share the load, by the names of `FrictionResult`: the root of the sum of
     squares of the standard error by the surface and of the estimated error by solvers and grids.
 
     An error of the gap changes the division of the load, and everything with it (`Response.rates`). Films also have the
     error of the film solve. The area also has its own scatter at given load, and what its cells may change.
     """
-    balance, response, film = found.balance, found.response, numerical.film
+    balance, response = found.balance, found.response
     assert response is not None
     scattered = found.gap_error.error if math.isfinite(found.gap_error.error) else 0.0
-    gap = math.hypot(scattered, numerical.gap + film * balance.contact.mean_film)
+    gap = math.hypot(scattered, gap + film * balance.contact.mean_film)
     errors = {name: response.relative(name, gap) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
     for name, at_given_load in _given_load(balance.forces, film).items():
         errors[name] = errors.get(name, 0.0) + at_given_load
     by_load = errors.get("contact_load", 0.0)
     for name, error in _area_errors(scene, balance, found.scatter).items():
-        errors[name] = math.hypot(by_load, error, numerical.area)
+        errors[name] = math.hypot(by_load, error, area)
     if balance.contact.plastic_area_fraction > 0:
         change = found.effect.plastic / balance.contact.plastic_area_fraction
-        counted = found.scatter.spots**-0.5 if found.scatter.spots else PLASTIC * math.hypot(by_load, numerical.area)
+        counted = found.scatter.spots**-0.5 if found.scatter.spots else PLASTIC * math.hypot(by_load, area)
         errors["plastic_area_fraction"] = math.hypot(counted, change)
     return errors
 
@@ -146,9 +132,8 @@ def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, 
     length = float(balance.contact.contact_fraction.sum() * (balance.contact.x[1] - balance.contact.x[0]))
     pairs = (fraction, scatter.area.error), (length, scatter.touched.error)
     finite = [(value, error if math.isfinite(error) else 0.0) for value, error in pairs]
-    return {
-        name: error / value if value > 0 else math.nan for name, (value, error) in zip(depending_on("area"), finite)
-    }
+    names = depending_on("area")
+    return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(names, finite)}
 
 
 def _given_load(found: Forces, film: float) -> dict[str, float]:

@@ -197,6 +197,5 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, sh
 def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:
     """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
     kept = values[0].size // (2 if pair.mirrored else 1)
-    return block_error(
-        np.concatenate([one[:kept] for one in values]), pair.resolved.problem.spacing[1], strips.lengths[1]
-    )
+    places = np.concatenate([one[:kept] for one in values])
+    return block_error(places, pair.resolved.problem.spacing[1], strips.lengths[1])

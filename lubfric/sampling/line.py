@@ -53,9 +53,8 @@ def line_of(prepared: Prepared, found: Found) -> Line:
     numbers = {"coefficient": places.mean(axis=1)}
     if response is None or response.rates is None:
         return Line(places, numbers, BlockError(found.sampling, ORDER))
-    influence = gap_influence(
-        strip_gap(contact, solved.contact), line_load(contact, solved.contact), response.slopes.gap
-    )
+    gap, loads = (of(contact, solved.contact) for of in (strip_gap, line_load))
+    influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.split * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
     for name, value in (
         ("contact_load", solved.contact_load),

@@ -34,9 +34,8 @@ def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
     leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in the ``half_width`` [m], or
     does not divide the strip."""
     (lx, ly), (dx, dy) = strips.lengths, strips.cells.coarse
-    along = min(lx / (MOVING if moves(strips.scene) else PER_LENGTH), half_width / PER_HALF_WIDTH) >= 2 * dx * (
-        1 - 1e-9
-    )
+    longest = min(lx / (MOVING if moves(strips.scene) else PER_LENGTH), half_width / PER_HALF_WIDTH)
+    along = longest >= 2 * dx * (1 - 1e-9)
     across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and round(strips.length / dy) % 2 == 0
     return 1 + along, 1 + across
 

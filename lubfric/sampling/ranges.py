@@ -98,7 +98,7 @@ def _resolved(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], f
     roughness that moves is left on them, for the time that it takes."""
     (surface, factors), moving = strip_of(prepared, 0), moves(prepared.scene)
     if prepared.strips is not None and prepared.strips.whole and result.deterministic is not None and not moving:
-        cells = result.deterministic.result.spacing
+        cells = result.deterministic.spacing
         factors = round(cells[0] / surface.spacing[0]), round(cells[1] / surface.spacing[1])
     longer = longer_than(surface, factors, moving)
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .._base import Shown, figures, packaged
-from ..deterministic import Refined
+from ..deterministic import DeterministicResult
 from ..errors import InputError, Report
 from ..quantities import PointQuantities, described_in_doc, in_words
 from ..sharing import Balance, Lack, Validity
@@ -49,7 +49,7 @@ class FrictionResult(PointQuantities[float], Shown):
     methods: tuple[str, ...] = ()
     balance: Balance | None = None
     heights: np.ndarray | None = None
-    deterministic: Refined | None = None
+    deterministic: DeterministicResult | None = None
 
     def without_fields(self) -> FrictionResult:
         """A copy with its numbers alone."""
@@ -80,7 +80,7 @@ class FrictionResult(PointQuantities[float], Shown):
     @property
     def y(self) -> np.ndarray:
         """Cells of the contact along the line [m], (ny,). Needs ``fields=True``."""
-        whole = self.deterministic and self.deterministic.result
+        whole = self.deterministic
         return np.arange(whole.pressure.shape[1]) * whole.spacing[1] if whole else self._field("y")
 
     @property
@@ -104,7 +104,7 @@ class FrictionResult(PointQuantities[float], Shown):
     def _field(self, name: str) -> np.ndarray:
         source: Any = self.balance and self.balance.contact
         if self.deterministic is not None:
-            source = self.deterministic.result
+            source = self.deterministic
         elif name not in ("x", "y"):
             source = source and source.fields
         if getattr(source, name, None) is None:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import Brief, validate
+from .._base import Shown, validate
 from ..errors import InputError
 from ..film import hertz
 from ..quantities import KEYS
@@ -70,7 +70,7 @@ def friction_of(given: Any) -> dict[str, Any]:
 
 
 @dataclass(frozen=True, repr=False)
-class Bodies(Brief):
+class Bodies(Shown):
     """The line contact: a cylinder on a plane, or the nominally flat strip under it.
 
     Attributes
@@ -146,7 +146,7 @@ class Bodies(Brief):
 
 
 @dataclass(frozen=True, repr=False)
-class Motion(Brief):
+class Motion(Shown):
     """Speeds of the two surfaces. Surface 2 is the upper one, on which the shear is taken (paper, Eq. 12).
 
     Attributes
@@ -173,7 +173,7 @@ class Motion(Brief):
 
 
 @dataclass(frozen=True, repr=False)
-class ContactDomain(Brief):
+class ContactDomain(Shown):
     """The part of the contact that is resolved, and how film and contact are compared on it.
 
     Attributes

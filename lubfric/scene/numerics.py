@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from .._base import Brief, packaged, validate
+from .._base import Shown, packaged, validate
 from ..errors import InputError
 from . import budget
 
@@ -11,7 +11,7 @@ MOST_THREADS = 1024
 
 
 @dataclass(frozen=True, repr=False)
-class Numerics(Brief):
+class Numerics(Shown):
     """How exactly a scene is solved, and what is modelled. Tolerances are relative.
 
     Attributes

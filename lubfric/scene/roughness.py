@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from .._base import Brief, changed, validate
+from .._base import Shown, changed, validate
 from ..errors import InputError
 from ..surface import ACFS, DECIMALS, FORMS, PER_SQ, UNITS
 from .bodies import lengths
@@ -20,7 +20,7 @@ GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize")  # 
 
 
 @dataclass(frozen=True, repr=False)
-class Roughness(Brief):
+class Roughness(Shown):
     """Where the height map of a body comes from: a file, or a generated surface.
 
     The keys of a file act in the order in which they stand below.

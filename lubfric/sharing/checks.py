@@ -111,9 +111,8 @@ def of_inlet(scene, line, flow: float, friction: float) -> Iterator[Validity]:
     lost = 12 * oil.viscosity * line.entrainment_speed * line.radius / out * scene.bodies.width
     if not oil.floods and flow <= (1 - tolerance) * flooded:
         consequence = "the inlet is starved, as inlet_length or inlet_film asks; f rests on what they say"
-        yield Validity(
-            "film over that of a full inlet, by Moes,", flow / flooded, 1.0, "", consequence, "leave both out"
-        )
+        what = "film over that of a full inlet, by Moes,"
+        yield Validity(what, flow / flooded, 1.0, "", consequence, "leave both out")
     elif lost > tolerance * friction:
         what, why = "rolling friction of the inlet beyond inlet_length, in f,", "f rests on where the lubricant begins"
         yield Validity(what, 100 * lost / friction, 100 * tolerance, "%", why, "leave it out for a full inlet")
@@ -198,9 +197,8 @@ def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[
             severe,
         )
     elif friction > FRICTION and abs(shear.couette) > tolerance * friction_force:
-        yield Validity(
-            "friction coefficient of the film", friction, FRICTION, "", "more than any lubricant gives", remedy
-        )
+        what, why = "friction coefficient of the film", "more than any lubricant gives"
+        yield Validity(what, friction, FRICTION, "", why, remedy)
 
 
 def of_heat(scene, heat) -> Iterator[Validity]:

@@ -43,15 +43,15 @@ def forces(scene: Scene, film: EHLResult | None, contact: ContactState, contact_
     if film is None:
         return Forces(boundary / bodies.load, boundary, ShearForce(0.0, 0.0))
     shear = _shear(scene, film, contact)
-    heat, warm = point_heat(scene, film, contact, contact_load, abs(boundary + shear.total), shear)
-    if warm is not None:
-        shear = _shear(scene, film, contact, warm)
+    heat, *warm = point_heat(scene, film, contact, contact_load, abs(boundary + shear.total), shear)
+    if warm != [None, None]:
+        shear = _shear(scene, film, contact, *warm)
     total = abs(boundary + shear.total)
     quadrature = shear.quadrature / total if 0 < total < np.inf else 0.0
     return Forces((boundary + shear.total) / bodies.load, boundary, shear, quadrature, heat)
 
 
-def _shear(scene: Scene, film: EHLResult, contact: ContactState, warm=None) -> ShearForce:
+def _shear(scene: Scene, film: EHLResult, contact: ContactState, warm=None, stress=None) -> ShearForce:
     with np.errstate(over="ignore", invalid="ignore"):  # stresses far above the range of the law, told by `excess`
         return shear_force(
             film,
@@ -61,4 +61,5 @@ def _shear(scene: Scene, film: EHLResult, contact: ContactState, warm=None) -> S
             cavitated=scene.numerics.cavitated_shear,
             contact_fraction=contact.touching,
             warm=warm,
+            heated=stress,
         )

@@ -27,18 +27,6 @@ TYPICAL = 343.15, 0.035  # K, 1/K: a mineral oil of ISO VG 68 at 70 °C
 
 
 @dataclass(frozen=True)
-class WarmFilm:
-    """The effect of heat on the shear of a film: its stress, and the viscosity [Pa s] of the inlet with which it was
-    solved.
-
-    stress(x, pressure, film): shear stress [Pa] at positions x [m] running downstream; None: isothermal.
-    """
-
-    inlet_viscosity: float
-    stress: Callable | None = None
-
-
-@dataclass(frozen=True)
 class Heat:
     """Heat of an operating point.
 
@@ -134,29 +122,30 @@ def film_lubricant(scene, speed: float) -> Lubricant:
     return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
 
 
-def point_heat(scene, film, contact, contact_load: float, force: float, shear) -> tuple[Heat, WarmFilm | None]:
-    """Heat of ``film`` beside a ``contact`` that carries ``contact_load`` [N], and its effect on the shear of the film
-    (None: none). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`) without the heat of the film."""
+def point_heat(scene, film, contact, contact_load, force: float, shear) -> tuple[Heat, float | None, Callable | None]:
+    """Heat of ``film`` beside a ``contact`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
+    with which it was solved (None: as given); and the stress [Pa] of the heated film, stress(x, pressure, film) at
+    positions x [m] running downstream (None: isothermal). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`) without
+    the heat of the film."""
     inlet, used = inlet_at(scene, film.entrainment_speed)
     if inlet is None:
-        return Heat(), None
-    warm = WarmFilm(film_lubricant(scene, film.entrainment_speed).viscosity) if used else None
+        return Heat(), None, None
+    warm = film_lubricant(scene, film.entrainment_speed).viscosity if used else None
     pressed = float(film.pressure.max()) > NO_LIQUID  # a rigid film far above its range, on the way to one that is not
     if scene.motion.slide_roll_ratio == 0 or pressed or not shear.excess < math.inf:
-        return Heat(inlet, used), warm
+        return Heat(inlet, used), warm, None
     lubricant, numerics = scene.lubricant, scene.numerics
     nodes, change_by = _nodes(scene, film, contact, contact_load, force)
     change, peclet = change_by(isothermal_heat(lubricant, *nodes).stress), peclet_at(scene, film.entrainment_speed)
     if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
-        return Heat(inlet, used, change, None, peclet), warm
+        return Heat(inlet, used, change, None, peclet), warm, None
     found, (x, *_, around) = heated_film(lubricant, *nodes), nodes
     change = change_by(found.stress)
 
     def stress(at, pressure, thickness):
         return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, found.wall))[0]
 
-    heat = Heat(inlet, used, change, found, peclet)
-    return heat, WarmFilm(warm.inlet_viscosity if warm else lubricant.viscosity, stress)
+    return Heat(inlet, used, change, found, peclet), warm, stress
 
 
 def _nodes(scene, film, contact, contact_load: float, force: float):

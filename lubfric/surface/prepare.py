@@ -84,34 +84,24 @@ def _polynomial(terms, along) -> np.ndarray:
 
 def harmonic_fill(heights, mask, spacing) -> np.ndarray:
     """Solve Laplace's equation (five points, no flux through the rim) at the points without a mask."""
-    from scipy.sparse import coo_matrix
+    from scipy.sparse import csc_matrix
     from scipy.sparse.linalg import spsolve
 
     missing = ~mask
     if not missing.any():
         return heights
-    count = int(np.count_nonzero(missing))
-    if count > MOST_MISSING * mask.size:
-        said = f" = {count / mask.size:.3g} is out of range"
-        raise InputError(said, "missing fraction", f"[0, {MOST_MISSING}] (-)")
-    number = np.cumsum(missing.ravel()).reshape(mask.shape) - 1
-    right, rows, columns, entries = np.zeros(count), [], [], []
-    for axis in range(2):
-        weight = 1 / spacing[axis] ** 2
-        first, last = [slice(None)] * 2, [slice(None)] * 2
-        first[axis], last[axis] = slice(None, -1), slice(1, None)
-        before, behind = tuple(first), tuple(last)  # the points that have a neighbour behind them, and before them
-        for here, there in ((before, behind), (behind, before)):
-            from_missing = missing[here]
-            row, other = number[here][from_missing], missing[there][from_missing]
-            np.add.at(right, row[~other], weight * heights[there][from_missing][~other])
-            rows += [row, row[other]]
-            columns += [row, number[there][from_missing][other]]
-            entries += [np.full(row.size, weight), np.full(np.count_nonzero(other), -weight)]
-    where = np.concatenate(rows), np.concatenate(columns)  # entries of one place are added
-    matrix = coo_matrix((np.concatenate(entries), where), shape=(count, count))
-    filled = heights.copy()
-    filled[missing] = spsolve(matrix.tocsc(), right)
+    fraction = np.count_nonzero(missing) / mask.size
+    if fraction > MOST_MISSING:
+        raise InputError(f" = {fraction:.3g} is out of range", "missing fraction", f"[0, {MOST_MISSING}] (-)")
+    number, gone = np.arange(mask.size).reshape(mask.shape), missing.ravel()
+    ends = [(number[:-1].ravel(), number[1:].ravel()), (number[:, :-1].ravel(), number[:, 1:].ravel())]
+    pairs = [np.array(pair)[:, gone[pair[0]] | gone[pair[1]]] for pair in ends]  # neighbours that a gap touches
+    steep = np.concatenate([np.full(pair.shape[1], 1 / step) for pair, step in zip(pairs, spacing)])
+    row = np.tile(np.arange(steep.size), 2)
+    entries = np.concatenate([-steep, steep]), (row, np.hstack(pairs).ravel())
+    slopes = csc_matrix(entries, shape=(steep.size, mask.size))
+    filled, unknown = heights.copy(), slopes[:, gone]  # the sum of their squares is least
+    filled[missing] = spsolve((unknown.T @ unknown).tocsc(), -unknown.T @ (slopes[:, ~gone] @ heights[mask]))
     return filled
 
 

@@ -34,9 +34,8 @@ def changed(surface, axis, heights, note, *, step=None, closed=None, mask=None):
     spacing, periodic, notes = list(surface.spacing), list(surface.periodic_axes), (*surface.notes, note)
     spacing[axis] = spacing[axis] if step is None else step
     periodic[axis] = periodic[axis] if closed is None else closed
-    return replace(
-        surface, heights=heights, spacing=tuple(spacing), mask=mask, periodic_axes=tuple(periodic), notes=notes
-    )
+    grid = {"spacing": tuple(spacing), "periodic_axes": tuple(periodic)}
+    return replace(surface, heights=heights, mask=mask, notes=notes, **grid)
 
 
 def mirrored(surface, axis: int):

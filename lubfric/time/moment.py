@@ -88,9 +88,7 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
     return row, tuple([*_violated(sharing, scene, row, shear, heat), *of_typical_heat(scene, heat.typical)])
 
 
-def _violated(
-    sharing: Sharing, scene: Scene, row: dict[str, float], shear: ShearForce, heat: Heat
-) -> Iterator[Validity]:
+def _violated(sharing: Sharing, scene: Scene, row: dict, shear: ShearForce, heat: Heat) -> Iterator[Validity]:
     """The assumptions of the steady model and of a run that do not hold at one moment."""
     speed, film, force = row["entrainment_speed"], row["central_film"], abs(row["friction_force"])
     prepared = sharing.prepared
@@ -158,10 +156,10 @@ def film_shear(
         rupture=float(x[-1] if speed > 0 else x[0]),
     )
     of_point = film, contact.state, contact.load, abs(boundary + isothermal.total), isothermal
-    heat, warm = point_heat(scene, *of_point)
-    if warm is None or warm.stress is None:
+    heat, _, heated = point_heat(scene, *of_point)
+    if heated is None:
         return isothermal, replace(heat, typical=typical_heat(scene, *of_point))
-    along, heated = math.copysign(1.0, speed), warm.stress
+    along = math.copysign(1.0, speed)
 
     def hot(x, pressure, thickness):
         return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))

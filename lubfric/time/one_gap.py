@@ -165,9 +165,8 @@ class OneGap:
             state = State(p.copy(), nothing + 1.0, dent, touching, yielded, problem.floor - dry.approach)
         elif np.min(problem.rigid_gap) + plan.initial_film < problem.floor:
             least = problem.floor - float(np.min(problem.rigid_gap))
-            raise InputError(
-                f"transient.initial_film: the surfaces touch; give more than {least:g} m, or initial = 'rest'"
-            )
+            way_out = f"give more than {least:g} m, or initial = 'rest'"
+            raise InputError("transient.initial_film: the surfaces touch", way_out=way_out)
         return self._step(evaluated(problem, state), back)
 
     def back(self, time: float) -> int:
@@ -212,9 +211,7 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
     if strips is None:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
     if scene.numerics.heat == "on":
-        raise InputError(
-            " = 'on' is not had by a run with one gap", "numerics.heat", "'auto', which cautions, or 'off'"
-        )
+        raise InputError(" = 'on': a run with one gap has none", "numerics.heat", "'auto', which cautions, or 'off'")
     surface, factors = strip_of(prepared, 0)
     maps = maps_of(prepared, 0)
     if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:

@@ -93,9 +93,8 @@ class TransientResult(Shown):
         share = float(weight[moving].sum() / weight.sum())
         if not share:
             return TimeAverage(math.nan, math.nan, math.nan, math.nan, share)
-        f, error, speed = (
-            self.columns[name][moving] for name in ("coefficient", "sampling_error", "entrainment_speed")
-        )
+        names = "coefficient", "sampling_error", "entrainment_speed"
+        f, error, speed = (self.columns[name][moving] for name in names)
         weight = weight[moving]
         mean = float(np.average(f, weights=weight))
         sampling = float(np.average(error * np.abs(f), weights=weight)) / abs(mean)

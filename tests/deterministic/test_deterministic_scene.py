@@ -24,7 +24,7 @@ def point():
 
 
 def test_the_words_of_a_result_keep_their_meaning(point):
-    found, b = point.deterministic.result, SCENE.bodies
+    found, b = point.deterministic, SCENE.bodies
     assert point.contact_load + point.film_load == pytest.approx(b.load)
     assert point.coefficient * b.load == pytest.approx(point.boundary_force + point.shear_force)
     assert point.boundary_force == pytest.approx(0.09 * point.contact_load)
@@ -48,12 +48,12 @@ def test_a_sweep_keeps_fields_only_where_asked(point):
     curve = lubfric.stribeck(MODEL, [0.03, 0.01], fields=[0.01])
     assert np.all(np.diff(curve.contact_load) > 0) and np.all(np.isfinite(curve.mean_gap))
     assert curve.coefficient[1] == point.coefficient
-    assert curve.points[0].deterministic is None and curve.points[1].deterministic.result.pressure.shape[1] == 48
+    assert curve.points[0].deterministic is None and curve.points[1].deterministic.pressure.shape[1] == 48
 
 
 def test_a_result_can_be_stored(point):
     again = decode(b"".join(encode(point)), classes_of(lubfric.FrictionResult))
-    assert np.array_equal(again.deterministic.result.pressure, point.deterministic.result.pressure)
+    assert np.array_equal(again.deterministic.pressure, point.deterministic.pressure)
     assert repr(again) == repr(point) and again.report == point.report
 
 

@@ -535,7 +535,7 @@ def test_the_boundary_film_is_the_gap_below_which_the_bodies_rub():
         lubricant={"limiting_stress_coefficient": 0.03},
     )
     found = lubfric.friction(scene)
-    fields = found.deterministic.result
+    fields = found.deterministic
     share = fields.pressure[fields.gap < 3e-8].sum() / fields.pressure.sum()
     carried = 1 - fields.inlet_load / fields.load
     assert found.contact_load == pytest.approx(scene.bodies.load * share * carried, rel=1e-4)
