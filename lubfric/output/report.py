@@ -114,7 +114,8 @@ def _lift_off(curve: CurveResult) -> list[str]:
         touching = "all" if np.nanmax(curve.contact_load) > 0 else "none"
         return [f"Lift-off is not between these speeds: the surfaces touch at {touching} of them."]
     return [
-        f"Between the speeds f is least at U = {least[0]:.3g} m/s: {least[1]:.3g}.",
+        f"Between the speeds f is known within {100 * curve.between:.2g} %, and least at U = {least[0]:.3g} m/s: "
+        f"{least[1]:.3g}.",
         f"The film lifts the surfaces off each other at U = {at:.4g} m/s, {low:.4g} to {high:.4g} m/s by the "
         "interpolation between the speeds. Summits higher than those that were solved touch beyond it.",
     ]
