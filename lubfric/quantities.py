@@ -88,15 +88,11 @@ class Quantities(Generic[T]):
     central_film: T = quantity(
         "m", "central film thickness", "h_c", error="film", note="of the smooth film; NaN without entrainment"
     )
-    mean_gap: T = quantity(
-        "m", "mean gap of the rough surfaces", error="film", note="the film thickness when they are separated"
-    )
+    mean_gap: T = quantity("m", "mean gap of the rough surfaces", error="film", note="the film where they are apart")
     film_to_roughness_ratio: T = quantity("-", "central film over Sq", "lambda", error="film")
-    inlet_film_factor: T = quantity(
-        "-", "film thinner by the heat of its inlet", error="heat", note="1 where heat is left out"
-    )
+    inlet_film_factor: T = quantity("-", "film thinner by the heat of its inlet", error="heat", note="1 without heat")
     flash_temperature_rise: T = quantity(
-        "K", "largest temperature rise of the surfaces", error="heat", note="0 where heat is left out"
+        "K", "largest temperature rise of the surfaces", error="heat", note="0 without heat"
     )
     film_temperature_rise: T = quantity(
         "K",

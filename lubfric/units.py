@@ -85,10 +85,9 @@ def worded(value: Any, unit: str) -> str:
         return str(value)
     name = unit_for(values, unit)
     shown = [converted(v, unit, name) if name != unit else v for v in values]
-    few = len(shown) < 4
-    text = (
-        " and ".join(f"{v:.4g}" for v in shown) if few else f"{len(shown)} values, {min(shown):.4g} to {max(shown):.4g}"
-    )
+    text = " and ".join(f"{v:.4g}" for v in shown)
+    if len(shown) > 3:
+        text = f"{len(shown)} values, {min(shown):.4g} to {max(shown):.4g}"
     return f"{text} {printed(name)}".rstrip()
 
 

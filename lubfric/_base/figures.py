@@ -105,10 +105,8 @@ def key_above(axes, columns: int = 3) -> int:
     """The key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has room
     for; returns the number of rows."""
     labels, room = axes.get_legend_handles_labels()[1], 72 * 0.8 * axes.figure.get_figwidth() / LETTER
-    rows = -(-len(labels) // columns)
-    while (
-        rows < len(labels) and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, len(labels), rows)) > room
-    ):
+    rows, count = -(-len(labels) // columns), len(labels)
+    while rows < count and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, count, rows)) > room:
         rows += 1
     place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}
     axes.legend(ncols=-(-len(labels) // max(rows, 1)) or 1, frameon=False, fontsize=8, **place)

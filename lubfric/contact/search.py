@@ -73,9 +73,8 @@ class Search:
         factor = operator.e_prime / 4 / self.compliance
         if exact:
             stiffness = (factor * wavenumber(cells.shape, operator.spacing)).astype(np.float32)
-            self.turned = lambda values: cells.gather(
-                filtered(cells.field(values), stiffness, cells.shape, operator.workers)
-            )
+            of = stiffness, cells.shape, operator.workers
+            self.turned = lambda values: cells.gather(filtered(cells.field(values), *of))
         else:
             self.turned = stencil(cells, operator.spacing, operator.boundary, factor)
 

@@ -32,9 +32,8 @@ class Estimate:
     @property
     def text(self) -> str:
         """The coefficient in words, in 1/GPa."""
-        return (
-            f"{self.value * 1e9:.3g} /GPa by {self.source}, measured oils {self.low * 1e9:.3g} to {self.high * 1e9:.3g}"
-        )
+        value, low, high = (1e9 * each for each in (self.value, self.low, self.high))
+        return f"{value:.3g} /GPa by {self.source}, measured oils {low:.3g} to {high:.3g}"
 
 
 def gold(nu: float, base: str) -> Estimate:

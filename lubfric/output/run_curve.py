@@ -112,8 +112,6 @@ def _law(curve: studies.CurveResult) -> studies.Law | str:
     if any(entry.severe for i in range(len(curve.points)) for entry in curve.entries(i)):
         return "some of its points are outside the range of the model"
     try:
-        if curve.between > studies.KNOWN:
-            return f"between the speeds f is known within {100 * curve.between:.2g} %; give more of them, or 'auto'"
         return curve.law()
     except InputError as why:
         return str(why)

@@ -71,9 +71,8 @@ def make_mesh(first: float, last: float, nodes: int, flooded: bool) -> Mesh:
     weights = -4.0 / math.pi * step * np.diff(np.append(second[1], second), 2)
     far = weights.copy()
     far[: BANDWIDTH + 1] = 0.0
-    return Mesh(
-        X, step, log_kernel, weights, min(BANDWIDTH, nodes - 1), _transform(log_kernel), _transform(far), flooded
-    )
+    near, whole, outer = min(BANDWIDTH, nodes - 1), _transform(log_kernel), _transform(far)
+    return Mesh(X, step, log_kernel, weights, near, whole, outer, flooded)
 
 
 def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:

@@ -139,9 +139,8 @@ def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
         contact = on_stack(prepared, strips, count)
         coarse = not strips.cells.own
         solved = solve_balance(scene, speed, contact, prepared.surface.sq, start, correctable=coarse)
-        found = Found(
-            solved, solved, contact, Scatter(contact.heights.shape[1] * contact.spacing[1]), strips=strips, count=count
-        )
+        line = Scatter(contact.heights.shape[1] * contact.spacing[1])
+        found = Found(solved, solved, contact, line, strips=strips, count=count)
         if solved.response is None:
             missed = missed_share(scene, contact, solved.film, solved.forces, strips.lengths[1])
             found = replace(found, missed=missed)

@@ -182,9 +182,8 @@ def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
     """
     assert start.film is not None
     load, slope = point.scene.bodies.load, start.slope
-    before, exponent, _ = exponents(
-        replace(point.line(start.film_load), entrainment_speed=start.film.entrainment_speed)
-    )
+    line = point.line(start.film_load)
+    before, exponent, _ = exponents(replace(line, entrainment_speed=start.film.entrainment_speed))
     stiffness = max(2 * slope * load - exponent * start.contact_load, 0.0) / start.film_load
     split = start.split
     for _ in range(STEPS):
@@ -230,9 +229,8 @@ def _root(point: Point, split: float, slope: float | None, step: float, first) -
 
     tolerance, fed = point.settings.balance_tolerance, point.scene.lubricant.inlet_film is not None
     lowest = max(lowest, EMPTY) if fed else lowest
-    root = increasing_root(
-        residual, split, step=step, bounds=(lowest, BOUNDS[1]), tolerance=tolerance, slope=slope, first=first
-    )
+    known = {"slope": slope, "first": first, "bounds": (lowest, BOUNDS[1])}
+    root = increasing_root(residual, split, step=step, tolerance=tolerance, **known)
     return replace(root, payload=None) if fed and root.x == EMPTY and root.value > 0 else root
 
 

@@ -48,9 +48,8 @@ def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:
     """Raise `ValidityError` with ``result`` if one of ``entries`` is severe, unless ``accept``."""
     severe = [entry for entry in entries if entry.severe]
     if severe and not accept:
-        raise ValidityError(
-            "; ".join(entry.text for entry in severe) + " (numerics.accept = true overrides)", tuple(severe), result
-        )
+        said = "; ".join(entry.text for entry in severe)
+        raise ValidityError(f"{said} (numerics.accept = true overrides)", tuple(severe), result)
 
 
 def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:

@@ -18,7 +18,7 @@ from .interpolate import FEWEST, Interpolant, through
 from .law import Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, outcome_of, solved
 from .store import opened
-from .tables import curve_axes
+from .tables import KNOWN, curve_axes
 
 
 @described_in_doc
@@ -94,7 +94,11 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     def law(self) -> Law:
         """The curve as a formula for system simulations, `lubfric.studies.law`: at one temperature and pressure;
-        ``lubfric.study(...).law()`` has more of them."""
+        ``lubfric.study(...).law()`` has more of them. Raises `InputError` where f between the speeds is not known
+        within 5 %."""
+        if self.between > KNOWN:
+            said = f"between the speeds f is known within {100 * self.between:.2g} %"
+            raise InputError(said, way_out="give more of them, or 'auto'")
         low, high = self.uncertainty.interval.T
         curves = [(conditions_of(self.scene), self._curve)]
         return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)

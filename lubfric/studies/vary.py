@@ -152,7 +152,8 @@ def check_key(what: str, scene: Scene, key, seen, sections=SECTIONS) -> None:
     validate.keys(f"{what}: [{section}]", [field] * bool(field), (*part.__dataclass_fields__, *short_keys(section)))
     if key == "motion" or key in SPEEDS:
         ways = "give speeds = [...] in m/s beside it (a fit takes those of the measurement)"
-        raise InputError(f"{what}: a curve is over {key!r}", way_out=f"{ways}; motion.slide_roll_ratio is a key")
+        said = f"{what}: {key!r} is what a curve is over"
+        raise InputError(said, way_out=f"{ways}; motion.slide_roll_ratio is a key")
     if key in seen:
         raise InputError(f"{what}: {key!r} is given twice; give it once")
 

@@ -130,9 +130,8 @@ def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray,
             allowed = f"allowed: unit = {named[0]!r}, or 'm' if it is m after all"
             said = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
             raise _wrong(path, number, text, f"{said}; {allowed}")
-    notes = tuple(
-        f"line {number} {'read' if _step(text) else 'skipped'} as a title: {text[:60]!r}" for number, text in titles
-    )
+    done = [(number, "read" if _step(text) else "skipped", text[:60]) for number, text in titles]
+    notes = tuple(f"line {number} {how} as a title: {text!r}" for number, how, text in done)
     separator, comma = _marks(path, lines, decimal)
     if separator is not None and all(text.endswith(separator) for _, text in lines):
         lines = [(number, text[:-1].rstrip(" ")) for number, text in lines]  # a separator behind every line

@@ -206,9 +206,8 @@ class StepEquations:
         if slope.any():
             rows = i[:, None]
             G[rows, up.columns] += (speed * t.up[1])[:, None] * up.values * slope[up.columns]
-            G[rows, centred.columns] -= (
-                (H**3 * mean * t.gradient * thin)[:, None] * centred.values * slope[centred.columns]
-            )
+            steep = centred.values * slope[centred.columns]
+            G[rows, centred.columns] -= (H**3 * mean * t.gradient * thin)[:, None] * steep
         return G
 
     def residual(self, t: StepTerms) -> float:
