@@ -19,7 +19,7 @@ CURVE = 0.3  # interpolation of a contact curve
 
 # what a solver is never asked for, however little or much of its error reaches f
 LOOSEST_FILM, TIGHTEST_FILM = 0.03, 2e-4
-LOOSEST_VOLUME, TIGHTEST_VOLUME = 0.02, 1e-7
+LOOSEST_VOLUME, TIGHTEST_VOLUME = 0.02, 1e-7  # the first of the central film, if that is thinner than the mean one
 TIGHTEST_CONTACT = 1e-9  # of the length in which the contact's solver measures the gap
 MOST_CELLS = 1536  # of a film whose shear stress is not resolved
 SLOPE = 0.3  # error of the slope by which a balance is corrected for its cells and for what its root left open

@@ -262,10 +262,12 @@ def _needed(point: Point, balance: Balance) -> Settings:
     if numerics.balance_tolerance is None:
         share = budget.CORRECTED if now.correctable else budget.BALANCE
         allowed = response.gap_for("coefficient", share * numerics.tolerance)
-        if now.correctable and response.split:
+        if now.correctable:
             allowed /= budget.SLOPE
-            allowed = min(allowed, budget.MOST_MOVED / abs(response.split))
-        volume = _tightened(volume, max(min(0.5 * allowed / mean_film, budget.LOOSEST_VOLUME), budget.TIGHTEST_VOLUME))
+        if response.split:  # f may be anything farther off
+            allowed = min(allowed, (budget.MOST_MOVED if now.correctable else SETTLED) / abs(response.split))
+        closed = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
+        volume = _tightened(volume, max(closed / mean_film, budget.TIGHTEST_VOLUME))
     contact = _contact_tolerance(point, balance.contact, volume)
     return Settings(film, volume, _cells(point, balance.film, balance.forces), contact, now.correctable)
 

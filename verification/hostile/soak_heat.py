@@ -10,7 +10,7 @@ import numpy as np
 
 from ..parts import halved
 
-ACROSS, STEPS, KEPT = 25, 1000, 0.8  # nodes of half the film; steps of the fixed point, what they keep of the last
+ACROSS, STEPS, KEPT = 25, 2000, 0.9  # nodes of half the film; steps of the fixed point, what they keep of the last
 SETTLED = 1e-5  # of the largest stress: what a step still moves
 
 
