@@ -82,12 +82,8 @@ class Quantities(Generic[T]):
     real_contact_area_fraction: T = quantity("-", "real contact area over nominal area", "A_c/A", error="area")
     real_contact_area: T = quantity("m2", "real contact area", "A_c", error="area", note="on the whole line")
     plastic_area_fraction: T = quantity("-", "plastic area over nominal area", "A_p/A", error="spots")
-    min_film: T = quantity(
-        "m", "smallest film thickness", "h_min", error="film", note="of the smooth film; NaN without entrainment"
-    )
-    central_film: T = quantity(
-        "m", "central film thickness", "h_c", error="film", note="of the smooth film; NaN without entrainment"
-    )
+    min_film: T = quantity("m", "smallest film thickness", "h_min", error="film", note="smooth film; NaN at U = 0")
+    central_film: T = quantity("m", "central film thickness", "h_c", error="film", note="smooth film; NaN at U = 0")
     mean_gap: T = quantity("m", "mean gap of the rough surfaces", error="film", note="the film where they are apart")
     film_to_roughness_ratio: T = quantity("-", "central film over Sq", "lambda", error="film")
     inlet_film_factor: T = quantity("-", "film thinner by the heat of its inlet", error="heat", note="1 without heat")

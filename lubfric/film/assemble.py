@@ -135,9 +135,7 @@ def assemble(
     )
 
 
-def in_si(
-    problem: Problem, at, *, load: float, films, flow: float, rupture: float, constant: float, **known
-) -> EHLResult:
+def in_si(problem: Problem, at, *, load, films, flow, rupture, constant, **known) -> EHLResult:
     """The result in SI units, seen along +x. ``at``: (X, P, H) at the nodes; ``load``: ∫ P dX between them;
     ``films``: the smallest, and that at X = 0; ``constant``: H00; ``known``: what has no unit to change."""
     (X, P, H), contact, b = at, problem.contact, problem.half_width

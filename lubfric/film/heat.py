@@ -217,16 +217,14 @@ def viscosity_at(lubricant: Lubricant, pressure, temperature) -> tuple[np.ndarra
     return over_pole - ROELANDS_LOG_VISCOSITY, over_pole * power / above
 
 
-def heated_stress(
-    lubricant: Lubricant, pressure, film, sliding: float, wall_temperature
-) -> tuple[np.ndarray, np.ndarray]:
+def heated_stress(lubricant: Lubricant, pressure, film, sliding: float, wall) -> tuple[np.ndarray, np.ndarray]:
     """Shear stress [Pa], with the sign of ``sliding`` [m/s], and mean rise of the film over its walls [K].
 
-    ``pressure`` [Pa], ``film`` thickness [m] and ``wall_temperature`` [K]: arrays (n,). By bisection on ln(tau), to
-    1e-12.
+    ``pressure`` [Pa], ``film`` thickness [m] and temperature of the ``wall`` [K]: arrays (n,). By bisection on ln(tau),
+    to 1e-12.
     """
     speed, k = abs(sliding), lubricant.conductivity
-    p, h, wall = (np.asarray(a, dtype=float) for a in np.broadcast_arrays(pressure, film, wall_temperature))
+    p, h, wall = (np.asarray(a, dtype=float) for a in np.broadcast_arrays(pressure, film, wall))
     if speed == 0.0:
         return np.zeros(p.shape), np.zeros(p.shape)
     log_eta, beta = viscosity_at(lubricant, p, wall)

@@ -119,9 +119,7 @@ def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None, most_
     return cells
 
 
-def _ascend(
-    problem: Problem, ends: tuple[float, float], cells: list[int], tolerance, max_iterations, doubled
-) -> list[Solution]:
+def _ascend(problem, ends: tuple[float, float], cells, tolerance, max_iterations, doubled) -> list[Solution]:
     """Solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the tolerance."""
     levels: list[Solution] = []
     for n in cells:

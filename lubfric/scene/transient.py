@@ -105,9 +105,7 @@ def history(name: str, given, unit: str | None = None, folder: Path = Path()) ->
         raise
 
 
-def read_history(
-    path, column: str, *, time_column: str = "time", repeat: bool = False, unit: str | None = None
-) -> Table:
+def read_history(path, column: str, *, time_column: str = "time", repeat: bool = False, unit=None) -> Table:
     """The `Table` in two columns of a CSV file whose first row names the columns.
 
     Headings may carry units (``time [ms]``, ``load (kN)``); without them times are in s and values in SI. ``unit``: SI

@@ -28,14 +28,9 @@ def of_motion(scene, speed: float, film: float) -> Iterator[Validity]:
     """Entries for sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
     ratio = abs(scene.motion.slide_roll_ratio)
     if ratio > OPPOSED * (1 + 1e-12):
-        yield Validity(
-            "slide-roll ratio",
-            ratio,
-            OPPOSED,
-            "",
-            "the surfaces move against one another: heat and dimples of such films are not modelled",
-            "in percent? give motion.slip_percent; 2 is simple sliding",
-        )
+        why = "the surfaces move against one another: heat and dimples of such films are not modelled"
+        what = "slide-roll ratio"
+        yield Validity(what, ratio, OPPOSED, "", why, "in percent? give motion.slip_percent; 2 is simple sliding")
     if math.isfinite(film) and film > 0:
         oil = scene.lubricant.oil
         density = DENSITY if oil is None else oil.density_at(scene.lubricant.temperature)
@@ -43,24 +38,12 @@ def of_motion(scene, speed: float, film: float) -> Iterator[Validity]:
         inertia = reynolds * film / max(scene.bodies.half_width, math.sqrt(2 * scene.bodies.radius * film))
         if reynolds > LAMINAR:
             limit = TURBULENT if reynolds > TURBULENT else LAMINAR
-            yield Validity(
-                "Reynolds number",
-                reynolds,
-                limit,
-                "",
-                "the film is turbulent or near it",
-                "a laminar film needs less speed or more viscosity",
-                reynolds > TURBULENT,
-            )
+            why = "the film is turbulent or near it"
+            what, remedy = "Reynolds number", "a laminar film needs less speed or more viscosity"
+            yield Validity(what, reynolds, limit, "", why, remedy, reynolds > TURBULENT)
         elif inertia > INERTIA:
-            yield Validity(
-                "inertia over viscous forces in the film",
-                inertia,
-                INERTIA,
-                "",
-                "Reynolds' equation leaves inertia out",
-                "less speed or more viscosity",
-            )
+            why, what = "Reynolds' equation leaves inertia out", "inertia over viscous forces in the film"
+            yield Validity(what, inertia, INERTIA, "", why, "less speed or more viscosity")
 
 
 def of_film(scene, thickness: float, peak: float, shear, film_load: float, force: float, heat) -> Iterator[Validity]:
@@ -92,14 +75,8 @@ def of_thickness(scene, film: float) -> Iterator[Validity]:
     radius = scene.bodies.radius
     if not film > THICK * radius:
         return
-    yield Validity(
-        "film over radius",
-        film / radius,
-        THICK,
-        "",
-        "the film is not thin against the cylinder",
-        "check bodies.radius, viscosity and speed",
-    )
+    why = "the film is not thin against the cylinder"
+    yield Validity("film over radius", film / radius, THICK, "", why, "check bodies.radius, viscosity and speed")
 
 
 def of_inlet(scene, line, flow: float, friction: float) -> Iterator[Validity]:
@@ -124,28 +101,17 @@ def of_deflection(scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Val
     change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
     if not change > STRIP_SHARE:
         return
-    yield Validity(
-        "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,",
-        change,
-        STRIP_SHARE,
-        "",
-        "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b",
-        remedy,
-    )
+    why = "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b"
+    what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
+    yield Validity(what, change, STRIP_SHARE, "", why, remedy)
 
 
 def of_ends(share: float, length: float) -> Iterator[Validity]:
     """Entries for the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
     if share > ON_ENDS:
-        yield Validity(
-            "share of the contact load on the edge columns of the patch",
-            100 * share,
-            100 * ON_ENDS,
-            "%",
-            f"its ends, {length:.3g} m apart, cut the contact off",
-            LONGER,
-            True,
-        )
+        why = f"its ends, {length:.3g} m apart, cut the contact off"
+        what = "share of the contact load on the edge columns of the patch"
+        yield Validity(what, 100 * share, 100 * ON_ENDS, "%", why, LONGER, True)
 
 
 def of_patches(scene, heights, area: float) -> Iterator[Validity]:
@@ -155,14 +121,9 @@ def of_patches(scene, heights, area: float) -> Iterator[Validity]:
         return
     count = ridges(heights, min(2 * area, 1.0), (scene.contact.geometry == "flat", True))
     if count:
-        yield Validity(
-            "number of asperities that reach round the map",
-            count,
-            0,
-            "",
-            "a ridge without ends is one asperity, blunter the longer the map is: f depends on that length",
-            "contact.model = 'half-space', or 'summits'",
-        )
+        why = "a ridge without ends is one asperity, blunter the longer the map is: f depends on that length"
+        what = "number of asperities that reach round the map"
+        yield Validity(what, count, 0, "", why, "contact.model = 'half-space', or 'summits'")
 
 
 def meaningless(shear) -> bool:
@@ -249,14 +210,8 @@ def of_typical_heat(scene, change: float) -> Iterator[Validity]:
 def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Validity]:
     """A caution if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
     if error is not None and error > tolerance:
-        yield Validity(
-            "estimated numerical error of f",
-            100 * error,
-            100 * tolerance,
-            "%",
-            "the solve leaves more than the tolerance asked",
-            remedy,
-        )
+        why = "the solve leaves more than the tolerance asked"
+        yield Validity("estimated numerical error of f", 100 * error, 100 * tolerance, "%", why, remedy)
 
 
 def judged(prepared, speed: float, balance, ends: float) -> tuple[Validity, ...]:

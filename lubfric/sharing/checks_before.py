@@ -48,58 +48,28 @@ def of_bodies(bodies) -> Iterator[Validity]:
     """Half-space and elasticity of the Hertz contact."""
     wide = bodies.half_width / bodies.radius
     if wide > WIDE:
-        yield Validity(
-            "contact half-width over radius",
-            wide,
-            WIDEST if wide > WIDEST else WIDE,
-            "",
-            "the contact is as wide as the body, which is then no half-space",
-            "check bodies.load, e_prime and radius; a lighter load or a stiffer body",
-            wide > WIDEST,
-        )
+        remedy = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
+        why, what = "the contact is as wide as the body, which is then no half-space", "contact half-width over radius"
+        yield Validity(what, wide, WIDEST if wide > WIDEST else WIDE, "", why, remedy, wide > WIDEST)
     if bodies.width < 2 * bodies.half_width:
-        yield Validity(
-            "line length over contact width",
-            bodies.width / (2 * bodies.half_width),
-            1.0,
-            "",
-            "the contact is wider than long: no line contact",
-            "check bodies.width and load",
-        )
+        why, what = "the contact is wider than long: no line contact", "line length over contact width"
+        yield Validity(what, bodies.width / (2 * bodies.half_width), 1.0, "", why, "check bodies.width and load")
     peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
     if bodies.hardness is None and peak > YIELDED:
-        yield Validity(
-            "peak Hertz pressure",
-            peak / 1e9,
-            YIELDED / 1e9,
-            "GPa",
-            "hard steel yields there, the bodies are elastic here",
-            "check bodies.load; give bodies.hardness",
-        )
+        why, what = "hard steel yields there, the bodies are elastic here", "peak Hertz pressure"
+        yield Validity(what, peak / 1e9, YIELDED / 1e9, "GPa", why, "check bodies.load; give bodies.hardness")
 
 
 def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Validity]:
     """Entries for the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across the
     motion; ``cells``: in its correlation length along x and y. NaN: not known."""
     if slope > STEEP:
-        yield Validity(
-            "rms slope of the map",
-            slope,
-            STEEPEST if slope > STEEPEST else STEEP,
-            "",
-            "the half-space takes slopes as small: contact area and pressures are off",
-            "check the units of heights and spacing; filter the map at the scale that matters",
-            slope > STEEPEST,
-        )
+        remedy = "check the units of heights and spacing; filter the map at the scale that matters"
+        why, what = "the half-space takes slopes as small: contact area and pressures are off", "rms slope of the map"
+        yield Validity(what, slope, STEEPEST if slope > STEEPEST else STEEP, "", why, remedy, slope > STEEPEST)
     if lengths < FEW:
-        yield Validity(
-            "width of the map over its correlation length",
-            lengths,
-            FEW,
-            "",
-            "few asperities: another patch of the same surface would give another f",
-            "a larger map",
-        )
+        why = "few asperities: another patch of the same surface would give another f"
+        yield Validity("width of the map over its correlation length", lengths, FEW, "", why, "a larger map")
     for axis, count in zip("xy", cells):
         if count < NOISE:
             what, remedy = f"cells in a correlation length along {axis}", f"a shorter step along {axis}, {FILTERED}"

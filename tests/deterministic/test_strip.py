@@ -85,9 +85,8 @@ def test_the_estimate_tells_what_half_of_the_cells_change():
     """On three maps: no error is far above the estimate, whatever the mean change happens to be."""
     ratios = []
     for seed in range(3):
-        fine = lubfric.generate_surface(
-            (192, 256), 0.45e-6, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=seed
-        )
+        kind = {"sq": 1e-7, "correlation_length": 8e-6, "acf": "gaussian"}
+        fine = lubfric.generate_surface((192, 256), 0.45e-6, **kind, seed=seed)
         strips = [solved(0.02, (n, n), surface=fine) for n in (8, 4, 2)]
         told = estimate(changes_of(strips[:2]))
         ratios.append(abs(strips[2].result.coefficient / strips[1].result.coefficient - 1) / told)

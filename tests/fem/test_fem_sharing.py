@@ -65,9 +65,8 @@ def test_closed_forms_of_contact_agree_with_each_other():
     x = np.linspace(-4e-6, 4e-6, 200001)
     assert np.trapezoid(line.peak * np.sqrt(1 - (x / 4e-6) ** 2), x) == pytest.approx(line.load, rel=1e-6)
     r = x[100000:]
-    assert np.trapezoid(2 * np.pi * r * ball.peak * np.sqrt(1 - (r / 4e-6) ** 2), r) == pytest.approx(
-        ball.load, rel=1e-6
-    )
+    carried = np.trapezoid(2 * np.pi * r * ball.peak * np.sqrt(1 - (r / 4e-6) ** 2), r)
+    assert carried == pytest.approx(ball.load, rel=1e-6)
     assert line.gap(4e-6) == pytest.approx(0, abs=1e-20) and ball.gap(4e-6) == pytest.approx(0, abs=1e-20)
     far = 4e-4
     assert ball.gap(far) == pytest.approx(

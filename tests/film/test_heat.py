@@ -68,9 +68,8 @@ def test_eyring_film_against_a_boundary_value_solver(sliding):
     def equations(y, t):
         return np.vstack([t[1], -float(stress) * wall_rate * np.exp(beta * t[0]) * film**2 / k])
 
-    solved = solve_bvp(
-        equations, lambda a, b: np.array([a[0], b[0]]), np.linspace(0, 1, 21), np.zeros((2, 21)), tol=1e-8
-    )
+    x, start = np.linspace(0, 1, 21), np.zeros((2, 21))
+    solved = solve_bvp(equations, lambda a, b: np.array([a[0], b[0]]), x, start, tol=1e-8)
     assert solved.success
     y = np.linspace(0, 1, 4001)
     rate = np.trapezoid(wall_rate * np.exp(beta * solved.sol(y)[0]), y)

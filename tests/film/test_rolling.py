@@ -55,9 +55,8 @@ def test_few_cells_know_it_where_their_sum_does_not():
 def force(found, share=0.0):
     """[N/m] of spots that have ``share`` of the width everywhere."""
     oil = Lubricant(VISCOSITY, 1e-8)
-    return shear_force(
-        found, oil, slide_roll_ratio=0.0, width=1.0, contact_fraction=lambda x: np.full(x.size - 1, share)
-    )
+    how = {"slide_roll_ratio": 0.0, "width": 1.0}
+    return shear_force(found, oil, **how, contact_fraction=lambda x: np.full(x.size - 1, share))
 
 
 def test_spots_take_their_share_of_it():

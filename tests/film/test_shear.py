@@ -94,13 +94,13 @@ def test_couette_of_a_heated_film_does_not_depend_on_where_its_nodes_begin():
 
     radius, sliding, found = 0.03, 2.0, []
     oil = Lubricant(0.1, 1e-8)
-    warm = SimpleNamespace(stress=lambda x, p, h: 0.8 * 0.1 * sliding / h, inlet_viscosity=0.1)
+    how = {"slide_roll_ratio": 0.5, "width": 0.01, "contact_fraction": lambda at: np.zeros(at.size - 1)}
+    how["heated"] = lambda x, p, h: 0.8 * 0.1 * sliding / h
     for first in (-4e-3, -1e-3):
         x = np.linspace(first, 0.0, 4001)
         film = {"x": x, "pressure": np.zeros(x.size), "film_thickness": 2e-6 + x**2 / (2 * radius), "rolling": None}
         film |= {"entrainment_speed": 4.0, "radius": radius, "rupture": 0.0, "flow_film": 2e-6, "inlet": None}
-        how = {"slide_roll_ratio": 0.5, "width": 0.01, "contact_fraction": lambda at: np.zeros(at.size - 1)}
-        found.append(shear_force(SimpleNamespace(**film), oil, **how, warm=warm).couette)
+        found.append(shear_force(SimpleNamespace(**film), oil, **how).couette)
     exact = 0.01 * 0.8 * 0.1 * sliding * np.sqrt(2 * radius / 2e-6) * np.pi / 2  # B eta U ∫ dx/h from -∞ to 0
     np.testing.assert_allclose(found, exact, rtol=1e-4)
 
@@ -135,9 +135,8 @@ def test_the_sum_of_the_sliding_shear_is_as_sure_as_it_tells():
     result = film()
     exact = B * rigid.couette_friction(result.min_film, radius=R, speed_difference=2 * U, viscosity=ETA)
     keep = np.unique(np.append(np.flatnonzero(result.x >= result.rupture)[0], np.arange(0, result.x.size, 4)))
-    coarse = replace(
-        result, x=result.x[keep], pressure=result.pressure[keep], film_thickness=result.film_thickness[keep]
-    )
+    fields = {name: getattr(result, name)[keep] for name in ("x", "pressure", "film_thickness")}
+    coarse = replace(result, **fields)
     found = force(coarse)
     off = abs(found.couette - exact)
     assert off > 1e-4 * exact and off < found.quadrature < 20 * off

@@ -38,9 +38,8 @@ def test_viscosity_index_above_the_table():
 
 
 def test_d341_has_the_constant_0_7():
-    assert oil.from_viscosities(68 * MM2, 8.6 * MM2).kinematic_viscosity(333.15) == pytest.approx(
-        28.49e-6, abs=0.005e-6
-    )
+    found = oil.from_viscosities(68 * MM2, 8.6 * MM2)
+    assert found.kinematic_viscosity(333.15) == pytest.approx(28.49e-6, abs=0.005e-6)
 
 
 @given(st.floats(0.3, 50), st.floats(1.05, 8), st.floats(320, 400))

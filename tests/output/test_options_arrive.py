@@ -28,9 +28,8 @@ def work(tmp_path, monkeypatch):
     mapped = SMALL_PATCH.replace("correlation_length = 4e-6", "file = 'rough.npy'\nspacing = 1.1e-6")
     both = mapped + "[counterface]\nfile = 'other.npy'\nspacing = 1.1e-6\n"
     (tmp_path / "maps.toml").write_text(BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.2\n" + both)
-    (tmp_path / "rig.csv").write_text(
-        "U [mm/s],srr [%],mu,sigma\n100,1,0.05,0.001\n200,2,0.04,0.002\n400,4,0.03,0.003\n"
-    )
+    rows = "100,1,0.05,0.001\n200,2,0.04,0.002\n400,4,0.03,0.003\n"
+    (tmp_path / "rig.csv").write_text(f"U [mm/s],srr [%],mu,sigma\n{rows}")
     calls = []
 
     def solver(*arguments, **options):

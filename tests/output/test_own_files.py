@@ -150,9 +150,8 @@ def test_a_file_of_ours_that_is_an_input_stays(tmp_path, capsys):
 def test_a_history_that_an_earlier_run_wrote_is_not_removed_under_the_next(tmp_path):
     out = tmp_path / "out"
     assert main(command("history", tmp_path, "--out", str(out))) == 0
-    (out / "again.toml").write_text(
-        SCENE + HISTORY.replace("FILE", "history.csv").replace('"U"', '"entrainment_speed"')
-    )
+    history = HISTORY.replace("FILE", "history.csv").replace('"U"', '"entrainment_speed"')
+    (out / "again.toml").write_text(SCENE + history)
     before = everything(out)
     assert main(["run", str(out / "again.toml"), "--out", str(out)]) == 2
     assert everything(out) == before

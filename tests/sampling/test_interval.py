@@ -70,9 +70,8 @@ def test_errors_belong_together():
     point = lubfric.friction(PAPER, 0.003)
     ratio = point.film_load / point.contact_load
     assert point.errors.contact_load == pytest.approx(ratio * point.errors.film_load, rel=0.02)
-    assert point.errors.coefficient == pytest.approx(
-        math.hypot(point.uncertainty.sampling, point.uncertainty.numerical)
-    )
+    known = point.uncertainty
+    assert point.errors.coefficient == pytest.approx(math.hypot(known.sampling, known.numerical))
     assert 0 < point.errors.real_contact_area < 0.5 and "plastic_area_fraction" in point.errors.reasons
     dry = lubfric.friction(PAPER, 0.0)
     assert dry.uncertainty.sampling == dry.errors.coefficient == dry.errors.contact_load == 0

@@ -282,9 +282,8 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
     for index in range(line.count):
         strip = on_strip(prepared, prepared.strips, index)
         one = solve_balance(scene, 0.005, strip, prepared.surface.sq)
-        rows.append(
-            (one.forces.coefficient, one.contact_load, one.film_load, one.contact.mean_gap, one.forces.boundary)
-        )
+        loads = one.contact_load, one.film_load
+        rows.append((one.forces.coefficient, *loads, one.contact.mean_gap, one.forces.boundary))
     names = "coefficient", "contact_load", "film_load", "mean_gap", "boundary_force"
     for name, alone in zip(names, np.transpose(rows)):
         told = line.numbers[name]

@@ -56,9 +56,8 @@ def test_all_sections_with_units_are_those_with_plain_numbers(tmp_path):
     for section, keys in written.items():
         for key in keys:
             assert getattr(getattr(scene, section), key) == WORDS[section][key][1], key
-    tables = written | {
-        "transient": plan | {"load": {"kind": "ramp", "start": "1 kN", "end": 2000.0, "until": "10 ms"}}
-    }
+    ramp = {"kind": "ramp", "start": "1 kN", "end": 2000.0, "until": "10 ms"}
+    tables = written | {"transient": plan | {"load": ramp}}
     tables["motion"] = tables["motion"] | {"sliding_speed": "100 mm/s"}
     scene = lubfric.load_scene(tables | {"contact": {"shape": [64, 64], "spacing": "800 nm"}})
     found = scene.transient

@@ -17,6 +17,7 @@ SPEEDS = (0.002, 0.05, 0.01, 0.4)
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
 LAW = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.09}
 LINE = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling_tolerance": 0.1})
+LOOSE = {"sampling_tolerance": 0.3, "model_tolerance": 0.3}
 PATCH = LINE.with_(numerics={"sampling": "patch"})
 FLAT = lubfric.load_scene("flat").with_(
     contact={"shape": (64, 64), "spacing": 8e-6}, surface={"correlation_length": 24e-6, "acf": "gaussian"}
@@ -32,9 +33,7 @@ SCENES = {
     "flat": FLAT,
     "heat": LINE.with_(lubricant=OIL | LAW, numerics={"heat": "on"}),
     "rolling": LINE.with_(motion={"slide_roll_ratio": 0.0}),
-    "auto": LINE.with_(
-        numerics={"model": "auto", "sampling_tolerance": 0.3, "model_tolerance": 0.3, "tolerance": 0.05}
-    ),
+    "auto": LINE.with_(numerics={"model": "auto", "tolerance": 0.05} | LOOSE),
     "measured": None,
 }
 CHEAP = LINE.with_(numerics={"tolerance": 0.05, "sampling_tolerance": 0.3}, surface={"correlation_length": 4e-6})

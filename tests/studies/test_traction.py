@@ -12,6 +12,7 @@ import lubfric
 from lubfric.output import main
 from lubfric.studies import plot_map
 
+NEWTONIAN = {"eyring_stress": None, "limiting_stress_coefficient": None}
 SCENE = paper_scene(
     bodies={"radius": 0.01, "hertz_pressure": 1e9, "width": 0.01, "material": "steel"},
     lubricant={"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70, "density": 870}
@@ -67,9 +68,7 @@ def test_rolling_backwards_without_sliding_is_resisted_as_forwards():
 
 
 def test_a_refused_ratio_is_marked_and_the_others_kept():
-    plain = SCENE.with_(
-        lubricant={"eyring_stress": None, "limiting_stress_coefficient": None}, numerics={"heat": "off"}
-    )
+    plain = SCENE.with_(lubricant=NEWTONIAN, numerics={"heat": "off"})
     with pytest.raises(lubfric.LubfricError) as caught:
         lubfric.traction(plain, [0.0, 1.0])
     curve = caught.value.result
@@ -123,9 +122,7 @@ def test_command_writes_the_curve(tmp_path, capsys, monkeypatch):
 
 
 def test_a_map_needs_two_dimensions_and_marks_what_has_no_answer(tmp_path):
-    small = SCENE.with_(
-        numerics={"heat": "off"}, lubricant={"eyring_stress": None, "limiting_stress_coefficient": None}
-    )
+    small = SCENE.with_(lubricant=NEWTONIAN, numerics={"heat": "off"})
     refused = lubfric.study(small, {"motion.slide_roll_ratio": [0.0, 1.0]}, [1.0, 30.0])
     assert refused.failed == 2 and np.isnan(refused["coefficient"][1]).all()
     plot_map(tmp_path / "map.png", refused, "speed", "motion.slide_roll_ratio")
