@@ -15,7 +15,7 @@ from .choose import GRID, asked_speeds, between, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
-from .law import Law, conditions_of, law_of
+from .law import MORE, Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, outcome_of, solved
 from .store import opened
 from .tables import KNOWN, curve_axes
@@ -98,7 +98,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         within 5 %."""
         if self.between > KNOWN:
             said = f"between the speeds f is known within {100 * self.between:.2g} %"
-            raise InputError(said, way_out="give more of them, or 'auto'")
+            raise InputError(said, way_out=MORE)
         low, high = self.uncertainty.interval.T
         curves = [(conditions_of(self.scene), self._curve)]
         return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)
