@@ -88,7 +88,7 @@ def keeping(what: Callable[[], str]):
     try:
         yield
     except KeyboardInterrupt as error:
-        said = f"interrupted; {what()}: the same command goes on from there"
+        said = f"{error.args[0] if error.args else 'interrupted'}; {what()}: the same command goes on from there"
         raise KeyboardInterrupt(said, *error.args[1:] or (INTERRUPTED,)) from None
 
 
@@ -201,7 +201,8 @@ class RunFolder:
         import scipy
 
         surface, versions = prepared.surface, {"lubfric": __version__, "numpy": np.__version__}
-        statistics = {name: getattr(surface, name) for name in ("sq", "sa", "ssk", "sku", "missing_fraction")}
+        names = ("sq", "sa", *(("ssk", "sku") if surface.sq > 0 else ()), "missing_fraction")
+        statistics = {name: getattr(surface, name) for name in names}
         statistics["rms_slope"] = dict(zip(("x", "y", "total"), rms_slope(surface)))
         map_ = {"shape": surface.shape, "spacing": surface.spacing, "statistics": statistics, "notes": surface.notes}
         return {

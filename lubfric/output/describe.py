@@ -210,7 +210,7 @@ def _speed_table(scene: Scene, strips: Strips | None, surface: Surface, speeds) 
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
             numbers = f"{line.M:.3g}", f"{line.L:.3g}", f"{line.expected_film * 1e9:.4g}", f"{ratio:.3g}"
             film = *numbers, one.touching
-        sample = f"{one.strips}", f"{one.resolved}", f"{1e3 * one.length:.2g}", f"{one.seconds:.1g}"
+        sample = f"{one.strips}", f"{one.resolved}", f"{1e3 * one.length:.2g}".replace("nan", "-"), f"{one.seconds:.1g}"
         table.append((f"{speed:.4g}", *film, *sample * sampled))
     return table
 

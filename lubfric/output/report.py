@@ -14,7 +14,7 @@ from ..quantities import COLUMNS, counted
 from ..sampling import FrictionResult, percent
 from ..scene import Scene
 from ..sharing import Prepared, lack_in_words
-from ..studies import CurveResult, Law, StribeckResult
+from ..studies import KNOWN, CurveResult, Law, StribeckResult
 from ..units import converted, printed, unit_for, worded
 from .describe import ABOUT_TABLE, Foretold
 from .inputs import FACTS, SECTIONS, inputs
@@ -51,7 +51,7 @@ def report_page(
         cautions=_list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
         results="" if curve is None else "".join(_points(curve)),
         inputs="".join(_inputs(scene, section) for section in SECTIONS),
-        law=_law(law, curve, abs(scene.motion.entrainment_speed)),
+        law=_law(law, curve),
         lacks=_lacks(scene, curve, known),
         solved=_list([text for name in ("transient", "contact", "model") for text in known.told[name]]),
         table=_rows(known.table[0], [_cells(row) for row in known.table[1:]]),
@@ -111,24 +111,24 @@ def _lift_off(curve: CurveResult) -> list[str]:
     except InputError:  # too few of them, or in both directions
         return []
     if at is None:
-        touching = "all" if np.nanmax(curve.contact_load) > 0 else "none"
-        return [f"Lift-off is not between these speeds: the surfaces touch at {touching} of them."]
+        touching = "all" if np.nanmax(curve.contact_load[curve.speed != 0]) > 0 else "none"
+        return [f"Lift-off is not between the speeds solved: in motion the surfaces touch at {touching} of them."]
+    known = f", and least at U = {least[0]:.3g} m/s: {least[1]:.3g}" if curve.between <= KNOWN else ""
     return [
-        f"Between the speeds f is known within {100 * curve.between:.2g} %, and least at U = {least[0]:.3g} m/s: "
-        f"{least[1]:.3g}.",
+        f"Between the speeds f is known within {100 * curve.between:.2g} %{known}.",
         f"The film lifts the surfaces off each other at U = {at:.4g} m/s, {low:.4g} to {high:.4g} m/s by the "
         "interpolation between the speeds. Summits higher than those that were solved touch beyond it.",
     ]
 
 
-def _law(law: Law | str, curve: CurveResult | None, own: float) -> str:
+def _law(law: Law | str, curve: CurveResult | None) -> str:
     """The section on the formula of a curve, or on why it has none; "" of what is no curve over the speed."""
     if isinstance(law, Law) and isinstance(curve, StribeckResult):
         off, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
         said = (
             f"<p>For simulations of a machine, also as law.json and, in C, law.c. It is off by at most {off} from the "
-            f"curve through the solved points, which is known within {within} between them. At U = {own:.4g} m/s it "
-            f"gives f = {law(own, extrapolate=True):.3g}.</p><pre>{escape(law.text)}</pre>"
+            f"curve through the solved points, which is known within {within} between them.</p>"
+            f"<pre>{escape(law.text)}</pre>"
         )
     else:
         said = f"<p>None was fitted: {escape(str(law))}.</p>"

@@ -13,5 +13,5 @@ from .plan import StudyPlan, load_study, plan_study
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, opened
 from .sweep import StribeckResult, TractionResult, stribeck, traction
-from .tables import check_tools, friction_over_speed, interval_band, label, plot_map
+from .tables import KNOWN, check_tools, friction_over_speed, interval_band, label, plot_map
 from .vary import Between, sample

@@ -132,7 +132,8 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
     def at(error: np.ndarray) -> np.ndarray:
         return error if line is None else np.interp(np.log(x), np.log(over), error)
 
-    low, high = (at(columns.get(f"interval_{end}", unknown) / f - 1) for end in ("low", "high"))
+    moves = np.where(f == 0, np.nan, f)
+    low, high = (at(columns.get(f"interval_{end}", unknown) / moves - 1) for end in ("low", "high"))
     if not np.isfinite(low).any():
         return
     known = np.isfinite(columns.get("model_error", unknown))

@@ -17,9 +17,8 @@ from verification.stability.whole_map import bearing, check
 
 E_PRIME, RADIUS = 231e9, 2e-3
 NEWTONIAN = Lubricant(0.36, 25e-9)
-LIMITED = replace(
-    NEWTONIAN, density_law="dowson-higginson", limiting_stress_coefficient=0.09, limiting_stress_offset=2e6
-)
+LIMIT = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2e6}
+LIMITED = replace(NEWTONIAN, density_law="dowson-higginson", **LIMIT)
 MAP = lubfric.generate_surface((96, 96), 90e-6 / 96, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=4)
 
 
