@@ -88,7 +88,7 @@ def keeping(what: Callable[[], str]):
     try:
         yield
     except KeyboardInterrupt as error:
-        said = f"{error.args[0] if error.args else 'interrupted'}; {what()}: the same command goes on from there"
+        said = f"interrupted; {what()}: the same command goes on from there"
         raise KeyboardInterrupt(said, *error.args[1:] or (INTERRUPTED,)) from None
 
 
