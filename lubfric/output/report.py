@@ -125,10 +125,11 @@ def _law(law: Law | str, curve: CurveResult | None) -> str:
     """The section on the formula of a curve, or on why it has none; "" of what is no curve over the speed."""
     if isinstance(law, Law) and isinstance(curve, StribeckResult):
         off, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
+        fastest = law.ranges["speed"][1]
         said = (
             f"<p>For simulations of a machine, also as law.json and, in C, law.c. It is off by at most {off} from the "
-            f"curve through the solved points, which is known within {within} between them.</p>"
-            f"<pre>{escape(law.text)}</pre>"
+            f"curve through the solved points, which is known within {within} between them. To check what you make of "
+            f"it: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
         )
     else:
         said = f"<p>None was fitted: {escape(str(law))}.</p>"

@@ -102,9 +102,7 @@ def _patch_count(heights, periodic):
     return asperity_contact(heights, 1e-6, E_PRIME, separation=5e-8, definition="patches", periodic=periodic).contacts
 
 
-@pytest.mark.parametrize(
-    "definition, pressure", [("summits", 1e6), ("summits", 2e8), ("patches", 1e6), ("patches", 2e7)]
-)
+@pytest.mark.parametrize("definition, pressure", [*zip(["summits"] * 2 + ["patches"] * 2, [1e6, 2e8, 1e6, 2e7])])
 def test_separation_for_load_is_the_inverse(definition, pressure):
     found = separation_for_load(
         ROUGH.heights, ROUGH.spacing, E_PRIME, mean_pressure=pressure, definition=definition, tolerance=0.02

@@ -85,6 +85,7 @@ def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undr
             for name, expression in law["formula"].items():
                 names[name] = eval(expression, {}, names)
             assert abs(names["f"] / f - 1) <= law["largest"] * 1.001 < 0.05
+        assert f"f = {names['f']:.4g} at U = {speeds[-1]:.4g} m/s" in text
         told = "U = {:.4g} m/s, {:.4g} to {:.4g} m/s".format(curve.lift_off or 0, *curve.lift_off_range)
         assert (told in text) == (curve.lift_off is not None) == (len(speeds) == 9)
 
