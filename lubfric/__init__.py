@@ -21,12 +21,15 @@ if TYPE_CHECKING:
     from .errors import OutputError as OutputError
     from .errors import Report as Report
     from .errors import ValidityError as ValidityError
+    from .estimate import FrictionResult as FrictionResult
+    from .estimate import friction as friction
     from .film import EHLResult as EHLResult
     from .film import solve_ehl as solve_ehl
+    from .models.load_sharing import Prepared as Prepared
+    from .models.load_sharing import Validity as Validity
+    from .models.load_sharing import prepare as prepare
     from .oil import Lubricant as Lubricant
     from .paper import solve_differential_deflection as solve_differential_deflection
-    from .sampling import FrictionResult as FrictionResult
-    from .sampling import friction as friction
     from .scene import Bodies as Bodies
     from .scene import ContactDomain as ContactDomain
     from .scene import Motion as Motion
@@ -35,9 +38,6 @@ if TYPE_CHECKING:
     from .scene import Scene as Scene
     from .scene import Transient as Transient
     from .scene import load_scene as load_scene
-    from .sharing import Prepared as Prepared
-    from .sharing import Validity as Validity
-    from .sharing import prepare as prepare
     from .studies import Between as Between
     from .studies import FitResult as FitResult
     from .studies import Measured as Measured
@@ -68,8 +68,8 @@ _NAMES = {  # by the room that they come from
     "surface": "Surface generate_surface read_surface",
     "contact": "solve_contact ContactResult run_in asperity_contact separation_for_load AsperityResult",
     "film": "solve_ehl EHLResult",
-    "sharing": "prepare Prepared Validity",
-    "sampling": "friction FrictionResult",
+    "models.load_sharing": "prepare Prepared Validity",
+    "estimate": "friction FrictionResult",
     "time": "transient TransientResult",
     "studies": "stribeck StribeckResult traction TractionResult study plan_study open_study sample Between StudyPlan "
     "StudyResult fit explain_fit read_measured Measured FitResult",

@@ -6,7 +6,7 @@ import pytest
 
 import lubfric
 from lubfric import quantities as q
-from lubfric.sampling import Uncertainty
+from lubfric.estimate import Uncertainty
 from lubfric.scene import SECTIONS, short_keys
 from lubfric.units import worded
 

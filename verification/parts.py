@@ -8,10 +8,10 @@ from typing import TypeVar
 import numpy as np
 
 from lubfric.contact import ContactResult, ContactState, HalfSpaceContact, solve_contact
+from lubfric.estimate import FrictionResult
 from lubfric.film import EHLResult, LineContact
+from lubfric.models.load_sharing import Prepared
 from lubfric.oil import Lubricant
-from lubfric.sampling import FrictionResult
-from lubfric.sharing import Prepared
 
 from . import exact_contact
 

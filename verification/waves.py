@@ -10,8 +10,8 @@ from itertools import islice
 
 import numpy as np
 
-from lubfric.deterministic import DeterministicResult, Problem, lay_out, moments, reach, solve_point
 from lubfric.film import LineContact
+from lubfric.models.deterministic import DeterministicResult, Problem, lay_out, moments, reach, solve_point
 from lubfric.surface import Surface
 
 PRECISION = 1e-9

@@ -20,9 +20,9 @@ import numpy as np
 
 from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
 from ..errors import InputError, OutputError
+from ..models.load_sharing import Prepared, Validity, prepare
 from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
-from ..sharing import Prepared, Validity, prepare
 from ..studies import Law, Store, fingerprint, fits
 from ..surface import rms_slope
 from .describe import Foretold, foretold

@@ -9,10 +9,10 @@ import numpy as np
 
 from ..contact import MeasuredStrips, Strips, check_grid, sample_of, takes_strips
 from ..errors import InputError
+from ..estimate import MOST_WORK, forecast
+from ..models.load_sharing import expected, gathered, lack_in_words, lacking
 from ..quantities import counted
-from ..sampling import MOST_WORK, forecast
 from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, moves, told_doubts
-from ..sharing import expected, gathered, lack_in_words, lacking
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
@@ -107,7 +107,7 @@ def _plan(scene: Scene, surface: Surface) -> str:
 
 def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds, ratios) -> tuple[list[str], str]:
     """Which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the time that all of them cost
-    (`lubfric.sampling.friction`)."""
+    (`lubfric.estimate.friction`)."""
     asked, why = scene.numerics.model, gap_not_resolved(scene)
     unknown = "its error is not known, and not in the interval"
     if scene.transient is not None and asked == "deterministic":

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from .._base import validate, write_whole
-from ..deterministic import Moment
-from ..sampling import FrictionResult
-from ..sharing import Prepared
+from ..estimate import FrictionResult
+from ..models.deterministic import Moment
+from ..models.load_sharing import Prepared
 
 OF_ONE_GAP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a DeterministicResult
 
@@ -68,7 +68,7 @@ def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
 
 
 def write_moments(folder: Path | str, moments: Iterable[Moment]) -> None:
-    """Gap [m], pressure [Pa], height [m] and filled part of moments (`lubfric.deterministic.moments`) as
+    """Gap [m], pressure [Pa], height [m] and filled part of moments (`lubfric.models.deterministic.moments`) as
     moment_0000.vtk ... in ``folder``; and moments.vtk.series with their times [s], which ParaView plays."""
     home, files = validate.folder("folder", folder), []
     home.mkdir(parents=True, exist_ok=True)

@@ -10,10 +10,10 @@ from string import Template
 import numpy as np
 
 from ..errors import InputError
+from ..estimate import FrictionResult, percent
+from ..models.load_sharing import Prepared, lack_in_words
 from ..quantities import COLUMNS, counted
-from ..sampling import FrictionResult, percent
 from ..scene import Scene
-from ..sharing import Prepared, lack_in_words
 from ..studies import KNOWN, CurveResult, Law, StribeckResult
 from ..units import converted, printed, unit_for, worded
 from .describe import ABOUT_TABLE, Foretold

@@ -2,9 +2,9 @@
 
 from .._base import figures, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
+from ..models.load_sharing import in_a_cell
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
-from ..sharing import in_a_cell
 from ..time import TransientResult, transient
 from . import commands
 from .fields import npz_bytes

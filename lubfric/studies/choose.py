@@ -8,10 +8,10 @@ import numpy as np
 
 from .._base import validate
 from ..errors import InputError
-from ..sampling import FrictionResult
+from ..estimate import FrictionResult
+from ..models.load_sharing import Prepared
 from ..scene import FASTEST as LARGEST_SPEED
 from ..scene import Scene
-from ..sharing import Prepared
 from ..units import without_unit
 from .curve import columns_of
 from .interpolate import FEWEST, Interpolant, through

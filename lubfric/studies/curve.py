@@ -8,9 +8,9 @@ import numpy as np
 
 from .._base import Shown, table_bytes, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError, returned
+from ..estimate import FrictionResult, UncertaintyCurve, curve_of, together
+from ..models.load_sharing import Validity, entries_of, gathered, in_a_cell
 from ..quantities import NUMBERS, OF_UNCERTAINTY, counted, heading
-from ..sampling import FrictionResult, UncertaintyCurve, curve_of, together
-from ..sharing import Validity, entries_of, gathered, in_a_cell
 
 
 class CurveResult(Shown):

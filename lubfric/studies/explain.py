@@ -7,9 +7,9 @@ from numbers import Real
 from textwrap import shorten
 
 from ..errors import InputError
+from ..estimate import forecast
+from ..models.load_sharing import Prepared, prepare
 from ..quantities import counted, worded_value
-from ..sampling import forecast
-from ..sharing import Prepared, prepare
 from .choose import CHOSEN, first_speeds
 from .points import stored_rows
 from .store import Store

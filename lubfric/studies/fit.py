@@ -9,10 +9,10 @@ import numpy as np
 
 from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, LubfricError, Report, returned
+from ..estimate import FrictionResult
+from ..models.load_sharing import Prepared, prepare
 from ..quantities import counted, worded_value
-from ..sampling import FrictionResult
 from ..scene import Scene
-from ..sharing import Prepared, prepare
 from .curve import without_rolling
 from .executor import checked_executor, spread
 from .explain import curve_seconds, in_words

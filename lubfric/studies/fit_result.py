@@ -7,10 +7,10 @@ import numpy as np
 
 from .._base import Shown, figures
 from ..errors import Report
+from ..estimate import percent
+from ..models.load_sharing import Validity, gathered
 from ..quantities import counted, worded_value
-from ..sampling import percent
 from ..scene import Scene
-from ..sharing import Validity, gathered
 from .fit_input import SPEED, Measured, values_at
 from .vary import Between
 

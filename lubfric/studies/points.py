@@ -7,10 +7,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from ..errors import LubfricError, ValidityError
+from ..estimate import FrictionResult, friction
+from ..models.load_sharing import Prepared, in_a_cell, prepare
 from ..quantities import NUMBERS
-from ..sampling import FrictionResult, friction
 from ..scene import Scene
-from ..sharing import Prepared, in_a_cell, prepare
 from .choose import chosen, first_speeds
 from .store import CHOSEN, OUTCOME, Store, digest, fingerprint, point_key
 

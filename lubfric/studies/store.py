@@ -14,10 +14,10 @@ import numpy as np
 
 from .._base import FolderLock, __version__, clear_checked, clear_parts, files, read_checked, validate, write_checked
 from ..errors import ConvergenceError, InputError, LubfricError, OutputError, Report, ValidityError
+from ..estimate import FrictionResult
 from ..film import EHLResult
-from ..sampling import FrictionResult
+from ..models.load_sharing import Validity
 from ..scene import Scene
-from ..sharing import Validity
 from .codec import classes_of, decode, encode
 from .vary import Axis
 

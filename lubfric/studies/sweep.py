@@ -7,10 +7,10 @@ import numpy as np
 
 from .._base import validate, write_whole
 from ..errors import ITERATION_LIMIT, InputError, Report
+from ..estimate import FrictionResult
+from ..models.load_sharing import Prepared, at_tolerance, scene_of
 from ..quantities import PointQuantities, described_in_doc
-from ..sampling import FrictionResult
 from ..scene import FASTEST, LARGEST_RATIO, Scene
-from ..sharing import Prepared, at_tolerance, scene_of
 from .choose import GRID, asked_speeds, between, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread

@@ -9,9 +9,9 @@ import numpy as np
 
 from ..contact import Strips, length_or_half
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError
-from ..sampling import sampled
+from ..estimate import sampled
+from ..models.load_sharing import Prepared, on_stack, prepare, scene_of, solve_balance
 from ..scene import Constant, Scene
-from ..sharing import Prepared, on_stack, prepare, scene_of, solve_balance
 from .film_setting import FINER, ContactHistory, make_setting, steady_start
 from .march import Step
 from .sharing import Contact, Sharing, changes, inlet_viscosity, looks, make_sharing, scene_at, sliding_at

@@ -7,11 +7,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from ..estimate import moment_error
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
-from ..oil import shear_stress
-from ..sampling import moment_error
-from ..scene import Scene
-from ..sharing import (
+from ..models.load_sharing import (
     Heat,
     Validity,
     inlet_at,
@@ -23,6 +21,8 @@ from ..sharing import (
     point_heat,
     typical_heat,
 )
+from ..oil import shear_stress
+from ..scene import Scene
 from .film_equations import outside_shear
 from .film_setting import WET
 from .march import Progress, Step

@@ -12,7 +12,9 @@ from functools import cached_property
 
 import numpy as np
 
-from ..deterministic import (
+from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
+from ..estimate import block_error, maps_of, numbers_of, strip_heat, strip_of
+from ..models.deterministic import (
     BOUNDARY_FILM,
     KRYLOV,
     RUPTURED,
@@ -34,11 +36,9 @@ from ..deterministic import (
     solve_point,
     work_of_steps,
 )
-from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
+from ..models.load_sharing import Prepared, Validity, of_motion, of_thickness, prepare
 from ..quantities import OF_MOMENT
-from ..sampling import block_error, maps_of, numbers_of, strip_heat, strip_of
 from ..scene import Constant, Scene, moving_bodies
-from ..sharing import Prepared, Validity, of_motion, of_thickness, prepare
 from .film_setting import WET
 from .march import Memory, Progress, Step
 from .sharing import changes, looks, scene_at, sliding_at

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..deterministic import State
 from ..errors import InputError
+from ..models.deterministic import State
+from ..models.load_sharing import Prepared, Validity, refused, scene_of
 from ..scene import Scene, Transient
-from ..sharing import Prepared, Validity, refused, scene_of
 from ..studies import Store, classes_of, digest, fingerprint, opened
 from .begin import begin
 from .march import Plan, Progress, Step, begun, checked_times, plan_of, steps

@@ -10,8 +10,8 @@ import numpy as np
 from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
 from ..film import cubic
+from ..models.load_sharing import Prepared, film_lubricant, inlet_at
 from ..scene import Constant, History, Scene, Transient
-from ..sharing import Prepared, film_lubricant, inlet_at
 from .film_equations import Spring
 from .film_setting import TIME_SHARE, Setting
 from .march import Memory, Step

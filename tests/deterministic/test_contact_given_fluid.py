@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lubfric.deterministic import solve_point
+from lubfric.models.deterministic import solve_point
 from verification.studies.deterministic import LOAD, contact
 from verification.studies.given_fluid import Case, elements, judged, laid
 

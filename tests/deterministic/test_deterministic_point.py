@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.deterministic import dry_contact, lay_out, reach, solve_point
-from lubfric.deterministic.newton import Work, march
-from lubfric.deterministic.solve import refined_start
-from lubfric.deterministic.state import evaluated, residuals
 from lubfric.film import LineContact
+from lubfric.models.deterministic import dry_contact, lay_out, reach, solve_point
+from lubfric.models.deterministic.newton import Work, march
+from lubfric.models.deterministic.solve import refined_start
+from lubfric.models.deterministic.state import evaluated, residuals
 from lubfric.oil import Lubricant, shear_stress
 from lubfric.surface import Surface
 from verification.stability.whole_map import bearing, check

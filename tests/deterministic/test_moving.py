@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.deterministic import (
+from lubfric.estimate import maps_of
+from lubfric.film import LineContact
+from lubfric.models.deterministic import (
     RoughBody,
     animate_moments,
     lay_out,
@@ -21,10 +23,8 @@ from lubfric.deterministic import (
     solve_strip,
     travelling,
 )
-from lubfric.film import LineContact
 from lubfric.oil import Lubricant
 from lubfric.output import write_moments
-from lubfric.sampling import maps_of
 from lubfric.surface import Surface, generate_surface
 
 OIL = Lubricant(0.05, 15e-9, eyring_stress=5e6)

@@ -8,12 +8,12 @@ import rigid_cylinder as rigid
 from scipy.integrate import quad
 
 from lubfric.contact import half_space
-from lubfric.deterministic import Problem, lay_out, solve_point
-from lubfric.deterministic.flow import balance, derivatives
-from lubfric.deterministic.inlet import inlet
-from lubfric.deterministic.linear import Patterns
-from lubfric.deterministic.rheology import mean_fluidity, thinning
 from lubfric.film import LineContact
+from lubfric.models.deterministic import Problem, lay_out, solve_point
+from lubfric.models.deterministic.flow import balance, derivatives
+from lubfric.models.deterministic.inlet import inlet
+from lubfric.models.deterministic.linear import Patterns
+from lubfric.models.deterministic.rheology import mean_fluidity, thinning
 from lubfric.oil import Lubricant
 from lubfric.surface import Surface
 

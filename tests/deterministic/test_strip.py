@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.deterministic import changes_of, estimate, solve_strip
 from lubfric.film import Effort, solve_line_contact
+from lubfric.models.deterministic import changes_of, estimate, solve_strip
 from lubfric.surface import Surface
 
 SCENE = lubfric.load_scene("paper")

@@ -14,8 +14,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lubfric.deterministic import lay_out, solve_point
 from lubfric.film import LineContact
+from lubfric.models.deterministic import lay_out, solve_point
 from lubfric.oil import Lubricant, viscosity
 from lubfric.surface import Surface
 from verification.studies.waviness import STEEL, compared

@@ -11,8 +11,8 @@ from test_ehl import contact
 from lubfric import InputError, Lubricant, solve_ehl
 from lubfric.film import LineContact
 from lubfric.film.thinning import thinned
+from lubfric.models.load_sharing import exponents
 from lubfric.oil import shear_stress
-from lubfric.sharing import exponents
 
 EYRING, CARREAU = {"eyring_stress": 5e6}, {"carreau": (5e6, 0.5)}
 

@@ -15,8 +15,8 @@ from pictures import stand_in
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
+from lubfric.models.load_sharing import lack_in_words
 from lubfric.output import main
-from lubfric.sharing import lack_in_words
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.01, 0.3]\n"
 SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\n[contact]\nshape = [48, 40]\nspacing = [1.1e-6, 0.9e-6]\n"

@@ -8,9 +8,9 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric.estimate import forecast, sampled
+from lubfric.estimate.levels import levels_of
 from lubfric.output.describe import describe_scene
-from lubfric.sampling import forecast, sampled
-from lubfric.sampling.levels import levels_of
 from verification.hostile.soak_force import friction_force
 
 PAPER = paper_scene()

@@ -10,12 +10,12 @@ import pytest
 import scipy.stats
 
 import lubfric
-from lubfric.deterministic import change_by_flow, solve_strip
-from lubfric.sampling import levels, sampled, shorter
-from lubfric.sampling.line import Line, line_of
-from lubfric.sampling.pair import Pair, solve_pair, strip_of
-from lubfric.sampling.scatter import BlockError
-from lubfric.sharing import on_strip, solve_balance
+from lubfric.estimate import levels, sampled, shorter
+from lubfric.estimate.line import Line, line_of
+from lubfric.estimate.pair import Pair, solve_pair, strip_of
+from lubfric.estimate.scatter import BlockError
+from lubfric.models.deterministic import change_by_flow, solve_strip
+from lubfric.models.load_sharing import on_strip, solve_balance
 
 FINE = lubfric.load_scene("paper").with_(numerics={"film_deflection": "scaled"})
 SCENE = FINE.with_(contact={"shape": (40, 40), "spacing": 3.6e-6})  # whose cells are those of the second level
@@ -146,7 +146,7 @@ def test_rolling_roughness_moves_or_gets_eq_8_and_the_sentence(monkeypatch):
     moved, shared = (lubfric.friction(small, 0.01, model=model) for model in ("auto", "load-sharing"))
     assert moved.decision.model == "deterministic" and "moved at 0.0085 m/s" in moved.decision.text
     assert abs(shared.coefficient / moved.coefficient - 1) < shared.uncertainty.model < 1.5
-    monkeypatch.setattr("lubfric.sampling.moving.MOST_WORK", 0.1)
+    monkeypatch.setattr("lubfric.estimate.moving.MOST_WORK", 0.1)
     costly = lubfric.friction(small, 0.01)
     assert costly.decision.model == "load sharing" and "s of processor time, more than 0.1 s" in costly.decision.text
 

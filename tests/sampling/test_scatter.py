@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lubfric.sampling.scatter import BlockError, block_error, effective_spots
+from lubfric.estimate.scatter import BlockError, block_error, effective_spots
 
 
 def correlated(rng, count, length):

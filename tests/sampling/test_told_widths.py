@@ -8,10 +8,10 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.sampling import Uncertainty
-from lubfric.sampling.missed import missed_load, summit_radius
-from lubfric.sampling.scatter import BlockError, add_errors
-from lubfric.sampling.uncertainty import interval, load_sharing_error
+from lubfric.estimate import Uncertainty
+from lubfric.estimate.missed import missed_load, summit_radius
+from lubfric.estimate.scatter import BlockError, add_errors
+from lubfric.estimate.uncertainty import interval, load_sharing_error
 
 E_PRIME, WIDTH, RX, RY, SQ = 2.3e11, 6e-3, 40e-6, 90e-6, 1e-7
 T_975 = {1: 12.7062, 2: 4.3027, 5: 2.5706, 10: 2.2281, 30: 2.0423}  # of any table of Student's t

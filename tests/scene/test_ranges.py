@@ -49,7 +49,7 @@ def test_an_end_that_is_not_solved_does_not_lose_the_point(monkeypatch):
     def fails(*args):
         raise lubfric.ConvergenceError("no balance")
 
-    monkeypatch.setattr("lubfric.sampling.ranges.solve_balance", fails)
+    monkeypatch.setattr("lubfric.estimate.ranges.solve_balance", fails)
     known = f(SMALL.with_(bodies={HARDNESS: [1.2e9, 6e9]})).uncertainty
     assert np.isfinite(known.interval).all() and math.isnan(known.inputs)
     assert "hardness in its range: not in the interval" in known.text

@@ -14,7 +14,7 @@ from toys import Spring
 
 import lubfric
 from lubfric.errors import ITERATION_LIMIT
-from lubfric.sharing import Point
+from lubfric.models.load_sharing import Point
 
 PATCH = paper_scene(
     contact={"shape": (96, 96), "spacing": 0.6e-6},

@@ -7,8 +7,8 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric.models.load_sharing import lack_in_words, lacking
 from lubfric.output.describe import describe_scene
-from lubfric.sharing import lack_in_words, lacking
 
 ROLLER = lubfric.load_scene(
     {

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import quad
 
 import lubfric
-from lubfric.deterministic import RoughBody, solve_moving_strip
+from lubfric.models.deterministic import RoughBody, solve_moving_strip
 from lubfric.scene import Harmonic, Ramp, Table, Transient
 from lubfric.time import begin_one_gap
 from lubfric.time.march import Memory

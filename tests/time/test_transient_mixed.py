@@ -10,9 +10,9 @@ from scene_text import paper_scene
 from small_study import slowness
 
 import lubfric
+from lubfric.models.load_sharing import prepare
 from lubfric.output import main
 from lubfric.scene import Harmonic, Ramp, Table, Transient
-from lubfric.sharing import prepare
 from lubfric.time.sharing import Sharing
 
 SCENE = paper_scene(

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import RoughBody, solve_strip
+from lubfric.models.deterministic import RoughBody, solve_strip
 from verification.model.moved import balances, passed
 from verification.model.random_moving import ALLOWED, drawn
 

@@ -9,7 +9,7 @@ import pytest
 
 from lubfric import ConvergenceError, solve_contact, solve_ehl
 from lubfric.contact import half_space
-from lubfric.deterministic import solve_point
+from lubfric.models.deterministic import solve_point
 from verification.parts import case_of
 from verification.stability import contact_map, film_map, sharing_map, stability_map, whole_map
 from verification.stability.cell import FAILED, RIGHT, WRONG, Cell, judged, verdict

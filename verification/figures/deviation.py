@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.sharing import Prepared, prepare
+from lubfric.models.load_sharing import Prepared, prepare
 
 from ..check import AT_LEAST, Check, Item, Table, bound
 from ..kept import Run

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
 from lubfric.contact import Strips
-from lubfric.sharing import Prepared
+from lubfric.models.load_sharing import Prepared
 
 from ..parts import case_of_scene
 from .soak_force import friction_force

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import RoughBody, solve_moving_strip
+from lubfric.models.deterministic import RoughBody, solve_moving_strip
 
 from ..check import Item
 from ..kept import Run

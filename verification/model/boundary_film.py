@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import BOUNDARY_FILM, solve_strip
+from lubfric.models.deterministic import BOUNDARY_FILM, solve_strip
 
 from .. import plotting
 from ..check import TOLD, Check, Figure, Item, Table

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import TOUCHING, Iterate, RoughBody, evaluated, moments, solve_strip, travelling
+from lubfric.models.deterministic import TOUCHING, Iterate, RoughBody, evaluated, moments, solve_strip, travelling
 
 from ..fem.fluid import Fluid
 

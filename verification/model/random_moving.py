@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import RoughBody
+from lubfric.models.deterministic import RoughBody
 
 from ..check import TOLD, Check, Item, Table
 from ..kept import Run

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import BOUNDARY_FILM, RoughBody
-from lubfric.sampling import load_sharing_error
+from lubfric.estimate import load_sharing_error
+from lubfric.models.deterministic import BOUNDARY_FILM, RoughBody
 
 from .. import plotting
 from ..check import AT_LEAST, TOLD, Check, Figure, Item, Table

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import solve_strip
+from lubfric.models.deterministic import solve_strip
 
 from ..check import ABSOLUTE, TOLD, Check, Item, Table
 from ..kept import Run

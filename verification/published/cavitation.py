@@ -7,10 +7,10 @@ import numpy as np
 from scipy.optimize import newton
 
 from lubfric.contact import half_space
-from lubfric.deterministic import solve_point
-from lubfric.deterministic.problem import Problem
-from lubfric.deterministic.state import FLUID, RUPTURED, State
 from lubfric.film import LineContact
+from lubfric.models.deterministic import solve_point
+from lubfric.models.deterministic.problem import Problem
+from lubfric.models.deterministic.state import FLUID, RUPTURED, State
 from lubfric.oil import Lubricant
 
 from .. import plotting, references

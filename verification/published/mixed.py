@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import BOUNDARY_FILM
+from lubfric.models.deterministic import BOUNDARY_FILM
 
 from .. import plotting, references
 from ..check import Figure, Item

@@ -12,8 +12,8 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import half_space
-from lubfric.deterministic import Problem, lay_out, solve_point
 from lubfric.film import LineContact
+from lubfric.models.deterministic import Problem, lay_out, solve_point
 from lubfric.oil import Lubricant
 
 from ..fem.fluid import Fluid

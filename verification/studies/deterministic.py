@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import dry_contact, lay_out, solve_point
 from lubfric.film import LineContact
+from lubfric.models.deterministic import dry_contact, lay_out, solve_point
 from lubfric.oil import Lubricant
 from lubfric.surface import Surface
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.sharing import Prepared, prepare
+from lubfric.models.load_sharing import Prepared, prepare
 
 from .. import plotting
 from ..check import AT_LEAST, AT_MOST, Check, Table, bound, compared

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.deterministic import DeterministicResult, Problem, lay_out, reach, solve_point
 from lubfric.film import LineContact
+from lubfric.models.deterministic import DeterministicResult, Problem, lay_out, reach, solve_point
 
 from ..check import ABSOLUTE, Check
 from ..fem.compliance import Elastic

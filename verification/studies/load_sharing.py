@@ -8,7 +8,7 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import HalfSpace
-from lubfric.sharing import Prepared, prepare
+from lubfric.models.load_sharing import Prepared, prepare
 
 from .. import parts, plotting
 from ..check import AT_LEAST, Field, Table, compared

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
+from lubfric.models.load_sharing import Prepared, prepare
 from lubfric.scene.roughness import Roughness
-from lubfric.sharing import Prepared, prepare
 
 from ..check import AT_LEAST, Check, compared
 from ..fem.contact import solve_contact

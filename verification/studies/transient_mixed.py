@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 import lubfric
+from lubfric.models.load_sharing import prepare
 from lubfric.scene import Harmonic, Ramp, Transient
 from lubfric.scene import Table as History
-from lubfric.sharing import prepare
 
 from ..check import AT_LEAST, AT_MOST, Check, bound
 from ..pace import paced

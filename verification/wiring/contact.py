@@ -6,7 +6,7 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import ContactState
-from lubfric.sharing import prepare
+from lubfric.models.load_sharing import prepare
 
 from .. import parts
 from ..check import AT_LEAST, Check, compared

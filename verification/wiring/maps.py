@@ -10,8 +10,8 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import HalfSpaceContact
+from lubfric.models.load_sharing import prepare
 from lubfric.scene.roughness import Roughness
-from lubfric.sharing import prepare
 
 from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check
 from ..parts import half_space

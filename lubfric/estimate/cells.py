@@ -1,0 +1,217 @@
+"""The effect of the coarse cells of a sample: pieces of the surface are solved on the same cells and on finer ones,
+down to the scene's own, under the same film and load.
+
+What a piece shows is a change of the mean gap. The response of the balance turns it into a change of f.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..contact import ContactState, HalfSpaceContact, Strips
+from ..models.load_sharing import Balance, Point, Prepared, on_piece, touched_length
+from ..scene import budget
+from .scatter import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
+
+SLOWEST, FASTEST = 0.75, 0.25  # ratio of successive changes
+FEWEST = 3  # pieces too short for blocks
+MOST_PIECES = 12
+MOST_CELLS = 300_000  # of a piece, where a coarser one would do
+PIECE_SHARE = 0.5  # of the sampling tolerance, that the scatter between pieces may take
+BY_LOAD = 2.0  # what the change of the gap itself changes by with ln of the contact load, at most, over its size
+
+
+@dataclass(frozen=True)
+class CellStep:
+    """The change when the cells of a piece become the scene's own, at a film and ``contact_load`` [N].
+
+    - ``gap`` [m]: change of the mean gap beyond that of the mean film, whose columns change with the cells; ``error``:
+      its standard error; ``rest`` [m]: estimated change still to come on the scene's own cells (0: they were reached).
+    - ``beyond`` [m]: estimated change on cells half as long as the scene's own (NaN: own cells not reached).
+    - ``film`` [m]: change of the mean film.
+    - ``area``: factor on the contact area; ``area_error``: its relative standard error and the rest.
+    - ``touched``: factor on the contact area of the whole line, which may touch beyond A.
+    - ``plastic``: to be added to the plastic area fraction; ``ends``: share of the load on the edge columns.
+    """
+
+    gap: float
+    error: BlockError
+    rest: float
+    beyond: float
+    film: float
+    area: float
+    area_error: float
+    touched: float
+    plastic: float
+    ends: float
+
+
+@dataclass(frozen=True)
+class CellEffect:
+    """The mean `CellStep` of several pieces, which were solved at ``contact_load`` [N]."""
+
+    gap: float = 0.0
+    error: BlockError = BlockError(0.0, 1)
+    rest: float = 0.0
+    beyond: float = math.nan
+    film: float = 0.0
+    area: float = 1.0
+    area_error: float = 0.0
+    touched: float = 1.0
+    plastic: float = 0.0
+    ends: float = 0.0
+    contact_load: float = 0.0
+
+    def at_load(self, contact_load: float) -> CellEffect:
+        """The effect, used at another load: what that may change of it was seen to be less than 1.5 |ln| of the ratio
+        of loads times the change and its standard error, on Gaussian and measured surfaces."""
+        if not self.contact_load:
+            return self
+        moved = abs(math.log(contact_load / self.contact_load))
+        rest = self.rest + BY_LOAD * moved * (abs(self.gap) + self.error.error)
+        return replace(self, rest=rest, area_error=self.area_error + abs(1 - self.area) * moved)
+
+
+def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> CellEffect:
+    """Compare pieces of ``strips`` until the scatter between them is a small part of the sampling tolerance."""
+    response, numerics = balance.response, prepared.scene.numerics
+    if strips.cells.own or balance.film is None or response is None:
+        return CellEffect()
+    enough = response.gap_for("coefficient", budget.CONTACT_GRID * numerics.tolerance)
+    scatter = response.gap_for("coefficient", PIECE_SHARE * numerics.sampling_tolerance)
+    steps: list[CellStep] = []
+    while not _settled(steps, min(MOST_PIECES, strips.pieces), scatter):
+        steps.append(_step(prepared, point, balance, strips, len(steps), enough))
+    error = BlockError(0.0, 1) if strips.whole else mean_error(steps)
+
+    def mean(name: str) -> float:
+        return sum(getattr(step, name) for step in steps) / len(steps)
+
+    names = ("gap", "rest", "beyond", "film", "area", "touched", "plastic", "ends")
+    values = {name: mean(name) for name in names}
+    return CellEffect(error=error, area_error=_error_of_area(steps), contact_load=balance.contact_load, **values)
+
+
+def _error_of_area(steps: Sequence[CellStep]) -> float:
+    """Relative error of the mean factor on the contact area; from the differences between pieces where they are too
+    short for blocks (NaN: too few of them)."""
+    within = sum(step.area_error for step in steps) / len(steps) / math.sqrt(len(steps))
+    if math.isfinite(within):
+        return within
+    factors = np.array([step.area for step in steps])
+    return float(factors.std(ddof=1) / factors.mean() / math.sqrt(factors.size)) if factors.size >= FEWEST else math.nan
+
+
+def _settled(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
+    """Whether these pieces are enough: the error of their mean is within ``scatter`` [m], there are no more pieces, or
+    there are three that are too short for blocks."""
+    short = len(steps) >= FEWEST and not math.isfinite(steps[0].error.error)
+    return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).error <= scatter)
+
+
+def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, index: int, enough: float) -> CellStep:
+    """Piece number ``index`` on finer and finer cells. Where that takes more than `MOST_CELLS` cells, it ends when the
+    rest is within ``enough`` [m]. The change is averaged over blocks along y, each with its influence on the mean
+    gap."""
+    assert balance.film is not None and balance.response is not None
+    slope, ladder, coarse = balance.response.slopes.gap, strips.cells.ladder(), strips.cells
+    places: list[tuple[np.ndarray, np.ndarray]] = []
+    changes: list[float] = []
+    states: list[ContactState] = []
+    rest = math.inf
+    for factors in ladder:
+        contact = on_piece(prepared, strips, index, factors)
+        if rest <= enough and contact.heights.size > MOST_CELLS:
+            break
+        start = states[-1] if states else None
+        states.append(point.pressed(contact, balance.film, balance.contact_load, start))
+        places.append(_along_y(contact, states[-1], slope, coarse.factors[1] // factors[1]))
+        if len(places) > 1:
+            changes.append(float(np.mean(places[-1][0]) - np.mean(places[-2][0])))
+            rest = remaining(changes)
+    own, step, length = len(places) == len(ladder), coarse.coarse[1], strips.lengths[1]
+    difference = places[-1][0] - places[0][0]
+    area, area_error = _ratio(places[-1][1], places[0][1], step, length)
+    if strips.whole:
+        area_error = 0.0
+    if not own:
+        area_error = math.hypot(area_error, _ratio(places[-1][1], places[-2][1], step, length)[0] - 1)
+    return CellStep(
+        gap=float(difference.mean()),
+        error=block_error(difference, step, length),
+        rest=0.0 if own else rest,
+        beyond=half_again(changes[-1:-3:-1]) if own else math.nan,
+        film=states[-1].mean_film - states[0].mean_film,
+        area=area,
+        area_error=area_error,
+        touched=touched_length(states[-1]) / touched_length(states[0]),
+        plastic=states[-1].plastic_area_fraction - states[0].plastic_area_fraction,
+        ends=contact.on_the_ends(states[-1]),
+    )
+
+
+def _along_y(contact: HalfSpaceContact, state: ContactState, slope: float, rows: int) -> tuple[np.ndarray, np.ndarray]:
+    """Influence on the mean gap beyond the mean film [m], and share of A in contact, means over ``rows`` cells along
+    y."""
+    assert state.fields is not None
+    gap = gap_influence(strip_gap(contact, state), line_load(contact, state), slope) - state.mean_film
+    touching = contact.weight @ (state.fields.pressure > 0) / contact.weight.sum()
+    return gap.reshape(-1, rows).mean(axis=1), touching.reshape(-1, rows).mean(axis=1)
+
+
+def _ratio(fine: np.ndarray, coarse: np.ndarray, step: float, correlation: float) -> tuple[float, float]:
+    """Ratio of the means of two fields along y, and its relative standard error."""
+    if not coarse.any() or not fine.any():
+        return 1.0, math.nan
+    ratio = float(fine.mean() / coarse.mean())
+    return ratio, block_error(fine - ratio * coarse, step, correlation).error / float(fine.mean())
+
+
+def mean_error(steps: Sequence[CellStep]) -> BlockError:
+    """Error [m] of the mean change of the gap over several pieces.
+
+    If the pieces are too short for blocks, it follows from the differences between them. Fewer than three of these have
+    no scatter: it is taken to be as large as the changes themselves.
+    """
+    if all(math.isfinite(step.error.error) for step in steps):
+        found = add_errors(*(step.error for step in steps))
+        return BlockError(found.error / len(steps), found.freedom)
+    gaps = np.array([step.gap for step in steps])
+    few = gaps.size < FEWEST
+    scatter = float(np.sqrt(np.mean(gaps**2))) if few else float(np.std(gaps, ddof=1))
+    return BlockError(scatter / math.sqrt(gaps.size), gaps.size if few else gaps.size - 1)
+
+
+def remaining(changes: Sequence[float]) -> float:
+    """The change by further halvings of the cells: the rest of a geometric series, from the ratio of the last two
+    changes (1/4 to 3/4; 1/2 if there is only one change)."""
+    last = abs(changes[-1])
+    before = abs(changes[-2]) if len(changes) > 1 else 0.0
+    ratio = min(max(last / before, FASTEST), SLOWEST) if before > 0 else 0.5
+    return last * ratio / (1 - ratio)
+
+
+def half_again(changes: Sequence[float]) -> float:
+    """The change by the next halving, from the ``changes`` d1 (and d2) by the last halvings, the last first.
+
+    It is d1 r with r = d1/d2, kept between 1/8 (smooth, second order and better) and 1/2 (detail at every scale; also
+    if there is no d2). It is at least d2/32, in case d1 is small by chance.
+    """
+    d1, d2 = abs(changes[0]), abs(changes[1]) if len(changes) > 1 else 0.0
+    ratio = min(max(d1 / d2, 0.125), 0.5) if d2 > 0 else 0.5
+    return max(d1 * ratio, d2 / 32)
+
+
+def lost_summits(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> float:
+    """Height [m] that the cells of ``strips`` take from the highest summit of the first piece, measured by its distance
+    to the film above it."""
+    assert balance.film is not None
+    own, coarse = (
+        point.pressed(on_piece(prepared, strips, 0, factors), balance.film, 0.0, None).mean_gap
+        for factors in ((1, 1), strips.cells.factors)
+    )
+    return own - coarse

@@ -1,0 +1,205 @@
+"""From the error of a gap to `Uncertainty` and to the errors of all reported quantities."""
+
+import math
+
+from ..models.load_sharing import Balance, Forces
+from ..quantities import depending_on
+from ..scene import Scene, budget, gap_not_resolved, moves
+from .heated import error_by_heat
+from .sample import Found
+from .scatter import BlockError, Scatter
+from .uncertainty import (
+    FEW,
+    ORDER,
+    FieldErrors,
+    Uncertainty,
+    field_errors_of,
+    interval,
+    load_sharing_error,
+    percent,
+    too_few,
+)
+
+NO_HEAT = "heat was left out"
+PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
+NO_CELLS = "not known: this contact has no places along y to compare"
+TOO_SHORT = (
+    "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling and "
+    "surface.extension out, or give a map that is longer across the motion)"
+)
+NONE, UNKNOWN = (0.0, 0.0), (math.nan, math.nan)
+EMPTY = "the error of Eq. (8) is not known where what arrives does not fill the gap"
+NOT_STUDIED = "the error of the model itself is not known for this contact"
+MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
+MISSED = "not known: the patch is too short along y to tell what contact it misses"
+
+
+def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
+    """Uncertainty of f, and errors by field."""
+    balance, response, (of_film, of_gap, relative, of_area) = found.balance, found.response, _numerical(found)
+    forces, scatter, sampling = balance.forces, found.scatter, found.sampling
+    error, why = BlockError(0.0, ORDER), "there was none of it, or too little to tell"
+    if balance.film is None:
+        errors, why = _area_errors(scene, balance, scatter), "no entrainment: there is no film"  # only areas scatter
+        errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
+    elif response is None:
+        relative += forces.felt * of_film
+        errors, why = _given_load(forces, of_film), "no contact was met: it has no relative error"
+        errors |= {"film_load": 0.0}
+    else:
+        error, mean_film = found.friction_error, balance.contact.mean_film
+        relative += response.per_film(forces, mean_film) * of_film
+        relative += response.relative("coefficient", of_gap)
+        errors = _contact_errors(scene, found, of_film, of_gap, of_area)
+    notes = _notes(found, scene, sampling)
+    if not math.isfinite(sampling):
+        sampling = math.nan
+    of_model, unknown = model_error(scene, found)
+    felt = response.per_film(forces, balance.contact.mean_film) if response is not None else forces.felt
+    by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**felt)
+    of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
+    both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
+    known = Uncertainty(
+        numerical=relative,
+        sampling=sampling,
+        interval=interval(forces.coefficient, relative, sampling, error.freedom, *of_model),
+        line_scatter=sampling * math.sqrt(scatter.length / scene.bodies.width),
+        spots=scatter.spots,
+        length=scatter.length,
+        freedom=float(error.freedom),
+        tolerance=scene.numerics.sampling_tolerance,
+        area_needed=_area_needed(found, scene),
+        model=max(of_model),
+        notes=(*notes, *unknown),
+    )
+    left_out = dict.fromkeys(depending_on("heat"), NO_HEAT) if balance.film is not None else {}
+    return known, field_errors_of(errors | {"coefficient": both}, why, left_out)
+
+
+def _numerical(found: Found) -> tuple[float, float, float, float]:
+    """The errors of solvers and grids: of the film, relative; of the mean gap at given load [m], by the closing of the
+    volume and by the cells of the contact; of the film's shear stress, by its sum over nodes and by the heat left out
+    of it, relative to f; of the contact area, relative."""
+    balance, effect, solved = found.balance, found.effect, found.solved
+    film = 0.0
+    if balance.film is not None:
+        residuals = balance.film.report.residuals
+        film = max(residuals.get("discretisation", 0.0), residuals.get("domain", 0.0))
+    forces, gap = balance.forces, 0.0
+    if found.response is not None and balance.film is not None:
+        gap = (
+            effect.rest
+            + found.second_order
+            + (budget.SLOPE * abs(found.corrected) or abs(found.left_by_root))
+            + solved.contact.gap_error
+        )
+    read = solved.contact.area_error / max(solved.contact.real_contact_area_fraction, 1e-300)
+    by_area = 0.0
+    if solved.contact.area_error and forces.total:
+        open_ = max(1 - solved.contact.real_contact_area_fraction, solved.contact.area_error)
+        by_area = solved.contact.area_error / open_ * forces.shear.felt / forces.total
+    return film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read
+
+
+def _contact_errors(scene: Scene, found: Found, film: float, gap: float, area: float) -> dict[str, float]:
+    """Relative errors where film and contact share the load, by the names of `FrictionResult`: the root of the sum of
+    squares of the standard error by the surface and of the estimated error by solvers and grids.
+
+    An error of the gap changes the division of the load, and everything with it (`Response.rates`). Films also have the
+    error of the film solve. The area also has its own scatter at given load, and what its cells may change.
+    """
+    balance, response = found.balance, found.response
+    assert response is not None
+    scattered = found.gap_error.error if math.isfinite(found.gap_error.error) else 0.0
+    gap = math.hypot(scattered, gap + film * balance.contact.mean_film)
+    errors = {name: response.relative(name, gap) for name in response.rates or ()}
+    errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
+    for name, at_given_load in _given_load(balance.forces, film).items():
+        errors[name] = errors.get(name, 0.0) + at_given_load
+    by_load = errors.get("contact_load", 0.0)
+    for name, error in _area_errors(scene, balance, found.scatter).items():
+        errors[name] = math.hypot(by_load, error, area)
+    if balance.contact.plastic_area_fraction > 0:
+        change = found.effect.plastic / balance.contact.plastic_area_fraction
+        counted = found.scatter.spots**-0.5 if found.scatter.spots else PLASTIC * math.hypot(by_load, area)
+        errors["plastic_area_fraction"] = math.hypot(counted, change)
+    return errors
+
+
+def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, float]:
+    """Relative standard errors of the areas at given load."""
+    fraction = balance.contact.real_contact_area_fraction
+    length = float(balance.contact.contact_fraction.sum() * (balance.contact.x[1] - balance.contact.x[0]))
+    pairs = (fraction, scatter.area.error), (length, scatter.touched.error)
+    finite = [(value, error if math.isfinite(error) else 0.0) for value, error in pairs]
+    names = depending_on("area")
+    return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(names, finite)}
+
+
+def _given_load(found: Forces, film: float) -> dict[str, float]:
+    """Errors of what depends on a film at a given load, whose relative error is ``film``. Where the heat of the inlet
+    is left out, its factor is off by what is known of it; a temperature rise that was left out has no error (NaN)."""
+    heat = found.heat
+    of_heat = dict.fromkeys(depending_on("heat"), film if heat.heated else math.nan)
+    of_heat["inlet_film_factor"] = math.nan if heat.inlet is None else film + heat.film_factor - heat.inlet.factor
+    return dict.fromkeys(depending_on("film"), film) | of_heat | _shear_errors(found, film)
+
+
+def _shear_errors(found: Forces, film: float) -> dict[str, float]:
+    """Relative errors of the film's friction and its parts, by the relative error ``film`` of the film and by the sums
+    over its nodes. The rolling part is a small difference of large numbers, so its error is large."""
+    shear = found.shear
+    rolling = film * max(abs(shear.rolling), shear.rolling_parts)
+    heat = found.heat.left_out * found.total
+    parts = {
+        "shear_force": (shear.total, film * abs(shear.couette) + rolling + heat),
+        "couette_force": (shear.couette, film * abs(shear.couette) + heat),
+        "rolling_force": (shear.rolling, rolling),
+    }
+    return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
+
+
+def model_error(scene: Scene, found: Found) -> tuple[tuple[float, float], tuple[str, ...]]:
+    """Relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and why."""
+    balance = found.balance
+    if balance.film is None:
+        return (NONE, ()) if scene.lubricant.inlet_film is None else (UNKNOWN, (EMPTY,))
+    if found.strips is None:
+        return UNKNOWN, (NOT_STUDIED,)
+    if why := gap_not_resolved(scene):
+        return UNKNOWN, (MODEL_UNKNOWN.format(why),)
+    sq, film = float(found.contact.heights.std()), balance.film.central_film  # type: ignore[attr-defined]
+    share = balance.contact_load / scene.bodies.load
+    forces, load = balance.forces, scene.bodies.load
+    parts = forces.boundary, forces.shear.total, forces.shear.rolling if moves(scene) else 0.0
+    return load_sharing_error(film / sq if sq else math.inf, share, *(part / load for part in parts)), ()
+
+
+def _area_needed(found: Found, scene: Scene) -> float:
+    """How many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not known)."""
+    strips = found.strips
+    ends = strips is not None and strips.windows and found.count == strips.available
+    needed = (found.sampling / scene.numerics.sampling_tolerance) ** 2 if ends else 1.0
+    return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
+
+
+def _notes(found: Found, scene: Scene, sampling: float) -> tuple[str, ...]:
+    asked, strips, notes = scene.numerics.sampling_tolerance, found.strips, []
+    needed = _area_needed(found, scene)
+    if not math.isfinite(sampling):
+        if strips is None:
+            return (NO_CELLS,)
+        if found.response is None:
+            return (MISSED,)
+        return (TOO_SHORT.format(found.scatter.length / strips.lengths[1]),)
+    if sampling > asked and needed > 1:
+        times = float(f"{needed:.2g}")
+        notes.append(f"the map ends before the {percent(asked)} asked: that would take about {times:g} times its area")
+    elif sampling > asked:
+        notes.append(f"more than the {percent(asked)} asked")
+    if too_few(found.scatter.spots, sampling, asked):
+        notes.append(
+            f"few spots carry the load (as {found.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
+            "interval is too narrow more often than it says"
+        )
+    return tuple(notes)

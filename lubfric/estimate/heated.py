@@ -1,0 +1,68 @@
+"""Heat of a strip by the deterministic model, and the error of f by it.
+
+The heat of the inlet is in its film (`lubfric.models.load_sharing.film_lubricant`). That of film and surfaces lowers the shear
+stress: the walls are as hot as the means over its columns make them, and every cell has the stress between such walls.
+"""
+
+import math
+
+import numpy as np
+
+from ..film import heated_film, heated_stress
+from ..models.deterministic import DeterministicResult
+from ..models.load_sharing import Heat, inlet_at, peclet_at, surroundings
+from ..scene import Scene
+
+DOUBT = 0.5  # of what heat does to f: how far that may be off
+LEAST_FILM, MOST_CHANGE = 0.7, 0.2  # factor on the film, and relative change of f: beyond them only Eq. (8) was checked
+
+
+def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
+    """The `Heat` of ``result``: ``change`` is the share of f that the temperatures of film and surfaces take away."""
+    inlet, used = inlet_at(scene, result.speed)
+    sliding = abs(scene.motion.slide_roll_ratio * result.speed)
+    if inlet is None or sliding == 0:
+        return Heat(inlet, used)
+    wet, cells = result.wet, result.wet.sum(axis=1)
+    covered = np.where(cells[:, None] > 0, wet / np.maximum(cells, 1)[:, None], 1 / wet.shape[1])
+    p, h = ((field * covered).sum(axis=1) for field in (result.pressure, result.gap))
+    around = surroundings(scene, result.speed, wet.mean(axis=1), (result.shear * result.spots).mean(axis=1))
+    found = heated_film(scene.lubricant, result.x, p, h, around)
+    hot = np.abs(heated_stress(scene.lubricant, result.pressure, result.gap, sliding, found.wall[:, None])[0])
+    lost = float(((result.shear - hot) * wet).mean(axis=1).sum()) * result.spacing[0]
+    change = lost / max(abs(result.coefficient) * result.load, 1e-300)
+    return Heat(inlet, used, change, found, peclet_at(scene, result.speed))
+
+
+def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, float]:
+    """``numbers`` of a point, by name, whose shear stress is isothermal, with ``heat``."""
+    f = numbers["coefficient"]
+    lost = abs(f) * heat.change * scene.bodies.load
+    return numbers | {
+        "coefficient": f - lost / scene.bodies.load,
+        "shear_force": numbers["shear_force"] - lost,
+        "couette_force": numbers["couette_force"] - lost,
+        "inlet_film_factor": heat.film_factor,
+        "flash_temperature_rise": heat.flash,
+        "film_temperature_rise": heat.film,
+    }
+
+
+def error_by_heat(heat: Heat, by_inlet: float) -> float:
+    """Relative error of f by ``heat``: half of what it does. ``by_inlet``: relative change of f without the heat of the
+    inlet, of which it is as much more as the other of two published factors has it."""
+    apart = DOUBT
+    if heat.film_factor < 1 and heat.inlet is not None:
+        apart = max(apart, abs(math.log(heat.inlet.other / heat.film_factor) / math.log(heat.film_factor)))
+    return DOUBT * abs(heat.change) + apart * abs(by_inlet)
+
+
+def too_hot(heat: Heat) -> str:
+    """Why ``heat`` is more than was checked for one gap and one pressure, in words; "" if it is not."""
+    factor, change = heat.film_factor, heat.change
+    if factor >= LEAST_FILM and change <= MOST_CHANGE:
+        return ""
+    return (
+        f"heat leaves {factor:.2g} of the film and takes {100 * change:.2g} % of f; with one gap and one pressure it "
+        f"was checked to {LEAST_FILM:g} and {100 * MOST_CHANGE:g} %"
+    )

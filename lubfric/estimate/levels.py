@@ -1,0 +1,201 @@
+"""Friction of an endless line by the deterministic model, as a sum over levels of cost.
+
+    f = mean over strips (f deterministic - difference of that strip from a line of Eq. (8))      a few strips
+      + mean over pieces (f on cells half as long - f)                                            fewer, half as long
+      + the same once more, from these cells on                                           one, a sixth as long
+
+The line is the first level: its many strips tell what is chance of the few (`lubfric.estimate.line`). These are few
+where both models scatter alike, as they do about lift-off on most surfaces. Where they do not, the line is left out.
+Which of the two needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617,
+doi:10.1287/opre.1070.0496).
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..contact import Strips
+from ..models.deterministic import MovingStrip, Strip, change_by_flow, thinned_less
+from ..models.load_sharing import Prepared
+from ..scene import Numerics
+from .line import Line, line_of
+from .pair import Pair, numbers_of, solve_pair
+from .sample import Found, enlarged
+from .scatter import BlockError, add_errors, block_error
+from .shorter import changed, on_shorter_cells
+from .uncertainty import student
+
+DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
+ALONE, LINED = 1.3, 1.2  # scatter of the deterministic f between strips over that of blocks; less that of a line
+PRIOR, FREEDOM = 3, 5  # strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
+BALANCED = 1.3  # times (scatter of f between strips)²: bias of strips that balance the load each by itself
+GROWTH, SPARE = (4.0, 2.0), (1.1, 1.2)  # of the number of strips, which are dear: see `enlarged`
+MOST_WORK = 120.0  # s, counted: of the strips of one point
+FEWEST = 3  # strips whose scatter tells an error
+OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
+
+
+@dataclass(frozen=True)
+class Levels:
+    """The sum over levels.
+
+    - ``numbers``: of the deterministic model on an endless line, by name; ``errors``: their relative standard errors.
+      ``by_film``: relative change of f by half and by twice the boundary film; ``by_flow``: by another law of the flow;
+      ``by_inlet``: without the heat of the inlet.
+    - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second;
+      ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
+    - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
+      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips.
+    """
+
+    numbers: dict[str, float]
+    errors: dict[str, float]
+    by_film: tuple[float, ...]
+    by_flow: float
+    by_inlet: float
+    line: int
+    pairs: tuple[Pair, ...]
+    pieces: tuple[tuple[Strip, ...], ...]
+    shortest: tuple[Strip, ...]
+    sampling: BlockError
+    difference: BlockError
+    numerical: float
+    length: float
+
+
+@dataclass(frozen=True)
+class Sum:
+    """The first two levels: ``line``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part of it
+    that is the ``difference`` between the models; ``between``: standard deviation of f between strips."""
+
+    line: int
+    numbers: dict[str, float]
+    whole: BlockError
+    difference: BlockError
+    between: float
+
+    def wanted(self, numerics: Numerics, count: int, most: int) -> int:
+        """Number of strips of the second level, at most ``most``, that the tolerances need; there are ``count``."""
+        f, asked = abs(self.numbers["coefficient"]), numerics.sampling_tolerance
+        if not self.line:
+            return enlarged(count, 1, most, self.whole, f * asked, growth=GROWTH, spare=SPARE)
+        allowed = f * DIFFERENCE * numerics.model_tolerance / student(self.difference.freedom)
+        errors = (self.whole, math.hypot(f * asked, allowed)), (self.difference, allowed)
+        return max(enlarged(count, 1, most, error, limit, growth=GROWTH, spare=SPARE) for error, limit in errors)
+
+
+def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
+    """The sum over levels at ``speed`` [m/s], not 0, for a scene with strips. ``found``: its sample of Eq. (8) there
+    (None: there is no first level).
+
+    Strips are solved until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
+    difference of the models may leave a half-width of `DIFFERENCE` times ``numerics.model_tolerance`` beside it. No
+    more are solved than `MOST_WORK` allows. Finer cells follow if the change of f from longer cells is not within
+    ``numerics.tolerance``. Raises `ConvergenceError`.
+    """
+    assert prepared.strips is not None
+    pairs, both = _first_levels(prepared, speed, found)
+    pieces, shortest, by_cells, numerical = on_shorter_cells(prepared, speed, pairs)
+    numbers = changed(prepared, both.numbers, [(piece[1], piece[-1]) for piece in pieces])
+    numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
+    f = abs(numbers["coefficient"])
+    of_strips = add_errors(both.whole, replace(by_cells, error=by_cells.error * f))
+    difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
+    by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
+    sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (both.between / f) ** 2))
+    results = [pair.resolved.result for pair in pairs]
+    films = tuple(mean(getattr(one, name) - one.coefficient for one in results) / f for name in OTHER_FILMS)
+    errors = _errors(prepared, pairs, numbers)
+    errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
+    length, first = prepared.strips.length * max(both.line, len(pairs)), pairs[0].resolved
+    rest, oil = first.rest if isinstance(first, MovingStrip) else first, prepared.scene.lubricant
+    flow, inlet = (change_by_flow(rest, other) for other in (thinned_less(rest.problem.lubricant), oil))
+    parts, of_f = (both.line, tuple(pairs), pieces, shortest), (sampling, difference, numerical)
+    return Levels(numbers, errors, films, flow, inlet, *parts, *of_f, length)
+
+
+def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tuple[list[Pair], Sum]:
+    """The strips of the second level, as many as it takes, and the sum of the first two."""
+    strips, numerics, load = prepared.strips, prepared.scene.numerics, prepared.scene.bodies.load
+    assert strips is not None
+    pairs = [solve_pair(prepared, speed, 0, None)]
+    first = pairs[0].resolved
+    most = max(1, min(strips.available, int(MOST_WORK / first.work)))
+    same = found is not None and found.strips is not None and found.strips.cells == strips.cells
+    line = None
+    if found is not None and same and not strips.whole and math.isfinite(found.sampling):
+        line = line_of(prepared, found)
+    while True:
+        sums = [_sum(prepared, pairs, one) for one in (line, None) if one is None or len(pairs) <= one.count]
+        sums = [one for one in sums if not one.line or 0 <= one.numbers["contact_load"] <= load]
+        counts = [one.wanted(numerics, len(pairs), most) for one in sums]
+        best = next(k for k, one in enumerate(sums) if not one.line or counts[k] <= min(counts[-1], one.line))
+        if counts[best] <= len(pairs):
+            break
+        pairs += [solve_pair(prepared, speed, i, first.slope) for i in range(len(pairs), counts[best])]
+    return pairs, sums[best]
+
+
+def _sum(prepared: Prepared, pairs: Sequence[Pair], line: Line | None) -> Sum:
+    """The first two levels; ``line``: the first (None: without it)."""
+    assert prepared.strips is not None
+    rows, count = [numbers_of(prepared, pair.resolved.result) for pair in pairs], len(pairs)
+    numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
+    if line is None:
+        whole = _scatter(pairs, prepared.strips)
+        return Sum(0, numbers, whole, BlockError(0.0, 1), whole.error * math.sqrt(count))
+    for name, differences in line.numbers.items():
+        numbers[name] -= mean(differences[:count])
+    rest = 1 - count / line.count
+    others = replace(line.sampling, error=math.sqrt(rest) * line.sampling.error * abs(numbers["coefficient"]))
+    whole = add_errors(_scatter(pairs, prepared.strips, line, rest), others)
+    between = float(np.std(line.numbers["coefficient"]))
+    return Sum(line.count, numbers, whole, _scatter(pairs, prepared.strips, line, 1.0), between)
+
+
+def mean(values) -> float:
+    """Of any iterable."""
+    return float(np.mean(list(values)))
+
+
+def _errors(prepared: Prepared, pairs: Sequence[Pair], numbers: dict[str, float]) -> dict[str, float]:
+    """Relative standard errors of the ``numbers`` by their scatter between strips."""
+    if len(pairs) < FEWEST:
+        return {}
+    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
+    errors = {name: float(np.std([row[name] for row in rows], ddof=1)) / math.sqrt(len(rows)) for name in numbers}
+    return {name: errors[name] / abs(value) for name, value in numbers.items() if value}
+
+
+def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, share: float = 0.0) -> BlockError:
+    """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the differences of
+    these strips from the ``line``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
+    n/N: Eq. (8) on the pairs is part of the line.)
+
+    Strips tell their scatter themselves, but few of them badly. Blocks within them tell it at once, but off by up to a
+    factor of two. So the variances of both are pooled, that of blocks with the weight of `PRIOR` strips. If windows of
+    a measured map scatter more, their own scatter counts.
+    """
+    count, places = len(pairs), [pair.resolved.deviations for pair in pairs]
+    f = np.array([pair.resolved.result.coefficient for pair in pairs])
+    if line is not None:
+        places = [one - share * line.deviations(k, one.size) for k, one in enumerate(places)]
+        f -= share * line.numbers["coefficient"][:count]
+    within = _block_error(places, strips, pairs[0])
+    by_blocks = count * (within.error * (LINED if line else ALONE)) ** 2
+    if count == 1:
+        return BlockError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
+    by_strips = float(np.var(f, ddof=1))
+    pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
+    if strips.windows and count >= FEWEST and by_strips > pooled:
+        return BlockError(math.sqrt(by_strips / count), count - 1)
+    return BlockError(math.sqrt(pooled / count), FREEDOM + count - 1)
+
+
+def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:
+    """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
+    kept = values[0].size // (2 if pair.mirrored else 1)
+    places = np.concatenate([one[:kept] for one in values])
+    return block_error(places, pair.resolved.problem.spacing[1], strips.lengths[1])

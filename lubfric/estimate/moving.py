@@ -1,0 +1,72 @@
+"""Points whose roughness moves through the film: its maps, and what the deterministic model would cost there."""
+
+from dataclasses import replace
+
+from ..contact import HalfSpaceContact, Strips, alone
+from ..models.deterministic import RoughBody, Strip, moving_work, reach, solve_moving_strip, solve_strip
+from ..models.load_sharing import Prepared, on_strip
+from ..scene import Scene, moves, moving_bodies
+from ..surface import Surface
+
+ON_LONGER = 0.5  # work on cells twice as long along y, over that on the shorter ones
+MOST_WORK = 120.0  # s, counted: beyond it "auto" leaves moving roughness to Eq. (8)
+
+
+def solved_strip(prepared: Prepared, index: int, speed: float, **how) -> Strip:
+    """Strip ``index`` by the deterministic model, its roughness at rest or moving; ``how``: as in `solve_strip`."""
+    if moves(prepared.scene):
+        return solve_moving_strip(prepared.scene, bodies_of(prepared, index, speed), speed, **how)
+    return solve_strip(prepared.scene, strip_surface(prepared, index), speed, **how)
+
+
+def strip_surface(prepared: Prepared, index: int) -> Surface:
+    """The map of strip ``index``; of a patch at rest all of it, on its own cells."""
+    assert prepared.strips is not None
+    if prepared.strips.whole and not moves(prepared.scene):
+        return prepared.surface
+    return map_of(prepared, on_strip(prepared, prepared.strips, index))
+
+
+def map_of(prepared: Prepared, contact: HalfSpaceContact) -> Surface:
+    """The map of ``contact``, a strip or a piece."""
+    return replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
+
+
+def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
+    """The rough bodies of strip ``index``. In pure rolling two are one: surface 1."""
+    found = moving_bodies(prepared.scene)
+    if len({ratio for _, ratio in found}) == 1:
+        return [RoughBody(strip_surface(prepared, index), abs(speed) * found[0][1], found[0][0] == "counterface")]
+    maps = maps_of(prepared, index)
+    return [RoughBody(maps[name], abs(speed) * ratio, name == "counterface") for name, ratio in found]
+
+
+def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
+    """Of strip ``index`` the map of each rough body, by its section."""
+    found, strips = [name for name, _ in moving_bodies(prepared.scene)], prepared.strips
+    assert strips is not None
+    if len(found) < 2 or prepared.joint:  # of a joint map all is that of surface 1
+        return dict.fromkeys(found[:1], strip_surface(prepared, index))
+    return {name: alone(strips, k).strip(index) for k, name in enumerate(found)}
+
+
+def moving_strip_work(scene: Scene, strips: Strips, sq: float, speed: float, factors: tuple[int, int]) -> float:
+    """Counted work [s] of one strip of moving roughness on cells ``factors`` times as long as those of ``strips``, and
+    on cells twice as long, about; ``sq`` [m]: of the surface."""
+    (fx, fy), (dx, dy), line = factors, strips.cells.coarse, scene.line_contact(abs(speed))
+    cells = sum(reach(line, sq)) / (fx * dx) * strips.length / (fy * dy)
+    fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
+    return (1 + ON_LONGER) * moving_work(line, fx * dx, fastest, strips.cells.count * dx, cells)
+
+
+def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:
+    """Why moving roughness is left to Eq. (8) under "auto", in words; "" if it is not."""
+    scene, strips = prepared.scene, prepared.strips
+    assert strips is not None
+    work = moving_strip_work(scene, strips, prepared.surface.sq, speed, factors) if moves(scene) else 0.0
+    if work <= MOST_WORK:
+        return ""
+    return (
+        "Eq. (8) alone: the roughness moves, and one strip with one gap and one pressure would take about "
+        f"{work:.2g} s of processor time, more than {MOST_WORK:g} s; numerics.model = 'deterministic' asks for it"
+    )

@@ -1,0 +1,126 @@
+"""A forecast of what a point will take, from closed forms: whether the summits touch, how many strips are solved and
+how long that takes. Nothing is solved."""
+
+import math
+from dataclasses import dataclass
+
+from ..contact import Strips
+from ..film import LineContact, flooded_inlet
+from ..models.deterministic import reach, work_of_steps
+from ..oil import shear_stress
+from ..scene import FRICTION, Scene, gap_not_resolved, moves
+from ..surface import Surface
+from .levels import DIFFERENCE
+from .moving import MOST_WORK, ON_LONGER, moving_strip_work
+from .pair import cells_of
+from .sample import SAFETY
+from .shorter import SHORT
+from .uncertainty import ORDER, load_sharing_error, student
+
+CELL_SECONDS = 1.3e-6  # processor time of a cell of the strips in balance, about
+PIECE_SECONDS = 0.7e-6  # of a cell of a piece on finer and finer cells, of the finest
+PATCH_SECONDS, MAP_SECONDS = 0.03, 4e-8  # of a contact on a map that is solved whole; of each of its cells
+FILM_SECONDS, HOT = 0.015, 5.0  # of the films of a point; how many times as many with heat
+GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
+RISE = 0.4  # of the film of the whole load, by which it is wider, about
+FLOOR = 0.25  # of f_b: friction where the film carries most, about
+STEPS, FINER_STEPS = 9, 6  # of Newton's method on a strip of the deterministic model, and on smaller cells
+LAST_STEPS = 20  # on cells a quarter as long, which a map shorter than a piece is solved on as a whole
+AGAIN = 4  # of a strip whose neighbour is solved: at an end of the range of an input
+IN_MOTION = 2.0  # processor time of moving roughness over its counted work, which is that of the systems alone
+UNLIKE = 0.65  # scatter of the difference between the models over that of f
+CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
+SURE = 2.0  # factor between the expected film and any film: outside of it contact or separation is certain
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """To an order of magnitude, at one ``speed`` [m/s]: in words, whether the summits touch by the expected film of the
+    whole load; ``error``: relative standard error of f after the first strips; ``strips`` that
+    ``numerics.sampling_tolerance`` needs, their ``length`` [m]; ``resolved``: strips by the deterministic model (0:
+    Eq. (8) alone answers); and the processor time [s]. ``moving``: that of one strip of the deterministic model if its
+    roughness moves and the film is not so thick that Eq. (8) is enough, else 0."""
+
+    speed: float
+    touching: str
+    error: float
+    strips: int
+    length: float
+    resolved: int
+    seconds: float
+    moving: float = 0.0
+
+
+def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float) -> Forecast:
+    """What a point at ``speed`` [m/s] will take. ``surface``: that is solved first; ``strips``: None for a contact
+    without cells.
+
+    The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
+    independent heights. The effect on f follows from the share of the load that the rigid film of the whole load would
+    carry if it were as thick as the gap.
+    """
+    film, sq = scene.line_contact(speed).expected_film if speed else 0.0, surface.sq
+    summit = float(surface.heights.max() - surface.heights.mean())
+    seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
+    touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
+    if strips is None or strips.whole:
+        if touching != "none":
+            seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
+        patch = (0, 0.0, 0.0) if strips is None else _resolved(scene, strips, surface, speed, film, 0.0)
+        resolved, work, moving = patch
+        return Forecast(speed, touching, math.nan, 1, math.nan, resolved, seconds + work, moving)
+    (lx, ly), first, asked = strips.lengths, strips.first * strips.length, scene.numerics.sampling_tolerance
+    error = 0.0
+    if speed and film <= CLEAR * sq:
+        gap = GAP * sq + RISE * film
+        share = min(film / gap, 1.0)
+        scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
+        error = scatter / gap * share / (1 - share + FLOOR)
+    count = math.ceil(strips.first * max(1.0, SAFETY * (error / asked) ** 2 if error > asked else 1.0))
+    count = min(count, strips.available)
+    cells = strips.cells
+    (fx, fy), (_, dy) = cells.factors, cells.coarse
+    piece = 0.0 if cells.own else cells.count * fx * fy * strips.length / dy / 2
+    if touching != "none":
+        seconds += CELL_SECONDS * cells.count * count * strips.length / dy + PIECE_SECONDS * piece
+    resolved, work, moving = _resolved(scene, strips, surface, speed, film, error * math.sqrt(strips.first))
+    length = count * strips.length
+    return Forecast(speed, touching, error, count, length, resolved, seconds + work, moving)
+
+
+def _resolved(
+    scene: Scene, strips: Strips, surface: Surface, speed: float, film: float, scatter: float
+) -> tuple[int, float, float]:
+    """Number of strips of the deterministic model, all their work [s], and that of one if its roughness moves, else 0.
+    ``film`` [m]: expected; ``scatter``: of f between strips, relative."""
+    numerics, sq, both = scene.numerics, surface.sq, cells_of(strips, scene.bodies.half_width)
+    moving = moving_strip_work(scene, strips, sq, speed, both) if speed and moves(scene) else 0.0
+    if speed == 0 or scene.transient is not None or numerics.model == "load-sharing" or gap_not_resolved(scene):
+        return 0, 0.0, moving
+    rolling = rolling_share(scene.line_contact(speed), scene.bodies.mean_hertz_pressure) if moving else 0.0
+    if sq == 0 or load_sharing_error(film / sq, 0.0, 0.0, 1.0, rolling)[1] <= numerics.model_tolerance:
+        return 0, 0.0, 0.0
+    allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
+    count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)
+    ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
+    if moving and moving > MOST_WORK and numerics.model == "auto":
+        return 0, 0.0, moving
+    if moving:
+        return count, IN_MOTION * (count + ON_LONGER * (ends + 2 * (ends > 0))) * moving, moving
+    (fx, fy), (dx, dy), (ux, uy) = both, strips.cells.coarse, strips.cells.factors
+    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
+    finer = 0.5 * cells * fx * fy * (ux * uy if strips.whole else 1)  # a patch may be solved down to its own cells
+    short = not strips.whole and strips.length < SHORT * strips.lengths[1] and fx * ux >= 4 <= fy * uy
+    work = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
+    again = work_of_steps(finer if strips.whole else cells, AGAIN) * (ends + (ends > 0))
+    return count, count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again + work, 0.0
+
+
+def rolling_share(line: LineContact, pressure: float) -> float:
+    """Expected share of rolling in the friction of the film of ``line`` under a mean ``pressure`` [Pa], to a factor of
+    two: pressure builds up in the inlet, and the Hertz strip and the film about it are sheared."""
+    oil, film, b, sliding = line.lubricant, line.expected_film, line.half_width, abs(line.sliding or 0.0)
+    length, eta = math.sqrt(2 * line.radius * film), oil.viscosity
+    rolling = eta * abs(line.entrainment_speed) * flooded_inlet(length, b)
+    sheared = film * float(shear_stress(oil, pressure, sliding / film)) * b + eta * sliding * length
+    return rolling / (rolling + sheared)

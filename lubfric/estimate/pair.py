@@ -1,0 +1,96 @@
+"""One strip of the surface by the deterministic model, on two lengths of cells."""
+
+import math
+from dataclasses import dataclass, replace
+
+from ..contact import Strips
+from ..models.deterministic import DeterministicResult, Strip
+from ..models.load_sharing import Prepared
+from ..quantities import NUMBERS
+from ..scene import moves
+from ..surface import Surface
+from .moving import solved_strip, strip_surface
+from .scatter import mirrored
+
+PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
+MOVING = 4.0  # the former along x where roughness moves (docs/levels.md)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """One strip of the sample.
+
+    ``resolved``: by the deterministic model; ``longer``: on longer cells (`longer_than`), from which it started;
+    ``mirrored``: whether the second half along y is the mirror image of the first.
+    """
+
+    resolved: Strip
+    longer: Strip
+    mirrored: bool = False
+
+
+def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
+    """Length of the cells of the deterministic model in cells of the ``strips``, along x and y: 2, or 1 where 2 would
+    leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in the ``half_width`` [m], or
+    does not divide the strip."""
+    (lx, ly), (dx, dy) = strips.lengths, strips.cells.coarse
+    longest = min(lx / (MOVING if moves(strips.scene) else PER_LENGTH), half_width / PER_HALF_WIDTH)
+    along = longest >= 2 * dx * (1 - 1e-9)
+    across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and round(strips.length / dy) % 2 == 0
+    return 1 + along, 1 + across
+
+
+def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
+    """Strip ``index`` and the length of the cells of the deterministic model in its own; of a patch at rest all of it,
+    on the map's own cells."""
+    strips = prepared.strips
+    assert strips is not None
+    fx, fy = cells_of(strips, prepared.scene.bodies.half_width)
+    ux, uy = strips.cells.factors if strips.whole and not moves(prepared.scene) else (1, 1)
+    return strip_surface(prepared, index), (fx * ux, fy * uy)
+
+
+def longer_than(surface: Surface, factors: tuple[int, int], moving: bool = False) -> tuple[int, int]:
+    """Cells of ``surface`` twice as long as ``factors``; as long along y where twice that does not divide the map, and
+    along x where roughness is ``moving``."""
+    along = factors[0] if moving else 2 * factors[0]
+    return along, factors[1] if surface.shape[1] % (2 * factors[1]) else 2 * factors[1]
+
+
+def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> Pair:
+    """Strip ``index`` at ``speed`` [m/s], not 0. The deterministic model begins on longer cells. ``slope``:
+    of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`."""
+    assert prepared.strips is not None
+    surface, factors = strip_of(prepared, index)
+    first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors, moves(prepared.scene)))
+    strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
+    strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
+    return Pair(strip, first, prepared.strips.whole and mirrored(surface.heights))
+
+
+def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:
+    """All numbers of a point but the time, by name; NaN where the model has no such number."""
+    bodies, sq = prepared.scene.bodies, prepared.surface.sq
+    width = bodies.width
+    contact_load = result.split.spots * width
+    return dict.fromkeys(NUMBERS, math.nan) | {
+        "speed": result.speed,
+        "coefficient": result.coefficient,
+        "contact_load": contact_load,
+        "film_load": bodies.load - contact_load,
+        "shear_force": (result.couette + result.rolling) * width,
+        "couette_force": result.couette * width,
+        "rolling_force": result.rolling * width,
+        "boundary_force": result.boundary * width,
+        "real_contact_area_fraction": result.spot_fraction,
+        "real_contact_area": result.spot_length * width,
+        "plastic_area_fraction": result.plastic_fraction,
+        "min_film": result.min_gap,
+        "central_film": result.central_gap,
+        "mean_gap": result.mean_gap,
+        "film_to_roughness_ratio": result.central_gap / sq if sq > 0 else math.inf,
+        "inlet_film_factor": 1.0,
+        "flash_temperature_rise": 0.0,
+        "film_temperature_rise": 0.0,
+        "load_residual": result.report.residuals["load"],
+    }

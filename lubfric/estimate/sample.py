@@ -1,0 +1,299 @@
+"""Friction of an endless rough line to a given standard error: a first sample of strips, then more of them, then the
+effect of their cells."""
+
+import math
+from dataclasses import dataclass, replace
+
+from scipy import fft
+
+from ..contact import RoughContact, Strips, weighted_mean
+from ..errors import LubfricError
+from ..models.load_sharing import (
+    Balance,
+    Point,
+    Prepared,
+    Response,
+    divided,
+    exponents,
+    forces,
+    grown,
+    on_piece,
+    on_stack,
+    solve_balance,
+)
+from ..scene import budget
+from .cells import CellEffect, effect_of_cells, lost_summits
+from .missed import hidden_share, missed_share
+from .scatter import BlockError, Scatter, add_errors, scatter_of
+from .uncertainty import FEW, MATTERS, too_few
+
+SAFETY, LEAST = 1.3, 1.5  # times the length that a standard error asks for; times the length so far, at least
+GROWTH = 4.0, 8.0  # times the length so far: a standard error from few blocks is no guide further
+FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
+LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
+CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
+REFERENCES = (0.05, 0.4, 1.6)  # expected film of the whole load over Sq, at the speeds of reference points
+NEAR_LOAD = 0.25  # of ln F_C, from a reference point whose cells serve as one's own,
+REFERENCED = 0.1  # if they leave no more than that of the tolerance on f
+
+
+@dataclass(frozen=True)
+class Found:
+    """The balance of a sample, corrected for its cells, and what is known of its error.
+
+    - ``balance``: with the division of the load that the scene's own cells demand; ``solved``: as it was solved on
+      ``contact``, a stack of ``count`` ``strips`` (None: a contact without cells).
+    - ``effect``: of the cells; ``scatter``: from place to place; ``missed``: contact that the sample may have missed by
+      chance where none was found: its relative effect on f.
+    """
+
+    balance: Balance
+    solved: Balance
+    contact: RoughContact
+    scatter: Scatter
+    effect: CellEffect = CellEffect()
+    strips: Strips | None = None
+    count: int = 1
+    missed: float = 0.0
+
+    @property
+    def response(self) -> Response | None:
+        """Of the balance as it was solved."""
+        return self.solved.response
+
+    @property
+    def gap_error(self) -> BlockError:
+        """Standard error of the mean gap [m] at given load: from place to place, and of the effect of the cells."""
+        return add_errors(self.scatter.gap, self.effect.error)
+
+    @property
+    def sampling(self) -> float:
+        """Relative standard error of f because the sample is finite."""
+        if self.solved.film is None:
+            return 0.0
+        if self.response is None:
+            return self.missed
+        whole = self.response.relative("coefficient", self.gap_error.error)
+        to_first_order = self.response.per_gap("coefficient") * self.gap_error.error
+        return self.friction_error.error * (whole / to_first_order if to_first_order else 1.0)
+
+    @property
+    def friction_error(self) -> BlockError:
+        """Relative standard error of f, to first order: from place to place, and of the effect of the cells."""
+        cells, response = self.effect.error, self.response
+        per_gap = response.per_gap("coefficient") if response is not None else 0.0
+        return add_errors(self.scatter.friction, BlockError(per_gap * cells.error, cells.freedom))
+
+    @property
+    def corrected(self) -> float:
+        """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left. On
+        the scene's own cells nothing is corrected, so that loads and fields belong together."""
+        if self.strips is None or self.strips.cells.own:
+            return 0.0
+        return self.effect.gap + self.left_by_root
+
+    @property
+    def left_by_root(self) -> float:
+        """Mean gap less mean film [m], as the balance was solved."""
+        return self.solved.contact.mean_gap - self.solved.contact.mean_film
+
+    @property
+    def second_order(self) -> float:
+        """What that correction leaves open of the gap [m]: the correction times the change of ln(F_H/F_C) that it
+        makes. No more was seen, but for one of 25 scenes (1.4 times that, beside a scatter of 17 %)."""
+        return 0.0 if self.response is None else abs(self.response.split) * self.corrected**2
+
+    def change(self, name: str) -> float:
+        """Relative change of f by the gap [m] that the `CellEffect` has under ``name``."""
+        return 0.0 if self.response is None else self.response.relative("coefficient", getattr(self.effect, name))
+
+
+def sampled(prepared: Prepared, speed: float, *, own_cells: bool = False) -> Found:
+    """Solve ``prepared`` at ``speed`` [m/s]: on more strips until the standard error of f is within
+    ``numerics.sampling_tolerance``, on cells so fine that their effect can be corrected for. ``own_cells``: on those of
+    the scene, where one patch is all that there is. Raises `ConvergenceError`."""
+    strips = prepared.strips
+    if strips is None:
+        return _without_cells(prepared, speed)
+    while own_cells and strips.whole and not strips.cells.own:
+        strips = strips.halved()
+    while True:
+        found = _on_cells(prepared, speed, strips)
+        if strips.cells.own or not _too_coarse(prepared, speed, found):
+            return _corrected(prepared, speed, found)
+        strips = strips.halved()
+
+
+def _without_cells(prepared: Prepared, speed: float) -> Found:
+    contact = prepared.contact
+    solved = solve_balance(prepared.scene, speed, contact, prepared.surface.sq)
+    length = prepared.surface.size[1]
+    return _corrected(prepared, speed, Found(solved, solved, contact, Scatter(length), missed=math.nan))
+
+
+def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
+    scene, count = prepared.scene, strips.first
+    start = _reference(prepared, speed, strips)
+    effect: CellEffect | None = None
+    while True:
+        contact = on_stack(prepared, strips, count)
+        coarse = not strips.cells.own
+        solved = solve_balance(scene, speed, contact, prepared.surface.sq, start, correctable=coarse)
+        line = Scatter(contact.heights.shape[1] * contact.spacing[1])
+        found = Found(solved, solved, contact, line, strips=strips, count=count)
+        if solved.response is None:
+            missed = missed_share(scene, contact, solved.film, solved.forces, strips.lengths[1])
+            found = replace(found, missed=missed)
+        else:
+            scatter = scatter_of(scene, contact, solved, strips, count)
+            if effect is None and solved.film is not None:
+                effect = _effect(prepared, _point(prepared, speed, found), solved, strips)
+            found = replace(found, scatter=scatter, effect=(effect or CellEffect()).at_load(solved.contact_load))
+        more = _wanted(prepared, found, strips)
+        grazing = count == strips.first and solved.response is not None and found.scatter.spots < FEW
+        if more <= count or (not grazing and _too_coarse(prepared, speed, found)):
+            return found  # where few spots graze each other, more strips are cheaper than shorter cells
+        start = None if solved.response is None else replace(solved, contact=replace(solved.contact, fields=None))
+        count = more
+
+
+def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | None:
+    """A balance on the first strips to start from: that of the nearest of three fixed speeds (None where a given film
+    arrives, at any speed). It depends on scene and cells alone, so that no result depends on which speeds were solved
+    before."""
+    scene, sq = prepared.scene, prepared.surface.sq
+    if speed == 0 or strips.whole or sq == 0 or scene.lubricant.inlet_film is not None:
+        return None
+    film = scene.line_contact(speed).expected_film / sq
+    nearest = min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))
+
+    def make() -> Balance | None:
+        there = speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
+        try:
+            return solve_balance(scene, there, on_stack(prepared, strips, strips.first), sq)
+        except LubfricError:
+            return None
+
+    found = prepared.remembered(("reference", strips.cells.factors, nearest, speed > 0), make)
+    return found if found is not None and found.response is not None else None
+
+
+def _effect(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> CellEffect:
+    """The effect of the cells at ``balance``: that at the reference point, if the load on the contact is so near that
+    the difference hardly moves f, else its own."""
+    reference, response = _reference(prepared, point.speed, strips), balance.response
+    if reference is not None and abs(math.log(balance.contact_load / reference.contact_load)) < NEAR_LOAD:
+        assert response is not None and reference.film is not None and reference.settings is not None
+        there = replace(point, speed=reference.film.entrainment_speed, settings=reference.settings)
+
+        def make() -> CellEffect:
+            return effect_of_cells(prepared, there, reference, strips)
+
+        found = prepared.remembered(("reference", strips.cells.factors, there.speed, "cells"), make)
+        more = found.at_load(balance.contact_load).rest - found.rest
+        if response.relative("coefficient", more) <= REFERENCED * prepared.scene.numerics.tolerance:
+            return found
+    return effect_of_cells(prepared, point, balance, strips)
+
+
+def speed_of(scene, film: float) -> float:
+    """Speed [m/s] at which the expected film of the whole load is ``film`` [m], to a per cent."""
+    speed = 1.0
+    for _ in range(30):
+        line = scene.line_contact(speed)
+        exponent = exponents(line)[2]
+        step = math.log(film / line.expected_film) / exponent
+        speed *= math.exp(step)
+        if abs(step) < 1e-6:
+            break
+    return speed
+
+
+def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
+    """Number of strips that ``numerics.sampling_tolerance`` needs, at least as many as there are."""
+    asked, spots, touching = prepared.scene.numerics.sampling_tolerance, found.scatter.spots, found.response is not None
+    few = touching and too_few(spots, found.sampling, asked)
+    enough = min(FEW / spots, (found.sampling / (MATTERS * asked)) ** 2) if few else 0.0
+    error = BlockError(found.sampling, found.friction_error.freedom if touching else 0)
+    more = enlarged(found.count, strips.first, strips.available, error, asked, enough)
+    return more if more == found.count else min(strips.available, fft.next_fast_len(more, real=True))  # 90, not 89
+
+
+def enlarged(
+    count: int,
+    first: int,
+    available: int,
+    error: BlockError,
+    asked: float,
+    enough: float = 0.0,
+    *,
+    growth: tuple[float, float] = GROWTH,
+    spare: tuple[float, float] = (SAFETY, LEAST),
+) -> int:
+    """Number of strips at which a standard ``error`` on ``count`` of them falls to the one ``asked``: ``count`` if it
+    has, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
+
+    It is (reached/asked)² times the present number, with some to ``spare`` (1.3 times that, and at least 1.5 times the
+    present number), and at most ``growth`` times as many: of the ``first``, and of a later one. A standard error from
+    few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long enough
+    whenever its blocks happen to scatter little, the stated error would be too small. So the first one counts as long
+    enough only if even 1 + 1/sqrt(nu) times its error is within what is asked.
+    """
+    doubt = 1 / math.sqrt(error.freedom) if count == first and error.freedom > 0 else 0.0
+    reached = error.error * (1 + doubt)
+    if reached <= asked and not enough:
+        return count
+    most = growth[count > first]
+    times = spare[0] * max((reached / asked) ** 2, enough) if math.isfinite(reached) else most
+    return min(available, math.ceil(min(max(times, spare[1]), most) * count - 1e-9))
+
+
+def _too_coarse(prepared: Prepared, speed: float, found: Found) -> bool:
+    """Whether the cells change the division of the load or the gap by more than can be corrected, or f by more than is
+    allowed beyond first order; where the film clears the summits, whether the cells cut off a summit that would
+    touch."""
+    response, strips, scene = found.response, found.strips, prepared.scene
+    if strips is None or strips.cells.own or found.solved.film is None:
+        return False
+    allowed = budget.CONTACT_GRID * scene.numerics.tolerance
+    if response is not None:
+        moved = abs(response.split * found.corrected)
+        if max(abs(found.corrected), abs(found.effect.film)) > LARGEST * found.solved.contact.mean_gap:
+            return True
+        there, load = found.solved.forces, found.solved.contact_load
+        spots = max(there.boundary / max(there.total, 1e-300), load / scene.bodies.load)  # of friction, or of the load
+        if found.count == strips.available or found.scatter.spots >= FEW:  # else it is known to a factor anyway
+            spots = math.inf
+        if moved > FARTHEST and spots * math.expm1(min(moved, 30.0)) > allowed:
+            return True
+        return response.relative("coefficient", found.second_order) > allowed
+    clearance = found.solved.contact.mean_film - found.solved.contact.mean_gap
+    if found.count > strips.first or clearance > CLOSE * prepared.surface.sq:
+        return False
+    depth = lost_summits(prepared, _point(prepared, speed, found), found.solved, strips) - clearance
+    own = on_piece(prepared, strips, 0, (1, 1))
+    return depth > 0 and hidden_share(scene, own, found.solved.forces, depth) > allowed
+
+
+def _point(prepared: Prepared, speed: float, found: Found) -> Point:
+    assert found.solved.settings is not None
+    return Point(prepared.scene, speed, found.contact, found.solved.settings)
+
+
+def _corrected(prepared: Prepared, speed: float, found: Found) -> Found:
+    """``found`` with the load divided as its own cells and the end of the root demand: film and friction are those of
+    that division, areas follow its load."""
+    solved, response, scene, effect = found.solved, found.response, prepared.scene, found.effect
+    if response is None or solved.film is None or not found.corrected:
+        return found
+    loads = divided(scene.bodies.load, solved.split + response.split * found.corrected)
+    film = _point(prepared, speed, found).film(loads[0], solved.film, solved.film.cells)
+    state, area = solved.contact, solved.contact.real_contact_area_fraction
+    by_load = response.slopes.area_factor(loads[1] - solved.contact_load, scene.bodies.width, area)
+    plastic = max(state.plastic_area_fraction + effect.plastic, 0.0)
+    state = grown(replace(state, plastic_area_fraction=plastic), effect.area * by_load)
+    mean = weighted_mean(film.film_at(found.contact.x), found.contact.weight) + effect.film
+    state = replace(state, mean_gap=mean, mean_film=mean)
+    there = forces(scene, film, state, loads[1])
+    balance = replace(solved, film_load=loads[0], contact_load=loads[1], film=film, contact=state, forces=there)
+    return replace(found, balance=balance)

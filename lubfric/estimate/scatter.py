@@ -1,0 +1,215 @@
+"""The scatter of a long contact from place to place, read off one solution of it.
+
+At a given film and approach, each place y along the line has its own mean gap G(y) of the strip, and its own line load
+P(y). A place that carries more than its share leaves less load for the others, and their gap grows. So a place changes
+the mean gap at the *given mean load* by its influence ``I(y) = G(y) - beta (P(y) - mean P)``, with ``beta = dG/dP`` at
+a given film. Means of I over blocks longer than its correlation are nearly independent. Their scatter gives the
+standard error of the mean gap.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..contact import HalfSpaceContact, Strips
+from ..film import EHLResult
+from ..models.load_sharing import Balance
+from ..oil import shear_stress
+from ..scene import Scene
+
+FEWEST_WINDOWS = 3
+MOST_BLOCKS, ENOUGH_BLOCKS, LEAST_BLOCKS = 32, 8, 5
+WIDE, BLOCK = 9.0, 5.0  # correlation lengths of the surface along y in a block: wanted, and at least
+ENDS = 1 / math.sqrt(math.pi)  # correlation lengths of a block that are as its neighbours, for a Gaussian correlation
+SPOT = 1.75  # correlation lengths along y in a block that counts as one contact spot
+
+
+@dataclass(frozen=True)
+class BlockError:
+    """Standard error of a mean over blocks, in the unit of the values, and its degrees of freedom."""
+
+    error: float
+    freedom: int
+
+
+def strip_gap(contact, state) -> np.ndarray:
+    """G(y) [m] (ny,): the gap at every place along the line, averaged over the strip A. ``state``: a `ContactState`
+    with fields."""
+    return contact.weight @ np.maximum(state.fields.gap, 0.0) / contact.weight.sum()
+
+
+def line_load(contact, state) -> np.ndarray:
+    """P(y) [N/m] (ny,): load per length at every place along the line."""
+    return state.fields.pressure.sum(axis=0) * contact.spacing[0]
+
+
+def gap_influence(strip_gap, line_load, slope: float) -> np.ndarray:
+    """I(y) [m] (ny,): strip_gap G(y) [m], line_load P(y) [N/m], slope dG/dP [m²/N] at a given film."""
+    return strip_gap - slope * (line_load - line_load.mean())
+
+
+def block_error(values, step: float, correlation_length: float, exact=None) -> BlockError:
+    """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
+
+    It is s/sqrt(n (1 - 0.56/b)) with n = 8 to 32 blocks, each at least b = 9 correlation lengths [m] long. If the line
+    is too short for eight of these, 5 to 8 blocks of five lengths are taken. A remainder shorter than a block is left
+    out. If the line is shorter still, the error is infinite, with no degree of freedom.
+
+    Neighbouring blocks are alike near their common end, and so scatter less than independent ones. For values with the
+    correlation exp(-(y/l)²), the variance of a mean over b l is smaller than that of an endless line by the fraction
+    int |y| exp(-y²) dy / int exp(-y²) dy / b = 1/(sqrt(pi) b).
+
+    ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly. Scatter that the blocks share
+    with it is no error: s is then that of the residuals of a straight line through the blocks.
+    """
+    count = min(MOST_BLOCKS, int(values.size * step / (WIDE * correlation_length)))
+    count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (BLOCK * correlation_length))))
+    count = min(count, values.size)
+    if count < LEAST_BLOCKS:
+        return BlockError(math.inf, 0)
+    means = _means(values, count)
+    freedom = count - 1
+    if exact is not None:
+        known = _means(exact, count)
+        known -= known.mean()
+        if (square := float(known @ known)) > 0:
+            means, freedom = means - known * (float(known @ means) / square), count - 2
+    square = float(np.sum((means - means.mean()) ** 2))
+    length = values.size // count * step / correlation_length
+    return BlockError(math.sqrt(square / (freedom * count * (1 - ENDS / length))), freedom)
+
+
+def _means(values, count: int) -> np.ndarray:
+    size = values.size // count
+    return values[: size * count].reshape(count, size).mean(axis=1)
+
+
+def effective_spots(line_load, step: float, correlation_length: float) -> float:
+    """(sum P)²/sum P² over short blocks, about one contact spot each: the number of equally loaded spots that would
+    carry the load as unevenly as these."""
+    size = max(1, round(SPOT * correlation_length / step))
+    loads = line_load[: line_load.size // size * size].reshape(-1, size).sum(axis=1)
+    square = float(np.sum(np.square(loads)))
+    return float(np.sum(loads)) ** 2 / square if square > 0 else 0.0
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Standard errors of what a sample of ``length`` [m] stands for: at given load of its mean gap [m], its contact
+    area fraction of A [-] and its contact area per length [m]; in balance, of f, relative. ``spots``:
+    `effective_spots`.
+    """
+
+    length: float
+    gap: BlockError = BlockError(math.inf, 0)
+    area: BlockError = BlockError(math.inf, 0)
+    touched: BlockError = BlockError(math.inf, 0)
+    friction: BlockError = BlockError(math.inf, 0)
+    spots: float = 0.0
+
+
+def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips: Strips, count: int) -> Scatter:
+    """The `Scatter` of ``contact``, a stack of ``count`` ``strips``, in ``balance``. Of a mirrored map only half
+    counts."""
+    state, response = balance.contact, balance.response
+    assert state.fields is not None and response is not None
+    slopes = response.slopes
+    rows = slice(0, contact.heights.shape[1] // (2 if strips.whole and mirrored(contact.heights) else 1))
+    by_place, step = line_load(contact, state)[rows], contact.spacing[1]
+    touching = state.fields.pressure[:, rows] > 0
+    squares = np.square(contact.heights[:, rows]).mean(axis=0) if strips.exact_sq else None
+
+    def error(influence) -> BlockError:
+        return place_error(influence, step, strips, count, squares)
+
+    def at_given_load(values, slope: float) -> BlockError:
+        return error(gap_influence(values, by_place, slope))
+
+    of_friction = BlockError(0.0, 1)
+    if balance.film is not None and response.rates and balance.forces.total:
+        of_friction = error(friction_influence(scene, contact, balance)[rows])
+    return Scatter(
+        by_place.size * step,
+        at_given_load(strip_gap(contact, state)[rows], slopes.gap),
+        at_given_load(contact.weight @ touching / contact.weight.sum(), slopes.area),
+        at_given_load(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
+        of_friction,
+        effective_spots(by_place, step, strips.lengths[1]),
+    )
+
+
+def friction_influence(scene: Scene, contact: HalfSpaceContact, balance: Balance) -> np.ndarray:
+    """Influence of every place y of ``contact`` on f (ny,), relative, in a ``balance`` of film and contact: by the gap,
+    which divides the load, and by where the place touches, since the film has no shear there. 0 without contact."""
+    state, response, film = balance.contact, balance.response, balance.film
+    if response is None or not response.rates or film is None or state.fields is None:
+        return np.zeros(contact.heights.shape[1])
+    touching = state.fields.pressure > 0
+    touched = max(float(touching.sum(axis=0).mean()) * contact.spacing[0], 1e-300)
+    lost = _film_stress(scene, contact, film) @ touching * contact.spacing[0]
+    by_load, force = response.rates["coefficient"] * response.split, balance.forces.total / scene.bodies.width
+    slope = by_load * response.slopes.gap - response.slopes.touched * float(lost.mean()) / touched / force
+    values = by_load * strip_gap(contact, state) - lost / force
+    return gap_influence(values, line_load(contact, state), slope)
+
+
+def place_error(influence, step: float, strips: Strips, count: int, exact=None) -> BlockError:
+    """Standard error of the mean of the ``influence`` of places along ``count`` strips, on cells of ``step`` [m]: from
+    blocks (`block_error`). If there are three windows of a measured map or more, it is the larger of that and the one
+    from windows, which show whether a surface differs from place to place."""
+    blocks = block_error(influence, step, strips.lengths[1], exact)
+    if not strips.windows or count < FEWEST_WINDOWS:
+        return blocks
+    means = _means(influence, count)
+    windows = BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
+    return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
+
+
+def _film_stress(scene: Scene, contact: HalfSpaceContact, film: EHLResult) -> np.ndarray:
+    """Shear stress [Pa] (nx,) of ``film`` at the columns of ``contact``, signed as the friction."""
+    sliding = scene.motion.slide_roll_ratio * film.entrainment_speed
+    pressure = np.interp(contact.x, film.x, film.pressure)
+    stress = shear_stress(scene.lubricant, pressure, abs(sliding) / film.film_at(contact.x))
+    return np.where(pressure > 0, np.abs(stress), 0.0)
+
+
+def mirrored(heights: np.ndarray) -> bool:
+    """Whether the second half along y is the mirror image of the first."""
+    return heights.shape[1] > 1 and bool(np.array_equal(heights, heights[:, ::-1]))
+
+
+def add_errors(*parts: BlockError) -> BlockError:
+    """Error of a sum of independent quantities. The degrees of freedom are by Welch and Satterthwaite
+    (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
+    terms = [(part.error**2, part.freedom) for part in parts]
+    variance = sum(v for v, _ in terms)
+    if variance == 0 or not math.isfinite(variance):
+        return BlockError(math.sqrt(variance), sum(f for _, f in terms))
+    return BlockError(math.sqrt(variance), int(variance**2 / sum(v**2 / max(f, 1) for v, f in terms)))
+
+
+def moment_error(
+    contact, state, loads, softness: float, width: float, correlation_length: float, parts, thinning: float
+) -> float:
+    """Relative standard error of f at one moment, from a `ContactState` with fields on ``contact``: 0 without contact,
+    NaN if the line is too short.
+
+    ``loads``: (F_C, F_H) [N]; ``softness``: -dG/d ln F_C [m] of the contact; ``parts``: boundary and viscous friction
+    [N]; ``thinning``: -d ln h/d ln F_H of the film, 1 if it is rigid and some .1 if it is elastic. Film and contact are
+    assumed to have time to divide the load anew (`lubfric.estimate.response.respond`). A film that is squeezed follows
+    more slowly, and the error is smaller then.
+    """
+    contact_load, film_load = loads
+    boundary, viscous = parts
+    total, friction = contact_load + film_load, boundary + viscous
+    if contact_load <= 0 or friction == 0:
+        return 0.0
+    if state.fields is None or not math.isfinite(correlation_length):
+        return math.nan
+    slope = -softness / (contact_load / width)
+    values = gap_influence(strip_gap(contact, state), line_load(contact, state), slope)
+    found = block_error(values, contact.spacing[1], correlation_length)
+    shares = contact_load / total, film_load / total
+    split = found.error / (softness * shares[1] + thinning * state.mean_film * shares[0])
+    return abs((viscous * shares[0] - boundary * shares[1]) / friction) * split if found.freedom else math.nan

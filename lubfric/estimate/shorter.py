@@ -1,0 +1,199 @@
+"""The third and fourth level: what cells half as long, and half of that, change, seen on pieces of the surface.
+
+Relative to f that change hardly depends on speed, far less than it scatters. So pieces are solved at the nearest of
+fixed speeds, on which neighbouring points of a curve share them; these follow from the scene alone.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from ..contact import Strips
+from ..errors import LubfricError
+from ..models.deterministic import Strip, changes_of, estimate, solve_strip
+from ..models.load_sharing import Prepared, on_piece
+from ..scene import moves
+from .moving import MOST_WORK, map_of
+from .pair import Pair, cells_of, longer_than, numbers_of, strip_of
+from .sample import speed_of
+from .scatter import BlockError, block_error
+
+CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
+MOST_PIECES, PIECES_WORK = 32, 30.0  # s, counted: beyond it no more are solved
+MOVING = 0.5  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
+# small by chance (to cells of an eighth, f of nine Gaussian maps moved by 0 to 10 % from a half, and 0 to 2 % from a
+# quarter)
+SOLVED = 2e-3  # of f: what the tolerance of a strip may move
+SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
+LENGTH, SHORTEST = 42.0, 14.0  # correlation lengths: pieces of the third level, and the one of the last
+SMOOTH = 3.0  # mean square of the change of heights over two cells, over that over one: 4 of smooth ones, 2 of others
+OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean
+FIXED = 2.0  # ratio of the expected films at neighbouring fixed speeds
+
+Piece = tuple[Strip, ...]  # on shorter and shorter cells
+
+
+def on_shorter_cells(
+    prepared: Prepared, speed: float, pairs: Sequence[Pair]
+) -> tuple[tuple[Piece, ...], Piece, BlockError, float]:
+    """Solve the third and fourth level beside ``pairs``, as far as needed, if the roughness rests: the pieces of both,
+    the standard error of the mean relative change of f on those of the third, and the relative error that the last
+    cells leave. Raises `ConvergenceError`.
+
+    There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK` allows it. What it
+    tells from one short piece may be off by half.
+    """
+    scene, strips = prepared.scene, prepared.strips
+    assert strips is not None
+    by_longer = sum(changes_of((pair.longer, pair.resolved))[0] for pair in pairs) / len(pairs)
+    factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.factors)
+    halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
+    left = max(estimate([by_longer]), SOLVED, MOVING * _coarse(prepared) ** 2 if moves(scene) else 0.0)
+    enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
+    enough = enough and (strips.whole or _smooth(strips))
+    own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
+    if enough or own or moves(scene):
+        return (), (), BlockError(0.0, 1), left
+    if strips.whole:
+        patch = _refined(prepared, speed, 0, pairs[0])
+        return (patch,), (), BlockError(0.0, 1), max(estimate(changes_of(patch)), SOLVED)
+    if strips.length < SHORT * strips.lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
+        pieces, error = _pieces(prepared, speed, pairs[0])
+    else:
+        pieces, error = _at_fixed_speed(prepared, speed)
+    changes = [piece[-1].result.coefficient / piece[1].result.coefficient - 1 for piece in pieces]
+    change = abs(float(np.mean(changes)))  # its error is told
+    left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
+    spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
+    short = SHORTEST * strips.lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
+    dear = spent + 4 * min(short, 1.0) * pieces[0][-1].work > MOST_WORK  # a short map is all of both pieces
+    if left <= scene.numerics.tolerance or halvings < 2 or dear:
+        return pieces, (), error, left
+    shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=SHORTEST)
+    coarse, fine = (strip.result for strip in shortest[-2:])
+    further = abs(1 - coarse.coefficient / fine.coefficient)
+    scatter = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # of its mean over places
+    left = math.hypot(max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), scatter)
+    return pieces, shortest, error, left
+
+
+def _coarse(prepared: Prepared) -> float:
+    """Length along x of the cells of the deterministic model over the correlation length."""
+    strips = prepared.strips
+    assert strips is not None
+    return cells_of(strips, prepared.scene.bodies.half_width)[0] * strips.cells.coarse[0] / strips.lengths[0]
+
+
+def _smooth(strips: Strips) -> bool:
+    """Whether the heights are smooth over a cell of ``strips``: then they change over two cells twice as much as over
+    one. Of an exponential autocorrelation it is sqrt(2), and one change of f says nothing of what shorter cells do."""
+    z = strips.strip(0).heights
+    one, two = (float(np.mean(np.square(z - np.roll(z, k, axis=1)))) for k in (1, 2))
+    return two >= SMOOTH * one
+
+
+def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[Strip]]) -> dict[str, float]:
+    """``numbers`` of a point as shorter cells change them: each by its ratio on ``pieces``, each on the longer and the
+    shorter cells; the loads by that of their odds, and the force of the film such that the forces add up to f."""
+    if not pieces:
+        return numbers
+    rows = [[numbers_of(prepared, piece[k].result) for piece in pieces] for k in (0, 1)]
+    before, after = ({name: float(np.mean([row[name] for row in level])) for name in numbers} for level in rows)
+    new = {name: value * after[name] / before[name] if before[name] else value for name, value in numbers.items()}
+    load, kept = prepared.scene.bodies.load, ("speed", "load_residual", "rolling_force", "film_to_roughness_ratio")
+    new |= {name: numbers[name] for name in kept}
+    odds = new["contact_load"] / new["film_load"] if new["film_load"] > 0 else math.inf
+    new["contact_load"] = load / (1 + 1 / odds) if odds else 0.0
+    new["film_load"] = load - new["contact_load"]
+    if numbers["contact_load"] > 0:
+        new["boundary_force"] = numbers["boundary_force"] * new["contact_load"] / numbers["contact_load"]
+    new["shear_force"] = load * new["coefficient"] - new["boundary_force"]
+    new["couette_force"] = new["shear_force"] - new["rolling_force"]
+    if prepared.surface.sq > 0:
+        new["film_to_roughness_ratio"] = new["central_film"] / prepared.surface.sq
+    return new
+
+
+def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...], BlockError]:
+    """The pieces at the nearest fixed speed; at ``speed`` itself where a given film arrives at any speed, or where they
+    cannot be solved there."""
+    scene, strips, sq = prepared.scene, prepared.strips, prepared.surface.sq
+    assert strips is not None
+    if scene.lubricant.inlet_film is not None:
+        return _pieces(prepared, speed, None)
+    step = round(math.log(scene.line_contact(abs(speed)).expected_film / sq, FIXED))
+
+    def make() -> tuple[tuple[Piece, ...], BlockError] | None:
+        there = math.copysign(speed_of(scene, sq * FIXED**step), speed)
+        try:
+            return _pieces(prepared, there, None)
+        except LubfricError:  # at that speed: heat may leave no film there
+            return None
+
+    def cells(made) -> int:
+        return sum(one.problem.heights.size for piece in made[0] for one in piece) if made else 0
+
+    found = prepared.remembered(("reference", strips.cells.factors, "pieces", step, speed > 0), make, cells)
+    return found or _pieces(prepared, speed, None)
+
+
+def _pieces(prepared: Prepared, speed: float, first: Pair | None) -> tuple[tuple[Piece, ...], BlockError]:
+    """Pieces at ``speed`` [m/s] until the standard error of their mean relative change of f is small; ``first``: the
+    strip that is the first of them (None: all are pieces)."""
+    strips, asked = prepared.strips, CELLS * prepared.scene.numerics.sampling_tolerance
+    assert strips is not None
+    pieces: list[Piece] = []
+    error, spent = BlockError(math.inf, 0), 0.0
+    while len(pieces) < min(strips.pieces, MOST_PIECES) and not (error.error <= asked or spent > PIECES_WORK):
+        slope = pieces[0][1].slope if pieces else None
+        pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))
+        error, spent = _error(pieces, strips), spent + sum(strip.work for strip in pieces[-1])
+    return tuple(pieces), error
+
+
+def _refined(
+    prepared: Prepared,
+    speed: float,
+    index: int,
+    first: Pair | None,
+    slope: float | None = None,
+    *,
+    times: int = 2,
+    length: float = LENGTH,
+) -> Piece:
+    """A piece of the surface of this ``length`` in correlation lengths, on cells twice as long as those of the strips,
+    on the same, and on shorter and shorter ones, at last so many ``times`` as short. ``first``: the strip that is it,
+    solved on the first two; of a patch: all of it, until the estimated error is within ``numerics.tolerance``, at last
+    (with ``numerics.grid = "given"`` always) on the map's own. ``slope``: of friction over load [-] (None: found by a
+    second solve)."""
+    scene, strips = prepared.scene, prepared.strips
+    assert strips is not None
+    surface, factors = strip_of(prepared, index)
+    enough = scene.numerics.tolerance if strips.whole and scene.numerics.grid != "given" else 0.0
+    if first is not None:
+        ladder = [first.longer, first.resolved]
+    else:
+        cells = tuple(f * n for f, n in zip(factors, strips.cells.factors))
+        last = max(1, cells[0] // times), max(1, cells[1] // times)
+        factors = cells[0] // last[0], cells[1] // last[1]
+        surface = map_of(prepared, on_piece(prepared, strips, index, last, length=length))
+        ladder = [solve_strip(scene, surface, speed, factors=longer_than(surface, factors))]
+        ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[0], slope=slope is None))
+    while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
+        factors = max(1, factors[0] // 2), max(1, factors[1] // 2)
+        ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[-1]))
+    slope = ladder[1].slope if slope is None else slope
+    return tuple(replace(one, slope=slope) for one in ladder)
+
+
+def _error(pieces: Sequence[Piece], strips: Strips) -> BlockError:
+    """Standard error of the mean relative change of f from the cells of the second level to the last ones, from place
+    to place."""
+    changes = []
+    for piece in pieces:
+        base, last = piece[1], piece[-1]
+        places = last.deviations.reshape(base.result.load_at.size, -1).mean(axis=1) - base.deviations
+        changes.append((places + last.result.coefficient - base.result.coefficient) / abs(base.result.coefficient))
+    return block_error(np.concatenate(changes), pieces[0][1].problem.spacing[1], strips.lengths[1])

@@ -1,0 +1,279 @@
+"""Roughness that moves through the film: implicit steps in time, each with the mass that the film stores.
+
+    div( U rho θ h - rho h³ Φ/(12 eta) grad p ) + d(rho θ h)/dt = 0
+
+Steps are BDF2, of second order: (3 m - 4 m' + m'')/(2 dt), with m' and m'' the mass rho θ h of the last two moments,
+limited where a summit closes a cell (`state.stored`). In a step the lubricant passes one cell, and m' and m'' are those
+of the one and two cells before: along the way of the lubricant both first terms are one, d(rho θ h)/dt. Waves that go
+with it lose nothing, and of a film at rest that is second-order upwind, as of the steady one. (In steps and cells that
+stand still, waves of 12 cells lost half of their height in a half-width.)
+
+Where all roughness is slower than U/2, or some is faster than 2 U, the fastest rough body moves by one cell in a step,
+m' and m'' are of the cell itself, and the first step is implicit Euler.
+
+f is that of surface 2, the upper one, against its sliding u2 - u1, or against U in pure rolling (`Problem.sense`).
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from itertools import islice
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from ...errors import CONVERGED, ITERATION_LIMIT, Report
+from ...film import LineContact
+from ...scene import Scene
+from ...surface import Surface
+from .newton import Work, newton
+from .point import Strip, solve_strip, work_of_steps
+from .problem import Problem, shifted
+from .result import DeterministicResult, LoadSplit, assemble
+from .solve import solve_point
+from .state import RUPTURED, Iterate, Past, State, evaluated, kept, residuals
+
+EXACT = 1e-3  # tolerance of the residuals of a step
+LOOSE = 1e-4  # and of a strip, times its cells along x: f moves by .1 %
+MOST, PARTS = 160, 4  # factorisations of a step; Euler steps that lead to one that fails
+RESOLVED = 8  # cells in the Hertz half-width, from which on the pressure is carried with the roughness
+SMOOTH = 0.4  # half-widths over which the pressure is smoothed to tell what goes with the roughness
+SWEEP = 2.5  # half-widths that the film travels before anything counts: from -1.5 to 1
+STEPS, KRYLOV = 4.0, 25.0  # factorisations and iterations in a step in time, about
+SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film"
+SLOW, FAST = 0.5, 2.0  # of U: roughness that is slower or faster passes a cell in a step; else the lubricant does
+SAME = 1e-9  # relative: the lubricant passes one cell in a step
+AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The film ``at`` a ``time`` [s] since the roughness began to move; ``work``: what this step took."""
+
+    time: float
+    at: Iterate
+    work: Work
+
+    @cached_property
+    def result(self) -> DeterministicResult:
+        """Its fields and forces."""
+        left = residuals(self.at)
+        worst, steps = max(left.values()), self.work.factorisations
+        cost, name = self.work.krylov, "film under moving roughness"
+        return assemble(self.at, Report(name, CONVERGED, steps, worst, worst, left, evaluations=cost))
+
+
+def moments(
+    problem_at: Callable[[float], Problem],
+    step: float,
+    *,
+    start: State | None = None,
+    tolerance: float = EXACT,
+    carried: int = 0,
+) -> Iterator[Moment]:
+    """The film from moment to moment, without end, while the heights of its surfaces change with time.
+
+    Parameters
+    ----------
+    problem_at : of a time [s], from 0 on, the `Problem` then: its ``heights`` [m] (nx, ny) are those of both bodies.
+        Load and speed may change too, the grid may not
+    step : [s]. If the lubricant passes one cell in it, the mass is followed along
+    start : the state at time 0; None: the steady film there, as if the roughness were at rest
+    tolerance : of the residuals of a step (`lubfric.models.deterministic.state.residuals`); small waves need 1e-6 and less
+    carried : cells by which the roughness moves in a step. Newton's method begins with its pressure there; the result
+        does not depend on it
+
+    The first is time 0 itself. Raises `ConvergenceError` where a step is not solved.
+    """
+    problem, count = problem_at(0.0), 0
+    at = before = evaluated(problem, solve_point(problem).state if start is None else start)
+    smooth = max(1, round(SMOOTH * half_width(problem.contact) / problem.spacing[0]))
+    yield Moment(0.0, at, Work(0))
+    while True:
+        count += 1
+        work, problem = Work(MOST), problem_at(count * step)
+        past = _past(problem, at, before, step, count == 1)
+        near = (_carried(at.state, before.state, carried, smooth),) if carried else ()
+        for state in (*near, at.state):
+            found = newton(problem, state, work, tolerance=tolerance, most=MOST // 4, past=past)
+            if found.residual <= tolerance:
+                break
+        else:
+            nearby = _in_parts(problem_at, at, (count - 1) * step, step, work, tolerance)
+            found = newton(problem, nearby, work, tolerance=tolerance, most=MOST // 4, past=past)
+        if not found.residual <= tolerance:
+            name = f"film under moving roughness, step {count} of {step:.3g} s"
+            advice = "shorter cells make the step shorter, and a higher speed the film thicker"
+            cost, left = work.factorisations, found.residuals
+            Report(name, ITERATION_LIMIT, cost, found.residual, tolerance, left, advice=advice).raise_if_failed()
+        at, before = found.at, at
+        yield Moment(count * step, at, work)
+
+
+def _past(problem: Problem, at: Iterate, before: Iterate, step: float, first: bool) -> Past:
+    """Of the step from ``at`` to ``problem``; the moment ``before`` came a step before."""
+    cell = problem.spacing[0]
+    if max(abs(one.speed * step - cell) for one in (problem, at.problem)) > SAME * cell:
+        return Past(at.mass, step) if first else Past(kept(at.mass, before.mass), step, (at.mass, 0.5))
+
+    def behind(mass):
+        """That of the cell before; before the first one by the parabola."""
+        return np.concatenate([mass[:1] - problem.x[0] / problem.radius * cell, mass[:-1]])
+
+    then = behind(at.mass)
+    left = np.concatenate([0.0 * then[:1], kept(at.mass, behind(before.mass))[:-1]])  # what enters is no past
+    return Past(left, step, (then, 0.5), carried=True)
+
+
+def _in_parts(problem_at, at: Iterate, time: float, step: float, work: Work, tolerance: float) -> State:
+    """The state after the step after ``time`` in `PARTS` Euler steps, as far as they are solved: a start only, because
+    they do not keep the mass that the steps of second order keep."""
+    for part in range(1, PARTS + 1):
+        problem, past = problem_at(time + part * step / PARTS), Past(at.mass, step / PARTS)
+        found = newton(problem, at.state, work, tolerance=tolerance, most=MOST // 4, past=past)
+        if not found.residual <= tolerance:
+            break
+        at = found.at
+    return at.state
+
+
+def _carried(state: State, before: State, cells: int, smooth: int) -> State:
+    """``state`` with all that goes with the roughness moved by so many ``cells`` along x: dents, kinds of cells, and
+    what the pressure has beside its mean over y and ``smooth`` cells along x. Half of its change since the moment
+    ``before`` is added."""
+
+    def moved(values, times=1):
+        return np.concatenate([np.repeat(values[:1], times * cells, axis=0), values[: -times * cells]])
+
+    mean, old = (uniform_filter1d(one.pressure.mean(axis=1, keepdims=True), smooth, axis=0) for one in (state, before))
+    rough = 1.5 * moved(state.pressure - mean) - 0.5 * moved(before.pressure - old, 2)
+    kind = moved(state.kind)
+    return replace(
+        state,
+        pressure=np.where(kind == RUPTURED, 0.0, np.maximum(mean + rough, 0.0)),
+        fill=np.where(kind == RUPTURED, moved(state.fill), 1.0),
+        dent=moved(state.dent),
+        kind=kind,
+        yielded=moved(state.yielded),
+    )
+
+
+class RoughBody(NamedTuple):
+    """The map of a body that moves at a ``speed`` [m/s] along x, all on the same cells; ``upper``: it is surface 2, and
+    the map as seen from surface 1."""
+
+    surface: Surface
+    speed: float
+    upper: bool = False
+
+
+def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float], Problem]:
+    """Of a time [s], ``problem`` with the heights of ``bodies`` then.
+
+    A map is laid out as by `lay_out`, and `shifted`."""
+    shifts = [shifted(problem, body.surface) for body in bodies]
+
+    def at(time: float) -> Problem:
+        heights = [shift(body.speed * time) for shift, body in zip(shifts, bodies)]
+        upper = [z for z, body in zip(heights, bodies) if body.upper]
+        return replace(problem, heights=np.sum(heights, axis=0), upper=upper[0] if upper else None)
+
+    return at
+
+
+@dataclass(frozen=True)
+class MovingStrip(Strip):
+    """A strip whose roughness moved through the film; ``result`` has the means over time, and the fields of the last
+    moment.
+
+    ``rest``: the same strip at rest, from which it started. ``times`` [s] (n,): all moments after it, the first
+    ``discarded`` of which count nothing: the film had not passed the contact yet. ``series``: of each the numbers
+    `SERIES` and ``share``, of the load that rubs with f_b.
+    """
+
+    rest: Strip
+    times: np.ndarray
+    discarded: int
+    series: dict[str, np.ndarray] = field(repr=False)
+
+
+def solve_moving_strip(
+    scene: Scene,
+    bodies: Sequence[RoughBody],
+    speed: float,
+    *,
+    factors: tuple[int, int] = (1, 1),
+    start: Strip | None = None,
+    slope: bool = False,
+) -> MovingStrip:
+    """Move the rough ``bodies`` through the film at U = ``speed`` [m/s], by the length of the fastest map. Their speeds
+    are along the motion.
+
+    ``factors``, ``start``, ``slope``: as in `solve_strip`, for the roughness at rest, from which the motion starts.
+    What follows until the film has passed from 1.5 half-widths before to one behind the middle of the contact is
+    discarded (of the Hertz strip, or of the smooth film where that is wider). Raises `InputError` and
+    `ConvergenceError`.
+    """
+    whole = replace(bodies[0].surface, heights=np.sum([body.surface.heights for body in bodies], axis=0), mask=None)
+    near = start.rest if isinstance(start, MovingStrip) else start
+    upper = next((body.surface for body in bodies if body.upper), None)
+    rest = solve_strip(scene, whole, speed, factors=factors, start=near, slope=slope, upper=upper)
+    if speed < 0:
+        bodies = [body._replace(surface=replace(body.surface, heights=body.surface.heights[::-1])) for body in bodies]
+    fastest = max(bodies, key=lambda body: abs(body.speed))
+    cell, length = rest.problem.spacing[0], fastest.surface.size[0]
+    step, discarded, count = _plan(rest.problem.contact, cell, fastest.speed, length)
+    moved = max(1, round(abs(fastest.speed) * step / cell))
+    moving = moments(
+        travelling(rest.problem, bodies),
+        step,
+        start=rest.result.state,
+        tolerance=LOOSE * rest.problem.x.size,
+        carried=moved if rest.problem.contact.half_width > RESOLVED * cell else 0,
+    )
+    rows: list[dict[str, Any]] = []
+    for moment in islice(moving, 1, 1 + discarded + count):
+        rows.append({name: getattr(moment.result, name) for name in AVERAGED} | vars(moment.result.split))
+        work = work_of_steps(moment.at.gap.size, moment.work.factorisations, moment.work.krylov)
+        rows[-1] |= {"share": moment.result.split.spots / moment.result.load, "work": work}
+    mean = {name: np.mean([row[name] for row in rows[discarded:]], axis=0) for name in rows[0]}
+    split = LoadSplit(*(float(mean[f.name]) for f in fields(LoadSplit)))
+    parts: dict[str, Any] = {name: mean[name] if mean[name].ndim else float(mean[name]) for name in AVERAGED}
+    last = moment.result
+    speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
+    note = (
+        f"the roughness moved at {speeds} m/s, by {count} steps of {step:.3g} s after {discarded} that do not count; "
+        f"at rest f = {rest.result.coefficient:.4g}"
+    )
+    return MovingStrip(
+        moment.at.problem,
+        replace(last, **parts, split=split, report=replace(last.report, notes=(note,))),
+        rest.slope,
+        rest.work + sum(row["work"] for row in rows),
+        rest,
+        step * np.arange(1, 1 + len(rows)),
+        discarded,
+        {name: np.array([row[name] for row in rows]) for name in SERIES},
+    )
+
+
+def _plan(contact: LineContact, cell: float, fastest: float, length: float) -> tuple[float, int, int]:
+    """Length [s] of a step, and the numbers of steps that are discarded and that count, for cells [m] along x and a
+    ``fastest`` body [m/s] whose map has this ``length`` [m]."""
+    speed = contact.entrainment_speed
+    step = cell / (speed if SLOW <= abs(fastest) / speed <= FAST else abs(fastest))
+    discarded = math.ceil(SWEEP * half_width(contact) / (speed * step))
+    return step, discarded, max(1, round(length / (abs(fastest) * step)))
+
+
+def half_width(contact: LineContact) -> float:
+    """That of the Hertz strip [m], or of the smooth film where that is wider."""
+    return max(contact.half_width, math.sqrt(2 * contact.radius * contact.moes_film))
+
+
+def moving_work(contact: LineContact, cell: float, fastest: float, length: float, cells: float) -> float:
+    """Counted work [s of a usual core] of so many ``cells`` in all the steps of `solve_moving_strip`, about."""
+    _, discarded, count = _plan(contact, cell, fastest, length)
+    return (discarded + count) * work_of_steps(cells, STEPS, KRYLOV)

@@ -1,0 +1,191 @@
+"""A rough surface under the bodies of a scene at one speed: a strip of it on one grid, and on finer and finer grids,
+with an estimate of the error that is left."""
+
+import math
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...errors import ConvergenceError
+from ...oil import Lubricant
+from ...scene import Scene, check_resolved_gap, moving_bodies
+from ...surface import Surface
+from ..load_sharing import film_lubricant
+from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
+from .result import DeterministicResult, assemble
+from .solve import refined_start, solve_point
+from .state import evaluated
+
+ENOUGH = 3e-3  # tolerance of a strip's residuals: f moves by some .1 %
+LOOSE = 1e-2  # on longer cells, from which a strip starts
+FIRST = 12_000  # cells from which longer ones come first
+HEAVIER = 1.03  # times the load: the second solve, for the slope
+# counted work [s of a usual core] a cell: a Newton step, its factorisation over log2 of the cells, a step of GMRES
+STEP, FACTORISATION, KRYLOV = 1.7e-6, 1.35e-7, 1.9e-7
+RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
+GROWING = 2.0  # the same, where the series ends; 1.7 to 2.2 was seen at 110 N on cells from 1.8 to 0.45 um
+UNKNOWN_RATIO = 0.6  # from two grids: as measured on cells of 3.6, 1.8 and 0.9 um of the built-in surface
+BLOCK = 2  # columns of the coarser of two grids in a place that changes by itself
+
+
+@dataclass(frozen=True)
+class Strip:
+    """A strip that is solved: its ``problem`` and ``result``, and the counted ``work`` of both solves (`work_of`).
+
+    slope: dF/dw [-] of friction and load at one h0, from a second solve at a load 3 % larger; NaN without that.
+    """
+
+    problem: Problem
+    result: DeterministicResult
+    slope: float
+    work: float
+
+    @property
+    def deviations(self) -> np.ndarray:
+        """(F_i - slope (w_i - w) - F)/w of every column i along y (ny,), with a mean of 0: what f of places deviates by
+        if the load is balanced."""
+        friction, load = self.result.friction_at, self.result.load_at
+        return (friction - friction.mean() - self.slope * (load - load.mean())) / self.result.load
+
+
+def solve_strip(
+    scene: Scene,
+    surface: Surface,
+    speed: float,
+    *,
+    factors: tuple[int, int] = (1, 1),
+    start: Strip | None = None,
+    slope: bool = False,
+    tolerance: float = ENOUGH,
+    upper: Surface | None = None,
+) -> Strip:
+    """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
+
+    The cells are those of the map, or ``factors`` (fx, fy) times as long: they take every fx-th and fy-th height where
+    it stands, so that strips of different factors are the same strip. ``start``: the same strip at another speed, on
+    these cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from
+    cells twice as long. ``slope``: solve it a second
+    time, for `Strip.slope`. ``tolerance``: of the residuals (`lubfric.models.deterministic.state.residuals`). ``upper``: the
+    part of ``surface`` that is surface 2, where both bodies are rough.
+
+    Raises `InputError` and `ConvergenceError`.
+    """
+    check_resolved_gap(scene)
+    problem = problem_of(scene, surface, speed, factors, upper)
+    work, rise, longer = 0.0, math.nan, (2 * factors[0], 2 * factors[1])
+    if start is None and problem.heights.size > FIRST and surface.shape[1] % longer[1] == 0:
+        with suppress(ConvergenceError):
+            start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE, upper=upper)
+            work = start.work
+    near, least = (None, 0.0) if start is None else refined_start(start.problem, problem, start.result)
+    result = solve_point(problem, start=near, least=least, tolerance=tolerance)
+    work += work_of(result)
+    if slope:
+        heavier = problem.at_load(HEAVIER * problem.load)
+        second = solve_point(heavier, start=result.state, tolerance=tolerance)
+        work += work_of(second)
+        rise = (second.coefficient * second.load - result.coefficient * result.load) / (second.load - result.load)
+    return Strip(problem, result, rise, work)
+
+
+def change_by_flow(strip: Strip, lubricant: Lubricant) -> float:
+    """Relative change of f of ``strip`` if another ``lubricant`` flowed in its film, with the shear stress that it has.
+    Raises `ConvergenceError`."""
+    problem, result = strip.problem, strip.result
+    if lubricant == problem.lubricant:
+        return 0.0
+    other = replace(problem, contact=replace(problem.contact, lubricant=lubricant))
+    found = solve_point(other, start=result.state, tolerance=ENOUGH)
+    return assemble(evaluated(problem, found.state), found.report).coefficient / result.coefficient - 1
+
+
+def thinned_less(lubricant: Lubricant) -> Lubricant:
+    """``lubricant``, the limit of its stress, if it has one, twice as high: it thins the flow half as much. How fast a
+    sheared oil at its limit flows is not known well."""
+    return lubricant if lubricant.limit is None else replace(lubricant, **lubricant.limit.twice())
+
+
+def work_of(result: DeterministicResult) -> float:
+    """Counted work of a solve in seconds of a usual core: from its cells and steps alone, never from a clock."""
+    return work_of_steps(result.pressure.size, result.report.iterations, result.report.evaluations)
+
+
+def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
+    """The same of so many ``steps`` of Newton's method, with ``krylov`` iterations of GMRES in all."""
+    return cells * (steps * (STEP + FACTORISATION * math.log2(cells)) + krylov * KRYLOV)
+
+
+def problem_of(
+    scene: Scene, surface: Surface, speed: float, factors: tuple[int, int] = (1, 1), upper: Surface | None = None
+) -> Problem:
+    """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
+    times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of it that is surface 2
+    (all of it where only the counterface is rough). The lubricant flows with the viscosity of its heated inlet."""
+    film, ratio = scene.bodies.boundary_film, scene.motion.slide_roll_ratio
+    lubricant = film_lubricant(scene, speed)
+    if [name for name, _ in moving_bodies(scene)] == ["counterface"]:
+        upper = surface
+
+    def turned(one: Surface) -> Surface:
+        return replace(one, heights=one.heights[::-1], mask=None) if speed < 0 else one
+
+    found = lay_out(
+        turned(surface),
+        replace(scene.line_contact(abs(speed)), lubricant=lubricant),
+        sliding=abs(ratio * speed),
+        boundary_friction=scene.bodies.boundary_friction_coefficient,
+        hardness=scene.bodies.hardness,
+        boundary_film=BOUNDARY_FILM if film is None else film,
+        factors=factors,
+    )
+    heights = None if upper is None else shifted(found, turned(upper))(0.0)
+    return replace(
+        found,
+        sense=-1.0 if ratio < 0 else 1.0,
+        upper=found.heights if upper is surface else heights,
+        sheared=None if lubricant is scene.lubricant else scene.lubricant,
+    )
+
+
+def estimate(changes: Sequence[float], left: float = math.inf) -> float:
+    """Relative error of f on the last of several grids, each twice as fine as the one before, by its ``changes`` from
+    grid to grid (`change_of`).
+
+    It is the geometric series of the last change, with the ratio q of the last two kept within 1/4 and 3/4 (0.6 from
+    one change). ``left``: how often the cells can be halved until they are those that the answer is for. The series
+    ends there, with twice that ratio, since two changes tell it badly, and up to 2: on exponential surfaces under heavy
+    loads the changes grow down to those cells.
+    """
+    ratio, endless = UNKNOWN_RATIO, math.isinf(left)
+    if len(changes) > 1 and changes[-2] > 0:
+        times, most = (1.0, RATIO[1]) if endless else (2.0, GROWING)
+        ratio = min(max(times * changes[-1] / changes[-2], RATIO[0]), most)
+    return changes[-1] * (ratio / (1 - ratio) if endless else sum(ratio ** (k + 1) for k in range(int(left))))
+
+
+def changes_of(strips: Sequence[Strip]) -> list[float]:
+    """The `change_of` f from each of ``strips`` to the next."""
+    return [change_of(coarse.result, fine.result) for coarse, fine in zip(strips[:-1], strips[1:])]
+
+
+def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:
+    """Relative change of f from a ``coarse`` to a ``fine`` grid, with the standard error of its mean over places.
+
+    Places change by themselves, some up and some down. On a short map the mean may be small by chance; the scatter of
+    the places tells by how much. Friction that goes with a place's load is left out, since their mean load is kept.
+    """
+    count = max(coarse.load_at.size // BLOCK, 2)
+    load = _blocks(fine.load_at, count) - _blocks(coarse.load_at, count)
+    friction = _blocks(fine.friction_at, count) - _blocks(coarse.friction_at, count)
+    own = friction - load * ((friction @ load) / max(load @ load, 1e-300))
+    scatter = float(np.std(own)) / math.sqrt(count - 1) / fine.load
+    return math.hypot(fine.coefficient - coarse.coefficient, scatter) / abs(fine.coefficient)
+
+
+def _blocks(values, count: int) -> np.ndarray:
+    """Means of ``values`` over ``count`` equal parts of their length."""
+    sums = np.append(0.0, np.cumsum(values)) / values.size
+    ends = np.interp(np.linspace(0, 1, count + 1), np.linspace(0, 1, values.size + 1), sums)
+    return np.diff(ends) * count

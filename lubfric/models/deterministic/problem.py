@@ -1,0 +1,188 @@
+"""What is solved: two bodies with one gap and one pressure between them, their roughness at rest (in time: `moving`).
+
+On a grid of cells (nx, ny), x along the motion, periodic along y:
+
+    h = h0 + x²/(2R) - z + K p + w        gap; z heights of the rough body, w >= 0 its plastic dent
+    div( U rho θ h - rho h³/(12 eta) grad p ) = 0    mass; θ = 1 where fluid fills the gap
+    p >= 0, θ <= 1, p (1 - θ) = 0          rupture and refilling that keep the mass (Jakobsson-Floberg-Olsson)
+    h = floor                              where the bodies touch; p there is the whole pressure
+    p <= P_u, w >= 0, (P_u - p) w = 0      plastic limit, of film and contact alike
+    ∫ p dx dy = load
+
+``floor`` (1 nm) is the gap of touching surfaces. Film and contact are not added: there is one pressure.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ...contact import HalfSpace, half_space
+from ...errors import InputError
+from ...film import LineContact, OfLineContact
+from ...oil import Lubricant
+from ...surface import Surface
+
+FLOOR = 1e-9  # m
+BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/deterministic.md)
+ROUGH_INLET, ROUGH_OUTLET = 14.0, 5.0  # the undeformed gap at the ends of the grid, in Sq
+HERTZ_INLET, HERTZ_OUTLET = 3.0, 1.8  # the ends, at least, in Hertz half-widths
+FILM_INLET, FILM_OUTLET = 1.5, 0.8  # and in sqrt(2 R h) of the smooth film
+LARGEST = 2**20  # cells
+
+
+@dataclass(frozen=True)
+class Problem(OfLineContact):
+    """One operating point, plain values in SI units.
+
+    contact: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface
+    speeds; x [m] (nx,) centres of the cells around the line of contact; heights z [m] (nx, ny) of both bodies, out of
+    them; operator: K of that grid, free along x and periodic along y; hardness P_u [Pa] (inf: elastic);
+    boundary_friction: f_b [-] where the gap is thinner than boundary_film [m]; floor [m].
+
+    sense: 1, or -1 where u2 < u1. Friction is the force on surface 2, the upper one, against its sliding u2 - u1 (or
+    against U, if nothing slides): its shear stress, and the pressure on the flanks of its own roughness. ``upper`` z2
+    [m] (nx, ny): that roughness, part of z (None: surface 2 is smooth). The force on surface 1 is the opposite, but for
+    the rolling resistance ∫ p x/R dx, the moment of the load about the middle.
+
+    sheared: the lubricant whose stress is the friction, where that of ``contact`` flows with the viscosity of a warmer
+    inlet (None: they are one).
+
+    least_flow [m²/s]: what the residuals of the mass are relative to, where less flows in (in time, where U may be 0).
+    """
+
+    contact: LineContact
+    sliding: float
+    x: np.ndarray
+    heights: np.ndarray
+    operator: HalfSpace
+    boundary_friction: float
+    hardness: float = math.inf
+    boundary_film: float = BOUNDARY_FILM
+    floor: float = FLOOR
+    sense: float = 1.0
+    upper: np.ndarray | None = None
+    least_flow: float = 0.0
+    sheared: Lubricant | None = None
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """(dx, dy) [m]."""
+        return self.operator.spacing
+
+    @property
+    def speed(self) -> float:
+        """U [m/s]."""
+        return self.contact.entrainment_speed
+
+    @property
+    def lubricant(self) -> Lubricant:
+        """The lubricant of the contact."""
+        return self.contact.lubricant
+
+    @cached_property
+    def rigid_gap(self) -> np.ndarray:
+        """x²/(2R) - z [m] (nx, ny)."""
+        return (self.x**2 / (2 * self.radius))[:, None] - self.heights
+
+    @cached_property
+    def self_deflection(self) -> float:
+        """Deflection of a cell by its own pressure [m/Pa]: the diagonal of K."""
+        unit = np.zeros(self.heights.shape)
+        middle = self.x.size // 2
+        unit[middle, 0] = 1.0
+        return float(self.operator.apply(unit)[middle, 0])
+
+    @property
+    def edge_log(self) -> float:
+        """4 w/(pi E') [m]: far upstream the gap is less than the parabola by this times ln|x|."""
+        return 4 * self.load / (math.pi * self.e_prime)
+
+    def at_load(self, load: float) -> Problem:
+        """The same problem on the same grid under another load [N/m]."""
+        return replace(self, contact=replace(self.contact, load_per_width=load))
+
+    def at_speed(self, speed: float) -> Problem:
+        """The same problem on the same grid at another U [m/s], with the same ratio of sliding."""
+        faster = replace(self.contact, entrainment_speed=speed)
+        return replace(self, contact=faster, sliding=self.sliding * speed / self.speed)
+
+
+def reach(contact: LineContact, sq: float) -> tuple[float, float]:
+    """Lengths [m] of the grid upstream and downstream of the line of contact.
+
+    The grid ends where the roughness is small compared with the gap (its effect on the flow, 6 (Sq/h)², is below some 3
+    %) and where there is no pressure. Upstream of the grid the film continues in closed form.
+    """
+    radius, b = contact.radius, contact.half_width
+    film = min(contact.moes_film, contact.rigid_film) if contact.L == 0 else contact.moes_film
+    thick = math.sqrt(2 * radius * film)
+    rough_in, rough_out = (math.sqrt(2 * radius * n * sq) for n in (ROUGH_INLET, ROUGH_OUTLET))
+    return max(rough_in, HERTZ_INLET * b, FILM_INLET * thick), max(rough_out, HERTZ_OUTLET * b, FILM_OUTLET * thick)
+
+
+def lay_out(
+    surface: Surface,
+    contact: LineContact,
+    *,
+    sliding: float,
+    boundary_friction: float,
+    hardness: float | None = None,
+    boundary_film: float = BOUNDARY_FILM,
+    ends: tuple[float, float] | None = None,
+    factors: tuple[int, int] = (1, 1),
+) -> Problem:
+    """The `Problem` of ``surface``, its middle under the line of contact, on its own cells or on cells ``factors`` (fx,
+    fy) times as long, which take every fx-th and fy-th of its heights where they stand.
+
+    If the grid is longer than the map, the map is repeated, or mirrored if it is not periodic along x. ``ends`` [m]:
+    lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`, and for factors
+    that do not divide the map.
+    """
+    (nx, ny), (fx, fy) = surface.shape, factors
+    dx, dy = surface.spacing[0] * fx, surface.spacing[1] * fy
+    if ny % fy:
+        raise InputError(f"factors = {factors} do not divide the {ny} cells of the map along y; allowed: its divisors")
+    upstream, downstream = reach(contact, surface.sq) if ends is None else ends
+    begins = contact.lubricant.inlet_length
+    if begins is not None and begins < upstream + dx:  # the first cell is the first that is all behind it
+        upstream = begins - 1.5 * dx + 1e-9 * dx
+    # the centres of the cells of the map are (i - (nx - 1)/2) dx/fx; those taken are fx//2, fx//2 + fx, ...
+    middle, taken = (nx - 1) / 2, fx // 2
+    first = math.floor((middle - taken) / fx - upstream / dx)
+    last = math.ceil((middle - taken) / fx + downstream / dx)
+    index = taken + fx * np.arange(first, last + 1)
+    if index.size * (ny // fy) > LARGEST:
+        raise InputError(
+            f"contact: a deterministic film needs {index.size} x {ny // fy} cells of {dx:.3g} x {dy:.3g} m here; "
+            f"allowed: up to {LARGEST:.3g} cells (larger contact.spacing, or a narrower patch)"
+        )
+    period = nx if surface.periodic_axes[0] else 2 * nx
+    place = index % period
+    place = np.where(place < nx, place, period - 1 - place)
+    heights = surface.heights[place, fy // 2 :: fy] - surface.heights.mean()
+    operator = half_space(heights.shape, (dx, dy), contact.e_prime, ("free", "periodic"))
+    x = (index - middle) * surface.spacing[0]
+    limit = math.inf if hardness is None else hardness
+    return Problem(contact, sliding, x, heights, operator, boundary_friction, limit, boundary_film)
+
+
+def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:
+    """Of a distance [m] along x by which ``surface`` has moved, its heights [m] on the cells of ``problem``, which are
+    its own or several times as long.
+
+    It is shifted by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
+    """
+    (nx, ny), dx = surface.shape, surface.spacing[0]
+    fy = ny // problem.heights.shape[1]
+    heights = surface.heights[:, fy // 2 :: fy] - surface.heights.mean()
+    if not surface.periodic_axes[0]:
+        heights = np.concatenate([heights, heights[::-1]])
+    period = heights.shape[0]
+    place = np.rint(problem.x / dx + (nx - 1) / 2).astype(int) % period
+    waves, k = np.fft.rfft(heights, axis=0), 2 * np.pi * np.fft.rfftfreq(period, dx)
+    return lambda s: np.fft.irfft(waves * np.exp(-1j * k * s)[:, None], n=period, axis=0)[place]

@@ -1,0 +1,187 @@
+"""What a deterministic solve returns: its fields, its friction, and the part of the load that rubs with f_b.
+
+With one pressure, no equation tells film and contact apart. What friction needs is where boundary friction begins, and
+that is one length, the thickness of the boundary film:
+
+    shear = f_b p where h < boundary film, the bodies' touching cells among them; the lubricant's own law elsewhere.
+
+A Newtonian lubricant has no limit of its own. So that of a film above 50 MPa is f_b p. The fields do not depend on that
+length, so f at half and at twice of it costs no solve.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...errors import Report
+from ...oil import shear_stress
+from .state import FLUID, TOUCHING, Iterate, State
+
+PRESSED = 50e6  # Pa: below it no Newtonian film is taken to be at its cap
+
+
+@dataclass(frozen=True)
+class LoadSplit:
+    """Load [N/m] on touching cells (h = floor); on gaps ``thin``ner than the boundary film, touching ones among them;
+    and on thicker Newtonian films at their cap f_b p, ``capped``."""
+
+    touching: float
+    thin: float
+    capped: float
+
+    @property
+    def spots(self) -> float:
+        """The load that rubs with f_b [N/m]."""
+        return self.thin + self.capped
+
+
+@dataclass(frozen=True)
+class DeterministicResult:
+    """One operating point: fields on cells (nx, ny), x along the motion; forces per width [N/m].
+
+    - pressure [Pa]: of film and contact together. gap [m]: between the rough surfaces, at least the floor. fill [-]:
+      the filled part of the gap, below 1 only where the film has ruptured. touching (bool): h = floor. spots (bool):
+      where the stress is f_b p. wet (bool): fluid under pressure outside the spots. shear [Pa]: on surface 2, by the
+      sliding. dent [m]: plastic depth.
+    - boundary: f_b p over the spots. couette: shear of the film by the sliding. rolling: by the gradient of pressure,
+      and pressure on the flanks of a rough surface 2. Both with what is upstream of the grid. coefficient: (boundary +
+      couette + rolling)/load, of surface 2 against its sliding (`Problem`); at_half_film, at_twice_film: with half and
+      twice the boundary film. split: the load on spots, and its parts.
+    - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
+      b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
+    - load_at, friction_at [N/m] (ny,): load and friction of every column of cells along x, with those upstream. Their
+      means are ``load`` and ``coefficient`` times that.
+    - spot_length [m]: area of all spots per length. top_pressure [Pa]: the largest in the film.
+    - given [m]: film at U that touching cells of the strip give off, because their floor is kept full; drawn: their
+      share of the lubricant in the film. The rest enters from upstream.
+    - approach [m]: h0. inlet_load [N/m]: carried upstream of the grid. ``state`` starts a neighbouring solve.
+    """
+
+    x: np.ndarray
+    spacing: tuple[float, float]
+    pressure: np.ndarray
+    gap: np.ndarray
+    fill: np.ndarray
+    shear: np.ndarray
+    touching: np.ndarray
+    spots: np.ndarray
+    wet: np.ndarray
+    dent: np.ndarray
+    coefficient: float
+    at_half_film: float
+    at_twice_film: float
+    boundary: float
+    couette: float
+    rolling: float
+    split: LoadSplit
+    load: float
+    load_at: np.ndarray
+    friction_at: np.ndarray
+    speed: float
+    flow_film: float
+    min_gap: float
+    mean_gap: float
+    spot_fraction: float
+    spot_length: float
+    top_pressure: float
+    plastic_fraction: float
+    given: float
+    central_gap: float
+    approach: float
+    inlet_load: float
+    report: Report
+    state: State = field(repr=False)
+
+    @property
+    def drawn(self) -> float:
+        """See above. In motion of the means over time: at moments nothing enters."""
+        return self.given / (self.given + max(self.flow_film, 0.0)) if self.given > 0 else 0.0
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """How the fields shear surface 2: bools (nx, ny) of the gaps that are ``thin``, of all ``spots`` where the
+    stress is f_b p, and of the ``wet`` rest, fluid under its own law; the ``stress`` [Pa] (nx, ny); and of every column
+    along x the forces [N/m] (ny,) on spots (``boundary``) and in the film (``couette``, ``rolling``), with those
+    upstream of the grid."""
+
+    thin: np.ndarray
+    spots: np.ndarray
+    wet: np.ndarray
+    stress: np.ndarray
+    boundary: np.ndarray
+    couette: np.ndarray
+    rolling: np.ndarray
+
+    @property
+    def friction(self) -> np.ndarray:
+        """All of it [N/m] (ny,)."""
+        return self.boundary + self.couette + self.rolling
+
+
+def rubbing(at: Iterate, law, film: float) -> Rubbing:
+    """With a boundary ``film`` [m]. ``law``: the stress [Pa] that the lubricant has by itself (nx, ny)."""
+    problem, p, h, inlet = at.problem, at.state.pressure, at.balance.film, at.balance.inlet
+    limit = problem.boundary_friction * p * (problem.sliding > 0)  # in pure rolling spots do not slide
+    dx, fluid = problem.spacing[0], at.state.kind == FLUID
+    thin = (at.state.kind == TOUCHING) | fluid & (h < film)
+    spots = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.newtonian else thin
+    wet = fluid & ~spots
+    both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
+    stress = np.where(spots, limit, np.where(wet, law, 0.0))
+    couette = (stress * wet).sum(axis=0) * dx + problem.lubricant.viscosity * problem.sliding * inlet.shearing
+    rolling = (0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]) * both).sum(axis=0) + inlet.rolling
+    if problem.upper is not None:  # the pressure on its flanks
+        rolling = rolling - (0.5 * (p[1:] + p[:-1]) * np.diff(problem.upper, axis=0)).sum(axis=0)
+    return Rubbing(thin, spots, wet, stress, (limit * spots).sum(axis=0) * dx, couette, problem.sense * rolling)
+
+
+def assemble(at: Iterate, report: Report) -> DeterministicResult:
+    """The result at a solved state."""
+    problem, state, h, inlet = at.problem, at.state, at.balance.film, at.balance.inlet
+    p, dx, touching, fluid = state.pressure, problem.spacing[0], state.kind == TOUCHING, state.kind == FLUID
+    with np.errstate(over="ignore"):
+        law = shear_stress(problem.sheared or problem.lubricant, p, problem.sliding / h)
+    rubs, *others = (rubbing(at, law, times * problem.boundary_film) for times in (1.0, 0.5, 2.0))
+    coefficients = [float(one.friction.mean()) / problem.load for one in (rubs, *others)]
+    spots = rubs.spots
+    loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, rubs.thin, spots & ~rubs.thin))
+    strip = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
+    return DeterministicResult(
+        x=problem.x,
+        spacing=problem.spacing,
+        pressure=p,
+        gap=h,
+        fill=state.fill,
+        shear=rubs.stress,
+        touching=touching,
+        spots=spots,
+        wet=rubs.wet,
+        dent=state.dent,
+        coefficient=coefficients[0],
+        at_half_film=coefficients[1],
+        at_twice_film=coefficients[2],
+        boundary=float(rubs.boundary.mean()),
+        couette=float(rubs.couette.mean()),
+        rolling=float(rubs.rolling.mean()),
+        split=LoadSplit(*loads),
+        load=problem.load,
+        load_at=p.sum(axis=0) * dx + inlet.load,
+        friction_at=rubs.friction,
+        speed=problem.speed,
+        flow_film=float(inlet.flow.mean()) / problem.speed,
+        min_gap=float(h.min()),
+        mean_gap=float(h[strip].mean()),
+        spot_fraction=float(spots[strip].mean()),
+        spot_length=float(spots.sum()) * dx / p.shape[1],
+        top_pressure=float(p[fluid & ~rubs.thin].max(initial=0.0)),
+        plastic_fraction=float((state.yielded & (state.dent > 0))[strip].mean()),
+        given=float(np.where(touching, np.maximum(at.residual, 0.0), 0.0)[strip].sum())
+        * dx
+        / (p.shape[1] * problem.speed),
+        central_gap=float(np.interp(0.0, problem.x, h.mean(axis=1))),
+        approach=state.approach,
+        inlet_load=float(inlet.load.mean()),
+        report=report,
+        state=state,
+    )

@@ -1,0 +1,220 @@
+"""One deterministic operating point on one grid: Newton's method, and other ways if it fails."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ...contact import ContactResult, solve_contact
+from ...errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report, returned
+from .newton import Found, Work, march, newton
+from .problem import Problem
+from .result import DeterministicResult, assemble
+from .state import FLUID, RUPTURED, State, evaluated, residuals
+
+TOLERANCE = 1e-5
+NEAR, DIRECT, MARCHED = 40, 50, 500  # LU factorisations: from a state nearby, from the dry contact, in time
+MOST = 800  # of all ways together, unless it is said
+FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
+LOOSE = 1e-3  # tolerance of solutions on the way
+LONGER, SHORTEST = 1.5, 0.05  # what a step in ln(speed) grows by, and the least one
+ADVICE = "longer cells may lead there, or a higher speed"
+THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and at ambient [Pa], of the fluid that starts
+# a Newtonian
+DRY_TOLERANCE = 1e-4
+RUPTURE = 0.55  # of sqrt(2 R h): a little behind where a rigid film ruptures, 0.475
+SHARP, WORSE = 0.02, 2.0  # share of the load on spots from which on a finer grid starts from its dry contact
+WET = 0.1  # share up to which the film of longer cells is laid on the dry contact of shorter ones
+WHOLE = 0.3  # of a Newton step: from there the solution follows by longer ones, or not at all
+
+
+def solve_point(
+    problem: Problem, *, start: State | None = None, least=0.0, tolerance=TOLERANCE, most=MOST
+) -> DeterministicResult:
+    """Gap, pressure and friction of ``problem`` on its own grid.
+
+    Tried in turn until one converges:
+
+    - Newton's method from ``start``, a state on the same grid, until a step is shorter than ``least``;
+    - from the dry contact, lifted by Moes' film;
+    - for a Newtonian lubricant, from the solution with a limiting shear stress;
+    - from the state that implicit steps in time reach from ``start``;
+    - from higher speeds, step by step;
+    - without ``start``, from the state that implicit steps in time reach from the dry contact.
+
+    Together they take at most ``most`` factorisations. ``report.notes`` says which one it was. Converged when the
+    largest of `lubfric.models.deterministic.state.residuals` is <= tolerance. Raises `ConvergenceError` with report and
+    result.
+    """
+    work = Work(most)
+    tried: list[tuple[str, Found]] = []
+    for attempt in _attempts(problem, start, least, tolerance, work):
+        tried.append(attempt)
+        if attempt[1].residual <= tolerance:
+            break
+    name, found = min(tried, key=lambda one: one[1].residual if one[1].residual >= 0 else math.inf)
+    worst = found.residual if math.isfinite(found.residual) else math.inf
+    ways = ", ".join(f"{way} ({one.residual:.1e})" for way, one in tried)
+    spent = f"{work.factorisations} of {most} factorisations"
+    report = Report(
+        "deterministic mixed film",
+        status=CONVERGED if worst <= tolerance else ITERATION_LIMIT if worst < math.inf else DIVERGED,
+        iterations=work.factorisations,
+        residual=worst,
+        tolerance=tolerance,
+        residuals=found.residuals,
+        history=tuple(work.history),
+        evaluations=work.krylov,
+        notes=(
+            f"started {name}; {work.factorisations} factorisations, {work.krylov} iterations, {work.steps} "
+            "steps in time",
+        ),
+        advice=f"tried in {spent}, with the residual left: {ways}; {ADVICE}",
+    )
+    return returned(assemble(found.at, report))
+
+
+def _attempts(problem: Problem, start: State | None, least, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
+    if start is not None:
+        near = newton(problem, start, work, tolerance=tolerance, most=NEAR, least=least)
+        yield "from a neighbouring state", near
+    dry = dry_contact(problem)
+    cold = dry_start(problem, dry)
+    yield "from the dry contact", newton(problem, cold, work, tolerance=tolerance, most=DIRECT)
+    lubricant = problem.lubricant
+    if lubricant.newtonian:
+        limited = replace(lubricant, limiting_stress_coefficient=THIN_STRESS, limiting_stress_offset=THIN_OFFSET)
+        thin = replace(problem, contact=replace(problem.contact, lubricant=limited))
+        helped = newton(thin, cold, work, tolerance=tolerance, most=DIRECT)
+        if helped.residual <= tolerance:
+            found = newton(problem, helped.at.state, work, tolerance=tolerance, most=DIRECT)
+            yield "from a fluid with a limiting stress", found
+    if start is not None:
+        yield "in time from a neighbouring state", _in_time(problem, start, tolerance, work)
+    for times in FASTER:
+        fast = problem.at_speed(times * problem.speed)
+        helped = newton(fast, dry_start(fast, dry), work, tolerance=LOOSE, most=DIRECT)
+        if helped.residual <= LOOSE:
+            found = _from_faster(problem, helped.at.state, times, tolerance, work)
+            yield "step by step from a faster speed", found
+    if start is None:
+        yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
+
+
+def dry_contact(problem: Problem, tolerance=DRY_TOLERANCE) -> ContactResult:
+    """The rough bodies pressed together without fluid under the whole load."""
+    return solve_contact(
+        problem.rigid_gap,
+        problem.spacing,
+        problem.e_prime,
+        mean_pressure=problem.load / (problem.x.size * problem.spacing[0]),
+        hardness=None if np.isinf(problem.hardness) else problem.hardness,
+        boundary=("free", "periodic"),
+        tolerance=tolerance,
+        operator=problem.operator,
+    )
+
+
+def dry_start(problem: Problem, dry: ContactResult) -> State:
+    """The pressure of the ``dry`` contact, and its gap plus Moes' film. Behind contact and film the film has
+    ruptured."""
+    p, film = dry.pressure, problem.contact.moes_film
+    dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
+    full = max(RUPTURE * math.sqrt(2 * problem.radius * film), problem.contact.half_width)
+    kind = np.where((p <= 0) & (problem.x > full)[:, None], RUPTURED, FLUID).astype(np.int8)
+    return State(p.copy(), np.ones_like(p), dent, kind, p >= problem.hardness, film - dry.approach)
+
+
+def _from_faster(problem: Problem, state: State, times: float, tolerance, work: Work) -> Found:
+    """To ``problem`` from a solution at so many ``times`` its speed, through speeds in between."""
+    left = math.log(times)
+    step = left / 2
+    while True:
+        to = max(left - step, 0.0)
+        goal = tolerance if to == 0 else max(tolerance, LOOSE)
+        found = newton(problem.at_speed(math.exp(to) * problem.speed), state, work, tolerance=goal, most=NEAR)
+        if found.residual <= goal:
+            left, state, step = to, found.at.state, LONGER * step
+        else:
+            step = (left - to) / 2
+        if left == 0 or step < SHORTEST:
+            return found
+
+
+def _in_time(problem: Problem, state: State, tolerance, work: Work) -> Found:
+    settled = march(problem, state, work, most=MARCHED)
+    return newton(problem, settled, work, tolerance=tolerance, most=DIRECT)
+
+
+def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> tuple[State | None, float]:
+    """The state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells; and
+    the least Newton step to take from there.
+
+    Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the dry
+    contact of the finer grid is taken, with half of the pressure of the film between the spots. (With none of it
+    Newton's method takes a third more steps.)
+
+    If the residuals are `WORSE` times those of `dry_start` on that grid, as under heavy loads, it is the dry contact of
+    the finer grid plus what the film changes of the coarser one (as in a full approximation scheme: A. Brandt, Math.
+    Comput. 31 (1977) 333-390, doi:10.1090/S0025-5718-1977-0431719-X). That is far away and yet a few whole steps from
+    the solution, or it leads nowhere: none where spots carry more than `WET` of the load.
+
+    Beyond the old grid p = 0, with fluid upstream and rupture downstream.
+    h0 is corrected, because the half-space has its zero, u = 0, at the length of the grid from a line load. The cells
+    may also be those of ``coarse`` on a longer or shorter grid.
+    """
+    old, (nx, ny), (nx_old, ny_old) = result.state, problem.heights.shape, coarse.heights.shape
+    along = (problem.x - coarse.x[0]) / coarse.spacing[0]
+    across = (np.arange(ny) + 0.5) * (ny_old / ny) - 0.5
+    nearest = old.kind[np.clip(np.rint(along).astype(int), 0, nx_old - 1)][:, np.rint(across).astype(int) % ny_old]
+    kind = np.where((along < -0.5)[:, None], FLUID, np.where((along > nx_old - 0.5)[:, None], RUPTURED, nearest))
+    fill = _interpolated(old.fill, np.clip(along, 0, nx_old - 1), across)
+
+    def state(pressure, kind, dent, approach) -> State:
+        ruptured = kind == RUPTURED
+        pressure = np.where(ruptured, 0.0, np.clip(pressure, 0.0, problem.hardness))
+        yielded = pressure >= problem.hardness
+        kind, dent = kind.astype(np.int8), np.where(yielded, dent, 0.0)
+        return State(pressure, np.where(ruptured, fill, 1.0), dent, kind, yielded, approach)
+
+    longer = nx * problem.spacing[0] / (nx_old * coarse.spacing[0])
+    approach = old.approach - 4 * (result.load - result.inlet_load) / (math.pi * problem.e_prime) * math.log(longer)
+    smooth = state(_interpolated(old.pressure, along, across), kind, _interpolated(old.dent, along, across), approach)
+    if problem.spacing == coarse.spacing:
+        return smooth, 0.0
+    new, spots = dry_contact(problem), result.split.spots / result.load
+
+    def near(one: State) -> bool:
+        left, others = (max(residuals(evaluated(problem, at)).values()) for at in (one, dry_start(problem, new)))
+        return left <= WORSE * others
+
+    if spots < SHARP and near(smooth):
+        return smooth, 0.0
+    bare = dry_contact(coarse)
+
+    def on_dry(pressure) -> State:
+        sunk = np.where((kind == RUPTURED) & (pressure <= 0), RUPTURED, FLUID), np.maximum(-new.gap, 0.0)
+        return state(pressure, *sunk, old.approach + bare.approach - new.approach)
+
+    if spots >= SHARP:
+        film = _interpolated(np.where(bare.pressure > 0, 0.0, old.pressure), along, across)
+        sharp = on_dry(np.where(new.pressure > 0, new.pressure, 0.5 * film))
+        if near(sharp):
+            return sharp, 0.0
+    if spots > WET:
+        return None, 0.0
+    return on_dry(new.pressure + _interpolated(old.pressure - bare.pressure, along, across)), WHOLE
+
+
+def _interpolated(field, along, across) -> np.ndarray:
+    """Linear interpolation at the cells ``along`` x (zero outside) and ``across`` y (periodic), counted in cells."""
+    i, j = np.floor(along).astype(int), np.floor(across).astype(int)
+    s, t = (along - i)[:, None], across - j
+    padded = np.zeros((field.shape[0] + 2, field.shape[1]))
+    padded[1:-1] = field
+    i = np.clip(i + 1, 0, field.shape[0])
+    j0, j1 = j % field.shape[1], (j + 1) % field.shape[1]
+    before = (1 - t) * padded[i][:, j0] + t * padded[i][:, j1]
+    behind = (1 - t) * padded[i + 1][:, j0] + t * padded[i + 1][:, j1]
+    return (1 - s) * before + s * behind

@@ -1,0 +1,296 @@
+"""Load sharing: one bracketed root closes F_T = F_C + F_H and the balance of lubricant volume, Eq. (8)."""
+
+import math
+from dataclasses import dataclass, replace
+
+from ..._base import Root, increasing_root
+from ...contact import ContactState, RoughContact
+from ...errors import CONVERGED, ConvergenceError, Report
+from ...film import EHLResult
+from ...scene import Scene, budget
+from .checks import meaningless
+from .forces import Forces, forces
+from .point import Point, Settings, Trial, exponents
+from .response import Response, divided, respond
+
+SAFE_FILM = 2.0  # times Moes' film: more than any film has
+BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
+EMPTY = math.log(1e-4)  # of a film that arrives: it is none if it carries less than that and leaves the gap empty
+FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a balance at another speed
+STEPS, FARTHEST, NEAR = 30, 1.0, 1e-3  # of Newton's method, its longest one, and how far it goes in ln(F_H/F_C)
+ROUNDS = 6  # each with tighter tolerances
+SETTLED = 0.3  # of ln(F_H/F_C): a response found as near as that to the balance is its own
+
+
+@dataclass(frozen=True)
+class Balance:
+    """One operating point, loads in N. ``film`` is None without entrainment; ``response`` is None if the film carries
+    everything. ``notes``: choices that a reader should know."""
+
+    film_load: float
+    contact_load: float
+    film: EHLResult | None
+    contact: ContactState
+    forces: Forces
+    report: Report
+    response: Response | None = None
+    settings: Settings | None = None
+    notes: tuple[str, ...] = ()
+
+    @property
+    def split(self) -> float:
+        """ln(F_H/F_C)."""
+        if self.film_load <= 0:
+            return BOUNDS[0]
+        return math.log(self.film_load / self.contact_load) if self.contact_load > 0 else BOUNDS[1]
+
+    @property
+    def slope(self) -> float:
+        """Slope of the volume residual (G - h)/(G + h) over ``split``; infinite without a film that shares the load."""
+        split = 0.0 if self.response is None else self.response.split
+        return -0.5 / (split * self.contact.mean_film) if split else math.inf
+
+
+def solve_balance(
+    scene: Scene,
+    speed: float,
+    contact: RoughContact,
+    sq: float,
+    start: Balance | None = None,
+    *,
+    correctable: bool = False,
+) -> Balance:
+    """The balance of ``scene`` at ``speed`` [m/s] on ``contact``, whose heights have the standard deviation ``sq`` [m].
+
+    Without entrainment the contact carries the whole load. The film of the whole load is solved first; if it clears the
+    summits, no contact is solved. Otherwise the residual (gap - film)/(gap + film) of the volume increases with the
+    film's share, so there is one root in ln(F_H/F_C), and the load balance holds by construction. Film, volume and
+    contact are solved as closely as ``numerics.tolerance`` needs, by the response of the friction that a first, loose
+    balance shows (`lubfric.scene.budget`). ``start``: a balance on the same contact at another speed, or on another
+    contact at this one; ``correctable``: what the root leaves open of the volume will be corrected to first order.
+    Raises `ConvergenceError`.
+    """
+    if speed == 0:
+        return _dry(scene, contact)
+    alone: EHLResult | None = None
+    notes: tuple[str, ...] = ()
+    if not _certainly_touching(scene, speed, contact):
+        try:
+            found = _film_alone(Point(scene, speed, contact, _first_settings(scene, alone=True)))
+        except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
+            notes = (f"the film of the whole load was not solved ({error})",)
+        else:
+            if found.contact.volume_residual <= 0:
+                return found
+            alone = found.film
+    settings = replace(_first_settings(scene), correctable=correctable)
+    if start is not None and start.film is not None and start.film.entrainment_speed == speed:
+        settings = start.settings or settings
+    return replace(_in_contact(Point(scene, speed, contact, settings), sq, start, alone), notes=notes)
+
+
+def _dry(scene: Scene, contact: RoughContact, why: str = "no entrainment: all contact") -> Balance:
+    load = scene.bodies.load
+    shape = contact.x**2 / (2 * scene.bodies.radius)
+    state = contact.close(shape, load)
+    report = _report(scene, CONVERGED, (0.0,), state, None, (why,))
+    found = forces(scene, None, state, load)
+    return Balance(0.0, load, None, state, found, report, respond(scene, contact, state, load, shape))
+
+
+def _film_alone(point: Point) -> Balance:
+    """The film under the whole load, on the cells that the sum of its shear stress needs, over the unloaded contact."""
+    load = point.scene.bodies.load
+    trial = point.trial(load, 0.0)
+    while True:
+        found = forces(point.scene, trial.film, trial.contact, 0.0)
+        cells = _cells(point, trial.film, found)
+        if cells == point.settings.film_cells:
+            break
+        point = replace(point, settings=replace(point.settings, film_cells=cells))
+        trial = point.trial(load, 0.0, trial)
+    notes = ("separated: the film clears the summits",)
+    report = _report(point.scene, CONVERGED, (0.0,), trial.contact, trial.film, notes)
+    return Balance(load, 0.0, trial.film, trial.contact, found, report, settings=point.settings)
+
+
+def _certainly_touching(scene: Scene, speed: float, contact: RoughContact) -> bool:
+    """Whether the summits would even reach through twice Moes' film over an undeformed cylinder, which is thicker than
+    any film."""
+    film = SAFE_FILM * scene.line_contact(speed).moes_film
+    return contact.close(film + contact.x**2 / (2 * scene.bodies.radius), 0.0).volume_residual > 0
+
+
+def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
+    """Film and contact, solved again until the settings are those that the balance shows to be needed. Where a balance
+    cannot be closed as tightly as needed, because f jumps with single cells, the last one stands: its error is told."""
+    split, slope, step, last = _beginning(point, sq, start)
+    if last is None and alone is not None:
+        last = Trial(alone, point.contact.close(alone.film_at(point.contact.x), 0.0), 0.0, 0.0)
+    value: float | None = None
+    closed: Balance | None = None
+    response = None
+    if start is not None and start.response is not None and start.film is not None:
+        if start.film.entrainment_speed == point.speed:
+            response = start.split, start.response
+    for _ in range(ROUNDS):
+        point, root = _seen_root(point, split, slope, step, (value, last))
+        trial = root.payload
+        if trial is None:
+            return _dry(point.scene, point.contact, "what arrives does not fill the gap: all contact")
+        if response is None or abs(root.x - response[0]) > SETTLED:
+            response = root.x, _response(point, trial)
+        balance = _balance(point, root, response[1])
+        closed = balance if root.status == CONVERGED else closed
+        settings = _needed(point, balance)
+        if settings == point.settings or root.status != CONVERGED:
+            break
+        same = replace(settings, balance_tolerance=point.settings.balance_tolerance)
+        value = root.value if same == point.settings else None
+        point, split, slope, step, last = replace(point, settings=settings), root.x, balance.slope, NEXT_STEP, trial
+    return closed or balance
+
+
+def _response(point: Point, trial: Trial) -> Response:
+    def film_of(load: float) -> EHLResult:
+        return point.film(load, trial.film, trial.film.cells)
+
+    shape = point.on(point.contact, trial.film)
+    return respond(point.scene, point.tight(point.contact), trial.contact, trial.contact_load, *shape, film_of)
+
+
+def _beginning(point: Point, sq: float, start: Balance | None):
+    """Where the root is looked for: ln(F_H/F_C), the slope of the residual there (None: not known), the first step, and
+    the trial to start from. Without ``start``: where the rigid isoviscous film is two Sq thick."""
+    if start is None or start.film is None or start.response is None:
+        thickness = max(2 * sq, 1e-12)
+        share = min(point.line(point.scene.bodies.load).rigid_film / thickness, 0.9)
+        return math.log(share / (1 - share)), None, FIRST_STEP, None
+    trial = Trial(start.film, start.contact, start.film_load, start.contact_load, start.contact)
+    if start.film.entrainment_speed == point.speed:
+        return start.split, start.slope, NEXT_STEP, trial
+    return *predicted(point, start), NEXT_STEP, trial
+
+
+def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
+    """The split at ``point`` predicted from the balance ``start`` at another speed, and the slope of the residual
+    there.
+
+    The film follows Moes' formula, ``h ~ F_H^-m`` locally, and the mean gap a power of the contact's load, ``g ~
+    F_C^-b``. The slope of (g - h)/(g + h) at a balance is (b F_H + m F_C)/(2 F_T), which gives b. The prediction is
+    only a start.
+    """
+    assert start.film is not None
+    load, slope = point.scene.bodies.load, start.slope
+    line = point.line(start.film_load)
+    before, exponent, _ = exponents(replace(line, entrainment_speed=start.film.entrainment_speed))
+    stiffness = max(2 * slope * load - exponent * start.contact_load, 0.0) / start.film_load
+    split = start.split
+    for _ in range(STEPS):
+        film_load, contact_load = divided(load, split)
+        film, exponent, _ = exponents(point.line(film_load))
+        steepness = (stiffness * film_load + exponent * contact_load) / load
+        excess = -stiffness * math.log(contact_load / start.contact_load) - math.log(film / before)
+        split = min(max(split + min(max(-excess / steepness, -FARTHEST), FARTHEST), BOUNDS[0]), BOUNDS[1])
+        if abs(excess) <= NEAR * steepness:
+            break
+    return split, 0.5 * steepness
+
+
+def _seen_root(point: Point, split: float, slope: float | None, step: float, first) -> tuple[Point, Root]:
+    """The root, and ``point`` with a contact so tight that its gap at the root is known as closely as it is closed: a
+    root of the errors of a loose contact is none."""
+    while True:
+        root = _root(point, split, slope, step, first)
+        now, volume = point.settings.contact_tolerance, point.settings.balance_tolerance
+        tighter = now if root.payload is None else _contact_tolerance(point, root.payload.contact, volume)
+        if tighter == now:
+            return point, root
+        point = replace(point, settings=replace(point.settings, contact_tolerance=tighter))
+        split, first = root.x, (None, root.payload)
+
+
+def _contact_tolerance(point: Point, contact: ContactState, volume: float) -> float | None:
+    """The tolerance that leaves less than ``volume`` of the gap of ``contact`` open: that of ``point`` if it does."""
+    now, own, fields = point.settings.contact_tolerance, point.contact.adjustable_tolerance, contact.fields
+    if own is None or fields is None or point.scene.numerics.contact_tolerance is not None:
+        return now
+    enough = max(volume * contact.mean_gap / fields.length, budget.TIGHTEST_CONTACT)
+    return now if (now or own) <= budget.SLACK * enough else 0.5 * enough
+
+
+def _root(point: Point, split: float, slope: float | None, step: float, first) -> Root:
+    load, most = point.scene.bodies.load, point.contact.capacity
+    lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
+
+    def residual(x: float, last: Trial | None) -> tuple[float, Trial]:
+        found = point.trial(*divided(load, x), last)
+        return found.contact.volume_residual, found
+
+    tolerance, fed = point.settings.balance_tolerance, point.scene.lubricant.inlet_film is not None
+    lowest = max(lowest, EMPTY) if fed else lowest
+    known = {"slope": slope, "first": first, "bounds": (lowest, BOUNDS[1])}
+    root = increasing_root(residual, split, step=step, tolerance=tolerance, **known)
+    return replace(root, payload=None) if fed and root.x == EMPTY and root.value > 0 else root
+
+
+def _balance(point: Point, root: Root, response: Response) -> Balance:
+    trial, scene = root.payload, point.scene
+    report = _report(scene, root.status, root.history, trial.contact, trial.film, (), point.settings.balance_tolerance)
+    found = forces(scene, trial.film, trial.contact, trial.contact_load)
+    loads = trial.film_load, trial.contact_load
+    return Balance(*loads, trial.film, trial.contact, found, report, response, point.settings)
+
+
+def _first_settings(scene: Scene, alone: bool = False) -> Settings:
+    numerics = scene.numerics
+    film = numerics.film_tolerance or min(budget.FILM_ALONE * numerics.tolerance, budget.LOOSEST_FILM)
+    if not alone and numerics.film_tolerance is None:
+        film = budget.FIRST_FILM
+    return Settings(film, numerics.balance_tolerance or budget.LOOSEST_VOLUME)
+
+
+def _needed(point: Point, balance: Balance) -> Settings:
+    """The settings that ``balance`` shows to be needed: those of ``point`` if they are enough."""
+    numerics, now, response = point.scene.numerics, point.settings, balance.response
+    assert response is not None and balance.film is not None
+    mean_film = balance.contact.mean_film
+    film, volume = now.film_tolerance, now.balance_tolerance
+    if numerics.film_tolerance is None:
+        share = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
+        film = _tightened(film, max(min(share, budget.FIRST_FILM), budget.TIGHTEST_FILM))
+    if numerics.balance_tolerance is None:
+        share = budget.CORRECTED if now.correctable else budget.BALANCE
+        allowed = response.gap_for("coefficient", share * numerics.tolerance)
+        if now.correctable:
+            allowed /= budget.SLOPE
+        if response.split:  # f may be anything farther off
+            allowed = min(allowed, (budget.MOST_MOVED if now.correctable else SETTLED) / abs(response.split))
+        closed = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
+        volume = _tightened(volume, max(closed / mean_film, budget.TIGHTEST_VOLUME))
+    contact = _contact_tolerance(point, balance.contact, volume)
+    return Settings(film, volume, _cells(point, balance.film, balance.forces), contact, now.correctable)
+
+
+def _tightened(now: float, needed: float) -> float:
+    return now if now <= budget.SLACK * needed else needed
+
+
+def _cells(point: Point, film: EHLResult, found: Forces) -> int:
+    """Least number of cells of the film: twice its present number where the sum of its shear stress is not exact
+    enough. It stays where that sum is of stresses that no oil carries."""
+    numerics, now = point.scene.numerics, point.settings.film_cells
+    resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
+    if numerics.film_tolerance is not None or resolved:
+        return now
+    return min(2 * film.cells, max(budget.MOST_CELLS, now))
+
+
+def _report(scene: Scene, status: str, history, contact, film, notes, tolerance: float | None = None) -> Report:
+    residuals = {"volume": min(history), "load": 0.0}
+    if film is not None:
+        residuals["film"] = film.report.residual
+    if contact.fields is not None:
+        residuals["contact"] = contact.fields.report.residual
+    tolerance, steps = scene.numerics.tolerance_of("balance") if tolerance is None else tolerance, len(history)
+    return Report("load sharing", status, steps, min(history), tolerance, residuals, tuple(history), steps, notes)

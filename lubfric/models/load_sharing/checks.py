@@ -1,0 +1,233 @@
+"""Checks of a solution: motion, film, shear stress and heat outside the range of the model."""
+
+import math
+from collections.abc import Iterator
+
+from ...contact import ridges
+from ...film import FAST, LARGEST, SLIDING
+from ...oil import CELSIUS, NO_LIQUID
+from .heat import TYPICAL, typical_heat
+from .validity import Validity
+
+LAMINAR, TURBULENT = 1000.0, 2000.0  # rho U h/eta
+INERTIA = 0.1  # (rho U h/eta) h/b
+OPPOSED = 2.0  # slide-roll ratio
+DENSITY = 870.0  # kg/m³ of an oil, where none is given
+ROELANDS_LIMIT = 1e9  # Pa, about the pressure to which the law was fitted
+BARUS_LIMIT = 3e8  # Pa
+THICK = 0.1  # of the radius
+STRIP_SHARE = 0.2  # of the mean gap that the undeformed cylinder may rise over the strip
+ANOTHER = "numerics.film_deflection = 'scaled'"
+ON_ENDS = 0.01  # of the contact load, on the two edge columns of a patch
+LONGER = "make the patch longer in x: contact.shape, or for a measured map surface.extension = 'mirror'"
+SHARE = 0.2  # of f: excess above which f is no answer
+FRICTION = 0.2  # of the film
+
+
+def of_motion(scene, speed: float, film: float) -> Iterator[Validity]:
+    """Entries for sliding, inertia and turbulence at ``speed`` [m/s] and a film thickness [m] (NaN: no film)."""
+    ratio = abs(scene.motion.slide_roll_ratio)
+    if ratio > OPPOSED * (1 + 1e-12):
+        why = "the surfaces move against one another: heat and dimples of such films are not modelled"
+        what = "slide-roll ratio"
+        yield Validity(what, ratio, OPPOSED, "", why, "in percent? give motion.slip_percent; 2 is simple sliding")
+    if math.isfinite(film) and film > 0:
+        oil = scene.lubricant.oil
+        density = DENSITY if oil is None else oil.density_at(scene.lubricant.temperature)
+        reynolds = density * abs(speed) * film / scene.lubricant.viscosity
+        inertia = reynolds * film / max(scene.bodies.half_width, math.sqrt(2 * scene.bodies.radius * film))
+        if reynolds > LAMINAR:
+            limit = TURBULENT if reynolds > TURBULENT else LAMINAR
+            why = "the film is turbulent or near it"
+            what, remedy = "Reynolds number", "a laminar film needs less speed or more viscosity"
+            yield Validity(what, reynolds, limit, "", why, remedy, reynolds > TURBULENT)
+        elif inertia > INERTIA:
+            why, what = "Reynolds' equation leaves inertia out", "inertia over viscous forces in the film"
+            yield Validity(what, inertia, INERTIA, "", why, "less speed or more viscosity")
+
+
+def of_film(scene, thickness: float, peak: float, shear, film_load: float, force: float, heat) -> Iterator[Validity]:
+    """Entries for a film of central ``thickness`` [m] and ``peak`` pressure [Pa]; the rest: `of_shear`, `of_heat`."""
+    yield from of_pressure(scene, peak)
+    yield from of_thickness(scene, thickness)
+    yield from of_shear(scene, shear, film_load, force)
+    yield from of_heat(scene, heat)
+
+
+def of_pressure(scene, peak: float) -> Iterator[Validity]:
+    """Entries for the highest film pressure ``peak`` [Pa]."""
+    law, hertz_peak = scene.lubricant.viscosity_law, 4 / math.pi * scene.bodies.mean_hertz_pressure
+    limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
+    consequence = f"the {law} viscosity law is an extrapolation there"
+    remedy, severe = "the film's friction rests on it: a measured limiting stress is safer", peak > NO_LIQUID
+    if severe:
+        limit, consequence, remedy = NO_LIQUID, "no oil is a liquid there", "check bodies.load"
+    if not peak > limit:
+        return
+    if scene.lubricant.density_law == "constant" and hertz_peak < limit:
+        consequence += f"; it is a spike over the {hertz_peak / 1e9:.2g} GPa of Hertz, of an oil that is not compressed"
+        remedy = f"give lubricant.density_law = 'dowson-higginson', which lowers it; {remedy}"
+    yield Validity("film pressure", peak / 1e9, limit / 1e9, "GPa", consequence, remedy, severe)
+
+
+def of_thickness(scene, film: float) -> Iterator[Validity]:
+    """Entries for the central film thickness ``film`` [m]."""
+    radius = scene.bodies.radius
+    if not film > THICK * radius:
+        return
+    why = "the film is not thin against the cylinder"
+    yield Validity("film over radius", film / radius, THICK, "", why, "check bodies.radius, viscosity and speed")
+
+
+def of_inlet(scene, line, flow: float, friction: float) -> Iterator[Validity]:
+    """Entries for a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
+    full one, by Moes; or what the lubricant farther out would add to ``friction`` |f| F_T [N] by rolling, 12 eta U R/x
+    a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
+    oil, tolerance, flooded = scene.lubricant, scene.numerics.tolerance, line.moes_film
+    out = oil.inlet_length or math.inf
+    lost = 12 * oil.viscosity * line.entrainment_speed * line.radius / out * scene.bodies.width
+    if not oil.floods and flow <= (1 - tolerance) * flooded:
+        consequence = "the inlet is starved, as inlet_length or inlet_film asks; f rests on what they say"
+        what = "film over that of a full inlet, by Moes,"
+        yield Validity(what, flow / flooded, 1.0, "", consequence, "leave both out")
+    elif lost > tolerance * friction:
+        what, why = "rolling friction of the inlet beyond inlet_length, in f,", "f rests on where the lubricant begins"
+        yield Validity(what, 100 * lost / friction, 100 * tolerance, "%", why, "leave it out for a full inlet")
+
+
+def of_deflection(scene, mean_gap: float, remedy: str = ANOTHER) -> Iterator[Validity]:
+    """Entries for a film that only its own pressure deflects, over a contact with that ``mean_gap`` [m]: the possible
+    error of its share of the load."""
+    change = scene.bodies.strip_rise / max(mean_gap, 1e-300)
+    if not change > STRIP_SHARE:
+        return
+    why = "a film flattened by its own pressure alone takes too much of the load: f does not tend to f_b"
+    what = "rise of the undeformed cylinder over the Hertz strip, relative to the mean gap,"
+    yield Validity(what, change, STRIP_SHARE, "", why, remedy)
+
+
+def of_ends(share: float, length: float) -> Iterator[Validity]:
+    """Entries for the ``share`` of the contact's load on the edge columns of a patch of ``length`` [m] along x."""
+    if share > ON_ENDS:
+        why = f"its ends, {length:.3g} m apart, cut the contact off"
+        what = "share of the contact load on the edge columns of the patch"
+        yield Validity(what, 100 * share, 100 * ON_ENDS, "%", why, LONGER, True)
+
+
+def of_patches(scene, heights, area: float) -> Iterator[Validity]:
+    """Entries for asperities that are patches of ``heights`` [m] (nx, ny), whose contact area is the fraction ``area``:
+    half of their base area, since they are paraboloids."""
+    if scene.contact.model != "patches" or area == 0:
+        return
+    count = ridges(heights, min(2 * area, 1.0), (scene.contact.geometry == "flat", True))
+    if count:
+        why = "a ridge without ends is one asperity, blunter the longer the map is: f depends on that length"
+        what = "number of asperities that reach round the map"
+        yield Validity(what, count, 0, "", why, "contact.model = 'half-space', or 'summits'")
+
+
+def meaningless(shear) -> bool:
+    """Whether most of the force of ``shear`` (`ShearForce`) comes from stresses that no oil carries."""
+    return not shear.excess <= 0.5 * abs(shear.couette)
+
+
+def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[Validity]:
+    """Entries for the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
+    N, or both per width.
+
+    If the share of the friction that no oil carries is above the tolerance on f, that is a caution; above 0.2 the point
+    is refused.
+    """
+    tolerance = scene.numerics.tolerance
+    if not friction_force > 0:
+        return
+    share = shear.excess / friction_force if shear.excess < math.inf else 1.0
+    friction = abs(shear.couette) / max(film_load, 1e-300)
+    law = "Newtonian shear" if scene.lubricant.newtonian else "the shear law"
+    remedy = "give lubricant.eyring_stress (some 5e6 Pa) and limiting_stress_coefficient (some 0.05 to 0.1)"
+    if share > tolerance:
+        severe = share > SHARE
+        yield Validity(
+            "share of f from shear stresses that no oil carries",
+            share,
+            SHARE if severe else tolerance,
+            "",
+            f"{law} asks up to {shear.stress_ratio:.2g} times 5 MPa + 0.12 p of the film, and gives it a friction "
+            f"coefficient of {friction:.2g}",
+            remedy,
+            severe,
+        )
+    elif friction > FRICTION and abs(shear.couette) > tolerance * friction_force:
+        what, why = "friction coefficient of the film", "more than any lubricant gives"
+        yield Validity(what, friction, FRICTION, "", why, remedy)
+
+
+def of_heat(scene, heat) -> Iterator[Validity]:
+    """``heat``: `lubfric.models.load_sharing.Heat` of a point."""
+    tolerance = scene.numerics.tolerance
+    if heat.used:
+        spread = abs(heat.inlet.other / max(heat.inlet.factor, 1e-12) - 1)
+        beyond = abs(scene.motion.slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
+        if beyond and spread > tolerance:
+            yield Validity(
+                "difference of two published inlet heating factors",
+                spread,
+                tolerance,
+                "",
+                f"the film is between {heat.inlet.factor:.2g} and {heat.inlet.other:.2g} of the isothermal one, "
+                "neither factor was made for such sliding",
+                "a measured film; numerics.heat = 'off' gives the isothermal bound",
+            )
+    if heat.slow and heat.change > tolerance:
+        yield Validity(
+            "Péclet number of the faster surface",
+            heat.peclet,
+            FAST,
+            "",
+            "the heat source moves slowly: the flash temperature "
+            f"used is too high, and f too low by at most {100 * heat.change:.2g} %",
+            "numerics.heat = 'off' gives the other bound",
+        )
+
+
+def of_typical_heat(scene, change: float) -> Iterator[Validity]:
+    """Entries for heat that is left out because the lubricant does not say how its viscosity falls with the
+    temperature. ``change``: the share of f that a typical oil would lose by it (`typical_heat`)."""
+    if change > scene.numerics.tolerance:
+        temperature, coefficient = TYPICAL
+        yield Validity(
+            "share of f that the heat of the film would take away",
+            100 * change,
+            100 * scene.numerics.tolerance,
+            "%",
+            "heat is left out, as the viscosity is a number; that is its effect, at most, on a typical oil, whose "
+            f"viscosity falls by {100 * coefficient:.2g} % per K, at {temperature - CELSIUS:.0f} °C",
+            "give lubricant.temperature and temperature_coefficient, or an oil (grade, nu40, oil); numerics.heat = "
+            "'off' leaves it out on purpose",
+        )
+
+
+def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Validity]:
+    """A caution if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
+    if error is not None and error > tolerance:
+        why = "the solve leaves more than the tolerance asked"
+        yield Validity("estimated numerical error of f", 100 * error, 100 * tolerance, "%", why, remedy)
+
+
+def judged(prepared, speed: float, balance, ends: float) -> tuple[Validity, ...]:
+    """Entries for every assumption that ``balance`` violates. Those about bodies and map (`Prepared.known`) come
+    first. ``ends``: the share of the contact's load on the edge columns of its patch."""
+    scene, film = prepared.scene, balance.film
+    thickness = film.central_film if film is not None else math.nan
+    entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
+    entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
+    if film is not None:
+        peak, found = float(film.pressure.max()), balance.forces
+        force = abs(found.coefficient) * scene.bodies.load
+        entries += of_inlet(scene, film.contact, film.flow_film, force)
+        entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)
+        typical = typical_heat(scene, film, balance.contact, balance.contact_load, force, found.shear)
+        entries += of_typical_heat(scene, typical)
+        if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
+            entries += of_deflection(scene, balance.contact.mean_gap)
+    return tuple(entries)

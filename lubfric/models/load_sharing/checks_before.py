@@ -1,0 +1,106 @@
+"""Checks of a scene and its map before anything is solved: half-space, small slopes, enough asperities."""
+
+import math
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from ...errors import InputError
+from ...film import ShearForce, hertz
+from ...oil import carried_stress, shear_stress
+from ...scene import doubts
+from ...surface import correlation_length, rms_slope
+from .checks import of_motion, of_pressure, of_shear
+from .validity import Validity
+
+NODES = 201  # across the Hertz strip
+
+WIDE, WIDEST = 0.1, 0.5  # half-width of the Hertz strip over R: half-space
+STEEP, STEEPEST = 0.5, 1.5  # rms slope
+NOISE = 0.8  # cells in a correlation length (white noise: 0.63)
+FILTERED = "lines in the right order, or surface.s_filter"
+FEW = 10  # correlation lengths that a patch should be wide
+YIELDED = 4.5e9  # Pa, peak Hertz pressure that hard steel does not carry elastically
+
+
+def beforehand(scene, surface) -> tuple[Validity, ...]:
+    """Entries for values far from the usual, for the bodies and for the map."""
+    unusual = [
+        Validity(name, value, limit, unit, "unusual", meant or "check the value and its unit")
+        for name, value, limit, unit, meant in doubts(scene)
+    ]
+    cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
+    return (*unusual, *of_bodies(scene.bodies), *of_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells))
+
+
+def _cells_of_length(surface, axis: int) -> float:
+    """Correlation length of the map along ``axis`` over its cells; NaN if it has no such length: a lay along that axis,
+    a flat map, or one of a few cells."""
+    if surface.shape[axis] < 8 or surface.sq == 0:
+        return math.nan
+    try:
+        return correlation_length(surface, axis) / surface.spacing[axis]
+    except InputError:
+        return math.nan
+
+
+def of_bodies(bodies) -> Iterator[Validity]:
+    """Half-space and elasticity of the Hertz contact."""
+    wide = bodies.half_width / bodies.radius
+    if wide > WIDE:
+        remedy = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
+        why, what = "the contact is as wide as the body, which is then no half-space", "contact half-width over radius"
+        yield Validity(what, wide, WIDEST if wide > WIDEST else WIDE, "", why, remedy, wide > WIDEST)
+    if bodies.width < 2 * bodies.half_width:
+        why, what = "the contact is wider than long: no line contact", "line length over contact width"
+        yield Validity(what, bodies.width / (2 * bodies.half_width), 1.0, "", why, "check bodies.width and load")
+    peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
+    if bodies.hardness is None and peak > YIELDED:
+        why, what = "hard steel yields there, the bodies are elastic here", "peak Hertz pressure"
+        yield Validity(what, peak / 1e9, YIELDED / 1e9, "GPa", why, "check bodies.load; give bodies.hardness")
+
+
+def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterator[Validity]:
+    """Entries for the map. ``slope``: its rms slope [-]; ``lengths``: its width over its correlation length across the
+    motion; ``cells``: in its correlation length along x and y. NaN: not known."""
+    if slope > STEEP:
+        remedy = "check the units of heights and spacing; filter the map at the scale that matters"
+        why, what = "the half-space takes slopes as small: contact area and pressures are off", "rms slope of the map"
+        yield Validity(what, slope, STEEPEST if slope > STEEPEST else STEEP, "", why, remedy, slope > STEEPEST)
+    if lengths < FEW:
+        why = "few asperities: another patch of the same surface would give another f"
+        yield Validity("width of the map over its correlation length", lengths, FEW, "", why, "a larger map")
+    for axis, count in zip("xy", cells):
+        if count < NOISE:
+            what, remedy = f"cells in a correlation length along {axis}", f"a shorter step along {axis}, {FILTERED}"
+            yield Validity(what, count, NOISE, "", "neighbouring heights are as good as noise", remedy, severe=True)
+
+
+def expected(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...]:
+    """Pairs (speed [m/s], entry). The speed is None if the entry is about bodies or map. Films are those expected
+    under the whole load."""
+    found = [(None, entry) for entry in beforehand(scene, surface)]
+    if scene.numerics.model == "deterministic":
+        return tuple(found)
+    for speed in speeds:
+        if speed == 0:
+            continue
+        film = scene.line_contact(speed).expected_film
+        entries = [*of_motion(scene, speed, film), *_of_film(scene, speed, film)]
+        found += [(speed, entry) for entry in entries]
+    return tuple(found)
+
+
+def _of_film(scene, speed: float, film: float) -> list[Validity]:
+    """Entries for a ``film`` [m] of even thickness under the Hertz pressure."""
+    bodies, lubricant, w = scene.bodies, scene.lubricant, scene.bodies.load / scene.bodies.width
+    x = np.linspace(-1, 1, NODES) * bodies.half_width
+    pressure = hertz.line_pressure(x, w, bodies.radius, bodies.e_prime)
+    with np.errstate(over="ignore"):
+        sliding = abs(scene.motion.slide_roll_ratio * speed)
+        stress = np.minimum(shear_stress(lubricant, pressure, sliding / film), 1e30)
+    above = np.maximum(stress - carried_stress(pressure), 0.0)
+    force, excess = (float(bodies.width * np.trapezoid(tau, x)) for tau in (stress, above))
+    shear = ShearForce(force, 0.0, excess=excess, stress_ratio=float(np.max(stress / carried_stress(pressure))))
+    total = max(force, bodies.boundary_friction_coefficient * bodies.load)
+    return [*of_pressure(scene, float(pressure.max())), *of_shear(scene, shear, bodies.load, total)]

@@ -1,0 +1,65 @@
+"""The friction of a film and a contact that share the load (paper, Eqs. 9-12)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...contact import ContactState
+from ...film import EHLResult, ShearForce, shear_force
+from ...scene import Scene
+from .heat import Heat, point_heat
+
+
+@dataclass(frozen=True)
+class Forces:
+    """The forces [N] that resist sliding: f = (boundary + shear.total)/F_T.
+
+    ``quadrature``: estimated error of the shear force by its sum over nodes, relative to f F_T. A pressure spike that
+    the grid does not resolve shows here, and not in the film. ``heat``: of inlet, film and surfaces, and what it
+    changes.
+    """
+
+    coefficient: float
+    boundary: float
+    shear: ShearForce
+    quadrature: float = 0.0
+    heat: Heat = Heat()
+
+    @property
+    def total(self) -> float:
+        """|f F_T| [N]."""
+        return abs(self.boundary + self.shear.total)
+
+    @property
+    def felt(self) -> float:
+        """Relative change of f by a relative change of the film at a given division of the load, at most."""
+        return self.shear.felt / self.total if 0 < self.total < np.inf else 1.0
+
+
+def forces(scene: Scene, film: EHLResult | None, contact: ContactState, contact_load: float) -> Forces:
+    """The forces of ``film`` (None: none) and of a contact that carries ``contact_load`` [N]."""
+    bodies = scene.bodies
+    boundary = bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0) * contact_load
+    if film is None:
+        return Forces(boundary / bodies.load, boundary, ShearForce(0.0, 0.0))
+    shear = _shear(scene, film, contact)
+    heat, *warm = point_heat(scene, film, contact, contact_load, abs(boundary + shear.total), shear)
+    if warm != [None, None]:
+        shear = _shear(scene, film, contact, *warm)
+    total = abs(boundary + shear.total)
+    quadrature = shear.quadrature / total if 0 < total < np.inf else 0.0
+    return Forces((boundary + shear.total) / bodies.load, boundary, shear, quadrature, heat)
+
+
+def _shear(scene: Scene, film: EHLResult, contact: ContactState, warm=None, stress=None) -> ShearForce:
+    with np.errstate(over="ignore", invalid="ignore"):  # stresses far above the range of the law, told by `excess`
+        return shear_force(
+            film,
+            scene.lubricant,
+            width=scene.bodies.width,
+            slide_roll_ratio=scene.motion.slide_roll_ratio,
+            cavitated=scene.numerics.cavitated_shear,
+            contact_fraction=contact.touching,
+            warm=warm,
+            heated=stress,
+        )

@@ -1,0 +1,202 @@
+"""Heat of one operating point: modelled if leaving it out would change f by more than its share of the
+tolerance."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...errors import InputError
+from ...film import (
+    FAST,
+    LARGEST,
+    FilmHeat,
+    InletHeat,
+    Surroundings,
+    heated_film,
+    heated_stress,
+    inlet_heat,
+    isothermal_heat,
+)
+from ...oil import NO_LIQUID, Lubricant, shear_stress
+from ...scene import budget
+
+NOTHING = 1e-9  # of the film: less heat than that is none
+TYPICAL = 343.15, 0.035  # K, 1/K: a mineral oil of ISO VG 68 at 70 °C
+
+
+@dataclass(frozen=True)
+class Heat:
+    """Heat of an operating point.
+
+    inlet: factors of inlet heating (None: not known), used: whether the film is solved with them; change: of f by the
+    temperatures of film and surfaces, relative (an upper estimate if they are left out, ``heated`` None); peclet: u b
+    rho c/(2 k) of the faster surface; typical: `typical_heat` of a moment in time.
+    """
+
+    inlet: InletHeat | None = None
+    used: bool = False
+    change: float = 0.0
+    heated: FilmHeat | None = None
+    peclet: float = math.inf
+    typical: float = 0.0
+
+    @property
+    def film_factor(self) -> float:
+        """Factor on the film by the heat of the inlet; 1 if that is left out."""
+        return self.inlet.factor if self.used and self.inlet is not None else 1.0
+
+    @property
+    def flash(self) -> float:
+        """Largest rise of the surfaces [K]; 0 if it is left out."""
+        return self.heated.flash if self.heated else 0.0
+
+    @property
+    def film(self) -> float:
+        """Largest mean rise of the film over the surfaces [K]; 0 if it is left out."""
+        return self.heated.film if self.heated else 0.0
+
+    @property
+    def left_out(self) -> float:
+        """Relative change of f by the temperatures of film and surfaces, at most, where these are left out."""
+        return self.change if self.heated is None else 0.0
+
+    @property
+    def slow(self) -> bool:
+        """Whether the surfaces move too slowly for the formula of the flash temperature, which is then too high."""
+        return self.peclet < FAST
+
+    def text(self, tolerance: float) -> str:
+        """The heat in words, each number beside its budget."""
+        if self.inlet is None:
+            return ""
+        limit = f"{100 * budget.HEAT * tolerance:.2g} %"
+        inlet = f"inlet left out, film -{100 * (1 - self.inlet.factor):.2g} %"
+        if self.used:
+            inlet = f"inlet, film x {self.inlet.factor:.3g} ({self.inlet.other:.3g} by another factor)"
+        if self.heated is None:
+            return f"heat: {inlet}; film and flash left out, at most {100 * self.change:.2g} % of f ({limit} allowed)"
+        return f"heat: {inlet}; flash {self.flash:.2g} K and film {self.film:.2g} K, f {-100 * self.change:+.2g} %"
+
+
+def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
+    """Inlet heating of ``scene`` at ``speed`` [m/s], and whether the film is to be solved with it."""
+    lubricant, numerics = scene.lubricant, scene.numerics
+    if numerics.heat == "off" or not lubricant.heats or speed == 0:
+        return None, False
+    bodies = scene.bodies
+    found = inlet_heat(
+        viscosity=lubricant.viscosity,
+        temperature_coefficient=lubricant.temperature_coefficient,
+        conductivity=lubricant.conductivity,
+        speed=abs(speed),
+        slide_roll_ratio=scene.motion.slide_roll_ratio,
+        pressure_ratio=4 / math.pi * bodies.mean_hertz_pressure / bodies.e_prime,
+    )
+    wanted = numerics.heat == "on" or 1 - found.factor > budget.INLET * numerics.tolerance
+    return found, wanted
+
+
+def film_lubricant(scene, speed: float) -> Lubricant:
+    """The lubricant with which the film is solved: with the viscosity in the heated inlet at which Moes' film is
+    thinner by the factor of `inlet_at`."""
+    found, used = inlet_at(scene, speed)
+    if found is None or not used or found.factor > 1 - NOTHING:
+        return scene.lubricant
+    if found.factor <= 0:
+        raise InputError(
+            f"heat of the inlet: thermal number eta0 beta U²/k = {found.thermal_number:.3g} leaves no film by the "
+            f"factor of Gupta et al. (1992); allowed: up to about {LARGEST:g}, or numerics.heat = 'off' (speed, "
+            "viscosity, temperature_coefficient and their units?)"
+        )
+    lubricant, whole = scene.lubricant, scene.line_contact(speed)
+
+    def thinner(log_share):
+        made = replace(lubricant, viscosity=lubricant.viscosity * math.exp(log_share))
+        return math.log(replace(whole, lubricant=made).moes_film / whole.moes_film)
+
+    wanted, share = math.log(found.factor), math.log(found.factor) / 0.7
+    for _ in range(6):  # the exponent of the viscosity changes slowly, between 0.5 and 1
+        share *= wanted / thinner(share)
+    return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
+
+
+def point_heat(scene, film, contact, contact_load, force: float, shear) -> tuple[Heat, float | None, Callable | None]:
+    """Heat of ``film`` beside a ``contact`` that carries ``contact_load`` [N]; the viscosity [Pa s] of the warm inlet
+    with which it was solved (None: as given); and the stress [Pa] of the heated film, stress(x, pressure, film) at
+    positions x [m] running downstream (None: isothermal). ``force``: |f F_T| [N] and ``shear`` (`ShearForce`) without
+    the heat of the film."""
+    inlet, used = inlet_at(scene, film.entrainment_speed)
+    if inlet is None:
+        return Heat(), None, None
+    warm = film_lubricant(scene, film.entrainment_speed).viscosity if used else None
+    pressed = float(film.pressure.max()) > NO_LIQUID  # a rigid film far above its range, on the way to one that is not
+    if scene.motion.slide_roll_ratio == 0 or pressed or not shear.excess < math.inf:
+        return Heat(inlet, used), warm, None
+    lubricant, numerics = scene.lubricant, scene.numerics
+    nodes, change_by = _nodes(scene, film, contact, contact_load, force)
+    change, peclet = change_by(isothermal_heat(lubricant, *nodes).stress), peclet_at(scene, film.entrainment_speed)
+    if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
+        return Heat(inlet, used, change, None, peclet), warm, None
+    found, (x, *_, around) = heated_film(lubricant, *nodes), nodes
+    change = change_by(found.stress)
+
+    def stress(at, pressure, thickness):
+        return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, found.wall))[0]
+
+    return Heat(inlet, used, change, found, peclet), warm, stress
+
+
+def _nodes(scene, film, contact, contact_load: float, force: float):
+    """Nodes running downstream, pressure and film there, and the `Surroundings`; and the function that tells by what
+    share of ``force`` [N] a stress [Pa] (n,) makes the friction less than the isothermal stress does."""
+    bodies, motion = scene.bodies, scene.motion
+    speed, direction = abs(film.entrainment_speed), math.copysign(1.0, film.entrainment_speed)
+    order = np.argsort(film.x * direction)
+    x, p, h = film.x[order] * direction, film.pressure[order], film.film_thickness[order]
+    share = 1.0 - contact.touching(x * direction)
+    share = np.where(x[:-1] < film.rupture * direction, share, 0.0)
+    wet = 0.5 * (np.append(share[:1], share) + np.append(share, share[-1:]))
+    sliding = motion.slide_roll_ratio * speed
+    half = bodies.half_width
+    pressed = 2 * contact_load / (math.pi * half * bodies.width) * np.sqrt(np.maximum(1 - (x / half) ** 2, 0.0))
+    around = surroundings(scene, speed, wet, bodies.boundary_friction_coefficient * pressed)
+    cold = np.abs(shear_stress(scene.lubricant, p, sliding / h))
+
+    def change_by(stress) -> float:
+        return float(bodies.width * np.trapezoid(wet * (cold - np.abs(stress)), x)) / max(force, 1e-300)
+
+    return (x, p, h, around), change_by
+
+
+def surroundings(scene, speed: float, wet, spots) -> Surroundings:
+    """What is around the nodes of a film at U = ``speed`` [m/s]: ``wet``, the share of the width that it covers, and
+    the stress of contact ``spots`` [Pa], each (n,)."""
+    speed, ratio = abs(speed), scene.motion.slide_roll_ratio
+    surfaces = (speed * abs(1 - 0.5 * ratio), speed * abs(1 + 0.5 * ratio))
+    carried = sum(e * math.sqrt(u) for e, u in zip(scene.bodies.effusivity, surfaces))
+    return Surroundings(carried, ratio * speed, wet, spots * abs(ratio * speed))
+
+
+def typical_heat(scene, film, contact, contact_load: float, force: float, shear) -> float:
+    """Share of ``force`` = |f F_T| [N] that the heat of film and surfaces would take away, at most, if the viscosity
+    fell with the temperature as that of a typical oil (`TYPICAL`), from the stress of the isothermal film. 0 where the
+    lubricant says how it falls, where ``numerics.heat`` is off, and where nothing slides. Arguments as of
+    `point_heat`."""
+    lubricant = scene.lubricant
+    known = lubricant.heats or lubricant.temperature_coefficient == 0
+    meaningless = float(film.pressure.max()) > NO_LIQUID or not shear.excess < math.inf
+    if known or scene.numerics.heat == "off" or scene.motion.slide_roll_ratio == 0 or meaningless:
+        return 0.0
+    temperature, coefficient = lubricant.temperature or TYPICAL[0], lubricant.temperature_coefficient or TYPICAL[1]
+    like = replace(lubricant, temperature=temperature, temperature_coefficient=coefficient)
+    nodes, change_by = _nodes(scene, film, contact, contact_load, force)
+    return change_by(isothermal_heat(like, *nodes).stress)
+
+
+def peclet_at(scene, speed: float) -> float:
+    """u b rho c/(2 k) of the faster surface at U = ``speed`` [m/s]; the smaller of both bodies."""
+    bodies = scene.bodies
+    faster = abs(speed) * (1 + 0.5 * abs(scene.motion.slide_roll_ratio))
+    return min(faster * bodies.half_width * c / (2 * k) for k, c in zip(bodies.conductivity, bodies.volumetric_heat))

@@ -1,0 +1,130 @@
+"""What a scene leaves out, and by how much f would likely change: `lacking`, from closed forms alone.
+
+f is guessed as ``f_b s + mu (1 - s)``. The share s = exp(-1.8 λ^1.2) of the load on the asperities (Aihara's law, one
+of the measured ones, which lie within a factor of two of each other) is that at λ, the expected film of the whole load
+over Sq. mu is the shear of that film in the gap of a dry contact, or of one as thick as the gap of rough surfaces,
+under the Hertz pressure, with the resistance of its inlet to rolling. Only ratios of guesses count. Where a result is
+known, s and mu are scaled to what it has.
+"""
+
+import math
+
+import numpy as np
+
+from ...film import flooded_inlet, hertz, starved_inlet
+from ...oil import carried_stress, shear_stress
+from ...scene import Scene, moves
+from .heat import TYPICAL
+
+STARVED, WORN, WARMER, RUBBED = 0.7, 0.6, 10.0, 0.75  # of the film; of Sq; K; of f_b
+GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
+THICK = 3.0  # film over Sq from which roughness that moves hardly matters
+SOFT, DEEP = 5e9, 5.0  # Pa: E' of covered rollers and seals; half-widths that a cover must be thick
+SURE = 1e-6  # of the load: a share of the asperities or of the film is not scaled beyond it
+UPSTREAM, RUPTURE = 4.0, 0.475  # of √(2 R h): how far a film reaches before and behind a narrow contact
+ALONE = 0.1  # of f by asperities, below which the film makes it
+NARROW = 0.184  # by which the least film of a rigid contact is thinner than that which flows
+NODES = 201
+
+Lack = tuple[str, float, str]  # what is left out; likely change of f, relative (NaN: not known); what to do
+
+
+def lacking(scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None) -> tuple[Lack, ...]:
+    """What ``scene``, whose surface has the standard deviation ``sq`` [m], leaves out at ``speed`` [m/s], the largest
+    change of f first, what is not known last. What would change f by less than ``numerics.tolerance`` is not told.
+
+    ``known``: the friction [-] of asperities alone and of all, of a result there, if there is one.
+    """
+    bodies = scene.bodies
+    rubbing, friction = known or _parts(scene, sq, speed)
+    found = [] if speed == 0 or not friction > 0 else _of_film(scene, sq, speed, known)
+    told = any("boundary_friction" in name for name, *_ in scene.ranges) or bodies.boundary_friction_table is not None
+    if friction > 0 and not told:
+        what = f"another additive, a coating, a film rubbed in: f_b x {RUBBED:g}"
+        found.append((what, (RUBBED - 1) * rubbing / friction, "give boundary_friction_coefficient = [low, high]"))
+    ends = 2 * bodies.half_width / bodies.width
+    found.append(("the ends of the line, its edges, and misalignment", ends, "that much of it lies next to an end"))
+    tolerance = scene.numerics.tolerance
+    kept = [lack for lack in found if not abs(lack[1]) <= tolerance]
+    return tuple(sorted(kept, key=lambda lack: -abs(lack[1]) if math.isfinite(lack[1]) else 0.0))
+
+
+def _of_film(scene: Scene, sq: float, speed: float, known) -> list[Lack]:
+    """What needs a film."""
+    line, lubricant = scene.line_contact(speed), scene.lubricant
+    thinner = math.exp(-WARMER * (lubricant.temperature_coefficient or TYPICAL[1]))
+    warm = scene.with_(lubricant={"oil": None, "viscosity": thinner * lubricant.viscosity})
+    reach = line.half_width + flooded_inlet(math.sqrt(2 * line.radius * line.moes_film), line.half_width)
+    before = _parts(scene, sq, speed)
+    rubs = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
+    narrow = line.expected_film * 2 * line.radius > line.half_width**2
+    alone = (known or before)[0] < ALONE * (known or before)[1]
+
+    def change(other: Scene, rough: float, film: float = 1.0) -> float:
+        after = _parts(other, rough, speed, film)
+        if known is not None:
+            after = _scaled(rubs, before, after, known)
+        return after[1] / (known or before)[1] - 1
+
+    found: list[Lack] = []
+    if lubricant.floods:
+        told = f"flooded from {1e3 * reach:.2g} mm before the line on; if less, give lubricant.inlet_length"
+        size = math.nan if narrow and alone else change(scene, sq, STARVED)  # the rolling part may fall by more
+        found.append((f"an inlet that starves: film x {STARVED:g}", size, told))
+    told = f"an inlet {WARMER:g} K warmer than the lubricant is given"
+    found.append((told, change(warm, sq), "give lubricant.temperature as it is next to the contact"))
+    if sq > 0:
+        told = f"a surface that has run in: Sq x {WORN:g}"
+        found.append((told, change(scene, WORN * sq), "give a map after running in, or use lubfric.run_in"))
+        at_rest = scene.numerics.model == "load-sharing" and moves(scene)  # the other model moves it
+        if at_rest and line.expected_film < THICK * sq:
+            found.append(("roughness that moves through the contact", math.nan, "it is taken as if it stood still"))
+    if scene.bodies.e_prime < SOFT:
+        told = f"a cover thinner than {1e3 * DEEP * line.half_width:.2g} mm, and its damping"
+        found.append((told, math.nan, "give e_prime so that the contact is as wide as measured"))
+    return found
+
+
+def _scaled(f_b: float, before, after, known) -> tuple[float, float]:
+    """The parts ``after``, as changes from the guess ``before`` to what is ``known``: λ that gives the share known, and
+    mu in proportion."""
+    if not f_b:
+        return 0.0, after[1] / before[1] * known[1]
+    shares = [min(max(parts[0] / f_b, SURE), 1 - SURE) for parts in (before, after, known)]
+    guessed, changed, there = (math.log(1 / share) for share in shares)
+    share = math.exp(-there * changed / guessed)
+    shears = [max(parts[1] - parts[0], 0.0) / (1 - s) for parts, s in zip((before, after, known), shares)]
+    shear = shears[2] * shears[1] / shears[0] if shears[0] else 0.0
+    return f_b * share, f_b * share + shear * (1 - share)
+
+
+def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[float, float]:
+    """The friction [-] of asperities alone and of all, to some ten per cent, at so many times the expected ``film``."""
+    bodies, ratio = scene.bodies, scene.motion.slide_roll_ratio
+    rubs = bodies.boundary_friction_coefficient * (ratio != 0)
+    if speed == 0:
+        return rubs, rubs
+    line = scene.line_contact(speed)
+    thickness, b = film * line.expected_film, line.half_width
+    share = math.exp(-1.8 * (thickness / sq) ** 1.2) if sq > 0 else 0.0
+    rise = math.sqrt(2 * line.radius * thickness)
+    begins = b + UPSTREAM * rise
+    if film < 1:
+        begins = min(begins, starved_inlet(film, math.sqrt(2 * line.radius * line.expected_film), b))
+    x = np.linspace(-begins, b + RUPTURE * rise, NODES)
+    shape = line.load_per_width, line.radius, line.e_prime
+    least = math.hypot(thickness * (1 - NARROW * rise / (rise + b)), GAP * sq)
+    gap = least + hertz.line_gap(x, *shape)
+    with np.errstate(over="ignore"):
+        pressure = hertz.line_pressure(x, *shape)
+        stress = shear_stress(scene.lubricant, pressure, abs(ratio * speed) / gap)
+    rolling = 6 * scene.lubricant.viscosity * abs(speed) * (1 / gap - max(thickness, least) / gap**2)
+    mu = float(np.trapezoid(np.minimum(stress, carried_stress(pressure)) + rolling, x)) / line.load_per_width
+    return rubs * share, rubs * share + mu * (1 - share)
+
+
+def lack_in_words(lack: Lack) -> str:
+    """One line; the change to two digits, all of 100 % and more."""
+    what, change, remedy = lack
+    digits = ".0f" if abs(change) >= 0.095 else ".2g"
+    return f"{what}: f {'not estimated' if math.isnan(change) else f'{100 * change:+{digits}} %'}; {remedy}"

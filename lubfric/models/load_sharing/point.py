@@ -1,0 +1,112 @@
+"""Film and rough contact at one speed: each at its own share of the load."""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ...contact import ContactState, RoughContact
+from ...film import Effort, EHLResult, LineContact, solve_line_contact
+from ...oil import Lubricant
+from ...scene import Scene
+from .heat import film_lubricant
+
+NUDGE = 1e-3  # of a load or a speed, for exponents of Moes' film
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Relative tolerances of the film and of the volume balance; the least number of cells of the film; tolerance of
+    the contact (None: its own). ``correctable``: what the root leaves open is corrected to first order afterwards."""
+
+    film_tolerance: float
+    balance_tolerance: float
+    film_cells: int = 0
+    contact_tolerance: float | None = None
+    correctable: bool = False
+
+
+@dataclass(frozen=True)
+class Trial:
+    """Film and contact at one division of the load [N]. ``touched``: the last contact that touched; ``cells``: of the
+    films so far: from the second on all keep to one grid, because otherwise the root of the balance would have a jump.
+    """
+
+    film: EHLResult
+    contact: ContactState
+    film_load: float
+    contact_load: float
+    touched: ContactState | None = None
+    cells: int = 0
+
+
+@dataclass(frozen=True)
+class Point:
+    """``scene`` at one speed [m/s], not 0, on ``contact``, solved with ``settings``."""
+
+    scene: Scene
+    speed: float
+    contact: RoughContact
+    settings: Settings
+
+    def line(self, film_load: float) -> LineContact:
+        """The smooth line contact of a film that carries ``film_load`` [N]. Unless the film is deflected by its own
+        pressure alone, it has Johnson's modulus E' F_H/F_T, with which the Hertz strip is that of the whole load (K. L.
+        Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108, doi:10.1016/0043-1648(72)90445-0)."""
+        bodies = self.scene.bodies
+        share = film_load / bodies.load if self.scene.numerics.film_deflection == "scaled" else 1.0
+        load, e_prime = film_load / bodies.width, bodies.e_prime * share
+        return replace(self.scene.line_contact(self.speed), load_per_width=load, e_prime=e_prime, lubricant=self.oil)
+
+    def film(self, film_load: float, start: EHLResult | None = None, cells: int = 0) -> EHLResult:
+        """The film that carries ``film_load`` [N]."""
+        effort = Effort(self.settings.film_tolerance, max(self.settings.film_cells, cells))
+        return solve_line_contact(self.line(film_load), effort, start=start)
+
+    def on(self, contact: RoughContact, film: EHLResult) -> tuple[np.ndarray, np.ndarray]:
+        """Film [m] at the x of ``contact``, and the shape under which the surface is pressed there, up to a constant.
+
+        The shape is the film, unless the film contains the deflection by the whole load (Johnson's modulus). Then it is
+        the film less the contact's share, because the contact adds its own deflection.
+        """
+        thickness = film.film_at(contact.x)
+        if self.scene.numerics.film_deflection != "scaled":
+            return thickness, thickness
+        parabola = contact.x**2 / (2 * film.radius)
+        return thickness, parabola + film.e_prime / self.scene.bodies.e_prime * (thickness - parabola)
+
+    def trial(self, film_load: float, contact_load: float, last: Trial | None = None) -> Trial:
+        """The film of ``film_load`` [N], and under it the contact that carries ``contact_load`` [N], from ``last``."""
+        start, touched, cells = (last.film, last.touched, last.cells) if last else (None, None, 0)
+        film = self.film(film_load, start, cells)
+        contact = self.pressed(self.contact, film, contact_load, touched)
+        touched, cells = contact if contact_load > 0 else touched, max(film.cells, cells) if last else 0
+        return Trial(film, contact, film_load, contact_load, touched, cells)
+
+    def pressed(self, contact: RoughContact, film: EHLResult, load: float, start: ContactState | None) -> ContactState:
+        """``contact`` under ``film``, with ``load`` [N]."""
+        thickness, shape = self.on(contact, film)
+        return self.tight(contact).close(thickness, load, start, shape)
+
+    def tight(self, contact: RoughContact) -> RoughContact:
+        """``contact``, solved as closely as the settings ask."""
+        tolerance = self.settings.contact_tolerance
+        return contact if tolerance is None else contact.tightened(tolerance)
+
+    @cached_property
+    def oil(self) -> Lubricant:
+        """The lubricant with the viscosity that it has in the inlet."""
+        return film_lubricant(self.scene, self.speed)
+
+
+def exponents(line: LineContact) -> tuple[float, float, float]:
+    """The expected film h [m] of ``line``, and m and e of h ~ load^-m speed^e about it."""
+
+    def change(other: LineContact) -> float:
+        return math.log(other.expected_film / line.expected_film) / math.log1p(NUDGE)
+
+    heavier = replace(line, load_per_width=(1 + NUDGE) * line.load_per_width)
+    sliding = None if line.sliding is None else (1 + NUDGE) * line.sliding
+    faster = replace(line, entrainment_speed=(1 + NUDGE) * line.entrainment_speed, sliding=sliding)
+    return line.expected_film, -change(heavier), change(faster)

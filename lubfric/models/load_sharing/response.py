@@ -1,0 +1,170 @@
+"""How a balance reacts to an error of its gap or its film: the division of the load, and all that depends on it."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...contact import ContactState, RoughContact, weighted_mean
+from ...film import EHLResult
+from ...scene import Scene
+from .forces import Forces, forces
+
+STEP = 0.05  # of s = ln(F_H/F_C), each way, for rates of the film
+LOAD_STEP = 0.05  # relative, of the contact load, for the slope of its gap
+LARGEST_GROWTH = 50.0  # of ln(F_H/F_C): beyond it nothing is known
+
+
+def divided(load: float, split: float) -> tuple[float, float]:
+    """(F_H, F_C) of ``load`` at split = ln(F_H/F_C)."""
+    return load / (1 + math.exp(-split)), load / (1 + math.exp(split))
+
+
+@dataclass(frozen=True)
+class Slopes:
+    """Derivatives of a rough contact by its load per width P [N/m], at a given film.
+
+    ``gap`` [m²/N]: the mean gap over A; ``area`` [m/N]: the contact area fraction of A; ``touched`` [m²/N]: the contact
+    area per length.
+    """
+
+    gap: float
+    area: float
+    touched: float
+
+    def area_factor(self, more: float, width: float, area: float) -> float:
+        """By which factor a contact area fraction grows under ``more`` load [N] on the ``width`` [m]."""
+        return max(1 + self.area * more / (width * area), 0.0) if area else 1.0
+
+
+@dataclass(frozen=True)
+class Response:
+    """Reaction of a balance to an error of its gap.
+
+    ``slopes``: those of its contact; ``split``: ds/dG [1/m], the change of s = ln(F_H/F_C) by a change of the gap at
+    given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name; ``odds``: F_H/F_C.
+    Without a film the split does not change.
+    """
+
+    slopes: Slopes
+    split: float = 0.0
+    rates: dict[str, float] | None = None
+    odds: float = 0.0
+
+    def per_gap(self, name: str) -> float:
+        """Relative change of quantity ``name`` per change of the gap [1/m], for small changes; 0 without a film."""
+        return abs(self.rates[name] * self.split) if self.rates else 0.0
+
+    def per_film(self, found: Forces, mean_film: float) -> float:
+        """Relative change of f per relative change of the film, of mean thickness ``mean_film`` [m], at most."""
+        return self.per_gap("coefficient") * mean_film + found.felt
+
+    def relative(self, name: str, gap_error: float) -> float:
+        """Relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film.
+
+        The load of a light contact depends exponentially on the gap. Where s falls by m, it grows by (1 + F_H/F_C)/(1 +
+        exp(-m) F_H/F_C) - 1, which is more than to first order.
+        """
+        rate = self.per_gap(name)
+        if not rate:  # a quantity that does not move is known, however far the gap is off
+            return 0.0
+        return rate * abs(gap_error) * max(1.0, growth(abs(self.split * gap_error), self.odds))
+
+    def gap_for(self, name: str, change: float) -> float:
+        """A gap error [m] that changes quantity ``name`` by no more than ``change``, relative."""
+        rate = self.per_gap(name)
+        if not rate:
+            return math.inf
+        first_order = change / rate
+        return first_order / max(1.0, growth(abs(self.split * first_order), self.odds))
+
+
+def growth(moved: float, odds: float) -> float:
+    """How much more the contact load grows than to first order, when ln(F_H/F_C) falls by ``moved`` >= 0 from
+    ln(``odds``), ``odds`` = F_H/F_C. As F_C = F_T/(1 + F_H/F_C), it is less than 1 where the contact carries most."""
+    moved = min(moved, LARGEST_GROWTH)
+    if not moved or not odds:
+        return 1.0
+    return ((1 + odds) / (1 + math.exp(-moved) * odds) - 1) * (1 + odds) / (moved * odds)
+
+
+def respond(
+    scene: Scene,
+    contact: RoughContact,
+    state: ContactState,
+    load: float,
+    film: np.ndarray,
+    shape: np.ndarray | None = None,
+    film_of: Callable[[float], EHLResult] | None = None,
+) -> Response:
+    """The `Response` of ``contact``, which is in ``state`` at ``load`` [N] under ``film`` and ``shape`` [m] (nx,).
+
+    Slopes are secants to a load 5 % larger (smaller where the contact carries no more). ``film_of``: the film that
+    carries a load [N], where one shares the load. Its rates come from films at two other divisions of the load; no
+    contact is solved for them. The gap obeys G(P(s)) = h(s), so ds/dG = -1/(dG/dP dP/ds - dh/ds), with dP/ds = -P
+    F_H/F_T.
+    """
+    width = scene.bodies.width
+    step = LOAD_STEP * load * (1 if contact.capacity > (1 + LOAD_STEP) * load else -1)
+    more = contact.close(film, load + step, state, shape)
+    slopes = Slopes(
+        (more.mean_gap - state.mean_gap) * width / step,
+        (more.real_contact_area_fraction - state.real_contact_area_fraction) * width / step,
+        (touched_length(more) - touched_length(state)) * width / step,
+    )
+    if film_of is None:
+        return Response(slopes)
+    total = scene.bodies.load
+    film_load = total - load
+    split = math.log(film_load / load)
+
+    def at(s: float) -> dict[str, float]:
+        loads = divided(total, s)
+        shared, factor = film_of(loads[0]), slopes.area_factor(loads[1] - load, width, state.real_contact_area_fraction)
+        mean_film = weighted_mean(shared.film_at(contact.x), contact.weight)  # the film fills the gap
+        return quantities(forces(scene, shared, grown(state, factor), loads[1]), shared, loads, mean_film)
+
+    low, high = at(split - STEP), at(split + STEP)
+    film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)
+    ds_dgap = -1.0 / (-slopes.gap * load * film_load / (total * width) - film_rate)
+    return Response(slopes, ds_dgap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
+
+
+def quantities(found: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float) -> dict[str, float]:
+    """The numbers of a point that a balance determines, by name (`lubfric.quantities`). ``found``: forces of the
+    ``film`` (None: none), which carries the first of ``loads`` [N], and of the contact, which carries the second."""
+    return {
+        "coefficient": found.coefficient,
+        "contact_load": loads[1],
+        "film_load": loads[0],
+        "shear_force": found.shear.total,
+        "couette_force": found.shear.couette,
+        "rolling_force": found.shear.rolling,
+        "boundary_force": found.boundary,
+        "min_film": math.nan if film is None else film.min_film,
+        "central_film": math.nan if film is None else film.central_film,
+        "mean_gap": mean_gap,
+        "inlet_film_factor": found.heat.film_factor,
+        "flash_temperature_rise": found.heat.flash,
+        "film_temperature_rise": found.heat.film,
+    }
+
+
+def grown(state: ContactState, factor: float) -> ContactState:
+    """``state`` with ``factor`` times its contact area, at every x up to the whole width."""
+    return replace(
+        state,
+        contact_fraction=np.minimum(state.contact_fraction * factor, 1.0),
+        real_contact_area_fraction=min(state.real_contact_area_fraction * factor, 1.0),
+    )
+
+
+def touched_length(state: ContactState) -> float:
+    """Contact area per length of the line [m]."""
+    return float(state.contact_fraction.sum() * (state.x[1] - state.x[0]))
+
+
+def _log_rate(low: float, high: float) -> float:
+    middle = 0.5 * (low + high)
+    return (high - low) / (2 * STEP * middle) if middle else 0.0

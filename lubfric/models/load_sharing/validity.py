@@ -1,0 +1,93 @@
+"""`Validity`: one assumption of the model that is violated; and those of many points as a few sentences."""
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from ...errors import ValidityError
+
+
+@dataclass(frozen=True)
+class Validity:
+    """An assumption of the model that is violated.
+
+    Attributes
+    ----------
+    what : the quantity, in words
+    value, limit : its value, and the limit of the model, both in ``unit``
+    consequence : what that does to the result
+    remedy : what to change
+    severe : True: the coefficient means nothing, and a `ValidityError` is raised unless accepted. False: a caution
+    """
+
+    what: str
+    value: float
+    limit: float
+    unit: str
+    consequence: str
+    remedy: str
+    severe: bool = False
+
+    def __post_init__(self):
+        for name, kind in (("value", float), ("limit", float), ("severe", bool)):
+            object.__setattr__(self, name, kind(getattr(self, name)))
+
+    @property
+    def text(self) -> str:
+        """One sentence; "caution: ..." or "not valid: ..."."""
+        head = "not valid" if self.severe else "caution"
+        unit = f" {self.unit}" if self.unit not in ("", "-") else ""
+        side = "above" if self.value > self.limit else "below"
+        beyond = f", {side} {self.limit:.3g}{unit}" if math.isfinite(self.limit) else ""
+        numbers = f"{self.value:.3g}{unit}{beyond}"
+        return f"{head}: {self.what} is {numbers}: {self.consequence}; {self.remedy}"
+
+
+def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:
+    """Raise `ValidityError` with ``result`` if one of ``entries`` is severe, unless ``accept``."""
+    severe = [entry for entry in entries if entry.severe]
+    if severe and not accept:
+        said = "; ".join(entry.text for entry in severe)
+        raise ValidityError(f"{said} (numerics.accept = true overrides)", tuple(severe), result)
+
+
+def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:
+    """Violated assumptions at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
+    refused = error.result if point is None and isinstance(error, ValidityError) else None
+    found = point if refused is None else refused
+    return () if found is None else found.validity
+
+
+def in_a_cell(entries: Iterable[Validity]) -> str:
+    """The texts of ``entries`` in one cell of a table."""
+    return " | ".join(entry.text for entry in entries)
+
+
+def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]:
+    """One sentence for each assumption that is violated anywhere: at how many points, from where to where, and the
+    worst value.
+
+    ``points``: pairs (value of the swept quantity, entries of that point).
+    """
+    found: dict[tuple[str, bool], list[tuple[float, Validity]]] = {}
+    for value, entries in points:
+        for entry in entries:
+            found.setdefault((entry.what, entry.severe), []).append((value, entry))
+    lines = []
+    for group in found.values():
+        worst = max((entry for _, entry in group), key=_distance)
+        values = sorted(value for value, _ in group)
+        if len(group) == 1:
+            lines.append(f"at {values[0]:g} {unit}: {worst.text}")
+        else:
+            lines.append(f"{len(group)} {name}, {values[0]:g} to {values[-1]:g} {unit}: {worst.text}")
+    return tuple(lines)
+
+
+def _distance(entry: Validity) -> float:
+    """The ratio by which the value is beyond its limit."""
+    if entry.limit == 0 or entry.value == 0:
+        return abs(entry.value - entry.limit)
+    ratio = abs(entry.value / entry.limit)
+    return max(ratio, 1 / ratio)
