@@ -99,7 +99,8 @@ def solved_with(module, name: str, factor: float, solves) -> np.ndarray:
 
 def words(rows, usual) -> str:
     """Ratios to the usual rows."""
-    ratio, failed = rows[:, 0] / usual[:, 0], int(np.count_nonzero(rows[:, 1] == 0))
+    ratio = rows[:, 0] / usual[:, 0]
+    failed = int(np.count_nonzero(rows[:, 1] == 0))
     text = f"{np.exp(np.log(ratio).mean()):.2f}, {ratio.max():.2f}"
     return text + (f", {failed} not converged" if failed else "")
 

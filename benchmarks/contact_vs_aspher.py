@@ -36,7 +36,9 @@ from verification.opponents import aspher_solver, lubfric_solver, tamaas_solver
 
 LADDER = [10 ** (-k / 2) for k in range(4, 25)]
 LONG = 60.0  # seconds: not repeated
-SPACING, LENGTH, SIGMA = 2e-6, 34e-6, 240e-9
+SPACING = 2e-6
+LENGTH = 34e-6
+SIGMA = 240e-9
 FIRST = {"lubfric": 1e-3, "aspher": 1e-2}  # tolerances that the search begins with
 
 

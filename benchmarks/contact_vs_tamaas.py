@@ -20,7 +20,10 @@ from scipy import fft
 from lubfric import solve_contact
 from lubfric.contact import half_space
 
-SPACING, SIGMA, LENGTH, E_PRIME = 2e-6, 240e-9, 34e-6, 231e9
+SPACING = 2e-6
+SIGMA = 240e-9
+LENGTH = 34e-6
+E_PRIME = 231e9
 LOADS = (50e6, 200e6, 1000e6)
 
 
@@ -56,13 +59,15 @@ def theirs(heights, threads: int):
     tamaas.set_log_level(tamaas.LogLevel.error)
     n = len(heights)
     model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [n * SPACING] * 2, [n, n])
-    model.E, model.nu = E_PRIME / 2, 0.0
+    model.E = E_PRIME / 2
+    model.nu = 0.0
 
     def solve(load, tolerance):
         model.traction[:] = 0.0
         primal = tamaas.PolonskyKeerRey.pressure
         solver = tamaas.PolonskyKeerRey(model, heights.copy(), tolerance, primal, primal)
-        solver.max_iter, solver.dump_freq = 20000, 10**9
+        solver.max_iter = 20000
+        solver.dump_freq = 10**9
         solver.solve(load)
         return np.array(model.traction).reshape(n, n)
 
@@ -78,7 +83,8 @@ def timed(solve, load, tolerance):
 
 def compare(solvers: dict, load: float, tolerances: dict, repeats: int, reference) -> dict:
     """Median seconds and relative pressure error of each solver, repeats interleaved."""
-    seconds, error = {name: [] for name in solvers}, {}
+    seconds = {name: [] for name in solvers}
+    error = {}
     for _ in range(repeats):
         for name, solve in solvers.items():
             spent, pressure = timed(solve, load, tolerances[name])

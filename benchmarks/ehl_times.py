@@ -17,7 +17,10 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from benchmarks import page
 from lubfric import solve_ehl
 
-ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
+ALPHA = 2.2e-8
+VISCOSITY = 0.0358
+RADIUS = 0.01
+E_PRIME = 2.2e11
 CASES = [
     (0.01, 5.0),
     (1.0, 5.0),
@@ -68,7 +71,8 @@ def error(result, reference) -> float:
 
 def row(M: float, L: float, repeats: int) -> list[str]:
     """One contact at every tolerance."""
-    case, cells = arguments(M, L), [f"{M:g}, {L:g}"]
+    case = arguments(M, L)
+    cells = [f"{M:g}, {L:g}"]
     lighter = case | {"load_per_width": 0.97 * case["load_per_width"]}
     reference = solve_ehl(**case, tolerance=3e-5)
     for tolerance in TOLERANCES:

@@ -85,7 +85,8 @@ def seconds(checkout: Path, name: str) -> float:
 
 def ratios(earlier: Path, name: str, pairs: int) -> tuple[list[float], float]:
     """Time now over time before of each pair, and the median time now [s]."""
-    found, now = [], []
+    found = []
+    now = []
     for pair in range(pairs):
         order = (ROOT, earlier) if pair % 2 else (earlier, ROOT)
         times = {checkout: seconds(checkout, name) for checkout in order}

@@ -38,7 +38,11 @@ class InputError(LubfricError, ValueError):
 
     def __init__(self, said: str, quantity: str = "", allowed: str = "", way_out: str = "", also: tuple[str, ...] = ()):
         super().__init__(said, quantity, allowed, way_out, also)
-        self.said, self.quantity, self.allowed, self.way_out, self.also = said, quantity, allowed, way_out, also
+        self.said = said
+        self.quantity = quantity
+        self.allowed = allowed
+        self.way_out = way_out
+        self.also = also
 
     def worded(self) -> str:
         allowed = self.allowed and f"; allowed: {self.allowed}"

@@ -65,7 +65,9 @@ def converted(value: Any, unit: str, to: str) -> Any:
 
 def unit_for(values: Any, unit: str) -> str:
     """The unit of people for numbers in the SI ``unit``: the largest in which a number of middle size is 1 or more."""
-    units, sizes = PEOPLE.get(unit, (unit,)), [abs(v) for v in values if v and abs(v) < math.inf]  # not NaN
+    # not NaN
+    units = PEOPLE.get(unit, (unit,))
+    sizes = [abs(v) for v in values if v and abs(v) < math.inf]
     middle = median(sizes) if sizes else 0.0
     large = (name for name in reversed(units[1:]) if middle >= UNITS[unit][name] * (1 - 1e-9))
     return next(large, units[0])

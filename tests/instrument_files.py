@@ -18,8 +18,10 @@ def write_sur(path, heights, steps, unit="mm", name=b"Height"):
     scale = {"m": 1.0, "mm": 1e3, "um": 1e6}[unit]
     fine = np.nanmax(np.abs(heights)) * scale / 2**30
     counts = np.where(np.isnan(heights), UNMEASURED, np.rint(np.nan_to_num(heights) * scale / fine)).astype("<i4")
-    (nx, ny), words = heights.shape, [b"X", b"Y", name, *(6 * [unit.encode()])]
-    lowest, highest = UNMEASURED + 2, int(counts.max())
+    (nx, ny) = heights.shape
+    words = [b"X", b"Y", name, *(6 * [unit.encode()])]
+    lowest = UNMEASURED + 2
+    highest = int(counts.max())
     head = (b"DIGITAL SURF", 0, 1, 1, 2, b"map", b"instrument", 0, 0, 0, int(np.isnan(heights).any()), 0, 0, 0, 32)
     size = (lowest, highest, nx, ny, nx * ny, *(step * scale for step in steps), fine)
     rest = (1.0, 1.0, 1.0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 2020, 3, 0.0, 0, 0, 0, 0, 0, b"", 0.0, 0.0, 0.0, b"")
@@ -92,7 +94,8 @@ def _read_sur(raw):
     head = struct.unpack_from(SUR, raw)
     nx, ny = head[17:19]
     heights = np.frombuffer(raw, "<i4", nx * ny, struct.calcsize(SUR)).reshape(ny, nx).T
-    unit, mask = head[28].rstrip(b"\0").decode(), heights == head[15] - 2
+    unit = head[28].rstrip(b"\0").decode()
+    mask = heights == head[15] - 2
     return np.ma.masked_array(heights * head[22], mask if head[10] else False), (nx * head[20], ny * head[21]), unit
 
 

@@ -23,7 +23,8 @@ def same(one, other):
 def slowness() -> float:
     """Processor seconds that a fixed piece of work of the kind that points do takes at this moment over what it took
     where forecasts were measured: in this unit, times of slow and of busy machines are those that are foretold."""
-    field, begun = np.linspace(0.0, 1.0, 52 * 800).reshape(52, 800), time.process_time()
+    field = np.linspace(0.0, 1.0, 52 * 800).reshape(52, 800)
+    begun = time.process_time()
     for _ in range(100):
         np.fft.irfft(np.fft.rfft(field))
     sum(i % 7 for i in range(1_000_000))

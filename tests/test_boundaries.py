@@ -63,7 +63,8 @@ def test_closed_forms_and_the_framework_never_import_lubfric(name):
 
 def test_published_numbers_are_a_leaf_that_no_solver_knows():
     """Whoever is held against them has numbers of its own."""
-    leaf, folder = "verification.references", ROOT / "verification"
+    leaf = "verification.references"
+    folder = ROOT / "verification"
     users = {f.relative_to(folder).as_posix() for f in folder.rglob("*.py") if leaf in imported(f)}
     assert {u for u in users if not u.startswith("published/")} == {
         "model/boundary_film.py",

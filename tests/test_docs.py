@@ -21,7 +21,8 @@ def test_every_scene_key_is_documented(section):
 
 
 def test_ci_runs_the_readme_test_command():
-    readme, ci = (ROOT / "README.md").read_text(), (ROOT / ".ci" / "run").read_text()
+    readme = (ROOT / "README.md").read_text()
+    ci = (ROOT / ".ci" / "run").read_text()
     command = next(line for line in readme.splitlines() if line.endswith("-m pytest -n 2"))
     environment = command.split("-m venv ")[1].split()[0]
     assert (
@@ -75,7 +76,8 @@ def test_example_scenes_are_valid_but_for_their_file(tmp_path):
 def test_the_defaults_of_the_page_are_those_of_the_code(section):
     """Every default that the page states as a number or a word in quotes; the others are said in words."""
     text = (ROOT / "docs" / "scene.md").read_text()
-    known, seen = {f.name: f.default for f in fields(SECTIONS[section])}, 0
+    known = {f.name: f.default for f in fields(SECTIONS[section])}
+    seen = 0
     columns: list[str] = []
     for line in text.split(f"## [{section}]")[1].split("\n## ")[0].splitlines():
         cells = [cell.strip() for cell in line.split("|")[1:-1]]

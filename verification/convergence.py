@@ -64,7 +64,8 @@ def picture(name: str, caption: str, series: Sequence[Series], size: str, error:
     """Errors against mesh size, log-log, each with its fitted order and a dotted line of the expected one."""
     canvas, ax = axes(height=3.6 + 0.2 * ((len(series) + 1) // 2))
     for one in series:
-        sizes, errors = np.asarray(one.sizes, dtype=float), np.asarray(one.errors, dtype=float)
+        sizes = np.asarray(one.sizes, dtype=float)
+        errors = np.asarray(one.errors, dtype=float)
         text = f"{one.label}: order {fitted_order(sizes, errors):.2f}"
         text += "" if one.order is None else f" (expected {one.order:g})"
         (line,) = ax.loglog(sizes, errors, "o-", label=text)

@@ -30,13 +30,16 @@ class Slider:
 
     def pressure(self, x):
         """``12 eta U L/(a^2 - b^2) (a - h)(h - b)/h^2`` with a the inlet and b the outlet film."""
-        a, b, h = self.inlet, self.outlet, self.film(x)
+        a = self.inlet
+        b = self.outlet
+        h = self.film(x)
         return 12 * self.viscosity * self.speed * self.length / (a**2 - b**2) * (a - h) * (h - b) / h**2
 
     @property
     def load(self) -> float:
         """``12 eta U L^2/(a - b)^2 [ln(a/b) - 2 (a - b)/(a + b)]``, N/m."""
-        a, b = self.inlet, self.outlet
+        a = self.inlet
+        b = self.outlet
         lift = np.log(a / b) - 2 * (a - b) / (a + b)
         return 12 * self.viscosity * self.speed * (self.length / (a - b)) ** 2 * lift
 
@@ -117,7 +120,8 @@ class Parabola:
 def antiderivative(big_x, xe: float):
     """``integral (X^2 - Xe^2)/(1 + X^2)^3 dX``, with X = tan t."""
     t = np.arctan(big_x)
-    second, fourth = t / 2 + np.sin(2 * t) / 4, 3 * t / 8 + np.sin(2 * t) / 4 + np.sin(4 * t) / 32
+    second = t / 2 + np.sin(2 * t) / 4
+    fourth = 3 * t / 8 + np.sin(2 * t) / 4 + np.sin(4 * t) / 32
     return second - (1 + xe**2) * fourth
 
 
@@ -152,15 +156,18 @@ class ExponentialPad:
 
         The rising exponential is written about the outlet, so that neither overflows.
         """
-        g, n = self.decay, np.arange(1, 2 * self.terms, 2)
+        g = self.decay
+        n = np.arange(1, 2 * self.terms, 2)
         k = n * np.pi / self.width
         drive = 4 / (n * np.pi) * (-1.0) ** ((n - 1) // 2)
         c = -12 * self.viscosity * self.speed * g / self.inlet**2 * drive
         root = np.sqrt(9 * g**2 + 4 * k**2)
-        up, down = (3 * g + root) / 2, (3 * g - root) / 2
+        up = (3 * g + root) / 2
+        down = (3 * g - root) / 2
         special = c / (4 * g**2 - 6 * g**2 - k**2)
         last = np.exp(2 * g * self.length)
-        back, forth = np.exp(-up * self.length), np.exp(down * self.length)
+        back = np.exp(-up * self.length)
+        forth = np.exp(down * self.length)
         # special + first + second back = 0;  special last + first forth + second = 0
         first = special * (last * back - 1) / (1 - back * forth)
         second = -special * last - first * forth
@@ -178,7 +185,8 @@ class ExponentialPad:
     def load(self) -> float:
         """``integral p``, N."""
         k, special, first, second, up, down = self.modes()
-        length, g = self.length, self.decay
+        length = self.length
+        g = self.decay
         homogeneous = first * np.expm1(down * length) / down - second * np.expm1(-up * length) / up
         along = special * np.expm1(2 * g * length) / (2 * g) + homogeneous
         return float((along * 2 / k * np.sin(k * self.width / 2)).sum())
@@ -186,8 +194,10 @@ class ExponentialPad:
     @property
     def wide_load(self) -> float:
         """Load per width of the infinitely wide pad, N/m, by quadrature."""
-        g, length = self.decay, self.length
-        third, second = np.expm1(3 * g * length) / (3 * g), np.expm1(2 * g * length) / (2 * g)
+        g = self.decay
+        length = self.length
+        third = np.expm1(3 * g * length) / (3 * g)
+        second = np.expm1(2 * g * length) / (2 * g)
         neck = second / third  # Q/U times 1/inlet: makes the pressure vanish at both ends
         scale = 12 * self.viscosity * self.speed / self.inlet**2
         lift = quad(lambda x: (length - x) * (np.exp(2 * g * x) - neck * np.exp(3 * g * x)), 0, length, epsrel=1e-13)[0]

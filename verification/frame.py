@@ -141,9 +141,11 @@ def did_you_mean(word: str, options) -> str:
 
 def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Namespace) -> int:
     """Run the studies. The report is written after every one, so that a killed process loses only the one at work."""
-    out, level = options.out, options.level
+    out = options.out
+    level = options.level
     out.mkdir(parents=True, exist_ok=True)
-    begun, now = time.perf_counter(), time.strftime("%Y-%m-%d %H:%M:%S %z")
+    begun = time.perf_counter()
+    now = time.strftime("%Y-%m-%d %H:%M:%S %z")
     so_far = reports.Report(level, tuple(s.name for s in studies), (), False, now, 0.0, reports.environment())
 
     def save(report: reports.Report) -> reports.Report:

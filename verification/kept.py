@@ -59,7 +59,8 @@ def code() -> str:
     """lubfric's version, and a hash of its source files."""
     import lubfric  # only now: the studies can be listed without it
 
-    found, home = hashlib.sha256(), Path(lubfric.__path__[0])
+    found = hashlib.sha256()
+    home = Path(lubfric.__path__[0])
     for path in sorted(home.rglob("*.py")):
         found.update(path.relative_to(home).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return f"lubfric-{lubfric.__version__}-{found.hexdigest()[:16]}"

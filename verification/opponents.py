@@ -43,13 +43,15 @@ def tamaas_solver(
     tamaas.set_log_level(tamaas.LogLevel.error)
     n = len(heights)
     model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [n * spacing] * 2, [n, n])
-    model.E, model.nu = e_prime / 2, 0.0
+    model.E = e_prime / 2
+    model.nu = 0.0
 
     def solve(load: float, tolerance: float) -> np.ndarray:
         model.traction[:] = 0.0
         primal = tamaas.PolonskyKeerRey.pressure
         solver = tamaas.PolonskyKeerRey(model, heights.copy(), tolerance, primal, primal)
-        solver.max_iter, solver.dump_freq = max_iterations, 10**9
+        solver.max_iter = max_iterations
+        solver.dump_freq = 10**9
         solver.solve(load)
         return np.array(model.traction).reshape(n, n)
 

@@ -12,7 +12,8 @@ import numpy as np
 from scipy import fft
 
 PAIR = 8e-3  # s
-CELLS, REPEATS = 816, 15
+CELLS = 816
+REPEATS = 15
 
 
 def paced(work: Callable[[], Any]) -> tuple[Any, float]:
@@ -26,7 +27,8 @@ def paced(work: Callable[[], Any]) -> tuple[Any, float]:
 
 def _pair() -> float:
     """Median processor seconds of a transform and back."""
-    field, times = np.random.default_rng(0).random((CELLS, CELLS), dtype=np.float32), []
+    field = np.random.default_rng(0).random((CELLS, CELLS), dtype=np.float32)
+    times = []
     for _ in range(REPEATS):
         begun = time.process_time()
         fft.irfft2(fft.rfft2(field), s=field.shape)

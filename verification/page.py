@@ -81,7 +81,8 @@ def checks_table(checks) -> str:
     """The checks of a study, or the failed ones of all. Of very many only the failed ones are shown."""
     chosen = listed(tuple(checks))
     note = "" if len(chosen) == len(checks) else f"<p>{len(checks)} checks, all of them in report.json.</p>"
-    published, others = [c for c in chosen if c.errors], [c for c in chosen if not c.errors]
+    published = [c for c in chosen if c.errors]
+    others = [c for c in chosen if not c.errors]
     note += beside_table(published) if published else ""
     if published and not others:
         return note

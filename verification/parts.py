@@ -16,7 +16,10 @@ from lubfric.oil import Lubricant
 from . import exact_contact
 
 T = TypeVar("T")
-ALPHA, VISCOSITY, RADIUS, E_PRIME = 2.2e-8, 0.0358, 0.01, 2.2e11
+ALPHA = 2.2e-8
+VISCOSITY = 0.0358
+RADIUS = 0.01
+E_PRIME = 2.2e11
 
 
 def the(part: T | None, name: str) -> T:
@@ -73,7 +76,8 @@ def pressed_cylinder(
 ) -> tuple[np.ndarray, ContactResult]:
     """x [m], and a cylinder pressed dry by `solve_contact` in a box four half-widths wide, with ``across`` cells in
     one."""
-    dx, n = line.half_width / across, 2 * int(2 * across)
+    dx = line.half_width / across
+    n = 2 * int(2 * across)
     x = (np.arange(n) - (n - 1) / 2) * dx
     asked = {"mean_pressure": line.load / (n * dx), "boundary": ("free", "periodic"), "tolerance": 1e-8}
     gap0 = np.tile(x[:, None] ** 2 / (2 * line.radius), (1, 4))
@@ -82,7 +86,8 @@ def pressed_cylinder(
 
 def case_of_scene(scene, load: float, speed: float) -> dict:
     """The smooth film of a scene under a load [N] at an entrainment speed [m/s]."""
-    bodies, oil = scene.bodies, scene.lubricant
+    bodies = scene.bodies
+    oil = scene.lubricant
     laws = ("viscosity", "pressure_viscosity_coefficient", "viscosity_law", "density_law")
     case = {"load_per_width": load / bodies.width, "radius": bodies.radius, "e_prime": bodies.e_prime}
     return case | {"entrainment_speed": speed} | {name: getattr(oil, name) for name in laws}

@@ -19,7 +19,9 @@ def polonsky_keer(
     touching cell has p g = 0.
     """
     p = np.full(gap0.shape, float(mean_pressure))
-    direction, power, keep = np.zeros_like(p), 1.0, 0.0
+    direction = np.zeros_like(p)
+    power = 1.0
+    keep = 0.0
     for _ in range(max_iterations):
         u = operator.apply(p)
         inside = p > 0
@@ -40,6 +42,7 @@ def polonsky_keer(
         p = np.where(inside, np.maximum(p - step * direction, 0.0), 0.0)
         overlapping = (p == 0) & (gap < 0)
         p[overlapping] -= step * gap[overlapping]
-        power, keep = now, 0.0 if overlapping.any() else 1.0
+        power = now
+        keep = 0.0 if overlapping.any() else 1.0
         p *= mean_pressure / p.mean()
     return p, False

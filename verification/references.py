@@ -102,15 +102,20 @@ def summit_density(length: float) -> float:
 
 RIGID = {"smallest": 2.447484, "flow": 3.000000, "rupture": 0.4751299, "couette": 2.848722, "rolling": 2.300538}
 BLOK = {"smallest": 1.049701, "flow": 1.286670}  # of L^(2/3)
-ISOVISCOUS_ELASTIC, RIGID_PIEZOVISCOUS, ELASTIC_PIEZOVISCOUS = 2.621, 1.287, 1.311
+ISOVISCOUS_ELASTIC = 2.621
+RIGID_PIEZOVISCOUS = 1.287
+ELASTIC_PIEZOVISCOUS = 1.311
 
 
 def moes(m: float, l: float) -> float:
     """Film where dp/dx = 0, incompressible."""
-    ri, ei, rp = 3 / m, ISOVISCOUS_ELASTIC * m**-0.2, RIGID_PIEZOVISCOUS * l ** (2 / 3)
+    ri = 3 / m
+    ei = ISOVISCOUS_ELASTIC * m**-0.2
+    rp = RIGID_PIEZOVISCOUS * l ** (2 / 3)
     ep = ELASTIC_PIEZOVISCOUS * m ** (-1 / 8) * l ** (3 / 4)
     s = (7 + 8 * math.exp(-2 * ei / ri)) / 5
-    soft, hard = (ri ** (7 / 3) + ei ** (7 / 3)) ** (3 / 7), (rp**-3.5 + ep**-3.5) ** (-2 / 7)
+    soft = (ri ** (7 / 3) + ei ** (7 / 3)) ** (3 / 7)
+    hard = (rp**-3.5 + ep**-3.5) ** (-2 / 7)
     return (soft**s + hard**s) ** (1 / s)
 
 
@@ -170,7 +175,8 @@ def refilled(pad: Pocket) -> tuple[float, float, float]:
     """Load [N/m], place of refilling [m] and highest pressure [Pa] of a pocket as wide as the pad, where the film
     ruptures at the edge of the pocket, at constant viscosity and density, with the pressure of rupture outside."""
     scale = 12 * pad.speed * pad.viscosity * pad.length / (pad.start - pad.end)
-    first, last = pad.wedge(pad.begins), pad.wedge(pad.ends)
+    first = pad.wedge(pad.begins)
+    last = pad.wedge(pad.ends)
     flow = pad.start * first / (pad.start + first)  # half of it, over U
 
     def rise(gap, since):
@@ -217,16 +223,20 @@ def hooke(
 ) -> tuple[complex, complex]:
     """What an even ``film`` [m] keeps of a wave exp(i k x) of its surface, and the complex wavenumber of the wave from
     the inlet. ``drag``: effective viscosity times entrainment speed [N/m]; ``stiffness``: bulk modulus [Pa]."""
-    q, c = 48 * drag * (speed - 1) / (e_prime * film**3 * k**2), film * e_prime * k / (4 * stiffness)
+    q = 48 * drag * (speed - 1) / (e_prime * film**3 * k**2)
+    c = film * e_prime * k / (4 * stiffness)
     kept = (1 - 1j * c * q) / (1 - 1j * (1 + c) * q)
-    q_inlet, c_inlet = 48 * drag / (e_prime * film**3 * (k * speed) ** 2), c * speed
+    q_inlet = 48 * drag / (e_prime * film**3 * (k * speed) ** 2)
+    c_inlet = c * speed
     roots = np.roots([1j / q_inlet, -c_inlet, c_inlet - 1, 1])
     return kept, k * speed * roots[np.argmin(np.abs(roots - 1))]
 
 
 # ---- friction and heat
 
-RIGID_TORQUE, ELASTIC_TORQUE = 1.4, 1.45  # of p_h b²/M and p_h b²/M^1.5, per length, on a roller
+# of p_h b²/M and p_h b²/M^1.5, per length, on a roller
+RIGID_TORQUE = 1.4
+ELASTIC_TORQUE = 1.45
 
 
 def rolling_torque(m: float) -> float:
@@ -240,7 +250,9 @@ def starved_torque(s: float) -> float:
     return (s**2 + 162.8 * s) / (s**2 + 193.1 * s + 1257)
 
 
-FLASH_HERTZ, FLASH_UNIFORM = 1.11, 1.128  # of q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2))
+# of q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2))
+FLASH_HERTZ = 1.11
+FLASH_UNIFORM = 1.128
 
 
 def eyring_force(stress: float, viscosity: float, alpha: float, rate: float, width: float, peak: float) -> float:

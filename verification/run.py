@@ -56,7 +56,8 @@ def collected(items: Iterable[Item], timed: bool, found: dict[type, list], progr
     """Put every item of a study with its kind in ``found``; a check has the time since the item before it."""
     last = time.perf_counter()
     for item in items:
-        now, kind = time.perf_counter(), type(item)
+        now = time.perf_counter()
+        kind = type(item)
         if kind not in found:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
         # two of one name would hide each other, or their files; checks may also differ by where they were measured
@@ -113,7 +114,8 @@ def run_one(
         if not found[Check]:
             raise RuntimeError("the study ended without a single check")
     except (Exception, SystemExit) as exc:  # noqa: BLE001  a study may fail in any way; all are reported
-        error, trace = explain(exc), traceback.format_exc()
+        error = explain(exc)
+        trace = traceback.format_exc()
         progress(raised(study, error))
         found[Check].append(raised(study, error))
     checks, tables, figures, fields = (tuple(items) for items in found.values())

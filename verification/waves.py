@@ -40,7 +40,8 @@ class Smooth:
 
 def laid_out(line: LineContact, speed: float, cells: float, ends: tuple[float, float] = (2.5, 1.5)) -> Smooth:
     """The contact with so many ``cells`` in a half-width, between its ``ends`` [half-widths]."""
-    step, b = line.half_width / cells, line.half_width
+    step = line.half_width / cells
+    b = line.half_width
     flat = Surface(np.zeros((64, 1)), (step, step), periodic_axes=(True, True))
     sliding = 2 * abs(speed - 1) * line.entrainment_speed
     problem = lay_out(flat, line, sliding=sliding, boundary_friction=0.09, ends=(ends[0] * b, ends[1] * b))
@@ -63,7 +64,8 @@ def at_rest(smooth: Smooth, k: float, height: float, phase: float = 0.0) -> Dete
 def history(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Times [s] of one period of moving waves of ``height`` [m], when their start is forgotten; gap [m] and pressure
     [Pa] then (time, x). In a step the lubricant moves by a cell, or nearly."""
-    x, pace = smooth.film.x, smooth.speed * smooth.problem.speed
+    x = smooth.film.x
+    pace = smooth.speed * smooth.problem.speed
     period = 2 * math.pi / (k * pace)
     count = max(8, round(period * smooth.problem.speed / smooth.problem.spacing[0]))
     first = math.ceil(SWEEP * smooth.half_width / smooth.problem.speed / (period / count))

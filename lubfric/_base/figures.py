@@ -7,7 +7,10 @@ import numpy as np
 
 from ..quantities import axis_label
 
-BLUE, RED, GREEN, GREY = "#1f5a94", "#b3392f", "#2f7d4f", "#6b6b6b"
+BLUE = "#1f5a94"
+RED = "#b3392f"
+GREEN = "#2f7d4f"
+GREY = "#6b6b6b"
 FRICTION = axis_label("coefficient")
 LETTER = 3.8  # pt: width of one in a key, about
 SLENDER = 4.0  # ratio of the sides beyond which a map is not drawn to scale
@@ -104,8 +107,10 @@ def speed_label(speed: np.ndarray) -> str:
 def key_above(axes, columns: int = 3) -> int:
     """The key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has room
     for; returns the number of rows."""
-    labels, room = axes.get_legend_handles_labels()[1], 72 * 0.8 * axes.figure.get_figwidth() / LETTER
-    rows, count = -(-len(labels) // columns), len(labels)
+    labels = axes.get_legend_handles_labels()[1]
+    room = 72 * 0.8 * axes.figure.get_figwidth() / LETTER
+    rows = -(-len(labels) // columns)
+    count = len(labels)
     while rows < count and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, count, rows)) > room:
         rows += 1
     place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}

@@ -265,7 +265,8 @@ class OwnFiles:
         """
         self.check(contents)
         new = {name: [hashlib.sha256(content).hexdigest()] for name, content in contents.items()}
-        stale, last = self.among(patterns), list(contents)[-1]
+        stale = self.among(patterns)
+        last = list(contents)[-1]
         with ExitStack() as written:  # its files appear in the opposite order
             for name in reversed(contents):
                 written.enter_context(whole_file(self.folder / name)).write_bytes(contents[name])

@@ -45,7 +45,8 @@ def changed(part: Any) -> dict[str, Any]:
     """The fields of a dataclass that differ from their defaults, by name."""
     found = {}
     for f in fields(part):
-        value, default = getattr(part, f.name), f.default if f.default_factory is MISSING else f.default_factory()
+        value = getattr(part, f.name)
+        default = f.default if f.default_factory is MISSING else f.default_factory()
         if default is MISSING or value != default:
             found[f.name] = value
     return found

@@ -54,7 +54,10 @@ class _Search:
     """One search: f, and its values so far."""
 
     def __init__(self, f, tolerance: float, max_evaluations: int, first):
-        self.f, self.tolerance, self.max_evaluations, self.last = f, tolerance, max_evaluations, first
+        self.f = f
+        self.tolerance = tolerance
+        self.max_evaluations = max_evaluations
+        self.last = first
         self.points: list[tuple[float, float]] = []
         self.best: tuple[float, float, Any] = (math.nan, math.inf, None)
 
@@ -107,7 +110,9 @@ def _bracket(search: _Search, x: float, step: float, bounds, slope: float | None
 def _close_in(search: _Search, a, b) -> None:
     """Evaluate between ``a`` and ``b``, of different signs, until the search is done, or until the bracket is down to
     rounding and f still jumps in it."""
-    fraction, c = min(max(a[1] / (a[1] - b[1]), 0.02), 0.98), None  # the secant's first
+    # the secant's first
+    fraction = min(max(a[1] / (a[1] - b[1]), 0.02), 0.98)
+    c = None
     while True:
         x = a[0] + fraction * (b[0] - a[0])
         if x in (a[0], b[0]):
@@ -128,6 +133,8 @@ def _next_fraction(a, b, c) -> float:
     phi = (a[1] - b[1]) / (c[1] - b[1])
     if not (phi**2 < xi and (1 - phi) ** 2 < 1 - xi):
         return 0.5
-    (xa, fa), (xb, fb), (xc, fc) = a, b, c
+    (xa, fa) = a
+    (xb, fb) = b
+    (xc, fc) = c
     t = fa / (fb - fa) * fc / (fb - fc) + (xc - xa) / (xb - xa) * fa / (fc - fa) * fb / (fc - fb)
     return min(max(t, 1e-3), 1 - 1e-3)

@@ -104,7 +104,8 @@ def read_columns(
     for line, row in rows[1:]:
         if any(field.strip() for field in row[len(headings) :]):
             raise InputError(f"file {path.name}, line {line}: {len(row)} values for {len(headings)} headings")
-    columns, known = [], [*(name_and_unit(text)[0] for text in headings), *headings]
+    columns = []
+    known = [*(name_and_unit(text)[0] for text in headings), *headings]
     for name, unit in zip(names, units):
         places = _places(headings, name)
         if len(places) != 1:
@@ -119,7 +120,8 @@ def read_columns(
             raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}], or ask for that")
         if given is None:
             _refuse_bare_unit(path, heading, unit)
-        word, tables = spelled(given or ""), [table for si, table in UNITS.items() if unit in (None, si)]
+        word = spelled(given or "")
+        tables = [table for si, table in UNITS.items() if unit in (None, si)]
         if word and not any(word in table for table in tables):
             listed = ", ".join(other for table in tables for other in table)
             said = f"file {path.name}, column {name!r}: unit {given!r} is not known here"

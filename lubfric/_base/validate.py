@@ -22,7 +22,9 @@ from ..units import SANE, UNITS, spelled, without_unit
 T = TypeVar("T")
 LONGEST_SHOWN = 80  # characters of a value in a message
 DEEPEST = 3  # nested lists that are looked into
-LEAST, LARGEST = 1e-100, 1e100  # of any number: beyond it powers of it overflow
+# of any number: beyond it powers of it overflow
+LEAST = 1e-100
+LARGEST = 1e100
 NUMBERS = "iuf"  # kinds of NumPy types that are real numbers; not truth values, complex numbers, words or dates
 
 
@@ -54,7 +56,8 @@ def python_fields(part: Any, section: str) -> None:
     ``__post_init__``), and text with a unit a number. A pair in an array is a pair, a scene prints and is written as
     numbers, and nothing is computed in single precision."""
     for name, value in list(vars(part).items()):
-        key, plain = f"{section}.{name}", python_value(value)
+        key = f"{section}.{name}"
+        plain = python_value(value)
         object.__setattr__(part, name, without_unit(key, plain, KEYS[key].unit) if key in KEYS else plain)
 
 
@@ -126,7 +129,8 @@ def in_range(section: str, part: Any, prefix: str | None = None) -> None:
     """Check the numbers and the choices among the fields of a ``section`` of a scene by what keys.toml says of them;
     None is let pass where it is the default. ``prefix``: of their names in messages (None: the section)."""
     for key, field in part.__dataclass_fields__.items():
-        name, value = f"{section}.{key}", getattr(part, key)
+        name = f"{section}.{key}"
+        value = getattr(part, key)
         called = name if prefix is None else prefix + key
         if name in CHOICES:
             choice(called, value, CHOICES[name])
@@ -279,7 +283,8 @@ def keys(where: str, given: Iterable, allowed: Iterable[str], other: Callable[[]
     options = list(allowed)
     for key in given:
         if key not in options:
-            word, words = key.lower() if isinstance(key, str) else "", other()
+            word = key.lower() if isinstance(key, str) else ""
+            words = other()
             near = f" (did you mean {words[word]}?)" if word in words else nearest(key, options, 0.6)
             raise InputError(f"unknown key {shown(key)} in {where}{near}; allowed: {', '.join(options)}")
 

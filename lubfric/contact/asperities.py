@@ -54,7 +54,8 @@ class AsperityContact(FieldsOnly, RoughContact):
     @cached_property
     def _at(self) -> Callable[..., AsperityResult]:
         """What touches at a separation [m], (nx, ny)."""
-        bodies, definition = self.scene.bodies, self.scene.contact.model
+        bodies = self.scene.bodies
+        definition = self.scene.contact.model
         return find_asperities(
             self.heights,
             self.spacing,
@@ -71,7 +72,8 @@ class AsperityContact(FieldsOnly, RoughContact):
         width = self.scene.bodies.width
         target = load * self.heights.shape[1] * self.spacing[1] / width
         span = float(np.ptp(self.heights))
-        last, approach = 0.0, 0.02 * span
+        last = 0.0
+        approach = 0.02 * span
         while carried(approach) < target:
             last, approach = approach, 1.5 * approach
             if approach > 20 * span:
@@ -94,7 +96,8 @@ class AsperityContact(FieldsOnly, RoughContact):
         gap = separation - self.heights
         if self.scene.contact.asperity_separation == "volume":
             gap = np.maximum(gap, 0.0)
-        fraction, plastic = np.zeros(self.x.size), 0.0
+        fraction = np.zeros(self.x.size)
+        plastic = 0.0
         if found is not None:
             fraction = self._contact_fraction(found)
         touching = weighted_mean(fraction, self.weight)

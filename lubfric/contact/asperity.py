@@ -168,7 +168,9 @@ def separation_for_load(
     most = f"at most {best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m"
     advice = "" if history else f"{definition} cannot carry a mean pressure of {target:.4g} Pa: {most}"
     status = CONVERGED if error <= tolerance else STAGNATED
-    left, steps, evaluations = {"load": error}, len(history) or scanned, scanned + len(history)
+    left = {"load": error}
+    steps = len(history) or scanned
+    evaluations = scanned + len(history)
     report = Report("asperity separation", status, steps, error, tolerance, left, history, evaluations, advice=advice)
     return returned(replace(best, report=report), raise_on_failure)
 
@@ -182,11 +184,14 @@ def _closest(found, top: float, span: float, target: float, tolerance: float):
         result = found(float(top - approach))
         return result.mean_pressure / target - 1, result
 
-    before, best = 0.0, excess(0.0)[1]
+    before = 0.0
+    best = excess(0.0)[1]
     for scanned, approach in enumerate(span * APPROACHES, start=1):
         value, result = excess(approach)
         if value >= 0:
-            middle, step, bounds = 0.5 * (before + approach), 0.25 * (approach - before), (before, approach)
+            middle = 0.5 * (before + approach)
+            step = 0.25 * (approach - before)
+            bounds = (before, approach)
             root = increasing_root(excess, middle, step=step, bounds=bounds, tolerance=tolerance)
             return root.payload, scanned, root.history
         before, best = approach, max(best, result, key=lambda at: at.load)

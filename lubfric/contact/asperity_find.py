@@ -61,7 +61,8 @@ def _labelled(touching) -> np.ndarray:
 def _crossings(label, periodic) -> np.ndarray:
     """Regions that touch across a periodic edge, also diagonally: rows (region, region, by how many periods the second
     lies ahead along each axis)."""
-    cells, found = np.argwhere(label), []
+    cells = np.argwhere(label)
+    found = []
     for step in AHEAD:
         periods, there = np.divmod(cells + step, label.shape)
         across = periods.any(axis=1) & ((periods == 0) | periodic).all(axis=1)
@@ -97,7 +98,9 @@ def ridges(heights, bearing: float, periodic) -> int:
     for region in ways:
         if region in period:
             continue
-        period[region], reached, endless = (0, 0), [region], False
+        period[region] = (0, 0)
+        reached = [region]
+        endless = False
         while reached:
             here = reached.pop()
             for there, i, j in ways[here]:

@@ -33,7 +33,10 @@ class Cells:
     """
 
     def __init__(self, deflection, index, rows: slice, whole: tuple[int, int]):
-        self.deflection, self.index, self.rows, self.whole = deflection, index, rows, whole
+        self.deflection = deflection
+        self.index = index
+        self.rows = rows
+        self.whole = whole
         self.shape = len(range(*rows.indices(whole[0]))), whole[1]
         self._field = np.zeros(self.shape if index is not None else (0, 0), np.float32)
 
@@ -41,12 +44,15 @@ class Cells:
     def flagged(operator, flags) -> Cells:
         """Cells whose ``flags`` are set, or all if that is most of them. With a free axis x beside a periodic y, only
         the rows that contain some."""
-        whole, rows, deflection = flags.shape, slice(None), operator.apply
+        whole = flags.shape
+        rows = slice(None)
+        deflection = operator.apply
         if operator.boundary == ("free", "periodic"):
             touched = np.flatnonzero(flags.any(axis=1))
             count = min(ROUND * -(-int(touched[-1] - touched[0] + 1) // ROUND), whole[0])
             first = min(int(touched[0]), whole[0] - count)
-            deflection, rows = operator.window(count), slice(first, first + count)
+            deflection = operator.window(count)
+            rows = slice(first, first + count)
         flags = flags[rows]
         many = np.count_nonzero(flags) > DENSE * flags.size
         return Cells(deflection, None if many else np.flatnonzero(flags), rows, whole)
@@ -78,9 +84,11 @@ def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
     """Mean of |k| [1/m] times 1, cos(kx dx), cos(ky dy) and the product of the two; an axis of one cell has no
     waves."""
     turns = [(np.arange(POINTS) + 0.5) * (np.pi / POINTS) if n > 1 else np.zeros(1) for n in shape]
-    x, y = turns[0][:, None], turns[1]
+    x = turns[0][:, None]
+    y = turns[1]
     k = np.hypot(x / spacing[0], y / spacing[1])
-    along_x, along_y = np.cos(x) * (shape[0] > 1), np.cos(y) * (shape[1] > 1)
+    along_x = np.cos(x) * (shape[0] > 1)
+    along_y = np.cos(y) * (shape[1] > 1)
     own, x_part, y_part, both = (float((k * wave).mean()) for wave in (1.0, along_x, along_y, along_x * along_y))
     return own, x_part, y_part, both
 
@@ -90,7 +98,8 @@ def stencil(cells: Cells, spacing, boundary, factor: float) -> Callable[[np.ndar
     long waves, times ``factor``. The values of the other cells are zero; periodic axes wrap around."""
     shape = cells.shape
     padded = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)
-    inner, nearest = padded[1:-1, 1:-1], nearest_coefficients(shape, spacing)
+    inner = padded[1:-1, 1:-1]
+    nearest = nearest_coefficients(shape, spacing)
     coefficients = tuple(np.float32(factor * c) for c in nearest)
     long_waves = min(shape) >= LEAST
     if long_waves:  # the series less |k|, on cells FACTOR times as long; free axes are padded to twice their length
@@ -103,9 +112,11 @@ def stencil(cells: Cells, spacing, boundary, factor: float) -> Callable[[np.ndar
     def sums(values: np.ndarray) -> np.ndarray:
         inner[:] = cells.field(values)
         if boundary[0] == "periodic":
-            padded[0], padded[-1] = padded[-2], padded[1]
+            padded[0] = padded[-2]
+            padded[-1] = padded[1]
         if boundary[1] == "periodic":
-            padded[:, 0], padded[:, -1] = padded[:, -2], padded[:, 1]
+            padded[:, 0] = padded[:, -2]
+            padded[:, -1] = padded[:, 1]
         found = cells.gather(_swept(padded, coefficients))
         return found - filtered(_summed(inner), missed, coarse, None).ravel().take(owner) if long_waves else found
 
@@ -118,7 +129,8 @@ def _swept(padded, coefficients) -> np.ndarray:
     sums = np.empty((padded.shape[0] - 2, padded.shape[1] - 2), np.float32)
     rows = max(1, BLOCK // padded.shape[1])
     for begin in range(0, sums.shape[0], rows):
-        points, total = padded[begin : begin + rows + 2], sums[begin : begin + rows]
+        points = padded[begin : begin + rows + 2]
+        total = sums[begin : begin + rows]
         beside = points[:, :-2] + points[:, 2:]
         np.multiply(points[1:-1, 1:-1], own, out=total)
         total += along_y * beside[1:-1]

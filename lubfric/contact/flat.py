@@ -23,7 +23,9 @@ SMALL = 128**2  # cells and fewer, whose summits come into contact one by one, d
 HALVED = 0.25  # error of an interpolation between nodes half as far apart, of a smooth curve
 FEW = 1e-3  # of the heaviest pressure, below which f does not feel the load
 CELLS = 2  # that come into contact at a time
-ROUNDS, FINEST = 5, 0.05  # of adding nodes; least ln(pressure ratio) that is halved
+# of adding nodes; least ln(pressure ratio) that is halved
+ROUNDS = 5
+FINEST = 0.05
 NOTHING = 1e-9  # of the lightest gap: below it the contact is full
 MATTERS = 0.1  # share of the load on the contact above which f feels all of its relative error
 
@@ -68,7 +70,9 @@ class ContactCurve(FieldsOnly):
         area ~ p^(2/3).
         """
         pressure = validate.nonnegative("mean_pressure", mean_pressure, "Pa", maximum=float(self.mean_pressure[0]))
-        gap, area, plastic = self.mean_gap, self.contact_area_fraction, self.plastic_area_fraction
+        gap = self.mean_gap
+        area = self.contact_area_fraction
+        plastic = self.plastic_area_fraction
         lightest = self.mean_pressure[-1]
         if pressure <= lightest:
             share = (pressure / lightest) ** (2 / 3)
@@ -102,7 +106,8 @@ def contact_curve(
     validate.positive("heaviest", heaviest, "Pa")
     validate.positive("accuracy", accuracy, "(-)")
     gap0 = np.max(heights) - heights
-    touching_gap, small = float(gap0.mean()), gap0.size <= SMALL
+    touching_gap = float(gap0.mean())
+    small = gap0.size <= SMALL
     options = {"hardness": hardness, "tolerance": tolerance, "operator": operator}
     solved: dict[float, ContactResult] = {}
 
@@ -110,7 +115,8 @@ def contact_curve(
         solved[pressure] = solve_contact(gap0, spacing, e_prime, mean_pressure=pressure, start=start, **options)
         return solved[pressure]
 
-    pressure, last = float(heaviest), None
+    pressure = float(heaviest)
+    last = None
     while pressure >= LIGHTEST * heaviest:
         last = add(pressure, last)
         if len(solved) > 2 and touching_gap - last.mean_gap <= ENOUGH * accuracy * touching_gap:
@@ -143,7 +149,8 @@ def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
     log_pressure = np.log(pressure)
     missed = [np.pad(left_out(log_pressure, values), 1) for values in (gap, area)]
     error, of_area = (halved * np.maximum(off[1:], off[:-1]) for off in missed)
-    middle, rate = np.sqrt(gap[1:] * gap[:-1]), -np.diff(gap) / np.diff(log_pressure)
+    middle = np.sqrt(gap[1:] * gap[:-1])
+    rate = -np.diff(gap) / np.diff(log_pressure)
     share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
     felt = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
     allowed = np.minimum(middle, rate / np.maximum(felt, NOTHING))
@@ -186,7 +193,8 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
     the largest pressure.
     """
     asperities = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness)
-    top, span = float(heights.max()), float(np.ptp(heights))
+    top = float(heights.max())
+    span = float(np.ptp(heights))
     nodes: list[tuple[float, float, float, float]] = []
     for approach in span * APPROACHES:
         found = asperities(top - approach)
@@ -228,7 +236,8 @@ class FlatContact(RoughContact):
     def close(self, film, load, start=None, shape=None) -> ContactState:
         """Read from the curve; ``start`` and ``shape`` are not needed. Raises `ConvergenceError` for a load that the
         contact model of the curve cannot carry."""
-        pressure, heaviest = load / self.area, float(self.curve.mean_pressure[0])
+        pressure = load / self.area
+        heaviest = float(self.curve.mean_pressure[0])
         if pressure > heaviest * (1 + 1e-12):
             raise ConvergenceError(f"the contact model carries {self.capacity:.4g} N at most, asked for {load:.4g} N")
         gap, touching, plastic = self.curve.at(min(pressure, heaviest))
@@ -255,10 +264,13 @@ class FlatContact(RoughContact):
 
 def flat_contact(scene: Scene, heights, spacing) -> FlatContact:
     """The contact of ``scene``, with a curve for periodic ``heights`` [m] (nx, ny) about their mean."""
-    bodies, numerics, contact = scene.bodies, scene.numerics, scene.contact
+    bodies = scene.bodies
+    numerics = scene.numerics
+    contact = scene.contact
     half_width = bodies.half_width
     area = 2 * half_width * bodies.width
-    given, limits = (heights, spacing, bodies.e_prime), {"heaviest": bodies.load / area, "hardness": bodies.hardness}
+    given = (heights, spacing, bodies.e_prime)
+    limits = {"heaviest": bodies.load / area, "hardness": bodies.hardness}
     if contact.model == "half-space":
         curve = contact_curve(
             *given,

@@ -51,7 +51,8 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
             tolerance=self.tolerance,
             start=self._pressure_of(start),
         )
-        touching, plastic = found.pressure > 0, 0.0
+        touching = found.pressure > 0
+        plastic = 0.0
         if self.hardness is not None:
             plastic = weighted_mean((found.pressure >= self.hardness).mean(axis=1), self.weight)
         fraction = touching.mean(axis=1)
@@ -115,7 +116,8 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
         """The pressure of ``state``, if any, on these cells, taken from the nearest of its own."""
         if state is None or state.fields is None:
             return None
-        pressure, shape = state.fields.pressure, self.heights.shape
+        pressure = state.fields.pressure
+        shape = self.heights.shape
         if pressure.shape == shape and np.array_equal(state.x, self.x):
             return pressure
         row = np.rint((self.x - state.x[0]) / (state.x[1] - state.x[0])).astype(int)
@@ -130,7 +132,8 @@ def half_space_contact(
 ) -> HalfSpaceContact:
     """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this grid;
     ``x`` [m] (nx,): cell centres (None: evenly about the line of contact)."""
-    bodies, numerics = scene.bodies, scene.numerics
+    bodies = scene.bodies
+    numerics = scene.numerics
     x = centred_axis(heights.shape[0], spacing[0]) if x is None else x
     if operator is None:
         operator = half_space(heights.shape, spacing, bodies.e_prime, BOUNDARY, workers=numerics.workers)

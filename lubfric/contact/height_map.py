@@ -57,7 +57,9 @@ def whole_maps(scene: Scene) -> tuple[Surface, ...]:
     """The heights of both bodies `together`, or of the only one: measured ones whole and on their own grid, generated
     ones on the contact grid. A generated one that faces a measured one is made as large as that. If it were repeated
     instead, a few of its summits would stand for all."""
-    bodies, domain, found = rough_bodies(scene), scene.contact, {}
+    bodies = rough_bodies(scene)
+    domain = scene.contact
+    found = {}
     for rough, name in bodies:
         if rough.file is not None:
             with named(name):
@@ -106,7 +108,9 @@ def check_grid(scene: Scene, surface: Surface) -> None:
     check_slopes(surface)
     if scene.contact.geometry == "flat":
         return
-    half_width, step, length = scene.bodies.half_width, surface.spacing[0], surface.size[0]
+    half_width = scene.bodies.half_width
+    step = surface.spacing[0]
+    length = surface.size[0]
     if step > half_width:
         raise InputError(
             f"contact.spacing = {step:.3g} m along x does not resolve the Hertz strip; allowed: at most "
@@ -176,7 +180,8 @@ def refuse_outliers(surface: Surface, name: str) -> None:
     off = outliers(surface.fill().heights, surface.mask, surface.periodic_axes)
     worst = tuple(int(i) for i in np.unravel_index(off.argmax(), off.shape))
     if off[worst] > 0:
-        z, count = (surface.heights[worst] - surface.measured.mean()) / surface.sq, np.count_nonzero(off > 0)
+        z = (surface.heights[worst] - surface.measured.mean()) / surface.sq
+        count = np.count_nonzero(off > 0)
         alone = "1 point stands alone above its" if count == 1 else f"{count} points stand alone above their"
         raise InputError(
             f"surface {surface.source}: {alone} neighbours and would carry the load, the worst at (ix, iy) = {worst}, "
@@ -187,7 +192,9 @@ def refuse_outliers(surface: Surface, name: str) -> None:
 
 def _cut_to_contact(scene: Scene, surface: Surface) -> Surface:
     """The middle of a map, cut to the contact grid, and made periodic on the axes on which the contact is."""
-    domain, cylinder, mirrored = scene.contact, scene.contact.geometry == "cylinder", extended(scene)
+    domain = scene.contact
+    cylinder = scene.contact.geometry == "cylinder"
+    mirrored = extended(scene)
     reach = REACH * scene.bodies.half_width
     if domain.spacing is not None:
         surface = surface.resampled(spacing=domain.spacing)

@@ -3,7 +3,9 @@
 import numpy as np
 
 FAR = 42.0  # K0 beyond it is below 1e-19
-STEP, POINTS = 0.26, 18  # of the trapezoidal rule: the next point, and the error of the rule, are below 1e-16
+# of the trapezoidal rule: the next point, and the error of the rule, are below 1e-16
+STEP = 0.26
+POINTS = 18
 
 
 def love_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
@@ -44,7 +46,8 @@ def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
     exact cell integrals along the free axis x. Images of Love's cells would sum a slowly decaying tail and average the
     pressure over cells along y as well; the Bessel form needs no images, decays exponentially, and is exact along y.
     """
-    (nx, ny), (dx, dy) = shape, spacing
+    (nx, ny) = shape
+    (dx, dy) = spacing
     kernel = np.zeros((nx, ny // 2 + 1))
     kernel[:, 0] = line_coefficients(nx, dx, e_prime, reference_length=nx * dx)
     step = 2 * np.pi * np.arange(1, ny // 2 + 1) / (ny * dy) * dx  # k_y dx

@@ -28,7 +28,8 @@ def _once(method):
 
     @wraps(method)
     def kept(self, *arguments):
-        made, key = self.__dict__.setdefault("_made", {}), (method.__name__, *arguments)
+        made = self.__dict__.setdefault("_made", {})
+        key = (method.__name__, *arguments)
         if key not in made:
             made[key] = method(self, *arguments)
         return made[key]
@@ -66,9 +67,13 @@ class HalfSpace(FrozenArrays, FieldsOnly):
     def window(self, count: int) -> Callable[[np.ndarray], np.ndarray]:
         """The operator on fields (count, ny) of neighbouring rows of a free axis x beside a periodic y: an exact part
         of this one, with the same zero level. Made once for every count."""
-        kernel, dtype, ny, workers = self._kernel[:count], self.symbol.dtype, self.shape[1], self.workers
+        kernel = self._kernel[:count]
+        dtype = self.symbol.dtype
+        ny = self.shape[1]
+        workers = self.workers
         blocks = []
-        reaches, begin = _reaches(kernel, NEGLIGIBLE[dtype]), 0
+        reaches = _reaches(kernel, NEGLIGIBLE[dtype])
+        begin = 0
         while begin < reaches.size:
             reach = int(reaches[begin])
             length = fft.next_fast_len(min(count + reach, 2 * count - 1))
@@ -106,7 +111,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         anew, because its waves end. ``padded`` must be even multiples of the factors.
         """
         fx, fy = factors
-        shape, padded = (self.shape[0] // fx, self.shape[1] // fy), (self.padded[0] // fx, self.padded[1] // fy)
+        shape = (self.shape[0] // fx, self.shape[1] // fy)
+        padded = (self.padded[0] // fx, self.padded[1] // fy)
         spacing = (self.spacing[0] * fx, self.spacing[1] * fy)
         if self.boundary == ("free", "periodic"):
             kernel = semiperiodic_coefficients(shape, spacing, self.e_prime)
@@ -183,7 +189,8 @@ def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, ...], wor
     Where axis 0 is padded, some columns after the other are. So the padded field is never held whole, and a block of
     columns stays in the cache.
     """
-    (nx, ny), (mx, my) = field.shape, padded
+    (nx, ny) = field.shape
+    (mx, my) = padded
     spectrum = fft.rfft(field, n=my, axis=1, workers=workers)
     if mx == nx:
         spectrum = _multiplied(spectrum, symbol, mx, workers)
@@ -198,7 +205,8 @@ def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, ...], wor
 
 def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -> np.ndarray:
     """Columns padded to ``length`` and multiplied by ``symbol`` in Fourier space; they may be written over."""
-    waves, half = fft.fft(columns, n=length, axis=0, workers=workers, overwrite_x=True), length // 2 + 1
+    waves = fft.fft(columns, n=length, axis=0, workers=workers, overwrite_x=True)
+    half = length // 2 + 1
     waves[:half] *= symbol
     waves[half:] *= symbol[(length - 1) // 2 : 0 : -1]
     return fft.ifft(waves, axis=0, workers=workers, overwrite_x=True)

@@ -124,7 +124,8 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
     pressure far above the load. A last factor removes it; cells at the hardness stay there.
     """
     upper = min(hardness, load) - pressure.min()
-    lower, shift = -pressure.max(), 0.0
+    lower = -pressure.max()
+    shift = 0.0
     for attempt in range(200):
         result = np.clip(pressure + shift, 0.0, hardness)
         missing = load - result.sum()
@@ -168,7 +169,8 @@ def shifted(pressure, load: float, hardness: float) -> np.ndarray:
 
 def _placed(shape, loaded, values, load: float, hardness: float) -> np.ndarray:
     """The field of ``shape`` with these ``values``, `shifted`, on its cells ``loaded``."""
-    field, elastic = np.zeros(shape), values < hardness
+    field = np.zeros(shape)
+    elastic = values < hardness
     for movable in (elastic, np.ones_like(elastic)):
         share = load - values[~movable].sum()
         if 0 < share <= hardness * np.count_nonzero(movable):

@@ -140,7 +140,8 @@ def length_scale(pressure, displacement, gap0, operator, roughness: float | None
 def contact_residuals(pressure, gap, scale: float, hardness: float) -> dict[str, float]:
     """Complementarity and penetration residuals, dimensionless; see `ContactResult` for formulas."""
     loaded, gap = np.flatnonzero(pressure > 0), gap.ravel()
-    carried, apart = pressure.ravel()[loaded], np.abs(gap[loaded])
+    carried = pressure.ravel()[loaded]
+    apart = np.abs(gap[loaded])
     yielded = carried >= hardness
     if yielded.any():
         apart[yielded] = np.maximum(gap[loaded[yielded]], 0.0)
@@ -173,11 +174,16 @@ def state_of(problem, pressure, displacement, level=None) -> State:
 
 def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Found:
     """Solve from ``pressure`` [Pa] for a total ``load`` [Pa cells] or an approach ``level`` [m]."""
-    state, status = look(problem, problem.operator.single, pressure, level), None
-    best, wasted, iterations, convolutions = np.inf, 0, 0, 1.0
+    state = look(problem, problem.operator.single, pressure, level)
+    status = None
+    best = np.inf
+    wasted = 0
+    iterations = 0
+    convolutions = 1.0
     history: list[float] = []
     while status is None:
-        goal, pressure = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0)), state.pressure
+        goal = max(MARGIN * problem.tolerance, FALL * min(state.residual, 1.0))
+        pressure = state.pressure
         if state.residual > goal and iterations < problem.max_iterations:
             search = _begun(problem, state, load, pace, wasted > 0)
             del state  # the search holds what it needs
@@ -204,10 +210,13 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
 def concluded(problem, found: Found, control: dict[str, float], failed: str) -> ContactResult:
     """The result of a solve, judged by the residuals of its state and of its ``control``, that of what was prescribed.
     If it ended for another reason than a limit with one of them above the tolerance, its status is ``failed``."""
-    state, residuals = found.state, found.state.residuals | control
-    pressure, residual = state.pressure, worst(residuals)
+    state = found.state
+    residuals = found.state.residuals | control
+    pressure = state.pressure
+    residual = worst(residuals)
     status = CONVERGED if residual <= problem.tolerance else failed if found.status == CONVERGED else found.status
-    cost, notes = (tuple(found.history), found.convolutions), tuple(found.notes)
+    cost = (tuple(found.history), found.convolutions)
+    notes = tuple(found.notes)
     report = Report(found.solver, status, found.iterations, residual, problem.tolerance, residuals, *cost, notes)
     return ContactResult(
         pressure=pressure,

@@ -61,7 +61,8 @@ class RunIn(FrozenArrays, Shown):
 
     def plot(self, ax=None):
         """The bearing curves before and after, on ``ax`` or new axes, which are returned."""
-        axes, (share, *heights) = figures.axes_or_new(ax), self.bearing()
+        axes = figures.axes_or_new(ax)
+        (share, *heights) = self.bearing()
         for z, colour, label in zip(heights, (figures.GREY, figures.BLUE), ("before", "run in")):
             axes.plot(100 * share, z * NM, color=colour, label=label)
         axes.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
@@ -69,7 +70,8 @@ class RunIn(FrozenArrays, Shown):
         return axes
 
     def _facts(self) -> dict[str, str]:
-        old, new = self.before, self.surface
+        old = self.before
+        new = self.surface
         skewness = f"{old.ssk:.3g} to {new.ssk:.3g}" if old.sq > 0 and new.sq > 0 else "none"
         low, high = (surface.sq * NM for surface in self.ends or (new, new))
         span = f" ({low:.4g} to {high:.4g} nm by the range of the hardness)" if self.ends else ""
@@ -120,8 +122,10 @@ def run_in(
     passes = validate.integer("passes", passes, minimum=1, maximum=10_000)
     tolerance = validate.positive("tolerance", tolerance, "m", minimum=1e-15, maximum=1e-3)
     before = _whole(scene, surface)
-    centres, heights = _way(scene, before, step), before.heights
-    operator, shaken = _operator(scene, before), False
+    centres = _way(scene, before, step)
+    heights = before.heights
+    operator = _operator(scene, before)
+    shaken = False
     deepest: list[float] = []
     sinking: list[float] = []
     while len(deepest) < passes and not shaken:
@@ -168,7 +172,9 @@ def _whole(scene: Scene, surface: Surface | None) -> Surface:
 
 def _way(scene: Scene, surface: Surface, step: float | None) -> np.ndarray:
     """The columns of the map above which the cylinder stands, one after the other, about ``step`` [m] apart."""
-    half_width, dx, last = scene.bodies.half_width, surface.spacing[0], surface.shape[0] - 1
+    half_width = scene.bodies.half_width
+    dx = surface.spacing[0]
+    last = surface.shape[0] - 1
     if step is None:
         step = max(dx, half_width / STEPS)
     columns = round(validate.number("step", step, "m", minimum=dx * (1 - 1e-9), maximum=half_width) / dx)
@@ -178,7 +184,8 @@ def _way(scene: Scene, surface: Surface, step: float | None) -> np.ndarray:
 
 def _operator(scene: Scene, surface: Surface) -> HalfSpace:
     """The half-space under the cylinder, long enough that it touches no summit at its ends."""
-    bodies, dx = scene.bodies, surface.spacing[0]
+    bodies = scene.bodies
+    dx = surface.spacing[0]
     rise = float(surface.heights.max() - surface.heights.mean()) + surface.sq
     reach = math.sqrt(bodies.half_width**2 + 2 * bodies.radius * rise)
     shape = 2 * math.ceil(reach / dx) + 1, surface.shape[1]
@@ -188,7 +195,9 @@ def _operator(scene: Scene, surface: Surface) -> HalfSpace:
 def _passed(scene: Scene, surface: Surface, heights, centres: Iterable[int], operator) -> tuple[np.ndarray, float]:
     """What the cylinder leaves of ``heights`` [m] once it has been above every column of ``centres``, one after the
     other, and the depth of the deepest new dent [m]."""
-    bodies, count, nx = scene.bodies, operator.shape[0], surface.shape[0]
+    bodies = scene.bodies
+    count = operator.shape[0]
+    nx = surface.shape[0]
     around = np.arange(count) - count // 2
     cylinder = (around * surface.spacing[0])[:, None] ** 2 / (2 * bodies.radius)
     options: dict[str, Any] = {
@@ -198,7 +207,10 @@ def _passed(scene: Scene, surface: Surface, heights, centres: Iterable[int], ope
         "tolerance": min(SHARP, scene.numerics.tolerance_of("contact")),
         "operator": operator,
     }
-    left, deepest, pressure, last = heights.copy(), 0.0, None, 0
+    left = heights.copy()
+    deepest = 0.0
+    pressure = None
+    last = 0
     for centre in centres:
         columns = (centre + around) % (nx if surface.periodic_axes[0] else 2 * nx)
         columns = np.where(columns < nx, columns, 2 * nx - 1 - columns)  # of the mirror image
@@ -208,7 +220,8 @@ def _passed(scene: Scene, surface: Surface, heights, centres: Iterable[int], ope
         found = solve_contact(*problem, **options, start=start, raise_on_failure=start is None)
         if not found.report.converged:
             found = solve_contact(*problem, **options)
-        pressure, last = found.pressure, centre
+        pressure = found.pressure
+        last = centre
         dent = np.where(pressure >= bodies.hardness, np.maximum(-found.gap, 0.0), 0.0)
         np.minimum.at(left, columns, here - dent)  # a column may be under the cylinder twice
         deepest = max(deepest, float(dent.max()))
@@ -217,6 +230,7 @@ def _passed(scene: Scene, surface: Surface, heights, centres: Iterable[int], ope
 
 def _moved(pressure: np.ndarray, columns: int) -> np.ndarray:
     """``pressure`` [Pa] as it lies on the map, seen from a cylinder that has moved on by ``columns``."""
-    moved, count = np.zeros_like(pressure), len(pressure)
+    moved = np.zeros_like(pressure)
+    count = len(pressure)
     moved[max(0, -columns) : count - max(0, columns)] = pressure[max(0, columns) : count - max(0, -columns)]
     return moved

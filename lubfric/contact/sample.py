@@ -10,7 +10,8 @@ from .strips import Strips, one_patch, strips_of
 def takes_strips(scene: Scene) -> bool:
     """Whether ``scene`` is solved on strips of its roughness: it has a rough half-space under a cylinder, and does not
     ask for one patch."""
-    numerics, contact = scene.numerics, scene.contact
+    numerics = scene.numerics
+    contact = scene.contact
     modelled = contact.geometry == "cylinder" and contact.model == "half-space"
     return numerics.sampling != "patch" and modelled and any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
 

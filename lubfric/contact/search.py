@@ -49,17 +49,24 @@ class Search:
     """
 
     def __init__(self, problem, cells, state, load: float | None, pace: float, exact: bool):
-        operator, base, scale = problem.operator, cells.take(state.pressure), state.scale
-        total, loaded = float(base.sum()), np.count_nonzero(base)
+        operator = problem.operator
+        base = cells.take(state.pressure)
+        scale = state.scale
+        total = float(base.sum())
+        loaded = np.count_nonzero(base)
         if not math.isfinite(scale):  # no pressure yet
             scale = max(-float(state.gap.min()), 1e-9 * max(problem.roughness, min(operator.spacing)))
         self.unit = total / loaded if total > 0 else operator.e_prime * scale / min(operator.spacing)
         self.compliance = self.unit / scale
-        self.cells, self.pace, self.exact, self.given = cells, pace, exact, load is not None
+        self.cells = cells
+        self.pace = pace
+        self.exact = exact
+        self.given = load is not None
         self.load = math.nan if load is None else load / self.unit
         self.target = 0.0 if load is None else (load - total) / self.unit
         self.slack = LOAD_ERROR * min(1.0, state.residual) * total / self.unit
-        self.hardness, self.plastic = problem.hardness / self.unit, math.isfinite(problem.hardness)
+        self.hardness = problem.hardness / self.unit
+        self.plastic = math.isfinite(problem.hardness)
         base /= self.unit
         self.lower = np.negative(base, dtype=np.float32)
         self.upper = (self.hardness - base).astype(np.float32)  # the difference in double precision
@@ -80,7 +87,8 @@ class Search:
 
     def run(self, tolerance: float, limit: int) -> None:
         """Iterate until the residual on these cells is <= tolerance, until it no longer falls, or ``limit`` times."""
-        best, waiting = math.inf, 0
+        best = math.inf
+        waiting = 0
         while True:
             self._look()
             worst = self._worst(tolerance)
@@ -157,9 +165,11 @@ class Search:
     def _step(self) -> None:
         """Go from the known pressure towards the trial, by the step that is exact along that change."""
         self._try()
-        way, asked = np.subtract(self.trial, self.known, out=self.residue), self.trial - self.change
+        way = np.subtract(self.trial, self.known, out=self.residue)
+        asked = self.trial - self.change
         answer = self._answer(way)
-        slope, curvature = dot(self.before, asked), dot(asked, answer) * self.compliance
+        slope = dot(self.before, asked)
+        curvature = dot(asked, answer) * self.compliance
         step = -slope / curvature if curvature > 0 else 1.0
         step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
         self.pace *= max(step, STEPS[0]) ** LEARNING

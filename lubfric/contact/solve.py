@@ -151,7 +151,8 @@ def _load_searched(problem: Problem, mean_gap: float, guess: float, start) -> Fo
     that flattens the whole height as if it were the shortest ripple that the grid resolves.
     """
     exact = replace(problem, tolerance=0.2 * problem.tolerance)
-    spent, iterations = 0.0, 0
+    spent = 0.0
+    iterations = 0
 
     def surplus(log_pressure, last: Found | None):
         nonlocal spent, iterations

@@ -49,7 +49,8 @@ class Cells:
 
     def ladder(self) -> list[tuple[int, int]]:
         """Factors from those of these cells down to the scene's own, each half the one before."""
-        steps, cells = [self.factors], self
+        steps = [self.factors]
+        cells = self
         while not cells.own:
             cells = cells.halved()
             steps.append(cells.factors)

@@ -36,7 +36,9 @@ from .strip_cells import (
     starts_of,
 )
 
-STRIP, PIECE = 90.0, 42.0  # correlation lengths: of a strip, of a piece on the scene's own cells
+# correlation lengths: of a strip, of a piece on the scene's own cells
+STRIP = 90.0
+PIECE = 42.0
 WIDE = 5.0  # correlation lengths along x in b: from there a strip half as long has spots enough, and where roughness
 PASSING = 30.0  # moves, one of so many
 FIRST = 180.0  # correlation lengths that are solved first
@@ -45,7 +47,9 @@ MOST_CELLS = 3_000_000  # of a stack: memory
 KEPT_CELLS = 2_000_000  # of the strips from which a longer stack goes on
 APART = 4.0  # correlation lengths along the motion between windows that are independent
 ENOUGH = 8  # windows for an honest standard error
-STRIPS, PIECES = 0, 1  # streams of seeds
+# streams of seeds
+STRIPS = 0
+PIECES = 1
 
 
 @dataclass(frozen=True)
@@ -100,7 +104,8 @@ class GeneratedStrips(FieldsOnly, Strips):
     def joined(self, indices: Sequence[int]) -> Surface:
         blend = blend_of(self.lengths[1], self.cells.coarse[1])
         shape = self.cells.count, self.cells.rows(self.length) + blend
-        known, strip = self._known, self._generator(STRIPS, self.cells.coarse, shape)
+        known = self._known
+        strip = self._generator(STRIPS, self.cells.coarse, shape)
         strips = [known.get(index) or strip(index) for index in indices]
         known.update((i, s) for i, s in zip(indices, strips) if i < KEPT_CELLS // math.prod(shape))
         return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
@@ -158,7 +163,9 @@ class MeasuredStrips(Strips):
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
-        whole, blend, unit = self._columns(self.starts[index]), self._blend, 4 * self.cells.factors[1]
+        whole = self._columns(self.starts[index])
+        blend = self._blend
+        unit = 4 * self.cells.factors[1]
         wanted = round(length * self.lengths[1] / self.surface.spacing[1])
         rows = min(whole.shape[1] - blend, wanted) // unit * unit
         first = (whole.shape[1] - rows - blend) // 2
@@ -170,7 +177,8 @@ class MeasuredStrips(Strips):
         return min(blend_of(self.lengths[1], self.surface.spacing[1]), self.surface.shape[1] // 4)
 
     def _columns(self, start: int) -> np.ndarray:
-        columns, last = start + np.arange(self.cells.count * self.cells.factors[0]), self.surface.shape[0] - 1
+        columns = start + np.arange(self.cells.count * self.cells.factors[0])
+        last = self.surface.shape[0] - 1
         return self.surface.heights[np.minimum(np.where(columns < 0, -1 - columns, columns), 2 * last + 1 - columns)]
 
     def _made(self, heights, spacing, note) -> Surface:
@@ -213,12 +221,15 @@ def alone(strips: Strips, body: int) -> Strips:
 def generated_strips(scene: Scene) -> GeneratedStrips:
     """Strips of the generated surface of ``scene``. Along x they are as long as its patch, or as the contact if that is
     longer; where the patch is the area A, as the patch."""
-    patch, bodies = scene.contact, [rough for rough, _ in rough_bodies(scene)]
+    patch = scene.contact
+    bodies = [rough for rough, _ in rough_bodies(scene)]
     if patch.shape is None or patch.spacing is None:
         raise InputError("contact.shape and contact.spacing [m] are needed for a generated surface")
-    spacing, half_width = validate.spacing("contact.spacing", patch.spacing), scene.bodies.half_width
+    spacing = validate.spacing("contact.spacing", patch.spacing)
+    half_width = scene.bodies.half_width
     along_x, along_y = zip(*(correlation_lengths(rough) for rough in bodies if rough.sq))
-    shortest, lengths = (min(along_x), min(along_y)), (max(along_x), max(along_y))
+    shortest = (min(along_x), min(along_y))
+    lengths = (max(along_x), max(along_y))
     if patch.region == "box":
         cells = cells_of_a_box(spacing, shortest, half_width, patch.shape)
     else:
@@ -246,7 +257,8 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
         maps = tuple(one.resampled(spacing=scene.contact.spacing) for one in maps)
     reach = reach_of(scene, maps[0].sq)
     surface, *parts = (one.continued(reach) for one in maps) if extended(scene) else maps
-    half_width, (dx, _) = scene.bodies.half_width, surface.spacing
+    half_width = scene.bodies.half_width
+    (dx, _) = surface.spacing
     lengths = length_or_half(surface, 0), length_or_half(surface, 1)
     if scene.contact.shape is not None:
         reach = scene.contact.shape[0] * dx
@@ -262,7 +274,8 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     if len(starts) < ENOUGH:
         starts = starts_of(surface.shape[0], fine, step, beyond)
     kept = surface.shape[1] - min(blend_of(lengths[1], surface.spacing[1]), surface.shape[1] // 4)
-    length, count = kept * surface.spacing[1], len(starts)
+    length = kept * surface.spacing[1]
+    count = len(starts)
     if length < EVEN * cells.coarse[1] * (1 - 1e-9):
         raise InputError(
             f"the map is {surface.shape[1]} cells wide along y, across the motion: no line can be made of that; give a "

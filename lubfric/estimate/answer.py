@@ -27,7 +27,8 @@ def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: f
     decision = decided(scene, found.contact, found.balance, numbers["clearance"], why, **sample)
     tolerance = scene.numerics.tolerance
     cautions = (*_finer(found.change("beyond"), tolerance), *of_error(uncertainty.numerical, tolerance, CLOSER))
-    oil, temperature = scene.lubricant.oil, scene.lubricant.temperature
+    oil = scene.lubricant.oil
+    temperature = scene.lubricant.temperature
     known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
     validity = (*passed(found, prepared, speed), *cautions)
     notes = (*found.balance.report.notes, decision.text, *known, *(entry.text for entry in validity), uncertainty.text)
@@ -62,16 +63,22 @@ def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
     """A caution where cells half as long as the map's own would change f by more than ``tolerance``."""
     if not change > tolerance:
         return ()
-    what, remedy = "change of f by cells half as long, estimated", "use a map on shorter cells"
+    what = "change of f by cells half as long, estimated"
+    remedy = "use a map on shorter cells"
     consequence = "the map is too coarse for its roughness; the interval of f does not include that"
     return (Validity(what, 100 * change, 100 * tolerance, "%", consequence, remedy),)
 
 
 def _numbers(prepared: Prepared, speed: float, found: Found) -> dict[str, Any]:
     """All numbers of the sample but the time, by name."""
-    scene, balance, sq = prepared.scene, found.balance, prepared.surface.sq
-    contact, film, loads = balance.contact, balance.film, (balance.film_load, balance.contact_load)
-    separated, touched = balance.contact_load == 0, touched_length(contact) * found.effect.touched / found.effect.area
+    scene = prepared.scene
+    balance = found.balance
+    sq = prepared.surface.sq
+    contact = balance.contact
+    film = balance.film
+    loads = (balance.film_load, balance.contact_load)
+    separated = balance.contact_load == 0
+    touched = touched_length(contact) * found.effect.touched / found.effect.area
     numbers = quantities(balance.forces, film, loads, contact.mean_film if separated else contact.mean_gap)
     return numbers | {
         "speed": speed,

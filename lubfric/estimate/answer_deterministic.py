@@ -30,7 +30,8 @@ from .result import FrictionResult
 from .sample import Found
 from .uncertainty import Uncertainty, field_errors_of, interval, percent, student
 
-FEW_STRIPS, ONE_HEAT = "not known from fewer than three strips", "heat is found on one strip"
+FEW_STRIPS = "not known from fewer than three strips"
+ONE_HEAT = "heat is found on one strip"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
 BY_INLET = "f without the heat of the inlet {:+.2g} %"
@@ -40,13 +41,17 @@ OF_MODEL = (
     "give bodies.boundary_film if you know it, or a longer map",
 )
 LOOSER = "a larger numerics.tolerance"
-DRAWN, CUT = 0.1, 0.1  # lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
+# lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
+DRAWN = 0.1
+CUT = 0.1
 
 
 def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: float) -> FrictionResult:
     """Solve the strips of ``prepared`` at ``speed`` [m/s], which is not 0; ``found``: the sample of Eq. (8) there, if
     any. ``begun``: the starting time, by `time.perf_counter`. Raises `ConvergenceError`."""
-    scene, levels, strips = prepared.scene, levels_of(prepared, speed, found), prepared.strips
+    scene = prepared.scene
+    levels = levels_of(prepared, speed, found)
+    strips = prepared.strips
     assert strips is not None
     numerics = scene.numerics
     results = [pair.resolved.result for pair in levels.pairs]
@@ -68,7 +73,8 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         tolerance=numerics.sampling_tolerance,
         notes=_sample_notes(prepared, sampling, levels.length),
     )
-    decision, of_heat = _decision(scene, results, levels, heat), dict.fromkeys(depending_on("heat"), ONE_HEAT)
+    decision = _decision(scene, results, levels, heat)
+    of_heat = dict.fromkeys(depending_on("heat"), ONE_HEAT)
     entries = (
         *_entries(prepared, numbers, results, heat),
         *of_error(levels.numerical, numerics.tolerance, _way_out(prepared)),
@@ -93,7 +99,8 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
     by_flow = (BY_FLOW.format(100 * levels.by_flow),) if levels.by_flow else ()
     by_inlet = (BY_INLET.format(100 * levels.by_inlet),) if levels.by_inlet else ()
     notes = (*by_inlet, _division(results), by_film, *by_flow, *results[0].report.notes)
-    words, tolerance = _words_of_levels(levels), scene.numerics.tolerance
+    words = _words_of_levels(levels)
+    tolerance = scene.numerics.tolerance
     known = heat.text(tolerance)
     return Decision("deterministic", words, "boundary film", tolerance, strips=len(results), heat=known, notes=notes)
 
@@ -106,7 +113,8 @@ def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
 
 def _way_out(prepared: Prepared) -> str:
     """What makes the error by the cells smaller: shorter ones, if the map has them."""
-    scene, strips = prepared.scene, prepared.strips
+    scene = prepared.scene
+    strips = prepared.strips
     assert strips is not None
     if not strips.cells.own and (moves(scene) or not strips.whole):
         return f"numerics.grid = 'given' for shorter cells, or {LOOSER}"
@@ -117,7 +125,8 @@ def _way_out(prepared: Prepared) -> str:
 
 def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:
     """What a reader should know of the ``sampling`` error of strips of this ``length`` [m]."""
-    strips, asked = prepared.strips, prepared.scene.numerics.sampling_tolerance
+    strips = prepared.strips
+    asked = prepared.scene.numerics.sampling_tolerance
     assert strips is not None
     if math.isnan(sampling):
         return TOO_SHORT.format(length / strips.lengths[1]), BIASED
@@ -126,7 +135,9 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
 
 def _words_of_levels(levels: Levels) -> str:
     """The film in one phrase: its strips and cells, and what was added up."""
-    first, count, pieces = levels.pairs[0].resolved.result, len(levels.pairs), levels.pieces
+    first = levels.pairs[0].resolved.result
+    count = len(levels.pairs)
+    pieces = levels.pieces
     strips = f"{count} strip{'s' if count > 1 else ''} of {first.pressure.shape[0]} x {first.pressure.shape[1]} cells"
     if pieces:
         times = round(pieces[0][1].result.spacing[0] / pieces[0][-1].result.spacing[0])
@@ -152,7 +163,9 @@ def _division(results: Sequence[DeterministicResult]) -> str:
 
 def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult], heat: Heat) -> Iterator[Validity]:
     """Entries for all assumptions that are violated; those about bodies and map first."""
-    scene, speed, film = prepared.scene, numbers["speed"], numbers["central_film"]
+    scene = prepared.scene
+    speed = numbers["speed"]
+    film = numbers["central_film"]
     yield from prepared.known
     yield from of_motion(scene, speed, film)
     flow = mean(result.flow_film for result in results)

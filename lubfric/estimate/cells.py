@@ -17,7 +17,9 @@ from ..models.load_sharing import Balance, Point, Prepared, on_piece, touched_le
 from ..scene import budget
 from .scatter import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
 
-SLOWEST, FASTEST = 0.75, 0.25  # ratio of successive changes
+# ratio of successive changes
+SLOWEST = 0.75
+FASTEST = 0.25
 FEWEST = 3  # pieces too short for blocks
 MOST_PIECES = 12
 MOST_CELLS = 300_000  # of a piece, where a coarser one would do
@@ -78,7 +80,8 @@ class CellEffect:
 
 def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> CellEffect:
     """Compare pieces of ``strips`` until the scatter between them is a small part of the sampling tolerance."""
-    response, numerics = balance.response, prepared.scene.numerics
+    response = balance.response
+    numerics = prepared.scene.numerics
     if strips.cells.own or balance.film is None or response is None:
         return CellEffect()
     enough = response.gap_for("coefficient", budget.CONTACT_GRID * numerics.tolerance)
@@ -118,7 +121,9 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
     rest is within ``enough`` [m]. The change is averaged over blocks along y, each with its influence on the mean
     gap."""
     assert balance.film is not None and balance.response is not None
-    slope, ladder, coarse = balance.response.slopes.gap, strips.cells.ladder(), strips.cells
+    slope = balance.response.slopes.gap
+    ladder = strips.cells.ladder()
+    coarse = strips.cells
     places: list[tuple[np.ndarray, np.ndarray]] = []
     changes: list[float] = []
     states: list[ContactState] = []
@@ -133,7 +138,9 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
         if len(places) > 1:
             changes.append(float(np.mean(places[-1][0]) - np.mean(places[-2][0])))
             rest = remaining(changes)
-    own, step, length = len(places) == len(ladder), coarse.coarse[1], strips.lengths[1]
+    own = len(places) == len(ladder)
+    step = coarse.coarse[1]
+    length = strips.lengths[1]
     difference = places[-1][0] - places[0][0]
     area, area_error = _ratio(places[-1][1], places[0][1], step, length)
     if strips.whole:
@@ -201,7 +208,8 @@ def half_again(changes: Sequence[float]) -> float:
     It is d1 r with r = d1/d2, kept between 1/8 (smooth, second order and better) and 1/2 (detail at every scale; also
     if there is no d2). It is at least d2/32, in case d1 is small by chance.
     """
-    d1, d2 = abs(changes[0]), abs(changes[1]) if len(changes) > 1 else 0.0
+    d1 = abs(changes[0])
+    d2 = abs(changes[1]) if len(changes) > 1 else 0.0
     ratio = min(max(d1 / d2, 0.125), 0.5) if d2 > 0 else 0.5
     return max(d1 * ratio, d2 / 32)
 

@@ -53,8 +53,12 @@ class Decision:
 def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample) -> Decision:
     """The decision behind ``balance`` on ``contact``. ``clearance`` [Sq]: between the film and the highest summits, NaN
     in contact; ``why``: the reason for this model; ``sample``: further fields of `Decision`."""
-    tolerance, film, grid = scene.numerics.tolerance, balance.film, contact.grid
-    touching, notes, heat = math.isnan(clearance), (*balance.notes, *filter(None, [why])), ""
+    tolerance = scene.numerics.tolerance
+    film = balance.film
+    grid = contact.grid
+    touching = math.isnan(clearance)
+    notes = (*balance.notes, *filter(None, [why]))
+    heat = ""
     if film is not None:
         heat = balance.forces.heat.text(tolerance)
         if (missed := balance.forces.quadrature) > budget.SHEAR_SUM * tolerance:

@@ -27,7 +27,8 @@ TOO_SHORT = (
     "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling and "
     "surface.extension out, or give a map that is longer across the motion)"
 )
-NONE, UNKNOWN = (0.0, 0.0), (math.nan, math.nan)
+NONE = (0.0, 0.0)
+UNKNOWN = (math.nan, math.nan)
 EMPTY = "the error of Eq. (8) is not known where what arrives does not fill the gap"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
@@ -36,18 +37,27 @@ MISSED = "not known: the patch is too short along y to tell what contact it miss
 
 def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty of f, and errors by field."""
-    balance, response, (of_film, of_gap, relative, of_area) = found.balance, found.response, _numerical(found)
-    forces, scatter, sampling = balance.forces, found.scatter, found.sampling
-    error, why = BlockError(0.0, ORDER), "there was none of it, or too little to tell"
+    balance = found.balance
+    response = found.response
+    (of_film, of_gap, relative, of_area) = _numerical(found)
+    forces = balance.forces
+    scatter = found.scatter
+    sampling = found.sampling
+    error = BlockError(0.0, ORDER)
+    why = "there was none of it, or too little to tell"
     if balance.film is None:
-        errors, why = _area_errors(scene, balance, scatter), "no entrainment: there is no film"  # only areas scatter
+        # only areas scatter
+        errors = _area_errors(scene, balance, scatter)
+        why = "no entrainment: there is no film"
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
         relative += forces.felt * of_film
-        errors, why = _given_load(forces, of_film), "no contact was met: it has no relative error"
+        errors = _given_load(forces, of_film)
+        why = "no contact was met: it has no relative error"
         errors |= {"film_load": 0.0}
     else:
-        error, mean_film = found.friction_error, balance.contact.mean_film
+        error = found.friction_error
+        mean_film = balance.contact.mean_film
         relative += response.per_film(forces, mean_film) * of_film
         relative += response.relative("coefficient", of_gap)
         errors = _contact_errors(scene, found, of_film, of_gap, of_area)
@@ -80,12 +90,15 @@ def _numerical(found: Found) -> tuple[float, float, float, float]:
     """The errors of solvers and grids: of the film, relative; of the mean gap at given load [m], by the closing of the
     volume and by the cells of the contact; of the film's shear stress, by its sum over nodes and by the heat left out
     of it, relative to f; of the contact area, relative."""
-    balance, effect, solved = found.balance, found.effect, found.solved
+    balance = found.balance
+    effect = found.effect
+    solved = found.solved
     film = 0.0
     if balance.film is not None:
         residuals = balance.film.report.residuals
         film = max(residuals.get("discretisation", 0.0), residuals.get("domain", 0.0))
-    forces, gap = balance.forces, 0.0
+    forces = balance.forces
+    gap = 0.0
     if found.response is not None and balance.film is not None:
         gap = (
             effect.rest
@@ -108,7 +121,8 @@ def _contact_errors(scene: Scene, found: Found, film: float, gap: float, area: f
     An error of the gap changes the division of the load, and everything with it (`Response.rates`). Films also have the
     error of the film solve. The area also has its own scatter at given load, and what its cells may change.
     """
-    balance, response = found.balance, found.response
+    balance = found.balance
+    response = found.response
     assert response is not None
     scattered = found.gap_error.error if math.isfinite(found.gap_error.error) else 0.0
     gap = math.hypot(scattered, gap + film * balance.contact.mean_film)
@@ -168,9 +182,12 @@ def model_error(scene: Scene, found: Found) -> tuple[tuple[float, float], tuple[
         return UNKNOWN, (NOT_STUDIED,)
     if why := gap_not_resolved(scene):
         return UNKNOWN, (MODEL_UNKNOWN.format(why),)
-    sq, film = float(found.contact.heights.std()), balance.film.central_film  # type: ignore[attr-defined]
+  
+    sq = float(found.contact.heights.std())  # type: ignore[attr-defined]
+    film = balance.film.central_film
     share = balance.contact_load / scene.bodies.load
-    forces, load = balance.forces, scene.bodies.load
+    forces = balance.forces
+    load = scene.bodies.load
     parts = forces.boundary, forces.shear.total, forces.shear.rolling if moves(scene) else 0.0
     return load_sharing_error(film / sq if sq else math.inf, share, *(part / load for part in parts)), ()
 
@@ -184,7 +201,9 @@ def _area_needed(found: Found, scene: Scene) -> float:
 
 
 def _notes(found: Found, scene: Scene, sampling: float) -> tuple[str, ...]:
-    asked, strips, notes = scene.numerics.sampling_tolerance, found.strips, []
+    asked = scene.numerics.sampling_tolerance
+    strips = found.strips
+    notes = []
     needed = _area_needed(found, scene)
     if not math.isfinite(sampling):
         if strips is None:

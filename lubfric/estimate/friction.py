@@ -82,7 +82,8 @@ def friction(
 def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> FrictionResult:
     """By the cheapest model that is good enough: Eq. (8), without entrainment, where its own error is within
     ``numerics.model_tolerance``, and where the deterministic model has no answer; that model otherwise."""
-    scene, strips = prepared.scene, prepared.strips
+    scene = prepared.scene
+    strips = prepared.strips
     asked = scene.numerics.model
     if asked == "load-sharing" or speed == 0 or strips is None or prepared.surface.sq == 0:
         return load_sharing_answer(sampled(prepared, speed, own_cells=fields), prepared, speed, begun)
@@ -103,7 +104,8 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
 
 def _enough(prepared: Prepared, found: Found) -> str:
     """Why Eq. (8) alone answers, in words; "" if it does not."""
-    scene, balance = prepared.scene, found.balance
+    scene = prepared.scene
+    balance = found.balance
     why = gap_not_resolved(scene, prepared.given)
     if why:
         return f"Eq. (8) alone: {why}"

@@ -14,7 +14,9 @@ from ..models.load_sharing import Heat, inlet_at, peclet_at, surroundings
 from ..scene import Scene
 
 DOUBT = 0.5  # of what heat does to f: how far that may be off
-LEAST_FILM, MOST_CHANGE = 0.7, 0.2  # factor on the film, and relative change of f: beyond them only Eq. (8) was checked
+# factor on the film, and relative change of f: beyond them only Eq. (8) was checked
+LEAST_FILM = 0.7
+MOST_CHANGE = 0.2
 
 
 def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
@@ -23,7 +25,8 @@ def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
     sliding = abs(scene.motion.slide_roll_ratio * result.speed)
     if inlet is None or sliding == 0:
         return Heat(inlet, used)
-    wet, cells = result.wet, result.wet.sum(axis=1)
+    wet = result.wet
+    cells = result.wet.sum(axis=1)
     covered = np.where(cells[:, None] > 0, wet / np.maximum(cells, 1)[:, None], 1 / wet.shape[1])
     p, h = ((field * covered).sum(axis=1) for field in (result.pressure, result.gap))
     around = surroundings(scene, result.speed, wet.mean(axis=1), (result.shear * result.spots).mean(axis=1))
@@ -59,7 +62,8 @@ def error_by_heat(heat: Heat, by_inlet: float) -> float:
 
 def too_hot(heat: Heat) -> str:
     """Why ``heat`` is more than was checked for one gap and one pressure, in words; "" if it is not."""
-    factor, change = heat.film_factor, heat.change
+    factor = heat.film_factor
+    change = heat.change
     if factor >= LEAST_FILM and change <= MOST_CHANGE:
         return ""
     return (

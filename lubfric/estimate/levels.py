@@ -28,10 +28,16 @@ from .shorter import changed, on_shorter_cells
 from .uncertainty import student
 
 DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
-ALONE, LINED = 1.3, 1.2  # scatter of the deterministic f between strips over that of blocks; less that of a line
-PRIOR, FREEDOM = 3, 5  # strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
+# scatter of the deterministic f between strips over that of blocks; less that of a line
+ALONE = 1.3
+LINED = 1.2
+# strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
+PRIOR = 3
+FREEDOM = 5
 BALANCED = 1.3  # times (scatter of f between strips)²: bias of strips that balance the load each by itself
-GROWTH, SPARE = (4.0, 2.0), (1.1, 1.2)  # of the number of strips, which are dear: see `enlarged`
+# of the number of strips, which are dear: see `enlarged`
+GROWTH = (4.0, 2.0)
+SPARE = (1.1, 1.2)
 MOST_WORK = 120.0  # s, counted: of the strips of one point
 FEWEST = 3  # strips whose scatter tells an error
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
@@ -78,7 +84,8 @@ class Sum:
 
     def wanted(self, numerics: Numerics, count: int, most: int) -> int:
         """Number of strips of the second level, at most ``most``, that the tolerances need; there are ``count``."""
-        f, asked = abs(self.numbers["coefficient"]), numerics.sampling_tolerance
+        f = abs(self.numbers["coefficient"])
+        asked = numerics.sampling_tolerance
         if not self.line:
             return enlarged(count, 1, most, self.whole, f * asked, growth=GROWTH, spare=SPARE)
         allowed = f * DIFFERENCE * numerics.model_tolerance / student(self.difference.freedom)
@@ -109,16 +116,21 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     films = tuple(mean(getattr(one, name) - one.coefficient for one in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
-    length, first = prepared.strips.length * max(both.line, len(pairs)), pairs[0].resolved
-    rest, oil = first.rest if isinstance(first, MovingStrip) else first, prepared.scene.lubricant
+    length = prepared.strips.length * max(both.line, len(pairs))
+    first = pairs[0].resolved
+    rest = first.rest if isinstance(first, MovingStrip) else first
+    oil = prepared.scene.lubricant
     flow, inlet = (change_by_flow(rest, other) for other in (thinned_less(rest.problem.lubricant), oil))
-    parts, of_f = (both.line, tuple(pairs), pieces, shortest), (sampling, difference, numerical)
+    parts = (both.line, tuple(pairs), pieces, shortest)
+    of_f = (sampling, difference, numerical)
     return Levels(numbers, errors, films, flow, inlet, *parts, *of_f, length)
 
 
 def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tuple[list[Pair], Sum]:
     """The strips of the second level, as many as it takes, and the sum of the first two."""
-    strips, numerics, load = prepared.strips, prepared.scene.numerics, prepared.scene.bodies.load
+    strips = prepared.strips
+    numerics = prepared.scene.numerics
+    load = prepared.scene.bodies.load
     assert strips is not None
     pairs = [solve_pair(prepared, speed, 0, None)]
     first = pairs[0].resolved
@@ -141,7 +153,8 @@ def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tupl
 def _sum(prepared: Prepared, pairs: Sequence[Pair], line: Line | None) -> Sum:
     """The first two levels; ``line``: the first (None: without it)."""
     assert prepared.strips is not None
-    rows, count = [numbers_of(prepared, pair.resolved.result) for pair in pairs], len(pairs)
+    rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
+    count = len(pairs)
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     if line is None:
         whole = _scatter(pairs, prepared.strips)
@@ -178,7 +191,8 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, sh
     factor of two. So the variances of both are pooled, that of blocks with the weight of `PRIOR` strips. If windows of
     a measured map scatter more, their own scatter counts.
     """
-    count, places = len(pairs), [pair.resolved.deviations for pair in pairs]
+    count = len(pairs)
+    places = [pair.resolved.deviations for pair in pairs]
     f = np.array([pair.resolved.result.coefficient for pair in pairs])
     if line is not None:
         places = [one - share * line.deviations(k, one.size) for k, one in enumerate(places)]

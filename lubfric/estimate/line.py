@@ -40,7 +40,9 @@ class Line:
 
 def line_of(prepared: Prepared, found: Found) -> Line:
     """The `Line` of ``found``, a sample of the strips of ``prepared``. Where nothing touches, strips do not differ."""
-    solved, response, load = found.solved, found.response, prepared.scene.bodies.load
+    solved = found.solved
+    response = found.response
+    load = prepared.scene.bodies.load
     contact: Any = found.contact  # of cells, as there are strips
     assert prepared.strips is not None
     rows = on_strip(prepared, prepared.strips, 0).heights.shape[1]

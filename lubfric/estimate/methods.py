@@ -22,7 +22,8 @@ def with_methods(prepared: Prepared, result: FrictionResult) -> FrictionResult:
 
 
 def _model(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
-    whole, model = result.deterministic is not None, prepared.scene.contact.model
+    whole = result.deterministic is not None
+    model = prepared.scene.contact.model
     own = result.contact_load > 0 and not whole and prepared.contact.name in OWN[model]
     return {
         "load sharing": not whole,
@@ -45,7 +46,8 @@ def _surface(prepared: Prepared) -> dict[str, bool]:
 
 
 def _film(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
-    scene, whole = prepared.scene, result.deterministic is not None
+    scene = prepared.scene
+    whole = result.deterministic is not None
     return {
         "scaled modulus": scene.numerics.film_deflection == "scaled" and result.contact_load > 0 and not whole,
         "kept mass": whole,
@@ -54,8 +56,10 @@ def _film(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
 
 
 def _lubricant(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
-    lubricant, slides = prepared.scene.lubricant, prepared.scene.motion.slide_roll_ratio != 0
-    oil, estimate = lubricant.oil, ""
+    lubricant = prepared.scene.lubricant
+    slides = prepared.scene.motion.slide_roll_ratio != 0
+    oil = lubricant.oil
+    estimate = ""
     if oil is not None and lubricant.temperature is not None:
         estimate = oil.pressure_viscosity_coefficient(lubricant.temperature).method
     return {name: lubricant.viscosity_law == law for law, name in LAWS.items()} | {
@@ -71,7 +75,8 @@ def _lubricant(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
 
 
 def _heat(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
-    lubricant, warm = prepared.scene.lubricant, result.film_temperature_rise > 0
+    lubricant = prepared.scene.lubricant
+    warm = result.film_temperature_rise > 0
     return {
         "inlet heat": result.inlet_film_factor != 1.0,
         "film heat": warm,

@@ -6,7 +6,9 @@ import numpy as np
 
 from .scatter import SPOT
 
-FEWEST, ENOUGH = 4, 14  # blocks, the latter of 25 correlation lengths
+# blocks, the latter of 25 correlation lengths
+FEWEST = 4
+ENOUGH = 14
 UNSURE = 2.0  # times the scale that fewer blocks than enough show
 OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
@@ -16,7 +18,8 @@ def missed_share(scene, contact, film, found, correlation_length: float) -> floa
     """Relative effect of `missed_load` on f; NaN if ``contact`` has no cells, or too few along y."""
     if contact.grid is None or not found.coefficient:
         return math.nan
-    under, bodies = film.film_at(contact.x), scene.bodies
+    under = film.film_at(contact.x)
+    bodies = scene.bodies
     load = missed_load(contact.heights, contact.spacing, under, bodies.e_prime, bodies.width, correlation_length)
     return _share(scene, load, found)
 
@@ -30,7 +33,8 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
     carries as much as a sphere of the highest summit's radius r that is pressed in by an exponential excess of scale a:
     (4/3) (E'/2) sqrt(r) a^1.5 1.33. Fewer than 14 blocks may show too small a scale, so twice their scale is taken.
     """
-    height, step = heights - film[:, None], spacing[1]
+    height = heights - film[:, None]
+    step = spacing[1]
     size = max(1, round(SPOT * correlation_length / step))
     rows = height.max(axis=0)
     blocks = rows[: rows.size // size * size].reshape(-1, size).max(axis=1)
@@ -57,7 +61,8 @@ def hidden_share(scene, contact, found, depth: float) -> float:
 def _share(scene, load: float, found) -> float:
     """Relative effect of a contact ``load`` [N] on f: by its own friction, where the surfaces slide, or by the load
     that the film loses, to whose friction that is at most in proportion."""
-    bodies, friction = scene.bodies, abs(found.coefficient)
+    bodies = scene.bodies
+    friction = abs(found.coefficient)
     own = bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio else 0.0
     return load / bodies.load * max(own / friction, 1.0) if friction else math.inf
 
@@ -69,7 +74,8 @@ def _spot(heights, spacing, e_prime: float, depth: float) -> float:
 
 def summit_radius(heights, spacing) -> float:
     """Radius [m] of the highest summit that has neighbours on all sides, the geometric mean of both axes."""
-    z, (dx, dy) = heights, spacing
+    z = heights
+    (dx, dy) = spacing
     i, j = np.unravel_index(int(z[1:-1].argmax()), z[1:-1].shape)
     i, columns = i + 1, z.shape[1]
     along = (2 * z[i, j] - z[i - 1, j] - z[i + 1, j]) / dx**2

@@ -43,7 +43,8 @@ def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
 
 def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
     """Of strip ``index`` the map of each rough body, by its section."""
-    found, strips = [name for name, _ in moving_bodies(prepared.scene)], prepared.strips
+    found = [name for name, _ in moving_bodies(prepared.scene)]
+    strips = prepared.strips
     assert strips is not None
     if len(found) < 2 or prepared.joint:  # of a joint map all is that of surface 1
         return dict.fromkeys(found[:1], strip_surface(prepared, index))
@@ -53,7 +54,9 @@ def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
 def moving_strip_work(scene: Scene, strips: Strips, sq: float, speed: float, factors: tuple[int, int]) -> float:
     """Counted work [s] of one strip of moving roughness on cells ``factors`` times as long as those of ``strips``, and
     on cells twice as long, about; ``sq`` [m]: of the surface."""
-    (fx, fy), (dx, dy), line = factors, strips.cells.coarse, scene.line_contact(abs(speed))
+    (fx, fy) = factors
+    (dx, dy) = strips.cells.coarse
+    line = scene.line_contact(abs(speed))
     cells = sum(reach(line, sq)) / (fx * dx) * strips.length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
     return (1 + ON_LONGER) * moving_work(line, fx * dx, fastest, strips.cells.count * dx, cells)
@@ -61,7 +64,8 @@ def moving_strip_work(scene: Scene, strips: Strips, sq: float, speed: float, fac
 
 def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:
     """Why moving roughness is left to Eq. (8) under "auto", in words; "" if it is not."""
-    scene, strips = prepared.scene, prepared.strips
+    scene = prepared.scene
+    strips = prepared.strips
     assert strips is not None
     work = moving_strip_work(scene, strips, prepared.surface.sq, speed, factors) if moves(scene) else 0.0
     if work <= MOST_WORK:

@@ -19,12 +19,18 @@ from .uncertainty import ORDER, load_sharing_error, student
 
 CELL_SECONDS = 1.3e-6  # processor time of a cell of the strips in balance, about
 PIECE_SECONDS = 0.7e-6  # of a cell of a piece on finer and finer cells, of the finest
-PATCH_SECONDS, MAP_SECONDS = 0.03, 4e-8  # of a contact on a map that is solved whole; of each of its cells
-FILM_SECONDS, HOT = 0.015, 5.0  # of the films of a point; how many times as many with heat
+# of a contact on a map that is solved whole; of each of its cells
+PATCH_SECONDS = 0.03
+MAP_SECONDS = 4e-8
+# of the films of a point; how many times as many with heat
+FILM_SECONDS = 0.015
+HOT = 5.0
 GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
 RISE = 0.4  # of the film of the whole load, by which it is wider, about
 FLOOR = 0.25  # of f_b: friction where the film carries most, about
-STEPS, FINER_STEPS = 9, 6  # of Newton's method on a strip of the deterministic model, and on smaller cells
+# of Newton's method on a strip of the deterministic model, and on smaller cells
+STEPS = 9
+FINER_STEPS = 6
 LAST_STEPS = 20  # on cells a quarter as long, which a map shorter than a piece is solved on as a whole
 AGAIN = 4  # of a strip whose neighbour is solved: at an end of the range of an input
 IN_MOTION = 2.0  # processor time of moving roughness over its counted work, which is that of the systems alone
@@ -59,7 +65,8 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     independent heights. The effect on f follows from the share of the load that the rigid film of the whole load would
     carry if it were as thick as the gap.
     """
-    film, sq = scene.line_contact(speed).expected_film if speed else 0.0, surface.sq
+    film = scene.line_contact(speed).expected_film if speed else 0.0
+    sq = surface.sq
     summit = float(surface.heights.max() - surface.heights.mean())
     seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
     touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
@@ -69,7 +76,9 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
         patch = (0, 0.0, 0.0) if strips is None else _resolved(scene, strips, surface, speed, film, 0.0)
         resolved, work, moving = patch
         return Forecast(speed, touching, math.nan, 1, math.nan, resolved, seconds + work, moving)
-    (lx, ly), first, asked = strips.lengths, strips.first * strips.length, scene.numerics.sampling_tolerance
+    (lx, ly) = strips.lengths
+    first = strips.first * strips.length
+    asked = scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR * sq:
         gap = GAP * sq + RISE * film
@@ -79,7 +88,8 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     count = math.ceil(strips.first * max(1.0, SAFETY * (error / asked) ** 2 if error > asked else 1.0))
     count = min(count, strips.available)
     cells = strips.cells
-    (fx, fy), (_, dy) = cells.factors, cells.coarse
+    (fx, fy) = cells.factors
+    (_, dy) = cells.coarse
     piece = 0.0 if cells.own else cells.count * fx * fy * strips.length / dy / 2
     if touching != "none":
         seconds += CELL_SECONDS * cells.count * count * strips.length / dy + PIECE_SECONDS * piece
@@ -93,7 +103,9 @@ def _resolved(
 ) -> tuple[int, float, float]:
     """Number of strips of the deterministic model, all their work [s], and that of one if its roughness moves, else 0.
     ``film`` [m]: expected; ``scatter``: of f between strips, relative."""
-    numerics, sq, both = scene.numerics, surface.sq, cells_of(strips, scene.bodies.half_width)
+    numerics = scene.numerics
+    sq = surface.sq
+    both = cells_of(strips, scene.bodies.half_width)
     moving = moving_strip_work(scene, strips, sq, speed, both) if speed and moves(scene) else 0.0
     if speed == 0 or scene.transient is not None or numerics.model == "load-sharing" or gap_not_resolved(scene):
         return 0, 0.0, moving
@@ -107,7 +119,9 @@ def _resolved(
         return 0, 0.0, moving
     if moving:
         return count, IN_MOTION * (count + ON_LONGER * (ends + 2 * (ends > 0))) * moving, moving
-    (fx, fy), (dx, dy), (ux, uy) = both, strips.cells.coarse, strips.cells.factors
+    (fx, fy) = both
+    (dx, dy) = strips.cells.coarse
+    (ux, uy) = strips.cells.factors
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
     finer = 0.5 * cells * fx * fy * (ux * uy if strips.whole else 1)  # a patch may be solved down to its own cells
     short = not strips.whole and strips.length < SHORT * strips.lengths[1] and fx * ux >= 4 <= fy * uy
@@ -119,8 +133,12 @@ def _resolved(
 def rolling_share(line: LineContact, pressure: float) -> float:
     """Expected share of rolling in the friction of the film of ``line`` under a mean ``pressure`` [Pa], to a factor of
     two: pressure builds up in the inlet, and the Hertz strip and the film about it are sheared."""
-    oil, film, b, sliding = line.lubricant, line.expected_film, line.half_width, abs(line.sliding or 0.0)
-    length, eta = math.sqrt(2 * line.radius * film), oil.viscosity
+    oil = line.lubricant
+    film = line.expected_film
+    b = line.half_width
+    sliding = abs(line.sliding or 0.0)
+    length = math.sqrt(2 * line.radius * film)
+    eta = oil.viscosity
     rolling = eta * abs(line.entrainment_speed) * flooded_inlet(length, b)
     sheared = film * float(shear_stress(oil, pressure, sliding / film)) * b + eta * sliding * length
     return rolling / (rolling + sheared)

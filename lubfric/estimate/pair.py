@@ -12,7 +12,9 @@ from ..surface import Surface
 from .moving import solved_strip, strip_surface
 from .scatter import mirrored
 
-PER_LENGTH, PER_HALF_WIDTH = 2.0, 1.0  # cells, at least: in a correlation length, and in b along x
+# cells, at least: in a correlation length, and in b along x
+PER_LENGTH = 2.0
+PER_HALF_WIDTH = 1.0
 MOVING = 4.0  # the former along x where roughness moves (docs/levels.md)
 
 
@@ -33,7 +35,8 @@ def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
     """Length of the cells of the deterministic model in cells of the ``strips``, along x and y: 2, or 1 where 2 would
     leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in the ``half_width`` [m], or
     does not divide the strip."""
-    (lx, ly), (dx, dy) = strips.lengths, strips.cells.coarse
+    (lx, ly) = strips.lengths
+    (dx, dy) = strips.cells.coarse
     longest = min(lx / (MOVING if moves(strips.scene) else PER_LENGTH), half_width / PER_HALF_WIDTH)
     along = longest >= 2 * dx * (1 - 1e-9)
     across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and round(strips.length / dy) % 2 == 0
@@ -70,7 +73,8 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:
     """All numbers of a point but the time, by name; NaN where the model has no such number."""
-    bodies, sq = prepared.scene.bodies, prepared.surface.sq
+    bodies = prepared.scene.bodies
+    sq = prepared.surface.sq
     width = bodies.width
     contact_load = result.split.spots * width
     return dict.fromkeys(NUMBERS, math.nan) | {

@@ -77,7 +77,8 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | s
 
 def _shared(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], float]:
     """f of scenes alike but for inputs, by Eq. (8) on the first strips of ``prepared``, or on its only contact."""
-    strips, surface = prepared.strips, prepared.surface
+    strips = prepared.strips
+    surface = prepared.surface
     stack = None if strips is None else on_stack(prepared, strips, strips.first)
     contact = prepared.contact if stack is None else stack
     start = solve_balance(prepared.scene, result.speed, contact, surface.sq)
@@ -96,7 +97,8 @@ def _resolved(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], f
     """The same by the deterministic model, on one strip and its own cells, or on the patch and the cells of the
     ``result``. Cells twice as long make the change of f by the stress of an oil up to three times as large. Only
     roughness that moves is left on them, for the time that it takes."""
-    (surface, factors), moving = strip_of(prepared, 0), moves(prepared.scene)
+    (surface, factors) = strip_of(prepared, 0)
+    moving = moves(prepared.scene)
     if prepared.strips is not None and prepared.strips.whole and result.deterministic is not None and not moving:
         cells = result.deterministic.spacing
         factors = round(cells[0] / surface.spacing[0]), round(cells[1] / surface.spacing[1])

@@ -27,7 +27,9 @@ from .missed import hidden_share, missed_share
 from .scatter import BlockError, Scatter, add_errors, scatter_of
 from .uncertainty import FEW, MATTERS, too_few
 
-SAFETY, LEAST = 1.3, 1.5  # times the length that a standard error asks for; times the length so far, at least
+# times the length that a standard error asks for; times the length so far, at least
+SAFETY = 1.3
+LEAST = 1.5
 GROWTH = 4.0, 8.0  # times the length so far: a standard error from few blocks is no guide further
 FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
 LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
@@ -80,7 +82,8 @@ class Found:
     @property
     def friction_error(self) -> BlockError:
         """Relative standard error of f, to first order: from place to place, and of the effect of the cells."""
-        cells, response = self.effect.error, self.response
+        cells = self.effect.error
+        response = self.response
         per_gap = response.per_gap("coefficient") if response is not None else 0.0
         return add_errors(self.scatter.friction, BlockError(per_gap * cells.error, cells.freedom))
 
@@ -132,7 +135,8 @@ def _without_cells(prepared: Prepared, speed: float) -> Found:
 
 
 def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
-    scene, count = prepared.scene, strips.first
+    scene = prepared.scene
+    count = strips.first
     start = _reference(prepared, speed, strips)
     effect: CellEffect | None = None
     while True:
@@ -161,7 +165,8 @@ def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | No
     """A balance on the first strips to start from: that of the nearest of three fixed speeds (None where a given film
     arrives, at any speed). It depends on scene and cells alone, so that no result depends on which speeds were solved
     before."""
-    scene, sq = prepared.scene, prepared.surface.sq
+    scene = prepared.scene
+    sq = prepared.surface.sq
     if speed == 0 or strips.whole or sq == 0 or scene.lubricant.inlet_film is not None:
         return None
     film = scene.line_contact(speed).expected_film / sq
@@ -181,7 +186,8 @@ def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | No
 def _effect(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> CellEffect:
     """The effect of the cells at ``balance``: that at the reference point, if the load on the contact is so near that
     the difference hardly moves f, else its own."""
-    reference, response = _reference(prepared, point.speed, strips), balance.response
+    reference = _reference(prepared, point.speed, strips)
+    response = balance.response
     if reference is not None and abs(math.log(balance.contact_load / reference.contact_load)) < NEAR_LOAD:
         assert response is not None and reference.film is not None and reference.settings is not None
         there = replace(point, speed=reference.film.entrainment_speed, settings=reference.settings)
@@ -211,7 +217,9 @@ def speed_of(scene, film: float) -> float:
 
 def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
     """Number of strips that ``numerics.sampling_tolerance`` needs, at least as many as there are."""
-    asked, spots, touching = prepared.scene.numerics.sampling_tolerance, found.scatter.spots, found.response is not None
+    asked = prepared.scene.numerics.sampling_tolerance
+    spots = found.scatter.spots
+    touching = found.response is not None
     few = touching and too_few(spots, found.sampling, asked)
     enough = min(FEW / spots, (found.sampling / (MATTERS * asked)) ** 2) if few else 0.0
     error = BlockError(found.sampling, found.friction_error.freedom if touching else 0)
@@ -252,7 +260,9 @@ def _too_coarse(prepared: Prepared, speed: float, found: Found) -> bool:
     """Whether the cells change the division of the load or the gap by more than can be corrected, or f by more than is
     allowed beyond first order; where the film clears the summits, whether the cells cut off a summit that would
     touch."""
-    response, strips, scene = found.response, found.strips, prepared.scene
+    response = found.response
+    strips = found.strips
+    scene = prepared.scene
     if strips is None or strips.cells.own or found.solved.film is None:
         return False
     allowed = budget.CONTACT_GRID * scene.numerics.tolerance
@@ -260,7 +270,8 @@ def _too_coarse(prepared: Prepared, speed: float, found: Found) -> bool:
         moved = abs(response.split * found.corrected)
         if max(abs(found.corrected), abs(found.effect.film)) > LARGEST * found.solved.contact.mean_gap:
             return True
-        there, load = found.solved.forces, found.solved.contact_load
+        there = found.solved.forces
+        load = found.solved.contact_load
         spots = max(there.boundary / max(there.total, 1e-300), load / scene.bodies.load)  # of friction, or of the load
         if found.count == strips.available or found.scatter.spots >= FEW:  # else it is known to a factor anyway
             spots = math.inf
@@ -283,12 +294,16 @@ def _point(prepared: Prepared, speed: float, found: Found) -> Point:
 def _corrected(prepared: Prepared, speed: float, found: Found) -> Found:
     """``found`` with the load divided as its own cells and the end of the root demand: film and friction are those of
     that division, areas follow its load."""
-    solved, response, scene, effect = found.solved, found.response, prepared.scene, found.effect
+    solved = found.solved
+    response = found.response
+    scene = prepared.scene
+    effect = found.effect
     if response is None or solved.film is None or not found.corrected:
         return found
     loads = divided(scene.bodies.load, solved.split + response.split * found.corrected)
     film = _point(prepared, speed, found).film(loads[0], solved.film, solved.film.cells)
-    state, area = solved.contact, solved.contact.real_contact_area_fraction
+    state = solved.contact
+    area = solved.contact.real_contact_area_fraction
     by_load = response.slopes.area_factor(loads[1] - solved.contact_load, scene.bodies.width, area)
     plastic = max(state.plastic_area_fraction + effect.plastic, 0.0)
     state = grown(replace(state, plastic_area_fraction=plastic), effect.area * by_load)

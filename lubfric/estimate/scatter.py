@@ -19,8 +19,12 @@ from ..oil import shear_stress
 from ..scene import Scene
 
 FEWEST_WINDOWS = 3
-MOST_BLOCKS, ENOUGH_BLOCKS, LEAST_BLOCKS = 32, 8, 5
-WIDE, BLOCK = 9.0, 5.0  # correlation lengths of the surface along y in a block: wanted, and at least
+MOST_BLOCKS = 32
+ENOUGH_BLOCKS = 8
+LEAST_BLOCKS = 5
+# correlation lengths of the surface along y in a block: wanted, and at least
+WIDE = 9.0
+BLOCK = 5.0
 ENDS = 1 / math.sqrt(math.pi)  # correlation lengths of a block that are as its neighbours, for a Gaussian correlation
 SPOT = 1.75  # correlation lengths along y in a block that counts as one contact spot
 
@@ -112,11 +116,13 @@ class Scatter:
 def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips: Strips, count: int) -> Scatter:
     """The `Scatter` of ``contact``, a stack of ``count`` ``strips``, in ``balance``. Of a mirrored map only half
     counts."""
-    state, response = balance.contact, balance.response
+    state = balance.contact
+    response = balance.response
     assert state.fields is not None and response is not None
     slopes = response.slopes
     rows = slice(0, contact.heights.shape[1] // (2 if strips.whole and mirrored(contact.heights) else 1))
-    by_place, step = line_load(contact, state)[rows], contact.spacing[1]
+    by_place = line_load(contact, state)[rows]
+    step = contact.spacing[1]
     touching = state.fields.pressure[:, rows] > 0
     squares = np.square(contact.heights[:, rows]).mean(axis=0) if strips.exact_sq else None
 
@@ -142,13 +148,16 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips
 def friction_influence(scene: Scene, contact: HalfSpaceContact, balance: Balance) -> np.ndarray:
     """Influence of every place y of ``contact`` on f (ny,), relative, in a ``balance`` of film and contact: by the gap,
     which divides the load, and by where the place touches, since the film has no shear there. 0 without contact."""
-    state, response, film = balance.contact, balance.response, balance.film
+    state = balance.contact
+    response = balance.response
+    film = balance.film
     if response is None or not response.rates or film is None or state.fields is None:
         return np.zeros(contact.heights.shape[1])
     touching = state.fields.pressure > 0
     touched = max(float(touching.sum(axis=0).mean()) * contact.spacing[0], 1e-300)
     lost = _film_stress(scene, contact, film) @ touching * contact.spacing[0]
-    by_load, force = response.rates["coefficient"] * response.split, balance.forces.total / scene.bodies.width
+    by_load = response.rates["coefficient"] * response.split
+    force = balance.forces.total / scene.bodies.width
     slope = by_load * response.slopes.gap - response.slopes.touched * float(lost.mean()) / touched / force
     values = by_load * strip_gap(contact, state) - lost / force
     return gap_influence(values, line_load(contact, state), slope)
@@ -202,7 +211,8 @@ def moment_error(
     """
     contact_load, film_load = loads
     boundary, viscous = parts
-    total, friction = contact_load + film_load, boundary + viscous
+    total = contact_load + film_load
+    friction = boundary + viscous
     if contact_load <= 0 or friction == 0:
         return 0.0
     if state.fields is None or not math.isfinite(correlation_length):

@@ -21,13 +21,17 @@ from .sample import speed_of
 from .scatter import BlockError, block_error
 
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
-MOST_PIECES, PIECES_WORK = 32, 30.0  # s, counted: beyond it no more are solved
+# s, counted: beyond it no more are solved
+MOST_PIECES = 32
+PIECES_WORK = 30.0
 MOVING = 0.5  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
 # small by chance (to cells of an eighth, f of nine Gaussian maps moved by 0 to 10 % from a half, and 0 to 2 % from a
 # quarter)
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
-LENGTH, SHORTEST = 42.0, 14.0  # correlation lengths: pieces of the third level, and the one of the last
+# correlation lengths: pieces of the third level, and the one of the last
+LENGTH = 42.0
+SHORTEST = 14.0
 SMOOTH = 3.0  # mean square of the change of heights over two cells, over that over one: 4 of smooth ones, 2 of others
 OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean
 FIXED = 2.0  # ratio of the expected films at neighbouring fixed speeds
@@ -45,7 +49,8 @@ def on_shorter_cells(
     There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK` allows it. What it
     tells from one short piece may be off by half.
     """
-    scene, strips = prepared.scene, prepared.strips
+    scene = prepared.scene
+    strips = prepared.strips
     assert strips is not None
     by_longer = sum(changes_of((pair.longer, pair.resolved))[0] for pair in pairs) / len(pairs)
     factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.factors)
@@ -102,7 +107,8 @@ def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequ
     rows = [[numbers_of(prepared, piece[k].result) for piece in pieces] for k in (0, 1)]
     before, after = ({name: float(np.mean([row[name] for row in level])) for name in numbers} for level in rows)
     new = {name: value * after[name] / before[name] if before[name] else value for name, value in numbers.items()}
-    load, kept = prepared.scene.bodies.load, ("speed", "load_residual", "rolling_force", "film_to_roughness_ratio")
+    load = prepared.scene.bodies.load
+    kept = ("speed", "load_residual", "rolling_force", "film_to_roughness_ratio")
     new |= {name: numbers[name] for name in kept}
     odds = new["contact_load"] / new["film_load"] if new["film_load"] > 0 else math.inf
     new["contact_load"] = load / (1 + 1 / odds) if odds else 0.0
@@ -119,7 +125,9 @@ def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequ
 def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...], BlockError]:
     """The pieces at the nearest fixed speed; at ``speed`` itself where a given film arrives at any speed, or where they
     cannot be solved there."""
-    scene, strips, sq = prepared.scene, prepared.strips, prepared.surface.sq
+    scene = prepared.scene
+    strips = prepared.strips
+    sq = prepared.surface.sq
     assert strips is not None
     if scene.lubricant.inlet_film is not None:
         return _pieces(prepared, speed, None)
@@ -142,10 +150,12 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
 def _pieces(prepared: Prepared, speed: float, first: Pair | None) -> tuple[tuple[Piece, ...], BlockError]:
     """Pieces at ``speed`` [m/s] until the standard error of their mean relative change of f is small; ``first``: the
     strip that is the first of them (None: all are pieces)."""
-    strips, asked = prepared.strips, CELLS * prepared.scene.numerics.sampling_tolerance
+    strips = prepared.strips
+    asked = CELLS * prepared.scene.numerics.sampling_tolerance
     assert strips is not None
     pieces: list[Piece] = []
-    error, spent = BlockError(math.inf, 0), 0.0
+    error = BlockError(math.inf, 0)
+    spent = 0.0
     while len(pieces) < min(strips.pieces, MOST_PIECES) and not (error.error <= asked or spent > PIECES_WORK):
         slope = pieces[0][1].slope if pieces else None
         pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))
@@ -168,7 +178,8 @@ def _refined(
     solved on the first two; of a patch: all of it, until the estimated error is within ``numerics.tolerance``, at last
     (with ``numerics.grid = "given"`` always) on the map's own. ``slope``: of friction over load [-] (None: found by a
     second solve)."""
-    scene, strips = prepared.scene, prepared.strips
+    scene = prepared.scene
+    strips = prepared.strips
     assert strips is not None
     surface, factors = strip_of(prepared, index)
     enough = scene.numerics.tolerance if strips.whole and scene.numerics.grid != "given" else 0.0
@@ -193,7 +204,8 @@ def _error(pieces: Sequence[Piece], strips: Strips) -> BlockError:
     to place."""
     changes = []
     for piece in pieces:
-        base, last = piece[1], piece[-1]
+        base = piece[1]
+        last = piece[-1]
         places = last.deviations.reshape(base.result.load_at.size, -1).mean(axis=1) - base.deviations
         changes.append((places + last.result.coefficient - base.result.coefficient) / abs(base.result.coefficient))
     return block_error(np.concatenate(changes), pieces[0][1].problem.spacing[1], strips.lengths[1])

@@ -8,8 +8,12 @@ import numpy as np
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 
 CONFIDENCE = 0.95
-OF_SHARE, IN_CONTACT = 0.7, 0.25  # error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
-OF_FILM, MOST_OF_FILM = 3.2, 0.3  # error of the film's shear by load sharing: times (film/Sq)², and at most
+# error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
+OF_SHARE = 0.7
+IN_CONTACT = 0.25
+# error of the film's shear by load sharing: times (film/Sq)², and at most
+OF_FILM = 3.2
+MOST_OF_FILM = 0.3
 OF_ROLLING = 8.0  # of the rolling force: what pressure on the flanks of moving roughness may add; up to 7 were seen
 FLANKS = 1.5  # film/Sq from which on that falls, with the square of it; 2.4 times the rolling force were seen at 2
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
@@ -96,7 +100,8 @@ def load_sharing_error(
     of_film = (min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) + of_flanks) / f
     if not 0 < share < 1:
         return of_film, of_film
-    exchanged, rooms = (boundary / share - shear / (1 - share)) / f, (share, 1 - share)
+    exchanged = (boundary / share - shear / (1 - share)) / f
+    rooms = (share, 1 - share)
     of_share = OF_SHARE * math.sqrt(share * (1 - share))
     down, up = (of_film + min(of_share, room) * abs(exchanged) for room in rooms[:: 1 if exchanged > 0 else -1])
     of_all = IN_CONTACT * math.sqrt(1 - share)

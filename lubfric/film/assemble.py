@@ -39,7 +39,8 @@ def domain_error(problem: Problem, solution: Solution) -> float:
 
 def complementarity(solution: Solution, outlet_film: np.ndarray) -> float:
     """Largest tension before rupture (over the largest pressure), or largest film deficit behind it (over h)."""
-    P, H = solution.terms.P, solution.terms.H
+    P = solution.terms.P
+    H = solution.terms.H
     return max(0.0, -float(P.min()) / float(P.max()), 1.0 - float(outlet_film.min() / H[-1]))
 
 
@@ -84,7 +85,9 @@ def reported(solver: str, solutions, residuals, tolerance, notes, failed=ITERATI
     """The report of ``solutions``, the last of which counts; ``failed``: its status if it has converged and a residual
     is still above the ``tolerance``; ``solves``: their number (None: one a step)."""
     history = tuple(e for solution in solutions for e in solution.history)
-    steps, residual, status = len(history) - len(solutions), worst(residuals), solutions[-1].status
+    steps = len(history) - len(solutions)
+    residual = worst(residuals)
+    status = solutions[-1].status
     status = failed if status == CONVERGED and residual > tolerance else status
     evaluations = steps if solves is None else solves
     return Report(solver, status, steps, residual, tolerance, residuals, history, evaluations, notes)
@@ -105,10 +108,12 @@ def assemble(
     problem: Problem, levels: list[Solution], first: list[Solution], notes: tuple[str, ...], tolerance: float
 ) -> EHLResult:
     """The result in SI units from solutions on nested grids, seen along +x."""
-    last, M = levels[-1], problem.M
+    last = levels[-1]
+    M = problem.M
     t = last.terms
     X_out, H_out = _outlet(problem, last)
-    X, H = np.concatenate([t.X, X_out]), np.concatenate([t.H, H_out])
+    X = np.concatenate([t.X, X_out])
+    H = np.concatenate([t.H, H_out])
     P = np.concatenate([t.P, np.zeros_like(X_out)])
     error = grid_error(levels)
     tail = 0.5 * -t.X[0] * t.P[0] if problem.inlet is None else 0.0
@@ -138,8 +143,12 @@ def assemble(
 def in_si(problem: Problem, at, *, load, films, flow, rupture, constant, **known) -> EHLResult:
     """The result in SI units, seen along +x. ``at``: (X, P, H) at the nodes; ``load``: ∫ P dX between them;
     ``films``: the smallest, and that at X = 0; ``constant``: H00; ``known``: what has no unit to change."""
-    (X, P, H), contact, b = at, problem.contact, problem.half_width
-    sign, length, film = math.copysign(1.0, contact.entrainment_speed), problem.length_unit, problem.film_unit
+    (X, P, H) = at
+    contact = problem.contact
+    b = problem.half_width
+    sign = math.copysign(1.0, contact.entrainment_speed)
+    length = problem.length_unit
+    film = problem.film_unit
     with np.errstate(over="ignore"):  # Barus far above its range: infinite beyond e^709
         viscosity = contact.lubricant.viscosity * np.exp(problem.log_viscosity(P)[0])
     order = slice(None) if sign > 0 else slice(None, None, -1)

@@ -18,7 +18,9 @@ from .problem import Problem, make_problem
 from .reynolds import Solution
 from .start import State, solution_state
 
-HALF, LESS = 0.5, 0.6  # of the flooded flow, from where the flow falls by steps; and these steps
+# of the flooded flow, from where the flow falls by steps; and these steps
+HALF = 0.5
+LESS = 0.6
 ROUGH = Effort(5e-3)  # on the way
 FURTHEST = 300.0  # of the length on which a flooded film builds up: an inlet beyond it is a flooded one
 
@@ -118,7 +120,8 @@ def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Sol
     flooded = levels[-1].terms.q
     if not sound(levels) or flooded <= flow:
         return problem, levels, first, notes
-    known, aim = flooded / full.film_guess, max(flow, HALF * flooded)
+    known = flooded / full.film_guess
+    aim = max(flow, HALF * flooded)
     there = replace(full, inlet=min(full.inlet_of(aim / known), furthest))
     near, closer = first_state(there, coarsest(full), effort.max_iterations)
     spent = first + levels + closer
@@ -135,7 +138,9 @@ def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Sol
 def _found_inlet(problem: Problem, effort: Effort, state: State, furthest: float, spent, notes) -> Solved:
     """The same by a search for the inlet. Where nearly as much arrives as the full inlet takes, the flow hardly depends
     on where the lubricant begins, and Newton's method for that place fails."""
-    flow, guess, b = problem.fed, problem.inlet, problem.half_width
+    flow = problem.fed
+    guess = problem.inlet
+    b = problem.half_width
     assert flow is not None and guess is not None
 
     def surplus(log_distance: float, last) -> tuple[float, Solved]:

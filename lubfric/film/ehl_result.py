@@ -111,7 +111,10 @@ def cubic(nodes: np.ndarray, values: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Piecewise cubic Lagrange interpolation on four neighbouring nodes."""
     first = np.clip(np.searchsorted(nodes, x) - 2, 0, nodes.size - 4)
     a, b, c, d = (nodes[first + k] for k in range(4))
-    ta, tb, tc, td = x - a, x - b, x - c, x - d
+    ta = x - a
+    tb = x - b
+    tc = x - c
+    td = x - d
     return (
         values[first] * tb * tc * td / ((a - b) * (a - c) * (a - d))
         + values[first + 1] * ta * tc * td / ((b - a) * (b - c) * (b - d))

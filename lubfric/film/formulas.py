@@ -21,13 +21,15 @@ def moes_film(m, l) -> float:
     """
     validate.positive("m", m, "(-)")
     validate.nonnegative("l", l, "(-)")
-    h_ri, h_ei = 3.0 / m, 2.621 * m**-0.2
+    h_ri = 3.0 / m
+    h_ei = 2.621 * m**-0.2
     s = (7.0 + 8.0 * math.exp(-2.0 * h_ei / h_ri)) / 5.0
     isoviscous = (h_ri ** (7 / 3) + h_ei ** (7 / 3)) ** (3 / 7)
     if l < 1e-6:
         return isoviscous
     piezoviscous = ((1.287 * l ** (2 / 3)) ** -3.5 + (ELASTIC_PIEZOVISCOUS * m**-0.125 * l**0.75) ** -3.5) ** (-2 / 7)
-    larger, smaller = max(isoviscous, piezoviscous), min(isoviscous, piezoviscous)
+    larger = max(isoviscous, piezoviscous)
+    smaller = min(isoviscous, piezoviscous)
     return larger * (1.0 + (smaller / larger) ** s) ** (1.0 / s)
 
 

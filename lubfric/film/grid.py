@@ -14,8 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 FAR_INLET = 30.0  # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
-RISE_CELL, RISE_GROWTH = 0.3, 0.35  # smallest cell where the pressure rises / rise length; growth
-RUPTURE_CELL, RUPTURE_GROWTH = 0.1, 0.28  # the same at the rupture point, where film and pressure spike are
+# smallest cell where the pressure rises / rise length; growth
+RISE_CELL = 0.3
+RISE_GROWTH = 0.35
+# the same at the rupture point, where film and pressure spike are
+RUPTURE_CELL = 0.1
+RUPTURE_GROWTH = 0.28
 UPWIND = (-1, 0, 1)  # nodes of a face, of third order
 CORE = 1.2  # cells spread evenly over the contact, relative to the above
 
@@ -56,7 +60,8 @@ def node_positions(half_width: float, film: float, n: int, distance: float | Non
     rise = l * (l / (l + half_width)) ** 0.42
     width = 2.0 * half_width + 0.7 * l - 2.0 * rise
     far = distance or 3.0 * half_width + FAR_INLET * l + 0.7 * l
-    inner, outer = RISE_CELL * rise, RUPTURE_CELL * rise
+    inner = RISE_CELL * rise
+    outer = RUPTURE_CELL * rise
 
     def index(x):
         return (
@@ -79,7 +84,8 @@ def node_positions(half_width: float, film: float, n: int, distance: float | Non
     x = np.interp(t, index(table), table)
     for _ in range(3):
         x -= (index(x) - t) / density(x)
-    x[0], x[-1] = -far, 0.0
+    x[0] = -far
+    x[-1] = 0.0
     return x
 
 
@@ -110,7 +116,9 @@ def face_weights(x: np.ndarray, stencil: tuple[int, ...]) -> tuple[np.ndarray, n
     n = x.size - 1
     first = np.clip(np.arange(n) + stencil[0], 0, n + 1 - len(stencil))
     columns = first[:, None] + np.arange(len(stencil))
-    face, nodes, weights = 0.5 * (x[1:] + x[:-1]), x[columns].T, []
+    face = 0.5 * (x[1:] + x[:-1])
+    nodes = x[columns].T
+    weights = []
     for k, own in enumerate(nodes):
         others = [node for m, node in enumerate(nodes) if m != k]
         weights.append(np.prod([face - node for node in others], axis=0) / np.prod([own - o for o in others], axis=0))

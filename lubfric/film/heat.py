@@ -100,9 +100,11 @@ def flash_matrix(x: np.ndarray, carried: float) -> np.ndarray:
     """Matrix (n, n), lower triangular: from the heat [W/m²] at the nodes ``x`` (n,) [m], rising downstream, to the rise
     [K] there. The heat is linear between the nodes, and zero upstream. carried: e1 √u1 + e2 √u2 [J/(m² K s^½) (m/s)^½].
     """
-    n, step = x.size, np.diff(x)
+    n = x.size
+    step = np.diff(x)
     behind = np.maximum(x[:, None] - x[None, :], 0.0)  # from a node to those upstream
-    far, near = behind[:, :-1], behind[:, 1:]
+    far = behind[:, :-1]
+    near = behind[:, 1:]
     root = 2 * (np.sqrt(far) - np.sqrt(near))
     share = (far * root - 2 / 3 * (far**1.5 - near**1.5)) / step  # of the downstream end of each cell
     matrix = np.zeros((n, n))
@@ -139,7 +141,8 @@ def heated_film(lubricant: Lubricant, x, pressure, film, around: Surroundings, *
     """
     nodes = _nodes(x.size)
     at, p, h, wet, extra = (a[nodes] for a in (x, pressure, film, around.wet, around.contact_heat))
-    matrix, speed = flash_matrix(at, around.carried), abs(around.sliding)
+    matrix = flash_matrix(at, around.carried)
+    speed = abs(around.sliding)
 
     def heat(wall):
         return wet * np.abs(heated_stress(lubricant, p, h, around.sliding, wall)[0]) * speed + extra
@@ -147,8 +150,10 @@ def heated_film(lubricant: Lubricant, x, pressure, film, around: Surroundings, *
     def mismatch(rise, made):
         return matrix @ made - rise
 
-    rise, made = np.zeros(at.size), heat(np.full(at.size, lubricant.temperature))
-    off, history = mismatch(rise, made), []
+    rise = np.zeros(at.size)
+    made = heat(np.full(at.size, lubricant.temperature))
+    off = mismatch(rise, made)
+    history = []
     for _ in range(STEPS):
         wall = lubricant.temperature + rise
         slope = (heat(wall + DIFFERENCE) - made) / DIFFERENCE
@@ -161,7 +166,8 @@ def heated_film(lubricant: Lubricant, x, pressure, film, around: Surroundings, *
             if np.max(np.abs(left)) < np.max(np.abs(off)) or share < 1e-3:
                 break
             share *= 0.5
-        rise, off = new, left
+        rise = new
+        off = left
         history.append(float(np.max(np.abs(off)) / max(np.max(rise), 1e-9)))
         if history[-1] <= TOLERANCE:
             break
@@ -223,7 +229,8 @@ def heated_stress(lubricant: Lubricant, pressure, film, sliding: float, wall) ->
     ``pressure`` [Pa], ``film`` thickness [m] and temperature of the ``wall`` [K]: arrays (n,). By bisection on ln(tau),
     to 1e-12.
     """
-    speed, k = abs(sliding), lubricant.conductivity
+    speed = abs(sliding)
+    k = lubricant.conductivity
     p, h, wall = (np.asarray(a, dtype=float) for a in np.broadcast_arrays(pressure, film, wall))
     if speed == 0.0:
         return np.zeros(p.shape), np.zeros(p.shape)
@@ -243,7 +250,8 @@ def heated_stress(lubricant: Lubricant, pressure, film, sliding: float, wall) ->
 def _too_high(lubricant, p, h, speed, tau, log_eta, beta, mean) -> np.ndarray:
     """Where ``tau`` is above the root: the film would be sheared faster than ``speed``, or carry more than its
     limit."""
-    newtonian, k = tau, lubricant.conductivity
+    newtonian = tau
+    k = lubricant.conductivity
     with np.errstate(over="ignore"):
         for law in reversed(lubricant.shear_laws):
             newtonian = np.minimum(law.newtonian(newtonian, law.critical_at(p, mean)), MOST_STRESS)

@@ -141,7 +141,8 @@ class LineContact:
     def expected_film(self) -> float:
         """`moes_film` [m], as much thinner as a starved inlet and Carreau's law make it by closed forms; a rough
         guess."""
-        film, oil = self.moes_film, self.lubricant
+        film = self.moes_film
+        oil = self.lubricant
         if oil.carreau is not None and self.sliding is not None:
             number = oil.viscosity * abs(self.entrainment_speed) / (film * oil.carreau[0])
             film *= formulas.thinned_share(number, oil.carreau[1], self.sliding / self.entrainment_speed)

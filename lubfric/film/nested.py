@@ -14,12 +14,19 @@ from .problem import Problem
 from .reynolds import Solution, newton
 from .start import State, cold_start, refined_start, rupture_guess, solution_state, warm_start
 
-COARSEST, STARTS, FINEST = 48, 5, 3072  # cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
+# cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
+COARSEST = 48
+STARTS = 5
+FINEST = 3072
 WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
 COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
-WIDE_INLET, CLOSER = 3.0, 0.5  # of what a flooded film needs: from where a meniscus starts inwards; and its steps
+# of what a flooded film needs: from where a meniscus starts inwards; and its steps
+WIDE_INLET = 3.0
+CLOSER = 0.5
 STIFFER = (625.0, 125.0, 25.0, 5.0, 1.0)  # times the critical stress, from a Newtonian flow to the oil's own
-EASY, STAGE = 4.0, 1.4  # Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
+# Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
+EASY = 4.0
+STAGE = 1.4
 
 Solved = tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]  # problem, its grids, what led there, notes
 
@@ -135,7 +142,8 @@ def _inwards(problem: Problem) -> list[float | None]:
     if problem.inlet is None:
         return [None]
     b = problem.half_width
-    found, widest = [problem.inlet - b], WIDE_INLET * flooded_inlet(problem.rise, b)
+    found = [problem.inlet - b]
+    widest = WIDE_INLET * flooded_inlet(problem.rise, b)
     while found[0] < CLOSER * widest:
         found.insert(0, found[0] / CLOSER)
     return [b + distance for distance in found]
@@ -152,5 +160,6 @@ def sound(levels: list[Solution]) -> bool:
     side."""
     if not levels or levels[-1].status != CONVERGED:
         return False
-    P, X = levels[-1].terms.P, levels[-1].terms.X
+    P = levels[-1].terms.P
+    X = levels[-1].terms.X
     return bool(X[0] < 0.0 and X[-1] < -X[0] and P.min() >= -1e-3 * P.max())

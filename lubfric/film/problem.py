@@ -29,7 +29,8 @@ MOST_STARVED = 0.995  # of Moes' film, from where on a guess of the inlet makes 
 def make_problem(contact: LineContact) -> Problem:
     """The contact in Moes' units, along its motion, with all the lubricant that its inlet takes. Raises `InputError` if
     the lubricant begins inside the dry contact."""
-    problem, length = Problem(contact), contact.lubricant.inlet_length
+    problem = Problem(contact)
+    length = contact.lubricant.inlet_length
     half_width = problem.half_width * problem.length_unit
     if length is None:
         return problem
@@ -100,15 +101,18 @@ class Problem:
     @property
     def thins_by(self) -> ShearLaw | None:
         """The law by which shear makes the flow thinner than a Newtonian one; None: it does not."""
-        law, sheared = self.contact.lubricant.flow_law, self.contact.sliding is not None and self.times < math.inf
+        law = self.contact.lubricant.flow_law
+        sheared = self.contact.sliding is not None and self.times < math.inf
         return law if law is not None and law.thins and sheared else None
 
     def thinned(self, fluidity, H, gradient) -> tuple:
         """Factor Φ of the pressure flow where 1/eta, film and dP/dX are given (n,), s dΦ/ds and b dΦ/db (`thinned`)."""
-        contact, law = self.contact, self.thins_by
+        contact = self.contact
+        law = self.thins_by
         if law is None:
             return 1.0, 0.0, 0.0
-        critical, sliding = self.times * law.critical(0.0)[0], abs(contact.sliding or 0.0)
+        critical = self.times * law.critical(0.0)[0]
+        sliding = abs(contact.sliding or 0.0)
         s = contact.lubricant.viscosity * sliding / (self.film_unit * critical) / (fluidity * H)
         b = 0.5 * self.pressure_unit * self.film_unit / (self.length_unit * critical) * np.abs(gradient) * H
         return thinned(law, s, b)

@@ -120,7 +120,8 @@ def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, n
 def _stretch_columns(grid: Grid, problem: Problem, t: Terms, J: np.ndarray, by_H: np.ndarray, at_rupture: float):
     """Add what the stretch s of the grid changes, of which e + a is the length: to the column of e, and in place of
     that of q if q is known."""
-    n, by_s = grid.n, np.zeros(grid.n + 3)
+    n = grid.n
+    by_s = np.zeros(grid.n + 3)
     flow = t.face_density * t.face_H**3 * t.fluidity[0] * t.gradient * (t.thin[0] + t.thin[2])
     by_s[:n] = by_H * (grid.face_film @ t.by_stretch) - flow / t.q
     by_s[n + 1] = grid.weights @ t.P / problem.M
@@ -132,7 +133,8 @@ def _stretch_columns(grid: Grid, problem: Problem, t: Terms, J: np.ndarray, by_H
 
 
 def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
-    n, q = grid.n, t.q
+    n = grid.n
+    q = t.q
     mean, by_left, by_right = t.fluidity
     thin, by_stress, by_gradient = t.thin
     cube = t.face_density * t.face_H**3
@@ -140,7 +142,8 @@ def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
     np.multiply(by_H[:, None], grid.face_kernel[:, :n], out=J[:n, :n])
     by_P = cube * mean / (6.0 * grid.cells) * (thin + by_gradient)
     by_log = cube * t.gradient * (thin - by_stress)
-    left, right = by_log * by_left * t.slope[:-1] - by_P, by_log * by_right * t.slope[1:] + by_P
+    left = by_log * by_left * t.slope[:-1] - by_P
+    right = by_log * by_right * t.slope[1:] + by_P
     i = np.arange(n)
     J[i, i] += left / q
     J[i[:-1], i[1:]] += right[:-1] / q
@@ -155,7 +158,9 @@ def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
 
 
 def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> tuple[float, float]:
-    n, q, M = grid.n, t.q, problem.M
+    n = grid.n
+    q = t.q
+    M = problem.M
     a = -t.X[0]
     J[n] = 0.0
     by_h = 0.0
@@ -209,7 +214,8 @@ def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance
     from scipy.linalg.lapack import dgesv
 
     history = []
-    inlet, fed = problem.inlet, problem.fed
+    inlet = problem.inlet
+    fed = problem.fed
     if inlet is not None:
         grid = grid.stretched((inlet + z[-1]) / -grid.xi[0])
     if fed is not None:

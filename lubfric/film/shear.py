@@ -63,8 +63,10 @@ def shear_force(
     heated film, both of `lubfric.models.load_sharing.heat.point_heat`; None: isothermal. ∫ (h/2) dp is ``film.rolling`` less what
     the spots take; it is summed over the nodes if the film does not know it (None).
     """
-    entrainment_speed, radius = film.entrainment_speed, film.radius
-    direction, sliding = math.copysign(1.0, entrainment_speed), slide_roll_ratio * abs(entrainment_speed)
+    entrainment_speed = film.entrainment_speed
+    radius = film.radius
+    direction = math.copysign(1.0, entrainment_speed)
+    sliding = slide_roll_ratio * abs(entrainment_speed)
     x = film.x * direction  # run downstream
     order = np.argsort(x)
     x, p, h = (a[order] for a in (x, film.pressure, film.film_thickness))

@@ -32,7 +32,8 @@ class State:
 
 def _expected_rupture(problem: Problem) -> float:
     """Rupture point of the guess, in units of x, of a flooded film."""
-    film, b = problem.flooded_film, problem.half_width
+    film = problem.flooded_film
+    b = problem.half_width
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
 
 
@@ -60,7 +61,8 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
 
 def solution_state(problem: Problem, solution: Solution, error: float) -> State:
     """The `State` of a solution, ``error`` its estimated discretisation error."""
-    t, rupture = solution.terms, float(solution.z[-1])
+    t = solution.terms
+    rupture = float(solution.z[-1])
     inlet = None if problem.inlet is None else -float(t.X[0])
     return State(problem, t.P[:-1], t.H, float(t.q), rupture, error, inlet, solution.grid.xi)
 
@@ -70,14 +72,16 @@ def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
     oscillate."""
     P = solution.terms.P
     fine = np.empty(2 * P.size - 2)
-    fine[::2], fine[1::2] = P[:-1], 0.5 * (P[:-1] + P[1:])
+    fine[::2] = P[:-1]
+    fine[1::2] = 0.5 * (P[:-1] + P[1:])
     return np.append(fine, solution.z[-3:]), refine(solution.terms.H)
 
 
 def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, np.ndarray]:
     """(z, H): pressure and film of ``state``, which may be of another problem, node by node, scaled to the load and by
     Moes' formula; where the lubricant begins somewhere, place by place."""
-    P, H = np.append(state.pressure, 0.0), state.film
+    P = np.append(state.pressure, 0.0)
+    H = state.film
     ratio = problem.film_guess / state.problem.film_guess if problem.fed is None else problem.fed / state.flux
     if problem.inlet is not None and state.nodes is not None and not 0.8 < state.nodes[0] / grid.xi[0] < 1.25:
         bend = np.interp(grid.xi, state.nodes, H - 0.5 * state.nodes**2)

@@ -22,7 +22,9 @@ from ..oil import Eyring, ShearLaw
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 WEIGHTS = WEIGHTS / 2
 SMALL = 1e-2  # of b: series below
-ROUNDS, CLOSE = 40, 1e-13  # of Newton's method for a
+# of Newton's method for a
+ROUNDS = 40
+CLOSE = 1e-13
 
 
 def thinned(law: ShearLaw, s: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

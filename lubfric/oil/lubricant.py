@@ -18,7 +18,9 @@ from .viscosity import checked_temperature
 ROELANDS_PRESSURE = 1.96e8  # Pa
 DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the pole viscosity 6.31e-5 Pa s
-CARRIED_AT_REST, CARRIED = 5e6, 0.12  # Pa and per Pa: above every limiting stress measured in oils (0.03 to 0.1 of p)
+# Pa and per Pa: above every limiting stress measured in oils (0.03 to 0.1 of p)
+CARRIED_AT_REST = 5e6
+CARRIED = 0.12
 NO_LIQUID = 1e10  # Pa: no oil flows there
 
 
@@ -76,7 +78,8 @@ class Lubricant(Shown):
     def __post_init__(self):
         validate.python_fields(self, "lubricant")
         validate.in_range("lubricant", self, prefix="")
-        alpha, least = "pressure_viscosity_coefficient", math.exp(-ROELANDS_LOG_VISCOSITY)
+        alpha = "pressure_viscosity_coefficient"
+        least = math.exp(-ROELANDS_LOG_VISCOSITY)
         if self.viscosity_law == "roelands" and self.pressure_viscosity_coefficient == 0.0:
             raise InputError(" = 0 1/Pa has no Roelands exponent", alpha, "> 0 1/Pa, or viscosity_law = 'constant'")
         if self.viscosity_law == "roelands" and self.viscosity <= least:

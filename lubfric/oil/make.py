@@ -7,7 +7,8 @@ from ..errors import InputError
 from .oil import Oil
 from .viscosity import CELSIUS, ViscosityTable, viscosity_at_100, walther
 
-AT_40, AT_100 = 40 + CELSIUS, 100 + CELSIUS
+AT_40 = 40 + CELSIUS
+AT_100 = 100 + CELSIUS
 GRADES = {  # ISO 3448: grade -> mid-point kinematic viscosity at 40 °C [mm²/s], the grade holds +-10 % of it
     **{2.0: 2.2, 3.0: 3.2, 5.0: 4.6, 7.0: 6.8},
     **{float(g): float(g) for g in (10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500, 2200, 3200)},
@@ -99,7 +100,8 @@ def estimate_in_words(oil: Oil, temperature: float) -> str:
         f"{oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, "
         f"constant 0.7), density {oil.density_at(temperature):.4g} kg/m³"
     )
-    alpha, other = oil.pressure_viscosity_coefficient(temperature), oil.other_estimate(temperature)
+    alpha = oil.pressure_viscosity_coefficient(temperature)
+    other = oil.other_estimate(temperature)
     if alpha.low == alpha.high:
         return f"{text}, alpha {alpha.value * 1e9:.3g} /GPa as given"
     text += f", alpha {alpha.text} /GPa"

@@ -91,7 +91,8 @@ class Oil(Shown):
     def temperature_coefficient(self, temperature: float) -> float:
         """-d ln(eta)/dT [1/K] at ``temperature`` [K], from its law by a central difference."""
         temperature = checked_temperature(temperature)
-        low, high = temperature - STEP, temperature + STEP
+        low = temperature - STEP
+        high = temperature + STEP
         if isinstance(self.viscosity_law, ViscosityTable):
             low, high = max(low, self.viscosity_law.temperatures[0]), min(high, self.viscosity_law.temperatures[-1])
         return math.log(self.viscosity(low) / self.viscosity(high)) / (high - low)

@@ -132,12 +132,14 @@ class Carreau(ShearLaw):
         return s * (1 + s**2) ** (0.5 * (self.oil.carreau[1] - 1))
 
     def tangent(self, s):
-        n, square = self.oil.carreau[1], s**2
+        n = self.oil.carreau[1]
+        square = s**2
         factor = (1 + square) ** ((3 - n) / 2) / (1 + n * square)
         return factor, factor * ((3 - n) * square / (1 + square) - 2 * n * square / (1 + n * square))
 
     def inverse(self, x):
-        n, log_x = self.oil.carreau[1], np.log(np.maximum(np.abs(x), 1e-300))
+        n = self.oil.carreau[1]
+        log_x = np.log(np.maximum(np.abs(x), 1e-300))
         y = log_x + 0.5 * (1 / n - 1) * np.logaddexp(0, 2 * log_x)  # ln s by a law alike
         for _ in range(6):  # doubling digits: to the last bit
             steep = 1 + (n - 1) / (1 + np.exp(np.minimum(-2 * y, 700.0)))  # d ln x/d ln s

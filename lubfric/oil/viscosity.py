@@ -102,7 +102,8 @@ class ViscosityTable:
 
     def piece(self, temperature: float) -> Walther:
         """The D341 law between the neighbours of ``temperature`` [K]."""
-        low, high = self.temperatures[0], self.temperatures[-1]
+        low = self.temperatures[0]
+        high = self.temperatures[-1]
         unit = "K (the viscosity table's)"
         temperature = validate.number("temperature", temperature, unit, minimum=low, maximum=high)
         return self._law_up_to(max(next(i for i, t in enumerate(self.temperatures) if t >= temperature), 1))
@@ -141,9 +142,11 @@ def _millimetres(nu40: float, nu100: float) -> str:
 def _index(at_40: float, at_100: float) -> float:
     """The viscosity index, from viscosities in mm²/s."""
     if at_100 > AT_100[-1]:  # L and H [mm²/s]: by the standard's formulas, or its table
-        low, high = (0.8353 * at_100 + 14.67) * at_100 - 216, (0.1684 * at_100 + 11.85) * at_100 - 97
+        low = (0.8353 * at_100 + 14.67) * at_100 - 216
+        high = (0.1684 * at_100 + 11.85) * at_100 - 97
     else:
-        low, high = float(np.interp(at_100, AT_100, LOW)), float(np.interp(at_100, AT_100, HIGH))
+        low = float(np.interp(at_100, AT_100, LOW))
+        high = float(np.interp(at_100, AT_100, HIGH))
     if at_40 >= high:
         return 100 * (low - at_40) / (low - high)
     return 100 + (10 ** (math.log(high / at_40) / math.log(at_100)) - 1) / SLOPE
@@ -159,7 +162,8 @@ def viscosity_at_100(nu40: float, index: float) -> float:
 
     nu40 = validate.positive("nu40", nu40, "m²/s", maximum=1.0)
     index = validate.number("viscosity_index", index, "(-)", minimum=-200, maximum=LARGEST)
-    at_40, least = nu40 * 1e6, LEAST * 1e6
+    at_40 = nu40 * 1e6
+    least = LEAST * 1e6
     if at_40 <= least or _index(at_40, least) > index:
         said = f" = {index:g} (-) with nu40 = {nu40:g} m²/s is less than 2e-6 m²/s at 100 °C, where it is not defined"
         instead = "give the kinematic viscosities at 40 and 100 °C instead"

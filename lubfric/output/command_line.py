@@ -10,7 +10,9 @@ from ..errors import ConvergenceError, InputError, LubfricError
 from ..units import number_of
 from .commands import INTERRUPTED, interruptible, put, say
 
-CURVE, RATIOS, IN_TIME = "a Stribeck curve", "a traction curve (--ratios)", "a scene with [transient]"
+CURVE = "a Stribeck curve"
+RATIOS = "a traction curve (--ratios)"
+IN_TIME = "a scene with [transient]"
 FOR = {"ratios": RATIOS, "animation": IN_TIME} | dict.fromkeys(("speeds", "fields", "workers", "vtk"), CURVE)
 KINDS: dict[str, dict] = {"path": {"type": Path}, "count": {"type": int}, "switch": {"action": "store_true"}}
 
@@ -86,7 +88,8 @@ def info(arguments) -> None:
     from .describe import describe_scene
     from .run_curve import parse_speeds
 
-    scene, speeds = scene_of(arguments), arguments.speeds
+    scene = scene_of(arguments)
+    speeds = arguments.speeds
     if speeds is not None and scene.transient is not None:
         raise InputError("--speeds is for a curve, and this is a scene with [transient]; leave it out")
     told = describe_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))

@@ -29,7 +29,9 @@ from .describe import Foretold, foretold
 from .pictures import plot_surface
 from .report import report_page
 
-INTERRUPTED, TERMINATED = 130, 143  # exit codes, as shells count them: the second argument of a KeyboardInterrupt
+# exit codes, as shells count them: the second argument of a KeyboardInterrupt
+INTERRUPTED = 130
+TERMINATED = 143
 SAY_EVERY = 1.0  # s between two lines of progress
 
 
@@ -92,7 +94,9 @@ def keeping(what: Callable[[], str]):
         raise KeyboardInterrupt(said, *error.args[1:] or (INTERRUPTED,)) from None
 
 
-RESULT, RESOLVED, UNFINISHED = "result.json", "resolved.toml", "unfinished"
+RESULT = "result.json"
+RESOLVED = "resolved.toml"
+UNFINISHED = "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
 INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
@@ -125,7 +129,8 @@ def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], 
 
 def read_record(folder: Path) -> dict:
     """What result.json of a run holds: at least the name of the scene. Raises `InputError` for anything else."""
-    path, again = folder / RESULT, "give a folder that 'lubfric run' wrote, or run it again"
+    path = folder / RESULT
+    again = "give a folder that 'lubfric run' wrote, or run it again"
     if not os.path.lexists(path):
         raise InputError(f"{folder} holds no {RESULT}; {again}")
     record = read_json(path, again)
@@ -183,7 +188,8 @@ class RunFolder:
     """
 
     def __init__(self, path: Path, begun: float, fingerprint: str):
-        self.path, self.begun = path, begun
+        self.path = path
+        self.begun = begun
         self.unfinished = path / UNFINISHED / fingerprint[:16]
         self.contents: dict[str, bytes] = {}
         self.failures: list[str] = []
@@ -200,7 +206,8 @@ class RunFolder:
         ``units`` of these, beside those of the input."""
         import scipy
 
-        surface, versions = prepared.surface, {"lubfric": __version__, "numpy": np.__version__}
+        surface = prepared.surface
+        versions = {"lubfric": __version__, "numpy": np.__version__}
         names = ("sq", "sa", *(("ssk", "sku") if surface.sq > 0 else ()), "missing_fraction")
         statistics = {name: getattr(surface, name) for name in names}
         statistics["rms_slope"] = dict(zip(("x", "y", "total"), rms_slope(surface)))

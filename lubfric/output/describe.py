@@ -18,9 +18,16 @@ from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
 from .inputs import FACTS, input_rows
 
-STEP_TOLERANCE, SWING, START = 3e-5, 80.0, 30.0  # of a step; with it, steps in a period of a history; at the start
-FILM_STEP, CELL_STEP = 6e-3, 1.5e-7  # s of a step in time: its film, and a cell of its contact
-SOME, SHOWN = 25, 6  # speeds at which the work is counted, and that stand in the table, about
+# of a step; with it, steps in a period of a history; at the start
+STEP_TOLERANCE = 3e-5
+SWING = 80.0
+START = 30.0
+# s of a step in time: its film, and a cell of its contact
+FILM_STEP = 6e-3
+CELL_STEP = 1.5e-7
+# speeds at which the work is counted, and that stand in the table, about
+SOME = 25
+SHOWN = 6
 ABOUT_TABLE = "film of the whole load by closed forms, and whether it clears the summits (orders of magnitude)"
 
 
@@ -64,9 +71,11 @@ def foretold(
     own = scene.motion.entrainment_speed
     chosen = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
     speeds = [own] if len(ratios) else list(chosen) or list(scene.motion.speeds) or [own]
-    changing, over = [], counted(len(ratios), "ratios") if len(ratios) else counted(len(speeds), "speeds")
+    changing = []
+    over = counted(len(ratios), "ratios") if len(ratios) else counted(len(speeds), "speeds")
     if scene.transient is not None:
-        speeds, over = list(speeds_of_run(scene)) or [0.0], "a run in time"
+        speeds = list(speeds_of_run(scene)) or [0.0]
+        over = "a run in time"
         own = max(speeds)
     model, cost = _model(scene, strips, surface, speeds, ratios)
     cost = cost and f"about {cost} of processor time for {over} (an order of magnitude)"
@@ -78,7 +87,8 @@ def foretold(
     at = expected(scene, surface, sorted(set(speeds)))
     refused = _doubts([(speed, entry) for speed, entry in at if entry.severe])
     whole = map_of(surface, strips)
-    notes, lacks = [note for note in whole.notes if "nm as it is" in note], lacking(scene, whole.sq, own)
+    notes = [note for note in whole.notes if "nm as it is" in note]
+    lacks = lacking(scene, whole.sq, own)
     left_out = [f"likely changes of f at {own:g} m/s, by closed forms:", *map(lack_in_words, lacks)]
     told = {
         "transient": changing,
@@ -108,7 +118,8 @@ def _plan(scene: Scene, surface: Surface) -> str:
 def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds, ratios) -> tuple[list[str], str]:
     """Which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the time that all of them cost
     (`lubfric.estimate.friction`)."""
-    asked, why = scene.numerics.model, gap_not_resolved(scene)
+    asked = scene.numerics.model
+    why = gap_not_resolved(scene)
     unknown = "its error is not known, and not in the interval"
     if scene.transient is not None and asked == "deterministic":
         return ["one gap and one pressure (the deterministic model) at all times, as asked"], ""
@@ -120,7 +131,8 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds, ratios
     if len(ratios):
         points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
     found = [forecast(at, strips, surface, speed) for at, speed in points]
-    resolved, strip = [one.speed for one in found if one.resolved], max((one.moving for one in found), default=0.0)
+    resolved = [one.speed for one in found if one.resolved]
+    strip = max((one.moving for one in found), default=0.0)
     if asked == "deterministic":
         rows = ["one gap and one pressure (the deterministic model), as asked"]
     elif asked == "load-sharing":
@@ -149,7 +161,8 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds, ratios
 
 def _histories(scene: Scene) -> list[str]:
     """What changes in time, how, how often, and between which values; and the largest speeds."""
-    plan, rows = scene.transient, []
+    plan = scene.transient
+    rows = []
     assert plan is not None
     for name, unit in CHANGING.items():
         history = getattr(plan, name)
@@ -174,7 +187,9 @@ def _course(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> tu
     """Steps and time of a run, whose film is judged at the ``speeds`` [m/s], and its sample; by what runs of the
     paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
     assert (plan := scene.transient) is not None
-    found, cells, sample = [forecast(scene, strips, surface, speed) for speed in speeds], surface.heights.size, []
+    found = [forecast(scene, strips, surface, speed) for speed in speeds]
+    cells = surface.heights.size
+    sample = []
     if strips is not None and not strips.whole and scene.numerics.model != "deterministic":
         most = max(found, key=lambda one: one.strips)
         cells = round(strips.cells.count * most.length / strips.cells.coarse[1])
@@ -201,10 +216,8 @@ def _speed_table(scene: Scene, strips: Strips | None, surface: Surface, speeds) 
     table[0] += ("strips", "one gap", "length (mm)", "time (s)") * sampled
     own = (scene.motion.entrainment_speed,) if steady else ()
     for speed in sorted({*speeds[:: max(1, len(speeds) // SHOWN)], *own, speeds[-1]}):
-        one, film = (
-            forecast(scene, strips, surface, speed),
-            ("", "", "0", "0", "no entrainment" + ": all contact" * steady),
-        )
+        one = forecast(scene, strips, surface, speed)
+        film = ("", "", "0", "0", "no entrainment" + ": all contact" * steady)
         if speed != 0:
             line = scene.line_contact(abs(speed))
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf

@@ -25,7 +25,8 @@ def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
     if any(point.deterministic is None for point in points):
         arrays |= _map_of(prepared, points[0])
     for i, point in enumerate(points):
-        film, found = point.balance.film if point.balance else None, {}
+        film = point.balance.film if point.balance else None
+        found = {}
         if point.deterministic is not None:
             result = point.deterministic
             found = {name: getattr(result, name) for name in OF_ONE_GAP} | {"spacing": np.array(result.spacing)}
@@ -54,7 +55,9 @@ def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
     At the cells of the contact, in the plane z = 0 (warp by "height" to see the surface). ``point`` needs fields
     (``fields=True``) and contact, or the deterministic model. What a point does not have is left out.
     """
-    x, y, fields = point.x, point.y, {}
+    x = point.x
+    y = point.y
+    fields = {}
     heights = prepared.surface.heights if point.heights is None else point.heights
     if heights.shape == (x.size, y.size):
         fields["height"] = heights - np.nanmean(heights)
@@ -70,10 +73,13 @@ def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
 def write_moments(folder: Path | str, moments: Iterable[Moment]) -> None:
     """Gap [m], pressure [Pa], height [m] and filled part of moments (`lubfric.models.deterministic.moments`) as
     moment_0000.vtk ... in ``folder``; and moments.vtk.series with their times [s], which ParaView plays."""
-    home, files = validate.folder("folder", folder), []
+    home = validate.folder("folder", folder)
+    files = []
     home.mkdir(parents=True, exist_ok=True)
     for number, moment in enumerate(moments):
-        problem, state, name = moment.at.problem, moment.at.state, f"moment_{number:04d}.vtk"
+        problem = moment.at.problem
+        state = moment.at.state
+        name = f"moment_{number:04d}.vtk"
         y = np.arange(moment.at.gap.shape[1]) * problem.spacing[1]
         fields = {"gap": moment.at.balance.film, "pressure": state.pressure, "height": problem.heights}
         write_whole(home / name, grid_bytes(problem.x, y, fields | {"fill": state.fill}, f"t = {moment.time:g} s"))
@@ -84,7 +90,8 @@ def write_moments(folder: Path | str, moments: Iterable[Moment]) -> None:
 def grid_bytes(x: np.ndarray, y: np.ndarray, fields: dict[str, np.ndarray], title: str) -> bytes:
     """Point data (nx, ny) on the grid ``x`` (nx,), ``y`` (ny,) [m]: legacy VTK format 3.0, big-endian binary."""
     points = np.zeros((y.size, x.size, 3))
-    points[..., 0], points[..., 1] = x[None, :], y[:, None]
+    points[..., 0] = x[None, :]
+    points[..., 1] = y[:, None]
     parts = [
         f"# vtk DataFile Version 3.0\nlubfric, {title}, SI units\nBINARY\nDATASET STRUCTURED_GRID\n"
         f"DIMENSIONS {x.size} {y.size} 1\nPOINTS {x.size * y.size} double\n".encode(),

@@ -53,7 +53,8 @@ def _bodies(scene: Scene) -> list[str]:
 
 
 def _lubricant(scene: Scene) -> list[str]:
-    oil, rows = scene.lubricant, []
+    oil = scene.lubricant
+    rows = []
     if oil.oil is not None and oil.temperature is not None:
         rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
     rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
@@ -66,8 +67,10 @@ def _lubricant(scene: Scene) -> list[str]:
 
 
 def _motion(scene: Scene) -> list[str]:
-    u, ratio = scene.motion.entrainment_speed, scene.motion.slide_roll_ratio
-    u1, u2 = u * (1 - ratio / 2), u * (1 + ratio / 2)
+    u = scene.motion.entrainment_speed
+    ratio = scene.motion.slide_roll_ratio
+    u1 = u * (1 - ratio / 2)
+    u2 = u * (1 + ratio / 2)
     surfaces = f"surface speeds {u1:.4g} and {u2:.4g} m/s, sliding speed {abs(u2 - u1):.4g} m/s"
     return [] if scene.transient is not None else [surfaces]
 

@@ -33,7 +33,8 @@ def plot_stribeck(
     top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
     order = friction_over_speed(top, columns)
     c = type(columns)((name, column[order]) for name, column in columns.items())
-    speed, film = np.abs(c["speed"]), c["central_film"] * 1e9
+    speed = np.abs(c["speed"])
+    film = c["central_film"] * 1e9
     if measured is not None:
         measured.draw(top)
         top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
@@ -62,7 +63,8 @@ def plot_traction(
     good = np.flatnonzero(np.isfinite(columns["coefficient"]))
     order = good[np.argsort(columns["ratio"][good])]
     c = type(columns)((name, column[order]) for name, column in columns.items())
-    ratio, load = c["ratio"], c["contact_load"] + c["film_load"]
+    ratio = c["ratio"]
+    load = c["contact_load"] + c["film_load"]
     warm = bool((c["flash_temperature_rise"] > 0).any() or (c["film_temperature_rise"] > 0).any())
     figure = figures.new_figure(figsize=(7, 6.5 if warm else 4.5))
     top, *others = figure.subplots(1 + warm, 1, sharex=True, squeeze=False, height_ratios=[3, 2][: 1 + warm]).flat
@@ -116,7 +118,8 @@ def _one_gap(point, half_width: float):
     from matplotlib.colors import LogNorm
 
     near = np.abs(point.x) <= NEAR * half_width
-    x, y = point.x[near], point.y
+    x = point.x[near]
+    y = point.y
     part = _part(x, y, int(point.pressure[near].max(axis=0).argmax()))
     figure = figures.new_figure(figsize=(10, 5.5), layout="compressed")
     for axes, (label, field, colours, norm) in zip(
@@ -158,7 +161,9 @@ def _two_pressures(prepared, point):
     """
     heights = prepared.surface.heights if point.heights is None else point.heights
     heights, x = heights - heights.mean(), point.balance.contact.x
-    contact, film, half_width = point.balance.contact.fields, point.balance.film, prepared.scene.bodies.half_width
+    contact = point.balance.contact.fields
+    film = point.balance.film
+    half_width = prepared.scene.bodies.half_width
     row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
     in_section = film is not None and heights.shape[0] == x.size
     panels = [contact is not None or not in_section, in_section]
@@ -204,7 +209,8 @@ def _section(axes, micro, surface, smooth, contact, row: int) -> None:
         drawn.append(surface - deflection + deflection.mean())
         axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, pressed")
         axes.plot(micro, (contact.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="counterface, as if smooth")
-    low, high = 1e9 * min(z.min() for z in drawn), 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
+    low = 1e9 * min(z.min() for z in drawn)
+    high = 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
     room = 0.15 * (high - low)
     axes.set(ylim=(low - room, high + room), ylabel="height (nm)")
     figures.key_above(axes, 2)
@@ -215,7 +221,8 @@ def plot_surface(path: Path, prepared) -> None:
     (Abbott-Firestone) curve of the whole of it."""
     surface = map_of(prepared.surface, prepared.strips)
     x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
-    part, higher = _part(x, y, 0), np.linspace(0.0, 1.0, QUANTILES)
+    part = _part(x, y, 0)
+    higher = np.linspace(0.0, 1.0, QUANTILES)
     figure = figures.new_figure(figsize=(9, 4.5), layout="compressed")
     above, bearing = figure.subplots(1, 2)
     surface.cropped((x.size, y[part].size), (0, 0)).plot(above)
@@ -262,7 +269,9 @@ def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None
 
 def animate(path: Path, result, half_width: float) -> None:
     """GIF of pressure and film along the contact over time."""
-    count, x, h = result.time.size, result.x, result.film_thickness
+    count = result.time.size
+    x = result.x
+    h = result.film_thickness
     radius = (x[0] ** 2 - x[1] ** 2) / (2.0 * (h[0, 0] - h[0, 1]))  # of the undeformed gap, far out
     reach = 3.0 * max(half_width, float(np.sqrt(h.min(axis=1).max() * 2.0 * radius)))
     seen = np.abs(x) <= reach
@@ -281,7 +290,8 @@ def animate(path: Path, result, half_width: float) -> None:
     def draw(i):
         pressure.set_data(x, result.pressure[i, seen] / 1e6)
         film.set_data(x, thick[i])
-        speed, friction = result.entrainment_speed[i], result.coefficient[i]
+        speed = result.entrainment_speed[i]
+        friction = result.coefficient[i]
         moment = f"t = {result.time[i] * scale:.4g} {unit},  U = {speed:.3g} m/s,  f = {friction:.4f}"
         top.set_title(moment, fontsize=10)
         return pressure, film

@@ -37,7 +37,8 @@ def report_page(
 ) -> bytes:
     """The page of ``result``, a curve or a run in time. ``record``: what result.json holds; ``contents``: of the files
     of the run, its pictures among them; ``known``: before it was solved; ``law``: of a curve, or why it has none."""
-    scene, curve = prepared.scene, result if isinstance(result, CurveResult) else None
+    scene = prepared.scene
+    curve = result if isinstance(result, CurveResult) else None
     answer, *more = _of_run(result) if curve is None else _of_curve(scene, curve)
     made = [*record["versions"].items(), ("seconds", f"{record['seconds']:.3g}"), ("solver", result.report.message)]
     page = Template((files(__package__) / "report.html").read_text(encoding="utf-8")).substitute(
@@ -65,7 +66,9 @@ def report_page(
 
 
 def _question(scene: Scene) -> str:
-    bodies, oil, motion = scene.bodies, scene.lubricant, scene.motion
+    bodies = scene.bodies
+    oil = scene.lubricant
+    motion = scene.motion
     hot = "" if oil.temperature is None else f" at {oil.temperature - 273.15:.4g} °C"
     return (
         f"How large is the friction coefficient f of a line contact of reduced radius {worded(bodies.radius, 'm')} and "
@@ -107,7 +110,9 @@ def _lift_off(curve: CurveResult) -> list[str]:
     if not isinstance(curve, StribeckResult):
         return []
     try:
-        at, (low, high), least = curve.lift_off, curve.lift_off_range, curve.least
+        at = curve.lift_off
+        (low, high) = curve.lift_off_range
+        least = curve.least
     except InputError:  # too few of them, or in both directions
         return []
     if at is None:
@@ -141,7 +146,8 @@ def _lacks(scene: Scene, curve: CurveResult | None, known: Foretold) -> str:
     if curve is None or (nearest := _nearest(scene, curve)) is None:
         return _list(known.told["left out"])
     point, place = nearest
-    lacks, head = map(lack_in_words, point.lacks), f"<p>Likely changes of f {escape(place)}, by closed forms:</p>"
+    lacks = map(lack_in_words, point.lacks)
+    head = f"<p>Likely changes of f {escape(place)}, by closed forms:</p>"
     return _list([*lacks], "Nothing that would change f by its tolerance.", head=head)
 
 
@@ -163,9 +169,11 @@ def _of_run(result) -> list[str]:
     """The answer of a run in time."""
     if result.time.size < 2:
         return ["The run has no answer."]
-    mean, f = result.average(), result.coefficient
+    mean = result.average()
+    f = result.coefficient
     error = 100 * mean.sampling
-    film, peak = worded(float(result.min_film.min()), "m"), int(np.abs(f).argmax())
+    film = worded(float(result.min_film.min()), "m")
+    peak = int(np.abs(f).argmax())
     low, high = result.uncertainty.interval[peak]
     when = "the" if mean.in_motion == 1 else f"the {100 * mean.in_motion:.3g} % in motion of the"
     ends = f" ({low:.3g} to {high:.3g} with the range of f_b)" if np.any(result.inputs) else ""
@@ -188,7 +196,8 @@ def _points(curve: CurveResult) -> list[str]:
         for n, si in kinds.items()
     ]
     columns = [converted(found[n], si, units[si]) for n, si in kinds.items()]
-    numbers, errors = [], []
+    numbers = []
+    errors = []
     notes: dict[str, list[str]] = {}
     for i, point in enumerate(curve.points):
         if point is None:
@@ -205,7 +214,8 @@ def _points(curve: CurveResult) -> list[str]:
             notes.setdefault(note, []).append(f"{found[name][i]:.4g}")
     heads.insert(2, "interval of f, 95 %")
     head = heads[0], "numerical", "surface (standard error)", "model (95 %)", "inputs", "solved by"
-    at, unit = f"at {COLUMNS[name].symbol} =", printed(units[kinds[name]])
+    at = f"at {COLUMNS[name].symbol} ="
+    unit = printed(units[kinds[name]])
     told = [f"{note} ({at} {', '.join(places)} {unit}".rstrip() + ")" for note, places in notes.items()]
     return ["<h2>Results</h2>", _rows(heads, numbers), "<h2>Errors of f</h2>", _rows(head, errors), _list(told)]
 
@@ -231,7 +241,8 @@ def _inputs(scene: Scene, section: str) -> str:
 
 
 def _picture(content: bytes, caption: str) -> str:
-    data, said = base64.b64encode(content).decode(), escape(caption)
+    data = base64.b64encode(content).decode()
+    said = escape(caption)
     return f'<figure><img alt="{said}" src="data:image/png;base64,{data}"><figcaption>{said}</figcaption></figure>'
 
 

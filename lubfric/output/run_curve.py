@@ -38,7 +38,8 @@ def run_sweep(scene: Scene, arguments) -> None:
     """
     ended: list[tuple] = []
     speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
-    total, progress = "some" if speeds == studies.AUTO else len(speeds), _progress("U = {:<9.4g} m/s")
+    total = "some" if speeds == studies.AUTO else len(speeds)
+    progress = _progress("U = {:<9.4g} m/s")
     names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
     names += [f"contact_{i}.vtk" for i in range(len(chosen) if arguments.vtk else 0)]
 
@@ -65,7 +66,8 @@ def run_sweep(scene: Scene, arguments) -> None:
 def run_traction(scene: Scene, arguments) -> None:
     """Compute a traction curve, and write traction.csv, traction.png, surface.png, report.html, resolved.toml
     and, last, result.json to ``arguments.out``."""
-    ratios, names = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO), ["traction.csv", "traction.png"]
+    ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
+    names = ["traction.csv", "traction.png"]
     begun = run_begun(scene, arguments, names, None, ratios, "traction", ratios=ratios)
     with begun as (folder, prepared, known):
         progress = _progress("slide-roll ratio {:<9.4g}")
@@ -79,7 +81,8 @@ def _write(
 ) -> None:
     """The table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what was asked for beside.
     ``known``: before it was solved."""
-    name, contents = "traction" if curve.SWEPT[0] == "ratio" else "stribeck", folder.contents
+    name = "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
+    contents = folder.contents
     contents[f"{name}.csv"] = studies.csv_bytes(curve)
     units = {number: COLUMNS[number] for number in (*NUMBERS, curve.SWEPT[0])}
     numbers = [_point(curve, i) for i in range(len(curve.points))]
@@ -125,7 +128,8 @@ def _drawable(columns) -> np.ndarray:
 def _point(curve: studies.CurveResult, index: int) -> dict:
     """The record of a point: its numbers, the error of f in words too, and the errors of the other numbers; or why
     there are none."""
-    name, point = curve.SWEPT[0], curve.points[index]
+    name = curve.SWEPT[0]
+    point = curve.points[index]
     found = {name: getattr(curve, name)[index], "validity": [asdict(entry) for entry in curve.entries(index)]}
     if point is None:
         return found | {"error": str(curve.errors[index])}
@@ -150,7 +154,8 @@ def plot_again(arguments) -> None:
         raise InputError(f"{folder} holds no stribeck.csv; give a folder that 'lubfric run' wrote")
     if given and name != "stribeck":
         raise InputError(f"--measured is drawn beside a Stribeck curve, and {folder} holds {TABLES[name]}")
-    columns, record = read_table(folder / f"{name}.csv"), read_record(folder)
+    columns = read_table(folder / f"{name}.csv")
+    record = read_record(folder)
     if name == "history":
         again: tuple = plot_history, columns, figures.plain_words(record["scene"]["name"])
     else:
@@ -167,7 +172,8 @@ def plot_again(arguments) -> None:
 
 def _points_of(source: Path, columns, record: dict) -> list[dict]:
     """The points of a ``record`` that belong to the table ``source``, of which something can be drawn."""
-    points, count = record.get("points", []), columns["coefficient"].size
+    points = record.get("points", [])
+    count = columns["coefficient"].size
     if len(points) != count:
         raise InputError(f"{source} has {count} rows and result.json {len(points)} points; run 'lubfric run' again")
     if not _drawable(columns).any():
@@ -192,7 +198,8 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
     spots carry the load; and that results were accepted."""
     name, _, unit, plural = curve.SWEPT
     points = [(value, p.uncertainty) for value, p in zip(getattr(curve, name), curve.points) if p is not None]
-    noted, said = [point for point in points if point[1].notes], []
+    noted = [point for point in points if point[1].notes]
+    said = []
     few = [value for value, known in points if known.few_spots]
     if noted:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
@@ -211,7 +218,8 @@ def _raise_if_failed(curve: studies.CurveResult) -> None:
     """Say how many points failed and how many were refused, and the first of them."""
     if not curve.errors:
         return
-    total, plural = len(curve.points), curve.SWEPT[3]
+    total = len(curve.points)
+    plural = curve.SWEPT[3]
     failed = sum(not isinstance(error, ValidityError) for error in curve.errors.values())
     counts = [f"{failed} of {counted(total, plural)} failed"] if failed else []
     if len(curve.errors) > failed:
@@ -226,7 +234,8 @@ def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
     if speeds == studies.AUTO:
         return studies.AUTO, [abs(u) for u in chosen if u != 0]
     asked = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
-    own, rising = [], asked == sorted(asked)
+    own = []
+    rising = asked == sorted(asked)
     for speed in chosen:
         near = [u for u in asked if math.isclose(u, speed, rel_tol=1e-9)]
         own.append(near[0] if near else speed)

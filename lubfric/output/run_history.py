@@ -19,7 +19,8 @@ def run_history(scene: Scene, arguments) -> None:
     of this one are there. An interrupted run continues from where it was. A failed run writes what it has, and then
     raises `ConvergenceError`.
     """
-    reached, due = 0.0, commands.paced()
+    reached = 0.0
+    due = commands.paced()
     failure: LubfricError | None = None
     names = ["history.csv", "history.png", *["animation.gif"] * arguments.animation]
 
@@ -44,7 +45,8 @@ def run_history(scene: Scene, arguments) -> None:
         except (ConvergenceError, ValidityError) as error:
             if error.result is None:
                 raise
-            result, failure = error.result, error
+            result = error.result
+            failure = error
         _write(folder, scene, result, arguments.animation)
         folder.complete(prepared, known, result, OF_MOMENT)
     if failure:

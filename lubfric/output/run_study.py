@@ -50,7 +50,8 @@ def run_study(arguments) -> None:
 
 def _answer(result: studies.StudyResult) -> list[str]:
     """The least and the largest f of a study, each with its interval and where it is."""
-    f, rows = result["coefficient"], []
+    f = result["coefficient"]
+    rows = []
     ends = {"least": np.nanargmin, "largest": np.nanargmax} if np.isfinite(f).any() else {}
     for word, find in ends.items():
         *curve, place = map(int, np.unravel_index(int(find(f)), f.shape))
@@ -99,7 +100,8 @@ def _kept(folder: Path) -> str:
 
 
 def _progress(begun: float):
-    due, first = paced(), -1
+    due = paced()
+    first = -1
 
     def on_progress(done: int, total: int) -> None:
         nonlocal first
@@ -122,7 +124,9 @@ def run_fit(arguments) -> None:
     scene = scene_of(arguments)
     check_outputs(arguments, arguments.out, ("fitted.toml", "fit.png", "fit.json"))
     scene.to_toml()  # raises InputError now, rather than after the fit
-    bounds, begun, due = _bounds(arguments.parameter), time.perf_counter(), paced()
+    bounds = _bounds(arguments.parameter)
+    begun = time.perf_counter()
+    due = paced()
     columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
     rolling = not arguments.without_rolling
     measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
@@ -149,7 +153,8 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, ...]]:
     found: dict[str, tuple[float, ...]] = {}
     for text in texts:
         name, _, ends = text.partition("=")
-        key, ways = name.strip(), "write 'section.key=lowest:highest', in SI or with units, once for each key"
+        key = name.strip()
+        ways = "write 'section.key=lowest:highest', in SI or with units, once for each key"
         unit = KEYS[key].unit if key in KEYS else "-"
         if ends.count(":") != 1 or key in found:
             raise InputError(f" {validate.shown(text)}", "--parameter", way_out=ways)

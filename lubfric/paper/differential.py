@@ -26,7 +26,9 @@ from ..oil import Lubricant
 from .differential_equations import Mesh, convolve, load_row, make_mesh
 from .differential_newton import Solution, newton
 
-COARSEST, FINEST = 64, 32768  # cells
+# cells
+COARSEST = 64
+FINEST = 32768
 FEWEST = 3  # grids to judge an error by: two may agree by chance
 RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pressure rise
 STATE_CELLS = 96  # of the graded grid from which `lubfric.solve_ehl` may start
@@ -91,7 +93,8 @@ def solve_differential_deflection(
 
 def domain_ends(problem: Problem, domain) -> tuple[float, float]:
     """First and last node, in units of X."""
-    b, unit = problem.half_width, problem.length_unit
+    b = problem.half_width
+    unit = problem.length_unit
     rise = math.sqrt(2.0 * problem.film_guess)
     if domain is not None:
         if problem.inlet is not None:
@@ -106,7 +109,8 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
 
 def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None, most_nodes: int) -> list[int]:
     """Numbers of cells of the nested grids. If the finest resolves the rise of the pressure, the coarsest does too."""
-    film, b = math.sqrt(2.0 * problem.film_guess), problem.half_width
+    film = math.sqrt(2.0 * problem.film_guess)
+    b = problem.half_width
     enough = max(COARSEST, (ends[1] - ends[0]) / (RESOLVED * film * (film / (film + b)) ** (1 / 3)))
     if nodes is None:
         cells = [min(2 ** math.ceil(math.log2(enough)), most_nodes - 1)]
@@ -126,7 +130,8 @@ def _ascend(problem, ends: tuple[float, float], cells, tolerance, max_iterations
         mesh = make_mesh(*ends, n + 1, problem.inlet is None)
         P, H = cold_start(mesh, problem)
         if levels:  # pressure (linear) and film (cubic) of the mesh before
-            X, last = levels[-1].mesh.X, levels[-1]
+            X = levels[-1].mesh.X
+            last = levels[-1]
             P = np.interp(mesh.X, X, last.P)
             H = cubic(X, last.H - 0.5 * X**2, mesh.X) + 0.5 * mesh.X**2
         levels.append(newton(mesh, problem, P, H, 1e-3 * tolerance, max_iterations))
@@ -171,16 +176,22 @@ def _report(problem: Problem, levels: list[Solution], tolerance: float) -> Repor
     notes: tuple[str, ...] = (f"{last.mesh.size} nodes from {first:.4g} to {end:.4g} half-widths",)
     if last.terms.last >= last.mesh.size - 2:
         notes += ("the film did not rupture inside the domain",)
-    solver, solves = "line-contact EHL, differential deflection", sum(level.solves for level in levels)
+    solver = "line-contact EHL, differential deflection"
+    solves = sum(level.solves for level in levels)
     return reported(solver, levels, residuals, tolerance, notes, STAGNATED, solves)
 
 
 def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
     """The rupture point, where the film is that of the flow, and X, P, H with a node added there."""
-    X, P, H, last, q = solution.mesh.X, solution.P, solution.H, solution.terms.last, solution.terms.q
+    X = solution.mesh.X
+    P = solution.P
+    H = solution.H
+    last = solution.terms.last
+    q = solution.terms.q
     if last >= X.size - 2:  # none: reported
         return float(X[last]), X, P, H
-    before, behind = 0.5 * (H[last] + H[last + 1]), 0.5 * (H[last + 1] + H[last + 2])
+    before = 0.5 * (H[last] + H[last + 1])
+    behind = 0.5 * (H[last + 1] + H[last + 2])
     share = np.clip((q - before) / (behind - before), 0.0, 1.0) if behind > before else 0.5
     e = X[last] + (0.5 + float(share)) * solution.mesh.step
     i = int(np.searchsorted(X, e))
@@ -203,7 +214,8 @@ def assemble(problem: Problem, levels: list[Solution], tolerance: float) -> EHLR
     """The result in SI units, seen along +x."""
     last = levels[-1]
     rupture, *nodes = _with_rupture(last)
-    report, mesh = _report(problem, levels, tolerance), last.mesh
+    report = _report(problem, levels, tolerance)
+    mesh = last.mesh
     return in_si(
         problem,
         nodes,

@@ -71,7 +71,9 @@ def make_mesh(first: float, last: float, nodes: int, flooded: bool) -> Mesh:
     weights = -4.0 / math.pi * step * np.diff(np.append(second[1], second), 2)
     far = weights.copy()
     far[: BANDWIDTH + 1] = 0.0
-    near, whole, outer = min(BANDWIDTH, nodes - 1), _transform(log_kernel), _transform(far)
+    near = min(BANDWIDTH, nodes - 1)
+    whole = _transform(log_kernel)
+    outer = _transform(far)
     return Mesh(X, step, log_kernel, weights, near, whole, outer, flooded)
 
 
@@ -145,7 +147,8 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Term
     rho, rho_slope = problem.density(P)
     fluidity, by_left, by_right = log_mean_fluidity(log_eta)
     first = 0.375 * H[0] + 0.75 * H[1] - 0.125 * H[2]  # third-order upwind; the first face has nothing upstream
-    face_rho, h = 0.5 * (rho[1:] + rho[:-1]), np.append(first, 0.375 * H[2:] + 0.75 * H[1:-1] - 0.125 * H[:-2])
+    face_rho = 0.5 * (rho[1:] + rho[:-1])
+    h = np.append(first, 0.375 * H[2:] + 0.75 * H[1:-1] - 0.125 * H[:-2])
     gradient = np.diff(P) / (6.0 * mesh.step)
     flow = h - h**3 * fluidity * gradient
     cube = face_rho * h**3
@@ -161,7 +164,8 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Term
     balance[0] = P[0] - inlet_ratio(mesh) * P[1]
     defect = H - 0.5 * mesh.X**2 - convolve(mesh.log_transform, P)
     ends = np.array([defect[0] - defect[-1], load_row(mesh, problem) @ P - 1.0])
-    by_H, by_P = face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient), np.stack([left, right])
+    by_H = face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient)
+    by_P = np.stack([left, right])
     return Terms(through, last, float(through[last]), balance, defect - defect[0], ends, scale, by_H, by_P, slope)
 
 

@@ -41,8 +41,10 @@ def near_solver(mesh: Mesh, problem: Problem, t: Terms):
     """
     from scipy.linalg.lapack import dgbtrf, dgbtrs
 
-    n, m = mesh.size, mesh.bandwidth
-    lower, upper = max(3, 2 * m + 1), max(3, 2 * m - 1)
+    n = mesh.size
+    m = mesh.bandwidth
+    lower = max(3, 2 * m + 1)
+    upper = max(3, 2 * m - 1)
     A = np.zeros((2 * lower + upper + 1, 2 * n), order="F")
 
     def put(rows, columns, values):
@@ -77,7 +79,8 @@ def _put_reynolds(mesh: Mesh, t: Terms, put) -> None:
         put(2 * i, 2 * face, sign * t.by_P[0, face] / t.scale)
         put(2 * i, 2 * face + 2, sign * t.by_P[1, face] / t.scale)
         inner = face > 0
-        far, near = np.where(inner, face - 1, 2), np.where(inner, face, 1)
+        far = np.where(inner, face - 1, 2)
+        near = np.where(inner, face, 1)
         for column, weight in ((far, -0.125), (near, 0.75), (np.where(inner, face + 1, 0), 0.375)):
             put(2 * i, 2 * column + 1, sign * weight * t.by_H[face] / t.scale)
 
@@ -108,7 +111,8 @@ def newton_step(mesh: Mesh, t: Terms, near) -> tuple[np.ndarray, int]:
         f[[0, -1]] = 0.0
         return f
 
-    bend, still = np.zeros(mesh.size), np.zeros(mesh.size)
+    bend = np.zeros(mesh.size)
+    still = np.zeros(mesh.size)
     bend[1:-1] = np.diff(t.defect, 2)
     z = near(-t.balance, -bend, -t.ends)
     if mesh.bandwidth >= mesh.size - 1:
@@ -128,7 +132,9 @@ def newton_step(mesh: Mesh, t: Terms, near) -> tuple[np.ndarray, int]:
 def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int) -> Solution:
     """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film ruptures inside
     the grid."""
-    history, solves, status = [], 0, ITERATION_LIMIT
+    history = []
+    solves = 0
+    status = ITERATION_LIMIT
     for step in range(max_steps + 1):
         t = equations.evaluate(mesh, problem, P, H)
         residuals = equations.measure(t, P, H)

@@ -76,8 +76,10 @@ class ImposedFilm:
     def solved(self, iterate: Callable[[np.ndarray], Found], solver: str, raise_on_failure: bool) -> ContactResult:
         """The contact by ``iterate`` from a first pressure."""
         if self.separated:
-            zero, note = np.zeros_like(self.problem.gap0), "the film clears the surface: no contact"
-            solver, found = "none", self.ended(zero, self.offset(zero), CONVERGED, 0, [], [note])
+            zero = np.zeros_like(self.problem.gap0)
+            note = "the film clears the surface: no contact"
+            solver = "none"
+            found = self.ended(zero, self.offset(zero), CONVERGED, 0, [], [note])
         else:
             overlap = np.maximum(self.mean(self.problem.gap0) - self.mean_film - self.problem.gap0, 0.0)
             stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))  # of the offset of undeformed surfaces
@@ -127,7 +129,9 @@ def alternating(
 
 def _alternated(contact: ImposedFilm, pressure, update: str) -> Found:
     """Each solve of system (3) starts from the last one."""
-    problem, state, spent = contact.problem, look(contact.problem, contact.problem.operator, pressure), 1.0
+    problem = contact.problem
+    state = look(contact.problem, contact.problem.operator, pressure)
+    spent = 1.0
     tight = replace(problem, tolerance=0.3 * problem.tolerance, max_iterations=2000)
     offset = contact.offset(state.displacement)
 

@@ -83,10 +83,15 @@ Iterate = tuple[np.ndarray, np.ndarray, float, int]  # pressure, its displacemen
 def _printed(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
     """The iterates of Appendix 2, Eqs. (14)-(22), in the sign of the paper: its g is minus the gap. They end where one
     has no successor."""
-    problem, apply = contact.problem, contact.problem.operator.apply
-    displacement, convolutions = apply(p), 1
+    problem = contact.problem
+    apply = contact.problem.operator.apply
+    displacement = apply(p)
+    convolutions = 1
     offset = contact.lubricated_offset(displacement, p)
-    t, last, keep, tau = np.zeros_like(p), 1.0, 0.0, 0.0
+    t = np.zeros_like(p)
+    last = 1.0
+    keep = 0.0
+    tau = 0.0
     while convolutions == 1 or np.isfinite(offset) and np.isfinite(tau):
         yield p, displacement, offset, convolutions
         g = offset - problem.gap0 - displacement
@@ -102,7 +107,8 @@ def _printed(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
         overlapping = (p == 0) & (g > 0)
         p[overlapping] -= tau * g[overlapping]
         p = np.clip(p, 0.0, problem.hardness)
-        last, keep = power, 0.0 if overlapping.any() else 1.0
+        last = power
+        keep = 0.0 if overlapping.any() else 1.0
         displacement, convolutions = apply(p), convolutions + 2
         offset = contact.lubricated_offset(displacement, p)
 
@@ -110,17 +116,25 @@ def _printed(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
 def _consistent(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
     """The iterates of the consistent form. Cells enter and leave the working set. Directions are kept (Polak-Ribiere,
     never negative), and epsilon follows from Eq. (8) after every step."""
-    problem, hardness, apply = contact.problem, contact.problem.hardness, contact.problem.operator.apply
-    displacement, convolutions = apply(p), 2
-    offset, shared = contact.offset(displacement), bulk(contact, p)
-    d, residue, kept = np.zeros_like(p), np.zeros_like(p), False  # the direction, from what, whether it goes on
+    problem = contact.problem
+    hardness = contact.problem.hardness
+    apply = contact.problem.operator.apply
+    displacement = apply(p)
+    convolutions = 2
+    offset = contact.offset(displacement)
+    shared = bulk(contact, p)
+    # the direction, from what, whether it goes on
+    d = np.zeros_like(p)
+    residue = np.zeros_like(p)
+    kept = False
     while True:
         yield p, displacement, offset, convolutions
         gap = problem.gap0 + displacement - offset
         free = ((p > 0) & (p < hardness)) | ((p <= 0) & (gap < 0)) | ((p >= hardness) & (gap > 0))
         more = 0.0
         if free.any():  # else all that touches has yielded, and epsilon alone is not that of Eq. (8) yet
-            r, step = np.where(free, gap, 0.0), 0.0
+            r = np.where(free, gap, 0.0)
+            step = 0.0
             while not step > 0:
                 keep = max(0.0, float(np.vdot(r, r - residue) / np.vdot(residue, residue))) if kept else 0.0
                 d = np.where(free, keep * d, 0.0) - r if kept else -r
@@ -130,7 +144,9 @@ def _consistent(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
                 step = -float(np.vdot(r, d) / curvature)
                 if not step > 0 and not kept:
                     return
-                residue, kept = r, step > 0  # else begin again from the steepest descent
+                # else begin again from the steepest descent
+                residue = r
+                kept = step > 0
             before, p = p.sum(), np.clip(p + step * d, 0.0, hardness)
             displacement, convolutions, more = apply(p), convolutions + 2, p.sum() - before
         above = problem.gap0 + displacement - (offset + shared * more)  # epsilon has taken over the bulk deflection
@@ -145,16 +161,22 @@ FORMS: dict[str, Callable[[ImposedFilm, np.ndarray], Iterator[Iterate]]] = {
 
 def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separation_tolerance: float) -> Found:
     """The end of the loop; both stopping tests are made after every iteration."""
-    problem, status = contact.problem, DIVERGED  # where an iterate has no successor
+    # where an iterate has no successor
+    problem = contact.problem
+    status = DIVERGED
     history: list[float] = []
     notes: list[str] = []
-    best, lowest, waiting, old = np.inf, np.inf, 0, np.inf
+    best = np.inf
+    lowest = np.inf
+    waiting = 0
+    old = np.inf
     for iteration, (pressure, displacement, offset, convolutions) in enumerate(iterates):
         error = contact.residual(pressure, displacement, offset)
         error = error if np.isfinite(error) else np.inf
         history.append(error)
         if error < best or not iteration:
-            best, nearest = error, (pressure, offset)
+            best = error
+            nearest = (pressure, offset)
         lowest, waiting = (error, 0) if error < 0.9 * lowest else (lowest, waiting + 1)
         separation = contact.mean(problem.gap0) - offset  # Eq. (23), from the mean plane of the surface over A
         settled = np.isfinite(old) and abs(separation - old) <= separation_tolerance * abs(old)
@@ -162,7 +184,8 @@ def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separat
         if settled and not notes:
             notes.append(f"Eq. (23) met at iteration {iteration}, where the residual was {error:.2e}")
         if settled if stop == "separation" else error <= 0.9 * problem.tolerance:
-            status, nearest = CONVERGED, (pressure, offset)
+            status = CONVERGED
+            nearest = (pressure, offset)
             break
         if error == np.inf and iteration > 0:
             break

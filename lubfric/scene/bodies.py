@@ -12,7 +12,9 @@ from ..film import hertz
 from ..quantities import KEYS
 from ..units import without_unit
 
-FASTEST, LARGEST_RATIO = KEYS["motion.entrainment_speed"].most, KEYS["motion.slide_roll_ratio"].most  # m/s, -
+# m/s, -
+FASTEST = KEYS["motion.entrainment_speed"].most
+LARGEST_RATIO = KEYS["motion.slide_roll_ratio"].most
 FRICTION = "bodies.boundary_friction_coefficient"
 FRICTION_OVER = {"sliding_speed": "m/s", "temperature": "K"}  # what a table of it may be over
 LARGEST = 2**26  # cells of a contact grid

@@ -18,8 +18,11 @@ INLET = 2e-3  # what leaving the heat of the inlet out changes of the film: it c
 CURVE = 0.3  # interpolation of a contact curve
 
 # what a solver is never asked for, however little or much of its error reaches f
-LOOSEST_FILM, TIGHTEST_FILM = 0.03, 2e-4
-LOOSEST_VOLUME, TIGHTEST_VOLUME = 0.02, 1e-7  # the first of the central film, if that is thinner than the mean one
+LOOSEST_FILM = 0.03
+TIGHTEST_FILM = 2e-4
+# the first of the central film, if that is thinner than the mean one
+LOOSEST_VOLUME = 0.02
+TIGHTEST_VOLUME = 1e-7
 TIGHTEST_CONTACT = 1e-9  # of the length in which the contact's solver measures the gap
 MOST_CELLS = 1536  # of a film whose shear stress is not resolved
 SLOPE = 0.3  # error of the slope by which a balance is corrected for its cells and for what its root left open
@@ -27,5 +30,7 @@ MOST_MOVED = 0.1  # of ln(F_H/F_C), by that correction: a light contact follows 
 SLACK = 1.5  # a tolerance off by less is not worth another solve
 
 # the most that holds where f has not been looked at yet: see `Numerics.tolerance_of`
-FIRST_FILM, FIRST_CONTACT, FIRST_VOLUME = 0.01, 1e-3, 1e-3
+FIRST_FILM = 0.01
+FIRST_CONTACT = 1e-3
+FIRST_VOLUME = 1e-3
 OF_PARTS = {"film": (FILM_GRID, FIRST_FILM), "contact": (CONTACT, FIRST_CONTACT), "balance": (BALANCE, FIRST_VOLUME)}

@@ -37,7 +37,9 @@ def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
         out of range
     """
     if isinstance(source, dict):
-        table, folder, name = dict(source), Path(), "unnamed"
+        table = dict(source)
+        folder = Path()
+        name = "unnamed"
     else:
         table, folder, name = _read(source)
     for section, path in zip(ROUGH, (surface_file, counterface_file)):
@@ -122,7 +124,8 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     plain value: the largest load, else the value at the start.
     """
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
-    given, places = table.get("transient", {}), {name: key.split(".") for name, key in HISTORIES.items()}
+    given = table.get("transient", {})
+    places = {name: key.split(".") for name, key in HISTORIES.items()}
     found = {n: history(f"transient.{n}", given.pop(n), UNITS[n], folder) for n in HISTORIES if n in given}
     for name, (section, key) in places.items():
         value = table.get(section, {}).get(key)

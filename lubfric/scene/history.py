@@ -115,7 +115,9 @@ class Table(History):
         object.__setattr__(self, "repeat", validate.boolean("history repeat", self.repeat))
         object.__setattr__(self, "times", tuple(times.tolist()))
         object.__setattr__(self, "values", tuple(values.tolist()))
-        name, first, last = "history times", times[0], times[-1]
+        name = "history times"
+        first = times[0]
+        last = times[-1]
         falls = np.flatnonzero(np.diff(times) < 0.0)
         if falls.size:
             i = int(falls[0])
@@ -135,7 +137,8 @@ class Table(History):
         return self._value(time, "left")
 
     def _value(self, time: float, side: str) -> float:
-        t, v = self.times, self.values
+        t = self.times
+        v = self.values
         time = self._on_a_row(time, side)
         i = bisect_left(t, time) if side == "left" else bisect_right(t, time)
         if i == 0 or i == len(t):
@@ -162,7 +165,8 @@ class Table(History):
 
     def jumps(self, duration: float) -> tuple[float, ...]:
         """Times [s] at which the value jumps, 0 <= t < duration."""
-        t, v = np.array(self.times), np.array(self.values)
+        t = np.array(self.times)
+        v = np.array(self.values)
         found = t[1:][(np.diff(t) == 0.0) & (np.diff(v) != 0.0)]
         if self.repeat and v[0] != v[-1]:
             found = np.append(found, t[-1])
@@ -185,7 +189,8 @@ class Table(History):
 
     def _area(self, time: float) -> float:
         """Under the lines from 0 to ``time``, in the first period."""
-        t, v = np.array(self.times), np.array(self.values)
+        t = np.array(self.times)
+        v = np.array(self.values)
         inside = (t > 0.0) & (t < time)
         values = np.array([self.at(0.0), *v[inside], self.before(time)])
         return float(np.sum(0.5 * (values[1:] + values[:-1]) * np.diff(np.array([0.0, *t[inside], time]))))
@@ -210,7 +215,8 @@ class Ramp(History):
         return self.start + share * (self.end - self.start)
 
     def integral(self, time: float) -> float:
-        passed, ramp = min(max(time - self.begin, 0.0), self.until - self.begin), self.until - self.begin
+        passed = min(max(time - self.begin, 0.0), self.until - self.begin)
+        ramp = self.until - self.begin
         risen = 0.5 * passed**2 / ramp + max(time - self.until, 0.0)
         return self.start * time + (self.end - self.start) * risen
 
@@ -227,14 +233,23 @@ def corners(times: np.ndarray, values: np.ndarray) -> list[float]:
     So a smooth wave has some twenty corners a period, however finely it is sampled, and a pulse keeps all of its own.
     """
     allowed = BEND * np.maximum(np.abs(values), LEAST * np.abs(values).max())
-    t, v, miss = times.tolist(), values.tolist(), allowed.tolist()
-    found, start, low, high = [], 0, -math.inf, math.inf
+    t = times.tolist()
+    v = values.tolist()
+    miss = allowed.tolist()
+    found = []
+    start = 0
+    low = -math.inf
+    high = math.inf
     for j in range(1, len(t)):
         if t[j] > t[j - 1] and not low <= (v[j] - v[start]) / (t[j] - t[start]) <= high:
-            start, low, high = j - 1, -math.inf, math.inf
+            start = j - 1
+            low = -math.inf
+            high = math.inf
             found.append(t[start])
         if t[j] == t[j - 1]:
-            start, low, high = j, -math.inf, math.inf
+            start = j
+            low = -math.inf
+            high = math.inf
             continue
         run = t[j] - t[start]
         low = max(low, (v[j] - miss[j] - v[start]) / run)

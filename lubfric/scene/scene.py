@@ -66,7 +66,8 @@ class Scene(Shown):
         friction = self.bodies.boundary_friction(sliding, self.lubricant.temperature)
         if friction != self.bodies.boundary_friction_coefficient:
             object.__setattr__(self, "bodies", replace(self.bodies, boundary_friction_coefficient=friction))
-        length, half_width = self.lubricant.inlet_length, self.bodies.half_width
+        length = self.lubricant.inlet_length
+        half_width = self.bodies.half_width
         if self.transient is not None and not self.lubricant.floods:
             said = " does not go with inlet_length or inlet_film"
             raise InputError(said, "transient", way_out="runs in time are flooded")
@@ -77,7 +78,8 @@ class Scene(Shown):
             section, _, key = name.partition(".")
             value = value_of(self, name)
             if not low <= value <= high or low == high:
-                said, allowed = f" = {value:g} in {low:g} to {high:g}", "the lower number first, the value between them"
+                said = f" = {value:g} in {low:g} to {high:g}"
+                allowed = "the lower number first, the value between them"
                 raise InputError(said, name, allowed)
             for end in (low, high):
                 replace(getattr(self, section), **{key: end})  # refuses an end that is no value of it
@@ -91,7 +93,8 @@ class Scene(Shown):
         found: dict[str, tuple[float, float] | None] = {}
         for section, values in sections.items():
             if section not in self.__dataclass_fields__:
-                near, (first, _, key) = validate.nearest(section, self.__dataclass_fields__), section.partition(".")
+                near = validate.nearest(section, self.__dataclass_fields__)
+                (first, _, key) = section.partition(".")
                 way_out = f"; write with_({first}={{{key!r}: {validate.shown(values)}}})" if key else ""
                 raise InputError(f"scene has no section {section!r}{near}{way_out}")
             new[section] = changed_section(section, getattr(self, section), values)
@@ -127,7 +130,8 @@ class Scene(Shown):
     def line_contact(self, speed: float) -> LineContact:
         """The smooth line contact of the whole load at ``speed`` [m/s], not 0. Shear thins its flow, by the law of the
         lubricant."""
-        bodies, sliding = self.bodies, self.motion.slide_roll_ratio * abs(speed)
+        bodies = self.bodies
+        sliding = self.motion.slide_roll_ratio * abs(speed)
         return LineContact(bodies.load / bodies.width, bodies.radius, bodies.e_prime, speed, self.lubricant, sliding)
 
     def to_toml(self) -> str:

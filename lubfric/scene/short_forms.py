@@ -87,7 +87,8 @@ def _of_materials(names, *_) -> dict:
 
 
 def _of_moduli(moduli, ratios, *_) -> dict:
-    (e1, e2), (nu1, nu2) = pair("bodies.young_modulus", moduli, "Pa"), pair("bodies.poisson_ratio", ratios, "-")
+    (e1, e2) = pair("bodies.young_modulus", moduli, "Pa")
+    (nu1, nu2) = pair("bodies.poisson_ratio", ratios, "-")
     for e in (e1, e2):
         if e != math.inf:
             validate.number("bodies.young_modulus", e, "Pa (inf: rigid)", minimum=1e4, maximum=1e13)

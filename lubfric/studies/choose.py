@@ -17,17 +17,29 @@ from .curve import columns_of
 from .interpolate import FEWEST, Interpolant, through
 
 AUTO = "auto"
-CHOSEN, MOST = 12, 25  # speeds that a curve chooses, about, and at most
-THIN, THICK = 0.02, 10.0  # Moes' film of the whole load over Sq at the ends of a curve
+# speeds that a curve chooses, about, and at most
+CHOSEN = 12
+MOST = 25
+# Moes' film of the whole load over Sq at the ends of a curve
+THIN = 0.02
+THICK = 10.0
 MIXED = (0.5, 1.5, 4.5)  # the same where the contact carries about 0.9, 0.5 and nothing of the load
 BEGIN = 5  # speeds to begin with
-SLOWEST, FASTEST = 1e-9, 1e3  # m/s between which they are searched
+# m/s between which they are searched
+SLOWEST = 1e-9
+FASTEST = 1e3
 
-CLOSE, ABOVE = 1.2, 1.1  # ratio of the slowest film without contact to lift-off that pins it down; where to solve one
-TOUCHING, BELOW = 0.75, 0.86  # the same of the fastest contact
+# ratio of the slowest film without contact to lift-off that pins it down; where to solve one
+CLOSE = 1.2
+ABOVE = 1.1
+# the same of the fastest contact
+TOUCHING = 0.75
+BELOW = 0.86
 WIDE = 12.0  # ratio of neighbouring speeds without contact from which one between them is solved
 ENOUGH = 2  # speeds within a tenth of one that is wanted: more would not tell the knee better
-SHARE, MANY = 0.5, 11  # of the tolerance that the estimate may reach, with fewer speeds than these
+# of the tolerance that the estimate may reach, with fewer speeds than these
+SHARE = 0.5
+MANY = 11
 APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
@@ -79,15 +91,18 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
     just before tells how it ends. No two films are left far apart. Then comes the speed at which the estimated error is
     largest, until that is below ``tolerance`` everywhere; with few speeds, below half of it.
     """
-    samples, knee = curve.samples, curve.lift_off
+    samples = curve.samples
+    knee = curve.lift_off
     speeds = samples.speed
     at = np.geomspace(speeds[0], speeds[-1], GRID)[1:-1]
     taken = np.append(speeds, np.array([*tried], dtype=float))
     error = np.where(_free(at, taken), curve.error(at), 0.0)
     largest = float(error.max())
-    wanting, films = [], speeds[samples.contacts :]
+    wanting = []
+    films = speeds[samples.contacts :]
     if knee is not None:
-        fastest, slowest = speeds[samples.contacts - 1], films[0]
+        fastest = speeds[samples.contacts - 1]
+        slowest = films[0]
         wanting += [ABOVE * knee] if slowest > CLOSE * knee else []
         wanting += [BELOW * knee] if fastest < TOUCHING * knee else []
     wanting += [float(np.sqrt(a * b)) for a, b in zip(films, films[1:]) if b > WIDE * a]  # too wide to judge
@@ -116,7 +131,8 @@ def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
     low, high = span(scene, sq)
     found = [low, high]
     if sq > 0:
-        least, most = film_ratio(scene, sq, low) / 0.9, film_ratio(scene, sq, high) / 1.1
+        least = film_ratio(scene, sq, low) / 0.9
+        most = film_ratio(scene, sq, high) / 1.1
         found += [_speed_of(scene, sq, ratio, low, high) for ratio in MIXED if least < ratio < most]
     while len(found) < BEGIN:
         found.sort()

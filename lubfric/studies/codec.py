@@ -76,11 +76,13 @@ def fits(value, kind) -> bool:
     if isinstance(kind, dict):
         return isinstance(value, dict) and all(name in value and fits(value[name], kind[name]) for name in kind)
     kind = list[kind[0]] if isinstance(kind, list) else kind
-    origin, parts = get_origin(kind) or kind, get_args(kind)
+    origin = get_origin(kind) or kind
+    parts = get_args(kind)
     if origin in (Union, UnionType):
         return any(fits(value, part) for part in parts)
     if isinstance(kind, type) and issubclass(kind, tuple) and kind is not tuple:
-        origin, parts = tuple, tuple(_hints(kind).values())
+        origin = tuple
+        parts = tuple(_hints(kind).values())
     if not isinstance(value, ACCEPTED.get(origin, origin)) or (isinstance(value, bool) and origin in (float, int)):
         return False
     if isinstance(value, int) and origin is float:
@@ -95,7 +97,8 @@ def fits(value, kind) -> bool:
 @cache
 def _hints(kind: Any) -> dict[str, Any]:
     """The types of the fields of a dataclass or a named tuple. A type variable stands for a number of one point."""
-    hints, own = get_type_hints(kind), [f.name for f in fields(kind)] if is_dataclass(kind) else kind._fields
+    hints = get_type_hints(kind)
+    own = [f.name for f in fields(kind)] if is_dataclass(kind) else kind._fields
     return {name: float if isinstance(hints[name], TypeVar) else hints[name] for name in own}
 
 

@@ -62,9 +62,11 @@ class CurveResult(Shown):
 
     def _facts(self) -> dict[str, str]:
         name, symbol, unit, plural = self.SWEPT
-        facts, good = {"": counted(len(self.points), plural)}, np.isfinite(self["coefficient"])
+        facts = {"": counted(len(self.points), plural)}
+        good = np.isfinite(self["coefficient"])
         if good.any():
-            known, f = getattr(self, name)[good], self["coefficient"][good]
+            known = getattr(self, name)[good]
+            f = self["coefficient"][good]
             facts |= {symbol: f"{known.min():.4g} to {known.max():.4g} {unit}", "f": f"{f.min():.4g} to {f.max():.4g}"}
         return facts | {"failed": str(len(self.errors)), "cautions": str(len(self.validity))}
 
@@ -89,7 +91,8 @@ def columns_of(points) -> dict[str, np.ndarray]:
 def report_of(solver: str, names: list[str], plural: str, points, errors: dict[int, Exception]) -> Report:
     """The largest residual of the points over the largest of their tolerances, with a note for each that failed;
     ``names`` of the points."""
-    status, reports = ITERATION_LIMIT if errors else CONVERGED, [p.report for p in points if p is not None]
+    status = ITERATION_LIMIT if errors else CONVERGED
+    reports = [p.report for p in points if p is not None]
     residual = float(max((report.residual for report in reports), default=np.inf))
     tolerance = float(max((report.tolerance for report in reports), default=0.0))
     notes = tuple(f"{names[i]}: {error}" for i, error in sorted(errors.items()))
@@ -115,7 +118,8 @@ def judged(result: R, raise_on_failure: bool) -> R:
 
 def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
     """The columns of numbers of a curve by name: its quantities, then how sure f is."""
-    found, swept = curve.uncertainty, {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
+    found = curve.uncertainty
+    swept = {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
     low, high = found.interval.T
     columns = swept | columns_of(curve.points) | swept | {"interval_low": low, "interval_high": high}
     return columns | {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}

@@ -16,7 +16,8 @@ from ..errors import InputError
 WATCH = 0.2  # s between two looks at whether the command still lives
 MOST_WORKERS = 1024
 LAST = 2.0  # s that an interrupted process is waited for
-ENDING, MASKS = (signal.SIGINT, signal.SIGTERM), hasattr(signal, "pthread_sigmask")
+ENDING = (signal.SIGINT, signal.SIGTERM)
+MASKS = hasattr(signal, "pthread_sigmask")
 
 
 def checked_executor(executor):
@@ -40,7 +41,8 @@ def spread(executor, jobs: Sequence[Callable[[], Iterator]]) -> Iterator:
             yield from job()
         return
     ended: SimpleQueue = SimpleQueue()  # `concurrent.futures.wait` would leave locks behind when it is interrupted
-    waiting, lost = {}, []
+    waiting = {}
+    lost = []
     for job in jobs:
         try:
             waiting[executor.submit(_attempt, job)] = job

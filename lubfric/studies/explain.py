@@ -55,12 +55,14 @@ def explain(plan, store=None) -> str:
     ]
     held = sum(map(len, rows.values())) if plan.speeds else len(ended)
     if held:
-        total, what = len(rows) * max(len(plan.speeds), 1), "points" if plan.speeds else "curves"
+        total = len(rows) * max(len(plan.speeds), 1)
+        what = "points" if plan.speeds else "curves"
         lines.append(f"  kept     {held} of {total} {what} are in {store} already")
     if not left:
         return "\n".join([*lines, "  time     nothing is left to solve"])
     some = left[:: -(-len(left) // SAMPLED)]
-    seconds, failed = 0.0, []
+    seconds = 0.0
+    failed = []
     for scene, speeds in some:
         try:
             begun = time.process_time()  # of the map, which takes its time as well

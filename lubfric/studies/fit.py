@@ -25,7 +25,9 @@ from .vary import Between, unit_of
 STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
 CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
 RATIO = {"motion.slide_roll_ratio", "motion.slip_percent"}
-LEAST_ERROR, LEAST_SLOPE = 1e-6, 1e-9  # of f, relative, that may be stated; and by a parameter, over its bounds
+# of f, relative, that may be stated; and by a parameter, over its bounds
+LEAST_ERROR = 1e-6
+LEAST_SLOPE = 1e-9
 MOST = 30  # curves on the way, beside those of the differences
 STEPS = 5  # curves of a search, about, beside two for each parameter
 CORNERS = 16  # of the ranges, at which the work of a curve is counted
@@ -102,7 +104,8 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     search = Search(scene, measured, found)
     corners = list(product((0.0, 1.0), repeat=len(found)))
     places = [_begin(scene, found, {}), *map(np.array, corners[:: -(-len(corners) // CORNERS)])]
-    curves, work = 2 * len(found) + STEPS, [search.seconds(unit) for unit in places]
+    curves = 2 * len(found) + STEPS
+    work = [search.seconds(unit) for unit in places]
     seconds = in_words(curves * 0.5 * (float(np.mean(work)) + max(work)))
     return "\n".join([*lines, f"  time: about {seconds} on one core (within a factor of about 4): {curves} curves"])
 
@@ -115,7 +118,8 @@ def _checked(scene: Scene, measured: Measured, parameters) -> dict[str, Between]
     if measured.over == SLIP and (given := RATIO.intersection(found)):
         raise InputError(f"parameters: {', '.join(given)} is measured, not fitted; name another number of the scene")
     if measured.x.size <= len(found):
-        points, sought = counted(measured.x.size, "measured points"), counted(len(found), "parameters")
+        points = counted(measured.x.size, "measured points")
+        sought = counted(len(found), "parameters")
         raise InputError(f"{points} for {sought}; give more points")
     return found
 
@@ -141,20 +145,26 @@ class Search:
     bounds, each computed once."""
 
     def __init__(self, scene: Scene, measured: Measured, parameters, executor=None, folder=None, on_progress=None):
-        self.scene, self.measured, self.parameters = scene, measured, parameters
+        self.scene = scene
+        self.measured = measured
+        self.parameters = parameters
         told = measured.deviation is not None
         scatter = float(np.median(measured.scale / np.abs(measured.coefficient))) if told else 0.05
         self.tolerance = min(scene.numerics.tolerance, max(0.2 * scatter, 1e-3))  # as tight as the measurement requires
-        self._executor, self._folder, self._on_progress = executor, folder, on_progress
+        self._executor = executor
+        self._folder = folder
+        self._on_progress = on_progress
         self._curves: dict[bytes, tuple[FrictionResult, ...]] = {}
         self._nearest = np.inf, np.empty(0)  # the least misfit, and where
-        self._base, self._slopes = np.full(len(parameters), np.inf), np.empty((0, 0))
+        self._base = np.full(len(parameters), np.inf)
+        self._slopes = np.empty((0, 0))
         self._ready: Prepared | None = None
 
     def at(self, unit: np.ndarray) -> tuple[FrictionResult, ...]:
         """The points there. Raises `ConvergenceError` when one of them fails."""
         if unit.tobytes() not in self._curves:
-            prepared, x = self.ready(unit), self.measured.x.tolist()
+            prepared = self.ready(unit)
+            x = self.measured.x.tolist()
             if self.measured.over == SPEED:
                 key = key_of(prepared)
                 places = [(prepared, key, speed) for speed in x]
@@ -189,7 +199,8 @@ class Search:
             moved = unit.copy()
             moved[i] += STEP if moved[i] + STEP <= 1.0 else -STEP  # within the bounds
             columns.append((self.coefficient(moved) - self.coefficient(unit)) / (moved[i] - unit[i]))
-        self._base, self._slopes = unit.copy(), np.stack(columns, axis=1)
+        self._base = unit.copy()
+        self._slopes = np.stack(columns, axis=1)
         return self._slopes
 
     def ready(self, unit: np.ndarray) -> Prepared:
@@ -202,7 +213,8 @@ class Search:
 
     def seconds(self, unit: np.ndarray) -> float:
         """The processor seconds of a curve there, by its counted work, with those of the map."""
-        begun, x = time.process_time(), self.measured.x.tolist()
+        begun = time.process_time()
+        x = self.measured.x.tolist()
         speeds = x if self.measured.over == SPEED else [self.scene.motion.entrainment_speed] * len(x)
         return curve_seconds(self.ready(unit), speeds) + time.process_time() - begun
 
@@ -210,7 +222,8 @@ class Search:
         """Tell ``on_progress`` of the curve that was solved last."""
         misfit = float(np.sqrt(np.mean(self.residuals(unit) ** 2)))
         self._nearest = min(self._nearest, (misfit, unit.copy()), key=lambda one: one[0])
-        done, (least, nearest) = len(self._curves), self._nearest
+        done = len(self._curves)
+        (least, nearest) = self._nearest
         total = max(2 * len(self.parameters) + STEPS, done + 1)
         spent = sum(point.seconds for curve in self._curves.values() for point in curve)
         self._on_progress(done, total, (total - done) * spent / done, least, values_at(self.parameters, nearest))
@@ -218,7 +231,9 @@ class Search:
 
 def _result(search: Search, end) -> FitResult:
     """The result of a ``search`` whose derivatives were computed where it ended (``end``, of SciPy), or near by."""
-    measured, points, predicted = search.measured, search.at(end.x), search.coefficient(end.x)
+    measured = search.measured
+    points = search.at(end.x)
+    predicted = search.coefficient(end.x)
     n, p = end.jac.shape
     squares = float(end.fun @ end.fun)
     variance = squares / (n - p) if measured.deviation is None else 1.0

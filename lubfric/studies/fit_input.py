@@ -9,7 +9,8 @@ from ..errors import InputError
 from ..scene import Scene
 from .vary import FITTED, Between, check_key, check_temperature, unit_of
 
-SPEED, SLIP = "speed", "slide_roll_ratio"
+SPEED = "speed"
+SLIP = "slide_roll_ratio"
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
 
 

@@ -126,7 +126,8 @@ class FitResult(Shown):
             return ""
         from scipy.stats import chi2
 
-        squares, freedom = self.report.residuals["sum of squares"], self.predicted.size - self.unit.size
+        squares = self.report.residuals["sum of squares"]
+        freedom = self.predicted.size - self.unit.size
         if squares <= chi2.ppf(LEVEL, freedom):
             return ""
         times = np.sqrt(squares / freedom)
@@ -155,7 +156,8 @@ class FitResult(Shown):
             note += " - on its bound" if key in self.at_bounds else ""
             value, *ends = (worded_value(key, v) for v in (self.values[key], low, high))
             lines.append(f"  {key} = {value}, 95 % interval {' to '.join(ends)}{note}")
-        keys, correlation = [*self.parameters], self.correlation
+        keys = [*self.parameters]
+        correlation = self.correlation
         for i in range(len(keys)):
             for j in range(i):
                 if abs(correlation[i, j]) > 0.9:
@@ -170,7 +172,8 @@ class FitResult(Shown):
 
     def plot(self, ax=None):
         """Measured points, fitted curve and its 95 % band; returns the axes."""
-        axes, (low, high) = figures.axes_or_new(ax), self.band
+        axes = figures.axes_or_new(ax)
+        (low, high) = self.band
         self.measured.draw(axes)
         order = np.argsort(x := np.abs(self.measured.x))
         axes.plot(x[order], self.predicted[order], color=figures.BLUE, label="fit")

@@ -20,9 +20,13 @@ from ..errors import InputError
 
 FEWEST = 3  # solved speeds
 EXPONENT = 0.6
-HERTZ, OTHERS = 1.5, (1.0, 2.0)  # powers of the remaining speed with which a contact ends: expected, and in question
+# powers of the remaining speed with which a contact ends: expected, and in question
+HERTZ = 1.5
+OTHERS = (1.0, 2.0)
 FILM = 0.8  # power of the speed of a film, where one alone is known
-NEAR, BEYOND = 1.003, 1.03  # an estimate of lift-off below NEAR times a speed with contact is put BEYOND it
+# an estimate of lift-off below NEAR times a speed with contact is put BEYOND it
+NEAR = 1.003
+BEYOND = 1.03
 UNSURE = 0.05  # of the way by which an estimate of lift-off is extrapolated: its error
 CLOSER = 0.4  # error between points over that with every other one left out
 LITTLE = 0.02  # share of the load on the film below which its traction coefficient is not looked at
@@ -86,7 +90,8 @@ class Interpolant:
     @property
     def lift_off_range(self) -> tuple[float, float]:
         """(lowest, highest) speed [m/s] that lift-off may have, by the points alone; NaN without one."""
-        s, knee = self.samples, knee_of(self.samples)
+        s = self.samples
+        knee = knee_of(self.samples)
         if knee is None:
             return np.nan, np.nan
         away = (s.speed[s.contacts] / knee) ** UNSURE  # a share of the way to the slowest film without contact
@@ -104,7 +109,8 @@ class Interpolant:
         share of the error at the neighbouring points when the curve goes through the other points only."""
         value = self.at(speed)
         spread = np.abs(self.at(speed, smooth=False) - value)
-        s, others = self.samples, []
+        s = self.samples
+        others = []
         if self.lift_off is not None:
             others = [replace(self, lift_off=end) for end in self.lift_off_range if end != self.lift_off]
             others += [replace(self, end=power) for power in OTHERS]
@@ -124,7 +130,8 @@ class Interpolant:
 
     def boundary(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
         """The part of f from the contact spots."""
-        s, k = self.samples, self.samples.contacts
+        s = self.samples
+        k = self.samples.contacts
         if k == 0:
             return np.zeros(speed.shape)
         of_share = _cubic(np.log(s.speed[:k]), s.boundary[:k] / s.share[:k], np.log(speed), smooth=False)
@@ -140,11 +147,14 @@ class Interpolant:
         known = np.flatnonzero((s.share > min(LEAST, 0.5 * s.share.max())) & (s.share < 1 - NOTHING))
         if known.size == 0:
             return np.full(speed.shape, float(s.contacts > 0))
-        odds, at, end = np.log(1 / s.share[known] - 1), np.zeros(speed.shape), self.lift_off
+        odds = np.log(1 / s.share[known] - 1)
+        at = np.zeros(speed.shape)
+        end = self.lift_off
         if end is None:
             return 1 / (1 + np.exp(_cubic(np.log(s.speed[known]), odds, np.log(speed), smooth)))
         below = speed < end
-        y, there = s.speed[known] / end, speed[below] / end
+        y = s.speed[known] / end
+        there = speed[below] / end
         rate = (s.steepness[known] - 1 - self.end * y / (1 - y)) / (EXPONENT * y**EXPONENT)
         left = _steered(y**EXPONENT, odds - np.log(y) + self.end * np.log1p(-y), rate, there**EXPONENT, smooth)
         at[below] = 1 / (1 + np.exp(left) * there / (1 - there) ** self.end)
@@ -152,10 +162,14 @@ class Interpolant:
 
     def traction(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
         """Traction coefficient of the film."""
-        s, k, knee = self.samples, self.samples.contacts, self.lift_off
+        s = self.samples
+        k = self.samples.contacts
+        knee = self.lift_off
         known = np.flatnonzero(1 - s.share >= LITTLE)
         known = known if known.size else np.array([s.speed.size - 1])
-        y, t, touching = s.speed[known], s.film[known] / np.maximum(1 - s.share[known], NOTHING), known < k
+        y = s.speed[known]
+        t = s.film[known] / np.maximum(1 - s.share[known], NOTHING)
+        touching = known < k
         at = np.maximum(speed, y[0])
         if k == 0:
             return _film_alone(y, t, at, smooth)
@@ -198,8 +212,10 @@ def knee_of(samples: Samples) -> float | None:
     k = samples.contacts
     if k in (0, samples.speed.size):
         return None
-    low, high = samples.speed[k - 1], samples.speed[k]
-    film, clear = samples.thickness[k : k + 2], samples.clearance[k]
+    low = samples.speed[k - 1]
+    high = samples.speed[k]
+    film = samples.thickness[k : k + 2]
+    clear = samples.clearance[k]
     power = FILM
     if film.size == 2:
         power = np.log(film[1] / film[0]) / np.log(samples.speed[k + 1] / high)

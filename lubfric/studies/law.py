@@ -15,7 +15,8 @@ from .interpolate import Interpolant
 
 FINE = 50  # speeds of a curve to which a law is fitted, beside those that were solved
 CLOSE = 0.02  # relative error of a curve between its points, as it estimates it, up to which it is used
-FEWEST, MORE = 12, "solve more speeds, or speeds='auto'"
+FEWEST = 12
+MORE = "solve more speeds, or speeds='auto'"
 ROUNDED = 1e-9  # by which a number may be outside a range
 OVER_REST = 1.1  # times f_b: the largest friction of contact spots that carry all
 AT_REST = 0.03  # of the slowest speed: below it f falls to nothing at rest
@@ -33,7 +34,8 @@ FORMULA = {  # valid in Python and C, one name after the other
 }
 CODE = {expression: compile(expression, "law", "eval") for expression in (WALTHER, "eta0", *FORMULA.values())}
 FUNCTIONS = {"sqrt": np.sqrt, "pow": np.power, "log10": np.log10, "__builtins__": {}}
-SHARE, FILM = ("b", "U1", "n", "m", "r"), ("C1", "k1", "C2", "k2")
+SHARE = ("b", "U1", "n", "m", "r")
+FILM = ("C1", "k1", "C2", "k2")
 POSITIVE = {
     "b": (1e-6, 10.0),
     "U1": (1e-15, 1e15),
@@ -212,7 +214,8 @@ def _viscosity(T, eta, coefficient) -> dict[str, float]:
         allowed = f"above {THINNEST:g} Pa s, or one temperature"
         said = f" = {eta.min():.3g} Pa s is too thin for a law over temperature"
         raise InputError(said, "lubricant.viscosity", allowed)
-    x, y = np.log10(T), np.log10(np.log10(1e3 * eta + 0.7))
+    x = np.log10(T)
+    y = np.log10(np.log10(1e3 * eta + 0.7))
     if np.ptp(T) > 0:
         slope = np.polyfit(x, y, 1)[0]
     else:
@@ -225,8 +228,11 @@ def _fitted(numbers, at, boundary, film, eta, rest) -> dict[str, float]:
     """The other numbers, by least squares of ln f from several starts."""
     from scipy.optimize import least_squares
 
-    (U, T, p), f, most = at, boundary + film, float(boundary.max())
-    e, q = np.log(eta / numbers["eta0"]), np.log(p / numbers["p0"])
+    (U, T, p) = at
+    f = boundary + film
+    most = float(boundary.max())
+    e = np.log(eta / numbers["eta0"])
+    q = np.log(p / numbers["p0"])
     middle = float((U * np.exp(e))[abs(boundary - 0.5 * most).argmin()])
     start = START | {"b": most or 1.0, "C1": float(np.median(f)), "U1": middle if most else 1e-12}
     free = (*(SHARE if most else ()), *FILM)

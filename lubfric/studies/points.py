@@ -16,7 +16,10 @@ from .store import CHOSEN, OUTCOME, Store, digest, fingerprint, point_key
 
 Outcome = FrictionResult | LubfricError
 Rows = dict[str, dict[float, dict[str, Any]]]  # by the key of a curve and the speed [m/s], in the order of solving
-SPEED, STATUS, CONVERGED, VALIDITY = "speed", "status", "converged", "validity"
+SPEED = "speed"
+STATUS = "status"
+CONVERGED = "converged"
+VALIDITY = "validity"
 MISSING = "not computed"
 UNUSED = "not needed"  # places of a curve that chose fewer speeds than another
 
@@ -45,7 +48,8 @@ def solved(
         model = scene if isinstance(scene, Prepared) else prepare(scene)
         first = speeds or sorted({*first_speeds(model.scene, model.surface.sq), *kept}, reverse=True)
     except LubfricError as error:
-        model, first = error, speeds or (math.nan,)
+        model = error
+        first = speeds or (math.nan,)
 
     def solve(speed: float) -> Outcome:
         own = point_key(key, speed, speed in kept)

@@ -59,7 +59,8 @@ class StudyResult(Shown):
     @classmethod
     def of_rows(cls, plan: StudyPlan, rows: Rows, ended: set[str]) -> StudyResult:
         """The result of the ``rows``, in the order of a plan; ``ended``: as of `stored_rows`."""
-        chosen, shape = not plan.speeds, plan.shape
+        chosen = not plan.speeds
+        shape = plan.shape
         table = (len(plan.keys), shape[-1])
         columns = {name: np.full(table, np.nan) for name in NUMBERS if chosen or name != SPEED}
         status = np.full(table, UNUSED if chosen else MISSING, dtype=object)

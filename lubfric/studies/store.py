@@ -52,7 +52,8 @@ class Store:
     """
 
     def __init__(self, root, classes: dict[str, type] = CLASSES):
-        self.root, self.classes = root, classes
+        self.root = root
+        self.classes = classes
         self.folder = None if root is None else Path(root) / POINTS
 
     def add(self, key: str, outcome, sync: bool = False) -> None:
@@ -143,7 +144,8 @@ def digest(value) -> str:
 
 def _counted(part, name: str):
     """What of the field ``name`` of a dataclass a number depends on."""
-    kind, value = type(part).__name__, getattr(part, name)
+    kind = type(part).__name__
+    value = getattr(part, name)
     if (kind, name) in LABELS:
         return None
     if (kind, name) == ("Roughness", "file") and value is not None:

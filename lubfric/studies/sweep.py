@@ -56,7 +56,8 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     def parts_at(self, speed) -> tuple[np.ndarray, np.ndarray]:
         """(from the contact spots, from the film): the two parts of f at any speeds [m/s], as `at`."""
-        curve, at = self._curve, validate.array("speed", validate.listed(speed), "m/s", ndim=1)
+        curve = self._curve
+        at = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
         if not curve.within(at).all():
             low, high = curve.range
             raise InputError(f"speed = {at} m/s; allowed: {low:g} to {high:g} m/s, where the curve is known")
@@ -188,7 +189,8 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
     curve = StribeckResult(**numbers, points=points, errors=errors, report=report, scene=prepared.scene)
     if asked or len(points) - len(errors) < FEWEST:
         return curve
-    error, tolerance = curve.between, tolerance_between(prepared)
+    error = curve.between
+    tolerance = tolerance_between(prepared)
     close = error <= tolerance
     told = replace(  # its residual is the estimated error between the points
         report,

@@ -15,7 +15,10 @@ from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
 BAND = "95 %: solvers, grids, surface, inputs, model"
-MOST, NAMED, FINE = 500, 10, 200  # lines, lines with a label, points of a line between solved ones
+# lines, lines with a label, points of a line between solved ones
+MOST = 500
+NAMED = 10
+FINE = 200
 KNOWN = 0.05  # relative error of f between the points up to which a curve is told as a line or a formula
 SMOOTH = 6  # values along both axes of a map from which it is drawn by contours
 
@@ -39,7 +42,8 @@ def to_frame(result):
 
 def to_parquet(result, path) -> None:
     """The table of `to_frame` as a Parquet file. Needs the ``study`` extra."""
-    frame, buffer = to_frame(result), io.BytesIO()
+    frame = to_frame(result)
+    buffer = io.BytesIO()
     validate.installed("pyarrow", "study")
     frame.to_parquet(buffer)
     write_whole(path, buffer.getvalue())
@@ -61,7 +65,8 @@ def to_csv(result, path) -> None:
 def _table(result) -> dict[str, np.ndarray]:
     """The columns of a table: the varied keys, the speed, the numbers, the status and the validity, one value for
     each point. Places that a curve did not need have no row."""
-    shape, columns = result.status.shape, {}
+    shape = result.status.shape
+    columns = {}
     for key, (dim, values) in result.coords.items():
         along = [1] * len(shape)
         along[result.dims.index(dim)] = values.size
@@ -78,7 +83,8 @@ def plot(result, ax=None, **style):
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
-    axes, indices = figures.axes_or_new(ax), list(np.ndindex(*result.status.shape[:-1]))
+    axes = figures.axes_or_new(ax)
+    indices = list(np.ndindex(*result.status.shape[:-1]))
     count = len(indices)
     indices = indices[:: -(-count // MOST)]
     few = len(indices) <= NAMED
@@ -94,7 +100,8 @@ def plot(result, ax=None, **style):
         named = figures.plain_words(label(result, index)) if few else None
         own = {"color": colour, "lw": 1.0, "label": named} | style
         speed = np.abs(result.speeds(index))
-        f, curve = result.columns["coefficient"][index], result.curve(index) if result.chosen else None
+        f = result.columns["coefficient"][index]
+        curve = result.curve(index) if result.chosen else None
         good = np.flatnonzero(np.isfinite(f) & (speed > 0))
         good = good[np.argsort(speed[good])]
         if curve is not None:
@@ -126,7 +133,8 @@ def check_tools(netcdf: bool, parquet: bool) -> None:
 def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
     """The intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what the
     model and the finite surface leave by themselves. ``line``: (speeds, f) of a smooth curve to draw them about."""
-    unknown, f = np.full(over.shape, np.nan), columns["coefficient"]
+    unknown = np.full(over.shape, np.nan)
+    f = columns["coefficient"]
     x, y = (over, f) if line is None else line
 
     def at(error: np.ndarray) -> np.ndarray:
@@ -157,7 +165,9 @@ def friction_over_speed(axes, columns: dict[str, np.ndarray], **style) -> np.nda
     good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
     order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
-    speed, load, line = np.abs(c["speed"]), c["contact_load"] + c["film_load"], _line(c)
+    speed = np.abs(c["speed"])
+    load = c["contact_load"] + c["film_load"]
+    line = _line(c)
     interval_band(axes, speed, c, line and line[:2])
     if line is None:
         parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
@@ -181,7 +191,8 @@ def _line(columns: dict[str, np.ndarray]) -> tuple[np.ndarray, ...] | None:
     if between(curve) > KNOWN:
         return None
     fine = np.geomspace(curve.samples.speed[0], curve.samples.speed[-1], 2 * FINE)
-    contact, film = curve.boundary(fine), curve.film(fine)
+    contact = curve.boundary(fine)
+    film = curve.film(fine)
     return fine, contact + film, contact, film
 
 

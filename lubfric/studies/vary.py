@@ -37,7 +37,8 @@ class Between:
 
     def __post_init__(self):
         if isinstance(self.low, str) and isinstance(self.high, str):
-            (low, unit), (high, other) = in_si("low", self.low), in_si("high", self.high)
+            (low, unit) = in_si("low", self.low)
+            (high, other) = in_si("high", self.high)
             if unit != other:
                 raise InputError(f" = {self.high!r} is of another kind than low, which is in {unit}", "high")
             for name, value in (("low", low), ("high", high), ("unit", unit)):
@@ -82,7 +83,8 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
     """The dimensions of ``vary`` (see `lubfric.study`), with each value put into the scene once as a check."""
     validate.instance("vary", vary, dict, 'a dict such as {"bodies.load": [5.0, 10.0]}')
     seen: set[str] = set()
-    axes, cases = [], 0
+    axes = []
+    cases = 0
     points = math.prod(len(v) for v in vary.values() if hasattr(v, "__len__") and getattr(v, "ndim", 1) != 0)
     if points > MOST_POINTS:
         most = f"up to {MOST_POINTS:.0e} in a study (several studies, or lubfric.sample for points of the box)"

@@ -76,7 +76,8 @@ def surface_generator(
     decay = -math.log(level) if acf == "exponential" else math.sqrt(-math.log(level))
     scales = lengths[0] / decay, lengths[1] / decay  # where the ACF is 1/e
     for axis, n, d, scale in zip("xy", shape, spacing, scales):
-        name, said = f"correlation_length along {axis}", f" is {scale:g} m at 1/e"
+        name = f"correlation_length along {axis}"
+        said = f" is {scale:g} m at 1/e"
         if scale < FINEST * d:
             raise InputError(f"{said}, {scale / d:.3g} cells", name, f"at least {FINEST:g} cells of {d:g} m")
         if n * d < 4 * scale:
@@ -84,7 +85,8 @@ def surface_generator(
             raise InputError(f"{said}, the map {n * d:g} m", name, allowed)
     spectrum = _spectrum(shape, spacing, scales, acf, cutoff)
     expected = _expected_lengths(spectrum, shape, spacing, lengths, level)
-    amplitude, source = np.sqrt(spectrum), f"generated, {acf} ACF"
+    amplitude = np.sqrt(spectrum)
+    source = f"generated, {acf} ACF"
     stated = [
         f"correlation length along {name} at level {level:.4g}: "
         f"asked {worded(length, 'm')}, expected {worded(float(there), 'm')}"
@@ -109,7 +111,8 @@ def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
     reach = NEGLIGIBLE ** (1 / power)
     square = []
     for n, d, scale in zip(shape, spacing, scales):
-        lag, images = np.arange(n // 2 + 1) * d, math.ceil(reach * scale / (n * d))
+        lag = np.arange(n // 2 + 1) * d
+        images = math.ceil(reach * scale / (n * d))
         square.append([((lag + m * n * d) / scale) ** 2 for m in range(-images, images + 1)])
     quarter = sum(np.exp(-((a[:, None] + b[None, :]) ** (power / 2))) for a in square[0] for b in square[1])
     rows, columns = (np.minimum(np.arange(n), n - np.arange(n)) for n in shape)
@@ -121,7 +124,8 @@ def _spectrum(shape, spacing, scales, acf, cutoff) -> np.ndarray:
     if cutoff is not None:
         longest = 0.5 * min(n * d for n, d in zip(shape, spacing))
         cutoff = validate.number("cutoff", cutoff, "m", minimum=2 * max(spacing), maximum=longest)
-        kx, ky = fft.fftfreq(shape[0], spacing[0]), fft.rfftfreq(shape[1], spacing[1])
+        kx = fft.fftfreq(shape[0], spacing[0])
+        ky = fft.rfftfreq(shape[1], spacing[1])
         spectrum[np.hypot(kx[:, None], ky[None, :]) > 1 / cutoff] = 0.0
     return spectrum
 

@@ -85,7 +85,9 @@ class Surface(FrozenArrays, Shown):
 
     def describe(self) -> str:
         """One line: size, points, Sq, Ra, Rz, largest height over Sq, missing share, source."""
-        (lx, ly), (nx, ny), (rz, length) = self.size, self.shape, statistics.rz(self)
+        (lx, ly) = self.size
+        (nx, ny) = self.shape
+        (rz, length) = statistics.rz(self)
         text = (
             f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} µm, Sq {self.sq * 1e9:.4g} nm, "
             f"Ra {self.sa * 1e9:.4g} nm, Rz {rz * 1e9:.4g} nm over {length * 1e3:.3g} mm, "
@@ -99,7 +101,8 @@ class Surface(FrozenArrays, Shown):
         axes = figures.axes_or_new(ax, "compressed")
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
         z = (self.heights - np.nanmean(self.heights)) * 1e9
-        (low, high), (least, most) = np.nanpercentile(z, (0.5, 99.5)), (np.nanmin(z), np.nanmax(z))
+        (low, high) = np.nanpercentile(z, (0.5, 99.5))
+        (least, most) = (np.nanmin(z), np.nanmax(z))
         reach = 0.4 * (high - low)  # to some four times Sq, were the heights normally distributed
         ends = {"vmin": max(least, low - reach), "vmax": min(most, high + reach)}
         beyond = least < ends["vmin"], most > ends["vmax"]
@@ -144,7 +147,8 @@ class Surface(FrozenArrays, Shown):
 
     def without_outliers(self) -> Surface:
         """Make outliers unmeasured points. Level before, fill after; `lubfric.surface.outliers` has the rule."""
-        mask, more = np.ones(self.shape, bool) if self.mask is None else self.mask, True
+        mask = np.ones(self.shape, bool) if self.mask is None else self.mask
+        more = True
         while more:
             filled = prepare.harmonic_fill(self.heights, mask, self.spacing)
             found = prepare.outliers(filled, mask, self.periodic_axes) != 0
@@ -182,7 +186,8 @@ class Surface(FrozenArrays, Shown):
 
     def scaled(self, *, sq: float) -> Surface:
         """Heights about their mean, multiplied so that Sq is ``sq`` [m]."""
-        target, now = validate.nonnegative("sq", sq, "m"), self.sq
+        target = validate.nonnegative("sq", sq, "m")
+        now = self.sq
         if now <= prepare.FLAT * np.abs(self.measured).max():
             raise InputError("sq of the surface = 0 m: a flat surface cannot be scaled; allowed: above 0 m")
         mean = self.measured.mean()

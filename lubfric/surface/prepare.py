@@ -34,7 +34,8 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
     """
     valid = np.ones(heights.shape, bool) if mask is None else mask
     along = [((np.arange(n) - 0.5 * (n - 1)) / n)[:, None] ** np.arange(5) for n in heights.shape]
-    z, fits = np.where(valid, heights, 0.0), []
+    z = np.where(valid, heights, 0.0)
+    fits = []
     for powers in FORMS[form]:
         there = [(p, q) for p, q in powers if p < heights.shape[0] and q < heights.shape[1]]
         terms = _normal_solution(z, valid.astype(float), along, there)
@@ -66,7 +67,8 @@ def _normal_solution(z, weight, along, powers) -> dict[tuple[int, int], float] |
     values = np.linalg.eigvalsh(matrix)
     if values[0] <= DEPENDENT * values[-1]:
         return None
-    found, rest = np.zeros(len(powers)), z
+    found = np.zeros(len(powers))
+    rest = z
     for _ in range(2):
         right = along[0].T @ rest @ along[1]
         found = found + np.linalg.solve(matrix, np.array([right[p, q] for p, q in powers]))
@@ -93,14 +95,17 @@ def harmonic_fill(heights, mask, spacing) -> np.ndarray:
     fraction = np.count_nonzero(missing) / mask.size
     if fraction > MOST_MISSING:
         raise InputError(f" = {fraction:.3g} is out of range", "missing fraction", f"[0, {MOST_MISSING}] (-)")
-    number, gone = np.arange(mask.size).reshape(mask.shape), missing.ravel()
+    number = np.arange(mask.size).reshape(mask.shape)
+    gone = missing.ravel()
     ends = [(number[:-1].ravel(), number[1:].ravel()), (number[:, :-1].ravel(), number[:, 1:].ravel())]
     pairs = [np.array(pair)[:, gone[pair[0]] | gone[pair[1]]] for pair in ends]  # neighbours that a gap touches
     steep = np.concatenate([np.full(pair.shape[1], 1 / step) for pair, step in zip(pairs, spacing)])
     row = np.tile(np.arange(steep.size), 2)
     entries = np.concatenate([-steep, steep]), (row, np.hstack(pairs).ravel())
     slopes = csc_matrix(entries, shape=(steep.size, mask.size))
-    filled, unknown = heights.copy(), slopes[:, gone]  # the sum of their squares is least
+    # the sum of their squares is least
+    filled = heights.copy()
+    unknown = slopes[:, gone]
     filled[missing] = spsolve((unknown.T @ unknown).tocsc(), -unknown.T @ (slopes[:, ~gone] @ heights[mask]))
     return filled
 

@@ -113,7 +113,9 @@ def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
         return _masked(heights, scale, missing_value, (dx * scale, dy * scale), notes)
     if suffix == ".npy":
         _refuse(suffix, decimal=decimal)
-        heights, own, notes = _read_npy(path), None, ()
+        heights = _read_npy(path)
+        own = None
+        notes = ()
         with np.errstate(over="ignore"):
             if heights.dtype.kind == "f" and missing_value is not None:
                 missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
@@ -183,12 +185,15 @@ def _instrument(path: Path) -> Surface:
 
     Raises `InputError` without the package, for a file that it cannot read, for one that names no unit of length.
     """
-    name, package = f"path = {str(path)!r}", validate.installed("SurfaceTopography", "formats")
+    name = f"path = {str(path)!r}"
+    package = validate.installed("SurfaceTopography", "formats")
     try:
         reader = package.open_topography(str(path))
         channels = [c.name for c in reader.channels]
         topography = reader.topography(channel_index=0)
-        heights, sizes, found = topography.heights(), topography.physical_sizes, topography.unit
+        heights = topography.heights()
+        sizes = topography.physical_sizes
+        found = topography.unit
     except Exception as problem:  # the package raises many kinds for files it cannot read
         said = f" cannot be read by SurfaceTopography ({type(problem).__name__}: {validate.shown(str(problem))})"
         raise InputError(said, name, way_out="give a complete file of a format it knows") from problem

@@ -31,7 +31,9 @@ def points(name: str, shape: tuple[int, ...]) -> None:
 
 def changed(surface, axis, heights, note, *, step=None, closed=None, mask=None):
     """A copy with new heights along one axis, and whatever else changes with them."""
-    spacing, periodic, notes = list(surface.spacing), list(surface.periodic_axes), (*surface.notes, note)
+    spacing = list(surface.spacing)
+    periodic = list(surface.periodic_axes)
+    notes = (*surface.notes, note)
     spacing[axis] = spacing[axis] if step is None else step
     periodic[axis] = periodic[axis] if closed is None else closed
     grid = {"spacing": tuple(spacing), "periodic_axes": tuple(periodic)}
@@ -47,7 +49,8 @@ def mirrored(surface, axis: int):
 
 def resampled(surface, axis: int, count: int | None, step: float | None):
     """``surface`` on ``count`` points along ``axis``, or on points ``step`` [m] apart; see `resample_axis`."""
-    n, old = surface.shape[axis], surface.spacing[axis]
+    n = surface.shape[axis]
+    old = surface.spacing[axis]
     closed = surface.periodic_axes[axis]
     if count is None:
         exact = n * old / step
@@ -119,7 +122,8 @@ def combined(first, second):
 
 def _common(axis: int, first, second) -> tuple[int, bool]:
     """(points, whether periodic) of the sum along ``axis``; both maps have the same spacing here."""
-    lengths, closed = [s.size[axis] for s in (first, second)], [s.periodic_axes[axis] for s in (first, second)]
+    lengths = [s.size[axis] for s in (first, second)]
+    closed = [s.periodic_axes[axis] for s in (first, second)]
     same = abs(lengths[0] / lengths[1] - 1) < SAME
     if all(closed) and same:
         return first.shape[axis], True
@@ -138,7 +142,8 @@ def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
     if periodic:
         from scipy import fft
 
-        n, keep = len(z), min(len(z), count) // 2 + 1
+        n = len(z)
+        keep = min(len(z), count) // 2 + 1
         spectrum = np.zeros((count // 2 + 1, z.shape[1]), complex)
         spectrum[:keep] = fft.rfft(z, axis=0)[:keep]
         shift = 0.5 * (n / count - 1) / n  # from old to new cell centres, in periods

@@ -30,7 +30,8 @@ def rz(surface) -> tuple[float, float]:
     axis on which it is larger, which runs across a lay. The length is that of ISO 4288 for the map's Ra, or all of a
     shorter map."""
     wanted = next((length for most, length in SAMPLING if sa(surface) <= most), 8e-3)
-    measured, found = np.isfinite(surface.heights) if surface.mask is None else surface.mask, []
+    measured = np.isfinite(surface.heights) if surface.mask is None else surface.mask
+    found = []
     z = np.where(measured, surface.heights, np.nan)
     for axis, step in enumerate(surface.spacing):
         lines = np.moveaxis(z, axis, 0)
@@ -74,7 +75,8 @@ def rms_slope(surface) -> tuple[float, float, float]:
         z = np.moveaxis(surface.heights, axis, 0)
         mask = np.isfinite(z) if surface.mask is None else np.moveaxis(surface.mask, axis, 0)
         steps = len(z) if surface.periodic_axes[axis] else len(z) - 1
-        step, both = (np.roll(z, -1, 0) - z)[:steps], (np.roll(mask, -1, 0) & mask)[:steps]
+        step = (np.roll(z, -1, 0) - z)[:steps]
+        both = (np.roll(mask, -1, 0) & mask)[:steps]
         slopes.append(float(np.sqrt(np.mean(step[both] ** 2)) / surface.spacing[axis]) if both.any() else 0.0)
     return slopes[0], slopes[1], math.hypot(*slopes)
 
@@ -97,7 +99,8 @@ def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
 
     validate.choice("axis", axis, (0, 1))
     n = surface.shape[axis]
-    mask, periodic = surface.mask, surface.periodic_axes[axis]
+    mask = surface.mask
+    periodic = surface.periodic_axes[axis]
     z = surface.heights - surface.measured.mean()
     length = n if periodic else fft.next_fast_len(2 * n, real=True)
 
@@ -133,6 +136,7 @@ def first_crossing(lags, acf, decay_level) -> float:
         said = f"the autocorrelation stays above decay_level = {level:g} up to {lags[-1]:g} m"
         raise InputError(said, allowed="a map at least twice as long as its correlation length")
     i = below[0]
-    high, low = acf[i - 1], acf[i]
+    high = acf[i - 1]
+    low = acf[i]
     share = math.log(high / level) / math.log(high / low) if low > 0 else (high - level) / (high - low)
     return float(lags[i - 1] + share * (lags[i] - lags[i - 1]))

@@ -83,7 +83,8 @@ def read_points(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float,
     if nx * ny > 4 * len(table):
         said = f": {len(table)} points on a grid of {nx} x {ny}"
         raise InputError(said, name, "a uniform grid with most of its points")
-    heights, count = np.full((nx, ny), np.nan), np.zeros((nx, ny), int)
+    heights = np.full((nx, ny), np.nan)
+    count = np.zeros((nx, ny), int)
     np.add.at(count, (i, j), 1)
     if count.max() > 1:
         said = f": {np.count_nonzero(count > 1)} grid points are given more than once"

@@ -48,7 +48,8 @@ def _read(archive, path) -> Surface:
     if nx * ny > MOST_POINTS:
         raise _bad("SizeX x SizeY", f"{nx} x {ny}", f"at most {MOST_POINTS} points")
     spacing = _increment(root, "CX"), _increment(root, "CY")
-    axis, name = _text(root, "Record1/Axes/CZ/AxisType"), _text(root, "Record1/Axes/CZ/DataType")
+    axis = _text(root, "Record1/Axes/CZ/AxisType")
+    name = _text(root, "Record1/Axes/CZ/DataType")
     if axis != "A" or name not in TYPES:
         raise _bad("CZ AxisType, DataType", f"{axis}, {name}", "A with I, L, F or D")
     kind = TYPES[name]

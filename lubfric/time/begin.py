@@ -30,18 +30,21 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, Step, float]:
     """Check a scene with a ``transient`` and make it ready. Returns the `Sharing`, the state at t = 0, and the relative
     error by the grid of the films of a steady start (NaN for another start)."""
     base = scene_of(scene)
-    plan, load = changes(base), changes(base).load or Constant(base.bodies.load)
+    plan = changes(base)
+    load = changes(base).load or Constant(base.bodies.load)
     for name, done in DONE.items():
         value = getattr(base.numerics, name)
         if value not in done:
             raise InputError(f" = {value!r} is not for a run in time", f"numerics.{name}", ", ".join(map(repr, done)))
     if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
-        said, most = f" rises to {load.range(plan.duration)[1]:g} N", f"up to bodies.load = {base.bodies.load:g} N"
+        said = f" rises to {load.range(plan.duration)[1]:g} N"
+        most = f"up to bodies.load = {base.bodies.load:g} N"
         raise InputError(said, "transient.load", f"{most}, whose Hertz strip is the area A")
     for time in looks(base) if base.bodies.boundary_friction_table is not None else ():
         scene_at(base, time)  # raises where the table of f_b has no value
     prepared, *of_strip = strip_for(scene if isinstance(scene, Prepared) else prepare(scene))
-    sq, contact = prepared.surface.sq, _contact_history(prepared.scene)
+    sq = prepared.surface.sq
+    contact = _contact_history(prepared.scene)
     if not sq > 0.0 and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
         ways = "transient.initial_film > 0 m, or an entrainment speed before t = 0"
         raise InputError(f"smooth surfaces at rest have no film to start from; give {ways}")
@@ -58,7 +61,8 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, Step, float]:
 
 def _contact_history(scene: Scene) -> ContactHistory:
     """The line contact of a scene in time, with the scene's constants where nothing changes."""
-    bodies, plan = scene.bodies, changes(scene)
+    bodies = scene.bodies
+    plan = changes(scene)
     return ContactHistory(
         load=plan.load or Constant(bodies.load),
         radius=plan.radius or Constant(bodies.radius),
@@ -103,7 +107,9 @@ def _flying(sharing: Sharing, film: float) -> Step:
 
 def _resting(sharing: Sharing) -> Step:
     """The contact carries the load under the undeformed cylinder, its gap full of lubricant without pressure."""
-    setting, patch, load = sharing.setting, sharing.patch, sharing.setting.contact.load.before(0.0)
+    setting = sharing.setting
+    patch = sharing.patch
+    load = sharing.setting.contact.load.before(0.0)
     state = patch.close(patch.x**2 / (2.0 * setting.contact.radius.before(0.0)), load)
     touching = setting.undeformed(0.0).terms.H
     film = state.mean_gap - float(sharing.mean_row @ touching)
@@ -118,7 +124,9 @@ def _resting(sharing: Sharing) -> Step:
 
 def _steady(sharing: Sharing) -> tuple[Step, float]:
     """The balance of the steady state, and then the same on the grid of the run."""
-    setting, scene, c = sharing.setting, sharing.scene, sharing.setting.contact
+    setting = sharing.setting
+    scene = sharing.scene
+    c = sharing.setting.contact
     viscosity = changes(scene).viscosity
     cold = scene.lubricant.viscosity if viscosity is None else viscosity.before(0.0)
     values = scene.with_(
@@ -147,7 +155,8 @@ def strip_for(prepared: Prepared) -> tuple[Prepared, float, float, float]:
     run, or as memory and map allow. Their cells change f by no more than ``numerics.tolerance`` at any of these speeds,
     or are the scene's own: a run in time is not corrected for them. The factors of areas are means over the speeds.
     """
-    strips, speeds = prepared.strips, speeds_of_run(prepared.scene)
+    strips = prepared.strips
+    speeds = speeds_of_run(prepared.scene)
     if strips is None:
         return prepared, length_or_half(prepared.surface, 1), 1.0, 1.0
     if strips.whole:
@@ -193,7 +202,8 @@ def _needs(prepared: Prepared, strips: Strips, speeds: list[float]) -> np.ndarra
             found.append((strips.first, 0.0, math.nan, math.nan))
             continue
         assert one.strips is not None
-        plastic, corrected = one.solved.contact.plastic_area_fraction, one.balance.contact.plastic_area_fraction
+        plastic = one.solved.contact.plastic_area_fraction
+        corrected = one.balance.contact.plastic_area_fraction
         area = one.effect.area if one.response is not None else math.nan
         same = one.strips.cells.factors == strips.cells.factors
         by_cells = one.change("gap") if same else math.inf

@@ -120,7 +120,8 @@ def _marched(setting: Setting, start: Step, plan: Plan, residuals: dict[str, flo
     for now in steps(setting, plan, now):
         if now.at_output:
             outputs.append((now.time, now.solution.terms))
-    p, x = setting.problem, setting.grid.x
+    p = setting.problem
+    x = setting.grid.x
     H, P = (np.array([getattr(terms, name) for _, terms in outputs]).reshape(-1, x.size) for name in "HP")
     return TransientFilm(
         time=np.array([time for time, _ in outputs]),

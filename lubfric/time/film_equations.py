@@ -67,7 +67,9 @@ def outside(
         return float(np.sum(weight * (s - a) ** lever / h**power))
 
     def tail(lever):
-        two, three, lifted = moment(2, lever), moment(3, lever), moment(3, lever + 1)
+        two = moment(2, lever)
+        three = moment(3, lever)
+        lifted = moment(3, lever + 1)
         by_film = -2.0 * speed * three + 3.0 * (flow * moment(4, lever) + rate * moment(4, lever + 1))
         value = speed * two - flow * three - rate * lifted
         return 6.0 * nu * value, -6.0 * nu * three, -6.0 * nu * lifted, 6.0 * nu * by_film
@@ -128,13 +130,19 @@ class StepEquations:
 
     def evaluate(self, z: np.ndarray) -> StepTerms:
         """All equations at z."""
-        grid, memory, speed = self.grid, self.memory, self.speed
+        grid = self.grid
+        memory = self.memory
+        speed = self.speed
         P = z[:-1]
         H = grid.kernel @ P + (z[-1] + 0.5 * self.curvature * grid.x**2)
         log_eta, log_slope = self.problem.log_viscosity(P)
         rho = self.problem.density(P)
-        up, centred = grid.upwind(speed), grid.centred
-        up_rho, up_H, mid_rho, mid_H = up(rho[0]), up(H), centred(rho[0]), centred(H)
+        up = grid.upwind(speed)
+        centred = grid.centred
+        up_rho = up(rho[0])
+        up_H = up(H)
+        mid_rho = centred(rho[0])
+        mid_H = centred(H)
         fluidity = tuple(f / self.viscosity for f in log_mean_fluidity(log_eta))
         gradient = np.diff(P) / (6.0 * grid.cells)
         thin = self.problem.thinned(fluidity[0], mid_H, 6.0 * gradient)
@@ -142,9 +150,11 @@ class StepEquations:
         stored = memory.rate * (rho[0] * H - memory.film) * grid.weights
         r = np.empty_like(P)
         r[1:-1] = stored[1:-1] + flux[1:] - flux[:-1]
-        ends, carried = [], float(grid.weights @ P)
+        ends = []
+        carried = float(grid.weights @ P)
         for end, sign in ((0, 1.0), (-1, -1.0)):
-            flow, rate = sign * flux[end] + stored[end], memory.rate * (H[end] - memory.film[end])
+            flow = sign * flux[end] + stored[end]
+            rate = memory.rate * (H[end] - memory.film[end])
             pressure, load = outside(abs(grid.x[end]), H[end], self.curvature, self.viscosity, sign * speed, flow, rate)
             r[end] = P[end] - pressure[0]
             carried += load[0] if pressure[0] > 0.0 else 0.0
@@ -156,7 +166,9 @@ class StepEquations:
 
     def jacobian(self, t: StepTerms) -> np.ndarray:
         """Derivatives (n + 2, n + 2) of (r, balance) by z."""
-        grid, memory, n = self.grid, self.memory, self.grid.n
+        grid = self.grid
+        memory = self.memory
+        n = self.grid.n
         G = self._flux_slopes(t)
         J = np.empty((n + 2, n + 2), order="F")
         inertia = memory.rate * grid.weights * t.rho[0]
@@ -170,7 +182,8 @@ class StepEquations:
         J[n + 1, :-1] = grid.weights
         J[n + 1, -1] = 0.0
         for end, face, sign, (pressure, load) in zip((0, n), (0, -1), (1.0, -1.0), t.ends):
-            flow, film = sign * G[face] + stored[end], np.append(grid.kernel[end], 1.0)
+            flow = sign * G[face] + stored[end]
+            film = np.append(grid.kernel[end], 1.0)
 
             def slope(value, by_flow, by_rate, by_film):
                 return by_flow * flow + (by_rate * memory.rate + by_film) * film
@@ -186,8 +199,11 @@ class StepEquations:
 
     def _flux_slopes(self, t: StepTerms) -> np.ndarray:
         """Derivatives (n, n + 2) of the fluxes through the faces by z: by film, gradient, viscosity and density."""
-        grid, speed, n = self.grid, self.speed, self.grid.n
-        up, centred = grid.upwind(speed), grid.centred
+        grid = self.grid
+        speed = self.speed
+        n = self.grid.n
+        up = grid.upwind(speed)
+        centred = grid.centred
         mean, by_left, by_right = t.fluidity
         rho, H = t.centre
         thin, by_stress, by_gradient = t.thin
@@ -197,7 +213,8 @@ class StepEquations:
         np.multiply(couette[:, None], up.kernel, out=G[:, :-1])
         G[:, :-1] -= poiseuille[:, None] * centred.kernel
         G[:, -1] = couette - poiseuille
-        i, cube = np.arange(n), rho * H**3
+        i = np.arange(n)
+        cube = rho * H**3
         by_P = cube * mean / (6.0 * grid.cells) * (thin + by_gradient)
         by_log = cube * t.gradient * (thin - by_stress)
         G[i, i] += by_P - by_log * by_left * t.log_slope[:-1]
@@ -216,7 +233,8 @@ class StepEquations:
         load, and of the pressure at the ends."""
         scale = t.H * (self.memory.rate * self.grid.weights + abs(self.speed)) + 1e-300
         top = max(float(t.P.max()), 1e-300)
-        mass, wet = t.r[1:-1] / scale[1:-1], t.P[1:-1] > 0.0
+        mass = t.r[1:-1] / scale[1:-1]
+        wet = t.P[1:-1] > 0.0
         missing = np.max(np.abs(mass[wet]), initial=0.0)
         created = np.max(-mass[~wet], initial=0.0)
         ends = np.max(np.abs(np.minimum(t.P, t.r)[[0, -1]])) / top

@@ -14,7 +14,9 @@ import numpy as np
 
 from ..film import UPWIND, face_weights, hat_kernel, trapezoidal
 
-EDGE_CELL, EDGE_GROWTH = 0.16, 0.3  # smallest cell / length of the pressure rise; growth with distance
+# smallest cell / length of the pressure rise; growth with distance
+EDGE_CELL = 0.16
+EDGE_GROWTH = 0.3
 CORE = 12.0  # cells spread evenly over the contact, which fronts of the film travel through
 FAR = 40.0  # reach in units of sqrt(2 R h), beyond three half-widths
 
@@ -68,7 +70,9 @@ class Faces:
 
 def make_fixed_grid(x: np.ndarray) -> FixedGrid:
     """The grid and its operators on increasing nodes ``x``."""
-    cells, kernel, faces = np.diff(x), hat_kernel(x, x), []
+    cells = np.diff(x)
+    kernel = hat_kernel(x, x)
+    faces = []
     for stencil in (UPWIND, (0, 1, 2), (-1, 0, 1, 2)):
         columns, values = face_weights(x, stencil)
         faces.append(Faces(columns, values, np.einsum("fk,fkj->fj", values, kernel[columns])))
@@ -89,7 +93,8 @@ def symmetric_nodes(
     rise = small * (small / (small + outer)) ** 0.42
     far = max(3.0 * outer + FAR * large, reach)
     fine = EDGE_CELL * rise
-    low, high = max(0.0, inner - 0.5 * rise), outer + 0.5 * rise
+    low = max(0.0, inner - 0.5 * rise)
+    high = outer + 0.5 * rise
     scale = high + small
 
     def density(x):

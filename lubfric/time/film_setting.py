@@ -65,7 +65,8 @@ class Setting:
     def equations(self, time: float, memory: Memory | None = None, spring: Spring | None = None) -> StepEquations:
         """Those of the step that ends at ``time`` [s], with a ``memory`` in SI units (None: of a steady state), at the
         speed, load, curvature and viscosity just before that time."""
-        c, reference = self.contact, self.problem.contact
+        c = self.contact
+        reference = self.problem.contact
         time_unit = self.problem.length_unit / reference.entrainment_speed
         memory = memory or Memory(0.0, np.zeros(self.grid.n + 1))
         sheared = replace(self.problem, contact=replace(reference, sliding=c.sliding and c.sliding(time)))
@@ -127,8 +128,11 @@ def make_setting(
 
 def _reference(contact: ContactHistory, sq: float) -> tuple[Problem, tuple[float, float]]:
     """The problem that gives the units, and the smallest and the largest film in them."""
-    c, T = contact, contact.duration
-    radius, eta, (low, high) = c.radius.range(T), c.viscosity.range(T), c.speed.range(T)
+    c = contact
+    T = contact.duration
+    radius = c.radius.range(T)
+    eta = c.viscosity.range(T)
+    (low, high) = c.speed.range(T)
     load = [end / c.width for end in c.load.range(T)]
     fastest = max(abs(low), abs(high))
     lubricant = replace(c.lubricant, viscosity=c.viscosity.at(0.0))
@@ -154,13 +158,17 @@ def _reference(contact: ContactHistory, sq: float) -> tuple[Problem, tuple[float
 def steady_start(setting: Setting, load: float | None = None) -> tuple[Step, float]:
     """The steady state of the conditions just before t = 0, with ``load`` [N] instead of the history's if it is given;
     and its `discretisation` error, infinite where it did not converge."""
-    c, p, grid, equations = setting.contact, setting.problem, setting.grid, setting.equations(0.0)
+    c = setting.contact
+    p = setting.problem
+    grid = setting.grid
+    equations = setting.equations(0.0)
     load = load or c.load.before(0.0)
     oil = replace(c.lubricant, viscosity=c.viscosity.before(0.0))
     sliding = c.sliding and c.sliding(0.0)
     line = LineContact(load / c.width, c.radius.before(0.0), c.e_prime, c.speed.before(0.0), oil, sliding)
     found = solve_line_contact(line, Effort(tolerance=0.01))
-    x, P = found.x / p.length_unit, found.pressure / p.pressure_unit
+    x = found.x / p.length_unit
+    P = found.pressure / p.pressure_unit
     forwards = found.entrainment_speed > 0
     guess = np.interp(grid.x, x, P, left=0.0, right=0.0)
     inlet, pressure = (x[0], P[0]) if forwards else (x[-1], P[-1])
@@ -175,8 +183,10 @@ def steady_start(setting: Setting, load: float | None = None) -> tuple[Step, flo
 def discretisation(setting: Setting, solution: Step) -> float:
     """Relative error of minimum and central film of a steady solution, from the grid of every other node."""
     coarse = replace(setting, grid=make_fixed_grid(setting.grid.x[::2]))
-    equations, fine = replace(coarse.equations(0.0), load=solution.terms.carried), solution.terms.H
-    centre, middle = setting.grid.n // 2, coarse.grid.n // 2
+    equations = replace(coarse.equations(0.0), load=solution.terms.carried)
+    fine = solution.terms.H
+    centre = setting.grid.n // 2
+    middle = coarse.grid.n // 2
     z = np.append(solution.z[:-1:2], solution.z[-1])
     z[-1] += fine[centre] - (coarse.grid.kernel[middle] @ z[:-1] + z[-1])
     other = solve_step(equations, z, max_steps=40)
@@ -198,7 +208,8 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
         first = float(equations.grid.weights @ z[:-1])
         if found.status == CONVERGED or equations.spring is not None or not first > 0.0:
             return found
-        done, stage = 0.0, 0.25
+        done = 0.0
+        stage = 0.25
         while done < 1.0 and stage >= SMALLEST_STAGE:
             goal = min(1.0, done + stage)
             staged = replace(equations, load=first * (equations.load / first) ** goal)
@@ -213,7 +224,8 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
 def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_steps: int) -> Step:
     for step in range(max_steps + 1):
         t = equations.evaluate(z)
-        residual, status = equations.residual(t), ITERATION_LIMIT
+        residual = equations.residual(t)
+        status = ITERATION_LIMIT
         if residual <= tolerance:
             status = CONVERGED
         elif not np.isfinite(residual):

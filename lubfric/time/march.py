@@ -22,7 +22,10 @@ from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, InputError, Report
 from ..scene import History
 
-SAFETY, SHRINK, GROWTH = 0.85, 0.2, 2.0  # of the step; BDF2 is stable for growth below 2.41
+# of the step; BDF2 is stable for growth below 2.41
+SAFETY = 0.85
+SHRINK = 0.2
+GROWTH = 2.0
 FAILED = 0.25  # step after a solve that failed
 LEAST_LEFT = 0.2  # of an unknown that is positive: what extrapolation leaves of it
 SHORTEST = 1e-11  # of the duration: below it a step has failed for good
@@ -175,7 +178,8 @@ def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dic
 def advance(now: Progress, until: float, solver, tolerance: float, shortest: float) -> Progress | None:
     """One step towards ``until`` [s]. It is halved if it would leave a tiny last step. If its solve fails, or its error
     is above ``tolerance``, it is repeated with a shorter step. None: even the shortest step [s] failed."""
-    rejected, step = now.rejected, now.step
+    rejected = now.rejected
+    step = now.step
     while step >= shortest:
         left = until - now.time
         planned = left if step >= left * (1 - 1e-9) else min(step, 0.5 * left)
@@ -218,10 +222,12 @@ def _pair(now: Progress, end: float, solver) -> Attempt | None:
 def _bdf2(now: Progress, end: float, solver) -> Attempt | None:
     """BDF2 over the last two levels, from unknowns extrapolated along them, or from the last ones if that fails."""
     old, last = now.levels[-2:]
-    step, before = end - last.time, last.time - old.time
+    step = end - last.time
+    before = last.time - old.time
     ratio = step / before
     weight = ratio**2 / (1.0 + 2.0 * ratio)
-    rate, film = (1.0 + 2.0 * ratio) / ((1.0 + ratio) * step), last.film + weight * (last.film - old.film)
+    rate = (1.0 + 2.0 * ratio) / ((1.0 + ratio) * step)
+    film = last.film + weight * (last.film - old.film)
     memory = Memory(rate, film, last.film, step)
     guess = last.z + ratio * (last.z - old.z)  # zeros stay zero, positive unknowns positive
     guess[:-1] = np.where(last.z[:-1] > 0.0, np.maximum(guess[:-1], LEAST_LEFT * last.z[:-1]), 0.0)

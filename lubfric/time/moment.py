@@ -30,25 +30,39 @@ from .sharing import Sharing, scene_at, sliding_at
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"
-AT_REST, LOAD_STEP = 1e-6, 0.05  # m/s; of ln F_H
+# m/s; of ln F_H
+AT_REST = 1e-6
+LOAD_STEP = 0.05
 
 
 def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then."""
-    solution, time, setting = now.solution, now.time, sharing.setting
-    scene, sliding = scene_at(sharing.scene, time), sliding_at(sharing.scene, time)
-    t, p, contact, state = solution.terms, setting.problem, solution.payload, solution.payload.state
-    total, film_load, speed = scene.bodies.load, t.carried * setting.load_unit, scene.motion.entrainment_speed
+    solution = now.solution
+    time = now.time
+    setting = sharing.setting
+    scene = scene_at(sharing.scene, time)
+    sliding = sliding_at(sharing.scene, time)
+    t = solution.terms
+    p = setting.problem
+    contact = solution.payload
+    state = solution.payload.state
+    total = scene.bodies.load
+    film_load = t.carried * setting.load_unit
+    speed = scene.motion.entrainment_speed
     boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
     shear, heat = film_shear(sharing, scene, time, sliding, solution, boundary)
-    loads, parts, force = (contact.load, film_load), (boundary, shear.total), boundary + shear.total
+    loads = (contact.load, film_load)
+    parts = (boundary, shear.total)
+    force = boundary + shear.total
     sense = np.sign(sliding) or np.sign(speed) or 1.0
     inlet, _ = inlet_at(scene, speed)
     heated_inlet = setting.contact.viscosity.before(time) != scene.lubricant.viscosity
     film_factor = inlet.factor if inlet is not None and heated_inlet else 1.0
-    length, thinning = sharing.correlation_length, film_thinning(scene, film_load)
+    length = sharing.correlation_length
+    thinning = film_thinning(scene, film_load)
     finite = moment_error(sharing.patch, state, loads, contact.softness, scene.bodies.width, length, parts, thinning)
-    touches, wet = contact.load > 0.0, setting.grid.x[t.P > 0.0] * p.length_unit
+    touches = contact.load > 0.0
+    wet = setting.grid.x[t.P > 0.0] * p.length_unit
     row = {
         "time": time,
         "entrainment_speed": speed,
@@ -90,7 +104,9 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
 
 def _violated(sharing: Sharing, scene: Scene, row: dict, shear: ShearForce, heat: Heat) -> Iterator[Validity]:
     """The assumptions of the steady model and of a run that do not hold at one moment."""
-    speed, film, force = row["entrainment_speed"], row["central_film"], abs(row["friction_force"])
+    speed = row["entrainment_speed"]
+    film = row["central_film"]
+    force = abs(row["friction_force"])
     prepared = sharing.prepared
     yield from prepared.known
     yield from of_ends(row["edge_load"], prepared.surface.size[0])
@@ -113,7 +129,8 @@ def _mass(sharing: Sharing, solution: Step) -> dict[str, float]:
     """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET`` of
     the largest): flow into it, lubricant stored there; and the growth of the gap in the cavitated zone that nothing
     fills. mass_residual: what is missing in the balance, over the larger of the flow and ``NO_FLOW``."""
-    t, p = solution.terms, sharing.setting.problem
+    t = solution.terms
+    p = sharing.setting.problem
     unit = p.film_unit * p.contact.entrainment_speed
     film = t.P[1:-1] > WET * t.P.max()
     stored = float(np.sum(t.stored[1:-1][film]))
@@ -137,8 +154,12 @@ def film_shear(
     They act where the film is pressurised and not touched, and include the inlet tails. ``scene``: that of the moment.
     Film and surfaces are taken to be as hot as in steady motion at the speeds of the moment.
     """
-    lubricant, contact, t, p = scene.lubricant, solution.payload, solution.terms, sharing.setting.problem
-    wet, speed = np.flatnonzero(t.P > 0.0), scene.motion.entrainment_speed
+    lubricant = scene.lubricant
+    contact = solution.payload
+    t = solution.terms
+    p = sharing.setting.problem
+    wet = np.flatnonzero(t.P > 0.0)
+    speed = scene.motion.entrainment_speed
 
     def cold(x, pressure, thickness):
         return shear_stress(lubricant, pressure, sliding / thickness)
@@ -170,8 +191,12 @@ def film_shear(
 def _summed(sharing: Sharing, time: float, solution: Step, stress: Callable, drag: float | None = None) -> ShearForce:
     """`ShearForce` by trapezes of ``stress(x, pressure, film)`` [Pa]. ``drag``: that times the film [N/m] beyond the
     ends of the grid; None: as at the last node, because at any film its own heat thins it by the same factor."""
-    t, p, grid = solution.terms, sharing.setting.problem, sharing.setting.grid
-    x, h, pressure = grid.x * p.length_unit, t.H * p.film_unit, t.P * p.pressure_unit
+    t = solution.terms
+    p = sharing.setting.problem
+    grid = sharing.setting.grid
+    x = grid.x * p.length_unit
+    h = t.H * p.film_unit
+    pressure = t.P * p.pressure_unit
     free = 1.0 - solution.payload.state.touching(x)
     full = free * np.diff(x) * full_part(x, pressure)
     with np.errstate(over="ignore"):
@@ -204,12 +229,17 @@ def _halfway(nodal: np.ndarray) -> np.ndarray:
 def _tails(sharing: Sharing, time: float, drags: np.ndarray, solution: Step) -> tuple[float, float]:
     """Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid. ``drags``: shear stress times
     film [N/m] at both ends."""
-    setting, t = sharing.setting, solution.terms
-    p, grid, now = setting.problem, setting.grid, setting.equations(time)
+    setting = sharing.setting
+    t = solution.terms
+    p = setting.problem
+    grid = setting.grid
+    now = setting.equations(time)
     couette = rolling = 0.0
     for end, sign, drag in ((0, 1.0, drags[0]), (-1, -1.0, drags[1])):
         if t.P[end] > 0.0:
-            a, flow, rate = abs(grid.x[end]), sign * t.flux[end] + t.stored[end], t.stored[end] / grid.weights[end]
+            a = abs(grid.x[end])
+            flow = sign * t.flux[end] + t.stored[end]
+            rate = t.stored[end] / grid.weights[end]
             reach, tail = outside_shear(a, t.H[end], now.curvature, now.viscosity, sign * now.speed, flow, rate)
             couette += float(drag) * reach * p.length_unit / p.film_unit
             rolling -= sign * tail * p.film_unit * p.pressure_unit
@@ -236,7 +266,8 @@ def film_thinning(scene: Scene, film_load: float) -> float:
     slowly; 1 without load."""
     if film_load <= 0.0:
         return 1.0
-    line, more = scene.line_contact(scene.motion.entrainment_speed or AT_REST), math.exp(LOAD_STEP)
+    line = scene.line_contact(scene.motion.entrainment_speed or AT_REST)
+    more = math.exp(LOAD_STEP)
     line = replace(line, load_per_width=film_load / scene.bodies.width)
     heavier = replace(line, load_per_width=more * line.load_per_width)
     return math.log(line.moes_film / heavier.moes_film) / LOAD_STEP

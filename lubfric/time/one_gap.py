@@ -97,7 +97,8 @@ class OneGap:
     @cached_property
     def stops(self) -> tuple[float, ...]:
         """Times [s] at which the fastest rough body has moved by one more cell, about."""
-        duration, dx = changes(self.scene).duration, self.base.spacing[0]
+        duration = changes(self.scene).duration
+        dx = self.base.spacing[0]
         times = np.linspace(0.0, duration, LOOKS)
         speed = np.max([_speeds(self.scene, times)[list(SIDES).index(name)] for name in self.heights] or [0 * times], 0)
         way = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(times)))
@@ -109,8 +110,11 @@ class OneGap:
 
     def problem_at(self, time: float) -> Problem:
         """Just before ``time`` [s], in the mirror where U < 0."""
-        now, sliding = scene_at(self.scene, time), sliding_at(self.scene, time)
-        speed, plan, motion = now.motion.entrainment_speed, changes(self.scene), self.scene.motion
+        now = scene_at(self.scene, time)
+        sliding = sliding_at(self.scene, time)
+        speed = now.motion.entrainment_speed
+        plan = changes(self.scene)
+        motion = self.scene.motion
         along = (plan.speed or Constant(motion.entrainment_speed)).integral(time)
         apart = motion.slide_roll_ratio * along if plan.sliding is None else plan.sliding.integral(time)
         back = -1 if speed < 0 else 1
@@ -132,7 +136,8 @@ class OneGap:
         back = self.back(time)
         past = Past(memory.film[::back], 1.0 / memory.rate)
         if memory.then is not None:
-            then, part = memory.then[::back], memory.rate * memory.step - 1.0
+            then = memory.then[::back]
+            part = memory.rate * memory.step - 1.0
             left = np.maximum((1.0 + part) * past.kept - part * then, 0.5 * then)
             past = Past(left, memory.step, (then, part))
         start = _turned(replace(payload, approach=float(z[0])), back)
@@ -149,17 +154,21 @@ class OneGap:
     def start(self) -> Step:
         """The state at t = 0: steady, as if the roughness rested; at rest, with all load on the dry contact; or without
         pressure at a flying height. In the last two the gap is full."""
-        plan, problem, back = changes(self.scene), self.problem_at(0.0), self.back(0.0)
+        plan = changes(self.scene)
+        problem = self.problem_at(0.0)
+        back = self.back(0.0)
         still = (plan.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
         if plan.initial_film is None and not (plan.initial == "rest" or plan.initial == "auto" and still):
             if still:
                 raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
             return self._step(evaluated(problem, solve_point(problem, tolerance=EXACT).state), back)
-        nothing, kind = np.zeros_like(problem.heights), np.full(problem.heights.shape, RUPTURED, np.int8)
+        nothing = np.zeros_like(problem.heights)
+        kind = np.full(problem.heights.shape, RUPTURED, np.int8)
         state = State(nothing, nothing + 1.0, nothing, kind, nothing > 0, plan.initial_film or 0.0)
         if plan.initial_film is None:
             dry = dry_contact(problem)
-            p, yielded = dry.pressure, dry.pressure >= problem.hardness
+            p = dry.pressure
+            yielded = dry.pressure >= problem.hardness
             dent = np.where(yielded, np.maximum(-dry.gap, 0.0), 0.0)
             touching = np.where(p > 0, TOUCHING, RUPTURED).astype(np.int8)
             state = State(p.copy(), nothing + 1.0, dent, touching, yielded, problem.floor - dry.approach)
@@ -199,7 +208,8 @@ def begin_one_gap(scene: Scene | Prepared) -> tuple[OneGap, Step, float]:
 
 def work_of_run(scene: Scene) -> tuple[int, float]:
     """About how many steps a run takes, and its counted work [s of a usual core]."""
-    solver, plan = one_gap(scene), changes(scene)
+    solver = one_gap(scene)
+    plan = changes(scene)
     steps = max(len(solver.stops), plan.outputs) + START
     return steps, steps * work_of_steps(solver.base.heights.size, STEPS, KRYLOV)
 
@@ -207,7 +217,9 @@ def work_of_run(scene: Scene) -> tuple[int, float]:
 def one_gap(scene: Scene | Prepared) -> OneGap:
     """The solver, on the first strip that a steady point takes, and on the same cells. Raises `InputError`."""
     prepared = scene if isinstance(scene, Prepared) else prepare(scene)
-    scene, plan, strips = prepared.scene, changes(prepared.scene), prepared.strips
+    scene = prepared.scene
+    plan = changes(prepared.scene)
+    strips = prepared.strips
     if strips is None:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
     if scene.numerics.heat == "on":
@@ -241,12 +253,16 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
 def moment_of_gap(solver: OneGap, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then. As of `OF_MOMENT`, of the
     rough gap; NaN where this model has no such number."""
-    at, scene = now.solution.terms, scene_at(solver.scene, now.time)
+    at = now.solution.terms
+    scene = scene_at(solver.scene, now.time)
     left = residuals(at)
     result = assemble(at, Report("film under moving roughness", CONVERGED, 1, max(left.values()), EXACT, left))
     numbers = numbers_of(replace(solver.prepared, scene=scene), result)
-    speed, sliding, total = scene.motion.entrainment_speed, sliding_at(solver.scene, now.time), scene.bodies.load
-    f, sense = result.coefficient, float(np.sign(sliding) or np.sign(speed) or 1.0)
+    speed = scene.motion.entrainment_speed
+    sliding = sliding_at(solver.scene, now.time)
+    total = scene.bodies.load
+    f = result.coefficient
+    sense = float(np.sign(sliding) or np.sign(speed) or 1.0)
     places = (result.friction_at - f * result.load_at) / result.load
     scatter = block_error(places, solver.base.spacing[1], solver.correlation_length).error
     wet = solver.x[now.solution.payload.pressure.mean(axis=1) > 0]
@@ -269,7 +285,8 @@ def moment_of_gap(solver: OneGap, now: Progress) -> tuple[dict[str, float], tupl
         "wet_to": wet[-1] if wet.size else math.nan,
         "max_pressure": float(result.pressure.max()),
     }
-    film, heat = result.central_gap, strip_heat(scene, result)
+    film = result.central_gap
+    heat = strip_heat(scene, result)
     told = [*solver.prepared.known, *of_motion(scene, speed, film), *of_thickness(scene, film)]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:

@@ -88,7 +88,8 @@ class TransientResult(Shown):
     def average(self) -> TimeAverage:
         """The average of f over the time in motion, by trapezes between the outputs (which have to be dense enough to
         show f; one at a standstill counts nothing); its error; and its scatter for fixed and for moving roughness."""
-        half, moving = 0.5 * np.diff(self.time), in_motion(self.columns)
+        half = 0.5 * np.diff(self.time)
+        moving = in_motion(self.columns)
         weight = np.append(half, 0.0) + np.append(0.0, half) if half.size else np.ones(1)
         share = float(weight[moving].sum() / weight.sum())
         if not share:
@@ -110,8 +111,10 @@ class TransientResult(Shown):
     @property
     def uncertainty(self) -> UncertaintyCurve:
         """Standard error and 95 % interval of f at every time, from the finite surface and the range of f_b alone."""
-        f, error = self.coefficient, self.sampling_error
-        half, unknown = student(MANY) * error * np.abs(f), np.full(f.size, math.nan)
+        f = self.coefficient
+        error = self.sampling_error
+        half = student(MANY) * error * np.abs(f)
+        unknown = np.full(f.size, math.nan)
         down, up = np.broadcast_to(self.inputs, (2, f.size))
         return UncertaintyCurve(
             numerical=unknown,
@@ -128,7 +131,8 @@ class TransientResult(Shown):
 
     def plot(self, ax=None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
-        axes, (low, high) = figures.axes_or_new(ax), self.uncertainty.interval.T
+        axes = figures.axes_or_new(ax)
+        (low, high) = self.uncertainty.interval.T
         if (high > low).any():
             time = self.time * time_scale(self.time[-1])[0]
             label = f"95 %: finite surface{', range of f_b' * bool(np.any(self.inputs))}"
@@ -139,9 +143,11 @@ class TransientResult(Shown):
     def plot_loop(self, ax=None):
         """Friction over speed, the hysteresis loop with its start marked, on ``ax`` or new axes, which are returned.
         At a standstill no friction coefficient is defined, and none is drawn."""
-        axes, speed = figures.axes_or_new(ax), self.entrainment_speed
+        axes = figures.axes_or_new(ax)
+        speed = self.entrainment_speed
         moving = in_motion(self.columns)
-        friction, begin = np.where(moving, self.coefficient, np.nan), np.flatnonzero(moving)[:1]
+        friction = np.where(moving, self.coefficient, np.nan)
+        begin = np.flatnonzero(moving)[:1]
         axes.plot(speed, friction, color=figures.BLUE)
         axes.plot(speed[begin], friction[begin], "o", color=figures.GREY, label="start")
         axes.set(xlabel=axis_label("speed"), ylabel=figures.FRICTION)
@@ -149,7 +155,9 @@ class TransientResult(Shown):
         return axes
 
     def _facts(self) -> dict[str, str]:
-        facts, t, f = {"": f"{self.time.size} times"}, self.time, self.coefficient
+        facts = {"": f"{self.time.size} times"}
+        t = self.time
+        f = self.coefficient
         if t.size:
             facts |= {"t": f"{t[0]:.4g} to {t[-1]:.4g} s", "f": f"{f.min():.4g} to {f.max():.4g}"}
         return facts | {"status": self.report.status}
@@ -173,12 +181,14 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
         worst["grid"] = grid_error / solver.scene.numerics.tolerance_of("film")
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
-    prepared, renewal = solver.prepared, math.nan
+    prepared = solver.prepared
+    renewal = math.nan
     ends = {name: [end - value_of(prepared.scene, name) for end in both] for name, *both in prepared.scene.ranges}
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
-    half, rough = 0.5 * columns["sliding_speed"], [name for name, _ in moving_bodies(prepared.scene)]
+    half = 0.5 * columns["sliding_speed"]
+    rough = [name for name, _ in moving_bodies(prepared.scene)]
     ways = {"surface": columns["entrainment_speed"] - half, "counterface": columns["entrainment_speed"] + half}
     stands = (STANDS,) if isinstance(solver, Sharing) and any(ways[name].any() for name in rough) else ()
     report = report_of("transient, BDF2", plan, now, f"{solver.cells}; surface: {surface}", worst)

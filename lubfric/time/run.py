@@ -65,7 +65,8 @@ def transient(
     """
     scene, times = _with_plan(scene, times)
     solver, start, grid_error = (begin_one_gap if scene_of(scene).numerics.model == "deterministic" else begin)(scene)
-    scene, plan = solver.scene, changes(solver.scene)
+    scene = solver.scene
+    plan = changes(solver.scene)
     tolerance = plan.tolerance or solver.time_error
     course = plan_of(times, plan.histories, solver.first_step, tolerance, solver.stops)
     key = fingerprint(solver.prepared, plan, times)
@@ -92,7 +93,8 @@ def _marched(solver: Solver, start: Step, plan: Plan, store: Store, key: str, on
     count, now = store.get(key, STATE) or (0, begun(start, plan))
     outputs: list[Output] = [*store.known(_output_keys(key, count), Output).values()]
     if len(outputs) < count:  # one was damaged, which was told
-        now, outputs = begun(start, plan), []
+        now = begun(start, plan)
+        outputs = []
 
     def put_out(now: Progress) -> None:
         outputs.append(_output(solver, now))

@@ -38,8 +38,10 @@ def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
     def now(name: str, constant: float) -> float:
         return _value(scene, name, constant, time, side)
 
-    bodies, oil = scene.bodies, scene.lubricant
-    speed, sliding = now("speed", scene.motion.entrainment_speed), sliding_at(scene, time, side)
+    bodies = scene.bodies
+    oil = scene.lubricant
+    speed = now("speed", scene.motion.entrainment_speed)
+    sliding = sliding_at(scene, time, side)
     bodies = replace(
         bodies,
         load=now("load", bodies.load),
@@ -183,9 +185,12 @@ class Sharing:
         A `Spring` stands for the contact in the film's load balance. Then the contact is solved at the load of the
         spring, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film) <= tolerance.
         """
-        touch, softness, seen = past.load, past.softness, None
+        touch = past.load
+        softness = past.softness
+        seen = None
         total = self.setting.contact.load.before(time)
-        state, mean = past.state, past.state.mean_gap
+        state = past.state
+        mean = past.state.mean_gap
         solution: Step
         for _ in range(MOST_TRIALS):
             spring = None
@@ -205,7 +210,10 @@ class Sharing:
                 if found.volume_residual <= 0.0:
                     if spring is None:
                         return replace(solution, payload=Contact(0.0, found, softness))
-                    touch, z, state, seen = 0.0, solution.z, found, None
+                    touch = 0.0
+                    z = solution.z
+                    state = found
+                    seen = None
                     continue
                 load = min(FIRST_TOUCH * total, max(touch, LAST_TOUCH * total))
                 touching = found.mean_gap
@@ -216,7 +224,11 @@ class Sharing:
             elif abs(found.volume_residual) <= self.tolerance:
                 return replace(solution, payload=Contact(load, found, _softness(softness, seen, load, found)))
             softness = _softness(softness, seen, load, found)
-            seen, touch, mean, state, z = (load, found.mean_gap), load, found.mean_gap, found, solution.z
+            seen = (load, found.mean_gap)
+            touch = load
+            mean = found.mean_gap
+            state = found
+            z = solution.z
         return replace(solution, status=ITERATION_LIMIT)
 
     def _close(self, film: np.ndarray, load: float, start: ContactState) -> ContactState | None:
@@ -232,7 +244,8 @@ class Sharing:
 def make_sharing(prepared: Prepared, setting: Setting, *of_strip: float) -> Sharing:
     """The `Sharing` on the strip ``prepared``, with the operators between the film's grid and the patch. ``of_strip``:
     its correlation length and factors."""
-    p, patch = setting.problem, prepared.contact
+    p = setting.problem
+    patch = prepared.contact
     x = patch.x / p.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit

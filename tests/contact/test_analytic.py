@@ -21,7 +21,9 @@ def test_composite_modulus_convention():
 
 
 def test_line_hertz_carries_its_load_and_closes_its_gap():
-    w, radius, e_prime = 1e5, 0.01, 2e11
+    w = 1e5
+    radius = 0.01
+    e_prime = 2e11
     b = hertz.line_half_width(w, radius, e_prime)
     load = integrate.quad(lambda x: hertz.line_pressure(x, w, radius, e_prime), -b, b)[0]
     assert load == pytest.approx(w, rel=1e-6)
@@ -53,9 +55,13 @@ def test_rigid_constants():
 
 
 def test_rigid_pressure_satisfies_reynolds_and_gives_the_constants():
-    h0, radius, speed, eta = 1e-6, 1e-2, 0.5, 0.05
+    h0 = 1e-6
+    radius = 1e-2
+    speed = 0.5
+    eta = 0.05
     args = {"radius": radius, "entrainment_speed": speed, "viscosity": eta}
-    scale, c = math.sqrt(2 * radius * h0), rigid.rigid_constants()
+    scale = math.sqrt(2 * radius * h0)
+    c = rigid.rigid_constants()
     x = np.linspace(-2, c.rupture, 400_001)[1:-1] * scale
     p = rigid.pressure(x, h0, **args)
     h = h0 + x**2 / (2 * radius)

@@ -20,7 +20,8 @@ FLAT = lubfric.load_scene("flat").with_(
     numerics={"tolerance": 1e-3},
 )
 MODELS = ("summits", "patches")
-RADIUS, E = 30e-6, 231e9
+RADIUS = 30e-6
+E = 231e9
 
 
 @pytest.mark.parametrize("reading", ["volume", "mean-plane"])
@@ -30,7 +31,8 @@ def test_both_balances_recomputed_from_the_asperities(model, reading):
     scene = CYLINDER.with_(contact={"model": model, "asperity_separation": reading})
     prepared = prepare(scene)
     point = lubfric.friction(prepared, 0.01)
-    contact, film = prepared.contact, point.balance.film.film_at(prepared.contact.x)
+    contact = prepared.contact
+    film = point.balance.film.film_at(prepared.contact.x)
 
     def carried(offset):
         found = asperity_contact(
@@ -113,10 +115,12 @@ def test_between_its_nodes_a_curve_is_as_sure_as_it_tells(model):
     heights = heights - heights.mean()
     curve = asperity_curve(heights, (8e-6, 8e-6), E, heaviest=3e8, definition=model, reading="volume")
     asperities = find_asperities(heights, (8e-6, 8e-6), E, definition=model)
-    within, told = [], []
+    within = []
+    told = []
     for approach in np.ptp(heights) * np.linspace(0.03, 0.3, 40):
         flat = heights.max() - approach
-        pressed, gap = asperities(flat), np.maximum(flat - heights, 0).mean()
+        pressed = asperities(flat)
+        gap = np.maximum(flat - heights, 0).mean()
         if not curve.mean_pressure[-1] < pressed.mean_pressure < curve.mean_pressure[0]:
             continue
         read = curve.at(pressed.mean_pressure)

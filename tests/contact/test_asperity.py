@@ -12,7 +12,9 @@ from lubfric.contact import asperity_contact, separation_for_load
 from lubfric.contact.asperity import DEFINITIONS
 from verification.exact_contact import Sphere
 
-E_PRIME, RADIUS, STEP = 231e9, 30e-6, 50e-9
+E_PRIME = 231e9
+RADIUS = 30e-6
+STEP = 50e-9
 ROUGH = generate_surface((128, 128), 1e-6, sq=100e-9, correlation_length=8e-6, acf="gaussian", seed=2)
 
 
@@ -51,7 +53,8 @@ def test_shift_mirror_exchange_and_datum_do_not_matter(definition, i, j, flip, s
     moved = np.roll(ROUGH.heights, (i, j), (0, 1))
     moved = moved[::-1] if flip else moved
     moved = moved.T if swap else moved
-    a, b = rough_contact(definition, 120e-9), rough_contact(definition, 120e-9 + datum, moved + datum)
+    a = rough_contact(definition, 120e-9)
+    b = rough_contact(definition, 120e-9 + datum, moved + datum)
     assert b.contacts == a.contacts
     assert np.allclose(np.sort(b.forces), np.sort(a.forces), rtol=1e-6)
 
@@ -70,9 +73,11 @@ def test_hardness_cuts_the_hertz_pressure_off():
     """Against quadrature of min(p, P_u) over the contact; far below the hardness nothing changes."""
     from scipy import integrate
 
-    hardness, delta = 2e9, 60e-9
+    hardness = 2e9
+    delta = 60e-9
     result = asperity_contact(paraboloids(14e-6), STEP, E_PRIME, separation=440e-9, hardness=hardness)
-    a, peak = pressed(delta).contact_radius, pressed(delta).peak
+    a = pressed(delta).contact_radius
+    peak = pressed(delta).peak
     assert peak > 1.5 * hardness
     cut = integrate.quad(
         lambda r: r * min(peak * math.sqrt(1 - (r / a) ** 2), hardness),
@@ -83,7 +88,8 @@ def test_hardness_cuts_the_hertz_pressure_off():
     assert result.load == pytest.approx(2 * math.pi * cut, rel=1e-8)
     assert 0 < result.plastic_area_fraction < result.contact_area_fraction
     for definition in DEFINITIONS:
-        capped, elastic = rough_contact(definition, 1e-7, hardness=1e9), rough_contact(definition, 1e-7)
+        capped = rough_contact(definition, 1e-7, hardness=1e9)
+        elastic = rough_contact(definition, 1e-7)
         assert capped.load < elastic.load and capped.load <= 1e9 * capped.contact_area
         assert rough_contact(definition, 1e-7, hardness=1e15).load == elastic.load
 

@@ -23,7 +23,8 @@ def cylinder(cells_across, load=917.0, radius=2e-3, columns=4):
 
 def test_hertz_line():
     """Peak and half-width within 0.5 % at 100 cells across; half-width from the slope of p^2 against x^2."""
-    load, radius = 917.0, 2e-3
+    load = 917.0
+    radius = 2e-3
     x, result = cylinder(100)
     p = result.pressure[:, 0]
     assert np.ptp(result.pressure, axis=1).max() < 1e-5 * p.max()
@@ -51,7 +52,9 @@ JGH = {
 @pytest.mark.parametrize("share", JGH)
 def test_square_waviness(share):
     """Area and mean gap of K. L. Johnson, J. A. Greenwood, J. G. Higginson (1985), computed on 512 x 512."""
-    n, length, height = 256, 1e-4, 1e-7
+    n = 256
+    length = 1e-4
+    height = 1e-7
     x = 2 * np.pi * np.arange(n) / n
     gap0 = -height * np.cos(x)[:, None] * np.cos(x)
     full = np.pi * E_PRIME * height / (np.sqrt(2) * length)  # closes the waves
@@ -63,7 +66,9 @@ def test_square_waviness(share):
 
 def test_full_contact_is_linear():
     """Pressed flat, the pressure is the mean plus E' |k|/4 times the height of each wave."""
-    n, length, height = 64, 1e-4, 1e-7
+    n = 64
+    length = 1e-4
+    height = 1e-7
     x = 2 * np.pi * np.arange(n) / n
     gap0 = -height * np.cos(x)[:, None] * np.cos(2 * x)
     k = 2 * np.pi / length * np.sqrt(5)

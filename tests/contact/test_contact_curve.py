@@ -6,7 +6,8 @@ import pytest
 import lubfric
 from lubfric.contact import contact_curve
 
-E_PRIME, HEAVIEST = 231e9, 2e8
+E_PRIME = 231e9
+HEAVIEST = 2e8
 
 
 @pytest.fixture(scope="module")
@@ -19,13 +20,15 @@ def test_the_error_told_holds_where_the_contact_is_solved(surface):
     curve = contact_curve(surface.heights, surface.spacing, E_PRIME, heaviest=HEAVIEST, accuracy=3e-3)
     gap0 = surface.heights.max() - surface.heights
     pressures = HEAVIEST * np.exp(-np.linspace(0.3, 8.0, 12))
-    off, told = [], []
+    off = []
+    told = []
     for pressure in pressures:
         solved = lubfric.solve_contact(gap0, surface.spacing, E_PRIME, mean_pressure=pressure, tolerance=1e-7)
         off.append(abs(curve.at(pressure)[0] - solved.mean_gap))
         told.append(curve.errors_at(pressure)[0])
     assert np.mean(np.array(off) <= told) >= 0.75 and np.all(np.array(off) <= 4 * np.array(told))
-    lightest, below = curve.mean_pressure[-1], curve.mean_pressure[-1] / 2
+    lightest = curve.mean_pressure[-1]
+    below = curve.mean_pressure[-1] / 2
     solved = lubfric.solve_contact(gap0, surface.spacing, E_PRIME, mean_pressure=below, tolerance=1e-7)
     assert abs(curve.at(below)[0] - solved.mean_gap) <= curve.errors_at(below)[0] <= 3e-3 * curve.touching_gap
     assert lightest < 1e-2 * HEAVIEST and curve.errors_at(0.0)[0] == curve.errors_at(below)[0]
@@ -53,7 +56,8 @@ def test_the_area_between_nodes_is_within_what_is_told_and_what_the_film_feels()
     """A small map, whose summits touch a few at a time: the area read against that of the contact solved there."""
     surface = lubfric.generate_surface((28, 28), 7.14e-6, sq=23e-9, correlation_length=16e-6, acf="gaussian", seed=1)
     curve = contact_curve(surface.heights, 7.14e-6, 231e9, heaviest=2e8, hardness=8e9)
-    told, found = [], []
+    told = []
+    found = []
     for pressure in np.geomspace(2e6, 1.2e8, 24):
         solved = lubfric.solve_contact(-surface.heights, 7.14e-6, 231e9, mean_pressure=pressure, hardness=8e9)
         found.append(abs(curve.at(pressure)[1] - solved.contact_area_fraction) / (1 - solved.contact_area_fraction))

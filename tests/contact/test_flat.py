@@ -58,7 +58,8 @@ def test_a_soft_body_whose_film_opens_in_the_last_columns(viscosity):
         surface={"sq": 2.66e-8, "correlation_length": 1.73e-5},
     )
     prepared = lubfric.prepare(scene)
-    point, b = lubfric.friction(prepared, tolerance=1e-3), scene.bodies.half_width
+    point = lubfric.friction(prepared, tolerance=1e-3)
+    b = scene.bodies.half_width
     angle = np.linspace(0, np.pi, 20001)
     film = np.trapezoid(point.balance.film.film_at(-b * np.cos(angle)) * np.sin(angle), angle) / 2
     gap = prepared.contact.curve.at(point.contact_load / prepared.contact.area)[0]

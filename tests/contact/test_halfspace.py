@@ -30,7 +30,9 @@ def reciprocity_error(operator, seed):
 
 
 def test_love_coefficients_match_quadrature():
-    dx, dy, e_prime = 1.5, 0.7, 3.0
+    dx = 1.5
+    dy = 0.7
+    e_prime = 3.0
     table = love_coefficients((4, 5), (dx, dy), e_prime)
     for i, j in ((1, 0), (0, 2), (3, 4), (1, 1)):
         value, _ = dblquad(
@@ -43,7 +45,9 @@ def test_love_coefficients_match_quadrature():
 
 
 def test_line_coefficients_match_quadrature():
-    dx, e_prime, far = 0.3, 2.0, 7.0
+    dx = 0.3
+    e_prime = 2.0
+    far = 7.0
     table = line_coefficients(6, dx, e_prime, far)
     for i in range(6):
         pieces = [
@@ -54,12 +58,15 @@ def test_line_coefficients_match_quadrature():
 
 
 def test_semiperiodic_coefficients_match_quadrature():
-    shape, (dx, dy), e_prime = (9, 8), (0.4, 0.3), 2.0
+    shape = (9, 8)
+    (dx, dy) = (0.4, 0.3)
+    e_prime = 2.0
     table = semiperiodic_coefficients(shape, (dx, dy), e_prime)
     for m in (1, 2, 4):
         k = 2 * np.pi * m / (shape[1] * dy)
         for i in range(shape[0]):
-            low, high = (i - 0.5) * dx, (i + 0.5) * dx
+            low = (i - 0.5) * dx
+            high = (i + 0.5) * dx
             value = (
                 2 * quad(lambda s, k=k: k0(k * s), 0, high, epsrel=1e-12)[0]
                 if i == 0
@@ -97,7 +104,9 @@ def test_reciprocity_and_positivity(shape, boundary, spacing, seed):
 
 @pytest.mark.parametrize("shape", [(12, 10), (11, 9), (1, 8), (7, 1)])
 def test_periodic_deflection_of_a_wave(shape):
-    dx, dy, e_prime = 0.5, 0.8, 3.0
+    dx = 0.5
+    dy = 0.8
+    e_prime = 3.0
     kx = 2 * np.pi / (shape[0] * dx) * (shape[0] > 1)
     ky = 2 * np.pi / (shape[1] * dy) * (shape[1] > 1)
     phase = kx * dx * np.arange(shape[0])[:, None] + ky * dy * np.arange(shape[1])
@@ -108,7 +117,8 @@ def test_periodic_deflection_of_a_wave(shape):
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_fft_equals_direct_sum(boundary):
     """Padding leaves no image: a single loaded cell reproduces the kernel in every corner."""
-    shape, spacing = (6, 7), (0.4, 0.9)
+    shape = (6, 7)
+    spacing = (0.4, 0.9)
     operator = half_space(shape, spacing, 2.0, boundary)
     p = np.zeros(shape)
     p[0, 0] = 1.0
@@ -174,7 +184,8 @@ def test_a_loaded_strip_deflects_as_in_the_whole_patch(nx, ny, spacing, first, c
 
 def test_coarse_cells_of_a_strip_keep_the_gauge():
     operator = half_space((24, 12), (0.3, 0.5), 2.0, ("free", "periodic"))
-    coarse, pressure = operator.coarsened((2, 1)), np.zeros((12, 12))
+    coarse = operator.coarsened((2, 1))
+    pressure = np.zeros((12, 12))
     pressure[3] = 1.0
     expected = operator.apply(pressure.repeat(2, axis=0))
     assert coarse.apply(pressure)[9:] == pytest.approx(

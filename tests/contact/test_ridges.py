@@ -26,13 +26,16 @@ def ridge(slope=0, axis=1):
 @pytest.mark.parametrize("periodic", [(True, True), (False, True), (True, False), (False, False)])
 def test_a_patch_without_ends_holds_the_same_cell_of_two_periods(periodic):
     """Random small maps, laid side by side nine times along every periodic axis, and filled from cell to cell."""
-    rng, found = np.random.default_rng(8), []
+    rng = np.random.default_rng(8)
+    found = []
     copies = [9 if axis else 1 for axis in periodic]
     for _ in range(60):
-        heights, bearing = rng.random(rng.integers(2, 8, 2)), rng.uniform(0.1, 0.5)
+        heights = rng.random(rng.integers(2, 8, 2))
+        bearing = rng.uniform(0.1, 0.5)
         touching = heights > np.quantile(heights, 1 - bearing)
         label, _ = ndimage.label(np.tile(touching, copies), np.ones((3, 3)))
-        (nx, ny), (a, b) = heights.shape, copies
+        (nx, ny) = heights.shape
+        (a, b) = copies
         by_period = label.reshape(a, nx, b, ny).swapaxes(1, 2).reshape(a * b, nx * ny)
         middle = by_period[a // 2 * b + b // 2]
         again = np.count_nonzero((by_period == middle) & (middle > 0), axis=0) > 1

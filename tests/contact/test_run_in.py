@@ -20,10 +20,15 @@ ROUGH = PAPER.with_(
 
 def sphere(hardness_over_p0: float):
     """A cap of radius r under a much flatter cylinder, which bears the whole load: scene, map, and its Hertz radius."""
-    r, radius, height, d, (nx, ny) = 50e-6, 1e-3, 100e-9, 0.2e-6, (200, 60)
+    r = 50e-6
+    radius = 1e-3
+    height = 100e-9
+    d = 0.2e-6
+    (nx, ny) = (200, 60)
     x, y = ((np.arange(n) - n / 2 + 0.5) * d for n in (nx, ny))
     cap = Surface(np.maximum(height - (x[:, None] ** 2 + y**2) / (2 * r), 0.0), d)
-    a, mean_radius = 1e-6, r / np.sqrt(1 + r / radius)
+    a = 1e-6
+    mean_radius = r / np.sqrt(1 + r / radius)
     load = 4 / 3 * (E_PRIME / 2) * a**3 / mean_radius
     p0 = 1.5 * load / (np.pi * a**2)
     scene = PAPER.with_(bodies=under(radius, ny * d, load, hardness_over_p0 * p0))
@@ -33,7 +38,10 @@ def sphere(hardness_over_p0: float):
 def ripple(hardness: float, p0: float, p_star: float):
     """Ridges along the motion, cos(2 pi y/L), under a line contact of Hertz pressure p0 that is far wider than L.
     p_star = pi E* A/L closes them."""
-    radius, length, ny, nx = 0.05, 4e-6, 96, 60
+    radius = 0.05
+    length = 4e-6
+    ny = 96
+    nx = 60
     b = 4 * radius * p0 / E_PRIME
     amplitude = p_star * length / (np.pi * E_PRIME / 2)
     ridges = np.tile(amplitude * np.cos(2 * np.pi * (np.arange(ny) + 0.5) / ny), (nx, 1))
@@ -47,7 +55,9 @@ def under(radius, width, load, hardness) -> dict[str, float]:
 
 def reloaded(scene, surface) -> tuple[lubfric.ContactResult, float]:
     """The dry contact about the middle of ``surface``, and its area [m²]."""
-    bodies, (nx, ny), (dx, dy) = scene.bodies, surface.shape, surface.spacing
+    bodies = scene.bodies
+    (nx, ny) = surface.shape
+    (dx, dy) = surface.spacing
     x = (np.arange(nx) - nx / 2 + 0.5) * dx
     mean = bodies.load / (bodies.width * nx * dx)
     options = {"hardness": bodies.hardness, "boundary": ("free", "periodic"), "mean_pressure": mean}

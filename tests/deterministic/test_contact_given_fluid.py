@@ -13,7 +13,8 @@ from verification.studies.given_fluid import Case, elements, judged, laid
 def test_the_contact_is_that_of_finite_elements_given_the_fluid():
     case = Case(32, 8, 0.003, 40e-9, 2.5e9, 1)
     problem = laid(case, replace(contact(0.1), load_per_width=5 * LOAD))
-    found, body = solve_point(problem), elements(problem, case.fineness)
+    found = solve_point(problem)
+    body = elements(problem, case.fineness)
     mine = np.where(found.touching, found.pressure, 0.0)
     judge, load = judged(problem, found, body)
     assert np.count_nonzero(mine) > 5 and ((judge.pressure > 0) == (mine > 0)).all()

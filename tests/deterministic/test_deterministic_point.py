@@ -15,7 +15,8 @@ from lubfric.oil import Lubricant, shear_stress
 from lubfric.surface import Surface
 from verification.stability.whole_map import bearing, check
 
-E_PRIME, RADIUS = 231e9, 2e-3
+E_PRIME = 231e9
+RADIUS = 2e-3
 NEWTONIAN = Lubricant(0.36, 25e-9)
 LIMIT = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2e6}
 LIMITED = replace(NEWTONIAN, density_law="dowson-higginson", **LIMIT)
@@ -66,14 +67,16 @@ def test_smooth_limit_is_the_film_of_solve_ehl(load, radius, speed, oil):
 
 def test_dry_limit_is_the_rough_contact():
     problem = rough(64, 917.0, 2e-6, hardness=6e9)
-    found, dry = solve_point(problem), dry_contact(problem, tolerance=1e-8)
+    found = solve_point(problem)
+    dry = dry_contact(problem, tolerance=1e-8)
     difference = np.sqrt(np.mean((found.pressure - dry.pressure) ** 2) / np.mean(dry.pressure**2))
     assert difference < 0.01
     assert (found.split.touching, found.coefficient) == pytest.approx((917.0, 0.09), rel=1e-2)
 
 
 def test_a_solution_keeps_every_balance_by_sums_of_its_fields():
-    found, dx = FOUND, LIGHT.spacing[0]
+    found = FOUND
+    dx = LIGHT.spacing[0]
     assert found.pressure.sum() * dx / found.pressure.shape[1] + found.inlet_load == pytest.approx(917.0, rel=1e-5)
     elastic = LIGHT.operator.apply(found.pressure) + LIGHT.rigid_gap + found.approach
     assert np.abs(np.maximum(elastic, LIGHT.floor) - found.gap).max() < 1e-13
@@ -172,10 +175,12 @@ def test_the_film_of_longer_cells_leads_to_shorter_ones_in_a_few_whole_steps():
 
 def test_steps_in_time_lead_from_a_neighbouring_speed_to_the_steady_film():
     """To the same film as Newton's method from the dry contact, which shares none of the way."""
-    problem, work = rough(32, 18333.0, 0.01, LIMITED, hardness=4e9), Work(300)
+    problem = rough(32, 18333.0, 0.01, LIMITED, hardness=4e9)
+    work = Work(300)
     settled = march(problem, solve_point(problem.at_speed(0.1)).state, work, most=300)
     assert work.steps >= 3 and work.factorisations < 300
-    there, cold = solve_point(problem, start=settled, most=5), solve_point(problem)
+    there = solve_point(problem, start=settled, most=5)
+    cold = solve_point(problem)
     assert "from a neighbouring state" in there.report.notes[0]
     assert np.abs(there.pressure - cold.pressure).max() < 1e-3 * cold.pressure.max()
 
@@ -197,9 +202,12 @@ def test_thinner_gaps_than_the_boundary_film_rub_with_f_b_and_the_rest_by_the_oi
     """Against sums over the fields; half and twice the length are what a solve with it gives."""
     problem = rough(48, 917.0, 0.01, oil, boundary_film=16e-9)
     found = solve_point(problem)
-    p, h, dx = found.pressure, found.gap, problem.spacing[0]
+    p = found.pressure
+    h = found.gap
+    dx = problem.spacing[0]
     law = shear_stress(oil, p, 0.02 / h)
-    thin, film = h < 16e-9, (h >= 16e-9) & (p > 0)
+    thin = h < 16e-9
+    film = (h >= 16e-9) & (p > 0)
     capped = film & (p > 50e6) & (law > 0.09 * p) if oil is NEWTONIAN else np.zeros_like(film)
     rows = p.shape[1]
     for name, where in (("thin", thin), ("capped", capped)):

@@ -24,11 +24,13 @@ def point():
 
 
 def test_the_words_of_a_result_keep_their_meaning(point):
-    found, b = point.deterministic, SCENE.bodies
+    found = point.deterministic
+    b = SCENE.bodies
     assert point.contact_load + point.film_load == pytest.approx(b.load)
     assert point.coefficient * b.load == pytest.approx(point.boundary_force + point.shear_force)
     assert point.boundary_force == pytest.approx(0.09 * point.contact_load)
-    (dx, dy), ny = found.spacing, found.pressure.shape[1]
+    (dx, dy) = found.spacing
+    ny = found.pressure.shape[1]
     spots = found.pressure[found.spots].sum() * dx * dy * b.width / (ny * dy)
     assert spots == pytest.approx(point.contact_load)
     assert point.real_contact_area == pytest.approx(found.spots.sum() * dx * dy * b.width / (ny * dy))

@@ -64,7 +64,8 @@ def test_roughness_at_rest_settles_to_the_steady_film(cells, steps):
 
 
 def test_two_rough_bodies_at_one_speed_are_one():
-    one, other = rough(1, 0.05e-6), rough(2, 0.05e-6)
+    one = rough(1, 0.05e-6)
+    other = rough(2, 0.05e-6)
     whole = replace(one, heights=one.heights + other.heights)
     problem = laid(whole, sliding=0.0)
     apart = after(problem, [RoughBody(one, 0.3), RoughBody(other, 0.3, upper=True)], 6)
@@ -75,11 +76,13 @@ def test_two_rough_bodies_at_one_speed_are_one():
 
 def test_at_rest_too_the_pressure_presses_on_the_flanks_of_the_upper_body():
     scene = scene_of(slide_roll_ratio=0.5)
-    lower, upper = rough(1, 0.05e-6, (24, 12)), rough(2, 0.1e-6, (24, 12))
+    lower = rough(1, 0.05e-6, (24, 12))
+    upper = rough(2, 0.1e-6, (24, 12))
     rest = solve_moving_strip(scene, [RoughBody(lower, 0.225), RoughBody(upper, 0.375, upper=True)], 0.3).rest
     whole = replace(lower, heights=lower.heights + upper.heights)
     alone = solve_strip(scene, whole, 0.3).result
-    x, p = rest.problem.x, rest.result.pressure
+    x = rest.problem.x
+    p = rest.result.pressure
     place = np.rint(x / CELL + 23 / 2).astype(int) % 24
     flanks = -(0.5 * (p[1:] + p[:-1]) * np.diff(upper.heights[place], axis=0)).sum(axis=0).mean()
     assert abs(flanks) > 1e-3 * alone.rolling
@@ -88,7 +91,8 @@ def test_at_rest_too_the_pressure_presses_on_the_flanks_of_the_upper_body():
 
 def test_where_summits_close_cells_hardly_any_lubricant_is_given_off():
     """With nine tenths of the load on spots. In steps that are not limited there cells gave off 8 % of all."""
-    surface, line = rough(1, sq=0.15e-6, shape=(24, 12)), replace(LINE, entrainment_speed=0.05)
+    surface = rough(1, sq=0.15e-6, shape=(24, 12))
+    line = replace(LINE, entrainment_speed=0.05)
     problem = lay_out(surface, line, sliding=0.025, boundary_friction=0.1)
     passing = moments(travelling(problem, [RoughBody(surface, 0.0625)]), CELL / 0.05)
     found = [moment.result for moment in islice(passing, 1, 13)]
@@ -105,10 +109,13 @@ def test_turning_the_contact_upside_down_leaves_the_force_on_each_body(others):
     lower = after(laid(whole), [body, *others], 8)
     upper = after(replace(laid(whole), sense=-1.0), turned, 8)
     assert np.allclose(lower.at.gap, upper.at.gap, rtol=1e-9)
-    p, x, upstream = lower.at.state.pressure, lower.at.problem.x, lower.at.balance.inlet
+    p = lower.at.state.pressure
+    x = lower.at.problem.x
+    upstream = lower.at.balance.inlet
     moment = (p.mean(axis=1) @ x) * CELL / LINE.radius  # and upstream, by parts: ∫ p x/R dx = h p - ∫ h dp
     moment += np.mean(lower.at.gap[0] * p[0] - 2 * upstream.rolling)
-    f, rolling = lower.result.coefficient, lower.result.rolling / LINE.load_per_width
+    f = lower.result.coefficient
+    rolling = lower.result.rolling / LINE.load_per_width
     assert upper.result.coefficient == pytest.approx(f + moment / LINE.load_per_width, abs=0.05 * rolling)
     assert upper.result.coefficient < 0.9 * f and rolling > 0.05 * f
 
@@ -123,7 +130,8 @@ def test_of_either_sense_of_sliding_the_film_rolls_the_same_way():
 
 
 def test_of_a_map_that_was_given_nobody_knows_which_of_two_bodies_moves_it():
-    rough_too, map_ = {"sq": 1e-7, "correlation_length": 12e-6}, rough(1, shape=(96, 64))
+    rough_too = {"sq": 1e-7, "correlation_length": 12e-6}
+    map_ = rough(1, shape=(96, 64))
     scene = scene_of(slide_roll_ratio=2.0).with_(surface=rough_too, counterface=rough_too)
     with pytest.raises(lubfric.InputError, match="counterface.*second rough body"):
         lubfric.prepare(scene.with_(numerics={"model": "deterministic"}), map_)
@@ -138,7 +146,8 @@ def test_of_a_map_that_was_given_nobody_knows_which_of_two_bodies_moves_it():
 @pytest.fixture
 def two_files(tmp_path):
     """A scene with a measured map on each body, of other sizes and cells, and the maps as they are read."""
-    sections, maps = {}, []
+    sections = {}
+    maps = []
     for name, cell, shape in (("surface", CELL, (48, 20)), ("counterface", CELL / 2, (64, 48))):
         made = generate_surface((128, 64), cell, sq=5e-8, correlation_length=12e-6, acf="gaussian", seed=len(maps))
         np.save(tmp_path / f"{name}.npy", made.heights[: shape[0], : shape[1]])
@@ -153,7 +162,8 @@ def test_two_measured_maps_are_together_what_the_contact_sees(two_files, samplin
     """In strips and in a patch; those given are those of the files. The counterface lies turned over about x."""
     scene, maps = two_files
     prepared = lubfric.prepare(scene.with_(numerics={"model": "deterministic", "sampling": sampling}))
-    found, whole = maps_of(prepared, 0), prepared.strips.strip(0)
+    found = maps_of(prepared, 0)
+    whole = prepared.strips.strip(0)
     heights = sum(one.heights - one.heights.mean() for one in found.values())
     np.testing.assert_allclose(heights, whole.heights - whole.heights.mean(), atol=1e-14)
     assert min(one.sq for one in found.values()) > 0.3 * whole.sq
@@ -168,7 +178,8 @@ def test_two_measured_maps_move_each_at_its_own_speed(two_files):
     scene, _ = two_files
     patch = {"model": "deterministic", "sampling": "patch", "grid": "given", "accept": True}
     scene = scene.with_(numerics=patch, contact={"spacing": 2 * CELL})
-    maps, found = maps_of(lubfric.prepare(scene), 0), lubfric.friction(scene, 0.3)
+    maps = maps_of(lubfric.prepare(scene), 0)
+    found = lubfric.friction(scene, 0.3)
     bodies = [RoughBody(maps["surface"], 0.15), RoughBody(maps["counterface"], 0.45, upper=True)]
     assert found.coefficient == pytest.approx(solve_moving_strip(scene, bodies, 0.3).result.coefficient, rel=1e-3)
 
@@ -192,9 +203,12 @@ def scene_of(**motion):
 
 def test_a_step_that_newtons_method_does_not_solve_is_taken_in_parts(monkeypatch):
     """They lead to it, and it is solved again from there: the same film, as the equations are the same."""
-    surface, tried = rough(3, sq=0.05e-6), []
-    problem, bodies = laid(surface), [RoughBody(surface, 0.15)]
-    whole, real = after(problem, bodies, 6, CELL / 0.15), moving.newton
+    surface = rough(3, sq=0.05e-6)
+    tried = []
+    problem = laid(surface)
+    bodies = [RoughBody(surface, 0.15)]
+    whole = after(problem, bodies, 6, CELL / 0.15)
+    real = moving.newton
 
     def only_after_parts(at, *given, past, **how):
         found = real(at, *given, past=past, **how)
@@ -214,7 +228,8 @@ def waves(steps_a_cell: float, count: float = 0.5):
     b = LINE.half_width
     flat = Surface(np.zeros((32, 1)), (b / 16,) * 2, periodic_axes=(True, True))
     smooth = lay_out(flat, LINE, sliding=0.0, boundary_friction=0.1, ends=(2.5 * b, 1.3 * b))
-    k, height = 2 * np.pi / b, 0.02 * LINE.moes_film
+    k = 2 * np.pi / b
+    height = 0.02 * LINE.moes_film
     step = b / 16 / 0.3 / steps_a_cell
     start = solve_point(smooth, tolerance=1e-8).state
 
@@ -234,9 +249,11 @@ def test_steps_are_of_second_order():
 
 def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
     """The film has passed the contact once before anything counts."""
-    scene, surface = scene_of(slide_roll_ratio=0.5), rough(5)
+    scene = scene_of(slide_roll_ratio=0.5)
+    surface = rough(5)
     strip = solve_moving_strip(scene, [RoughBody(surface, 0.225)], 0.3, slope=True)
-    f, discarded = strip.series["coefficient"], strip.discarded
+    f = strip.series["coefficient"]
+    discarded = strip.discarded
     assert f.size - discarded == round(32 * 0.3 / 0.225) and strip.result.coefficient == pytest.approx(
         f[discarded:].mean(), rel=1e-12
     )
@@ -254,12 +271,14 @@ def test_means_are_those_of_what_counts_and_are_drawn(tmp_path):
 
 
 def test_moments_are_read_back_by_another_reader(tmp_path):
-    meshio, surface = pytest.importorskip("meshio"), rough(5)
+    meshio = pytest.importorskip("meshio")
+    surface = rough(5)
     shown = list(islice(moments(travelling(laid(surface), [RoughBody(surface, 0.15)]), CELL / 0.15), 3))
     write_moments(tmp_path / "vtk", shown)
     series = json.loads((tmp_path / "vtk" / "moments.vtk.series").read_text())["files"]
     assert [one["time"] for one in series] == [moment.time for moment in shown]
-    mesh, at = meshio.read(tmp_path / "vtk" / series[2]["name"]), shown[2].at
+    mesh = meshio.read(tmp_path / "vtk" / series[2]["name"])
+    at = shown[2].at
     for name, values in (("gap", at.gap), ("pressure", at.state.pressure), ("height", at.problem.heights)):
         np.testing.assert_array_equal(mesh.point_data[name].reshape(12, -1), values.T)
 
@@ -273,12 +292,15 @@ def test_amplitudes_are_reduced_as_published(length, kept, cells):
     line = LineContact(4.41e6 * 0.02, 0.02, 2.2e11, 1.0, Lubricant(0.04, 2e-8, density_law="dowson-higginson"))
     line = replace(line, entrainment_speed=(11 / line.L) ** 4)
     line = replace(line, load_per_width=line.load_per_width * 100 / line.M)
-    b, u = line.half_width, line.entrainment_speed
+    b = line.half_width
+    u = line.entrainment_speed
     dx = length * b / cells
     flat = Surface(np.zeros((32, 1)), (dx, dx), periodic_axes=(True, True))
     smooth = lay_out(flat, line, sliding=0.0, boundary_friction=0.1, ends=(4 * b, 1.5 * b))
     base = solve_point(smooth, tolerance=1e-8)
-    height, k, middle = 0.1 * base.central_gap, 2 * np.pi / (length * b), int(np.argmin(np.abs(smooth.x)))
+    height = 0.1 * base.central_gap
+    k = 2 * np.pi / (length * b)
+    middle = int(np.argmin(np.abs(smooth.x)))
 
     def at(time):  # the waves come in with their surface
         edge = np.clip((u * time - 4 * b - smooth.x) / b, 0, 1)

@@ -17,7 +17,8 @@ from lubfric.models.deterministic.rheology import mean_fluidity, thinning
 from lubfric.oil import Lubricant
 from lubfric.surface import Surface
 
-RADIUS, SPEED = 2e-3, 0.1
+RADIUS = 2e-3
+SPEED = 0.1
 LAWS = {
     "Newtonian": Lubricant(0.36, 25e-9),
     "Eyring": Lubricant(0.36, 25e-9, density_law="dowson-higginson", eyring_stress=5e6),
@@ -50,9 +51,11 @@ def test_mean_fluidity_is_the_mean_of_the_exponential_and_its_derivatives(left, 
 
 @pytest.mark.parametrize("name", LAWS)
 def test_derivatives_are_those_of_the_residual(name):
-    problem, random = small(LAWS[name]), np.random.default_rng(1)
+    problem = small(LAWS[name])
+    random = np.random.default_rng(1)
     shape = problem.heights.shape
-    p, h = 1e8 * random.random(shape), 1e-7 + 1e-7 * random.random(shape)
+    p = 1e8 * random.random(shape)
+    h = 1e-7 + 1e-7 * random.random(shape)
     p[0] *= 0.1
     h[0] = problem.x[0] ** 2 / (2 * RADIUS)
     by_p, by_h, _ = (
@@ -72,7 +75,8 @@ def test_derivatives_are_those_of_the_residual(name):
 
 def test_inlet_against_martins_closed_form():
     """A rigid isoviscous film: pressure, load and rolling friction upstream of a point, from the exact pressure."""
-    eta, h0 = 0.01, 1e-6
+    eta = 0.01
+    h0 = 1e-6
     oil = Lubricant(eta, viscosity_law="constant")
     problem = small(oil, e_prime=1e13)
     edge = problem.x[0] - 2.5e-6
@@ -106,7 +110,8 @@ def rigid_load(q_of, film_at, eta, x):
         behind = np.flatnonzero((fine > 0) & (slope > 0))
         return p[behind[0]] if behind.size else p[-1]
 
-    low, high = a.min() * 1.0001, a.min() * 1.7
+    low = a.min() * 1.0001
+    high = a.min() * 1.7
     q = brentq(at_rupture, low, high, xtol=1e-18, rtol=1e-12)
     p, slope = pressure(q)
     end = np.flatnonzero((fine > 0) & (slope > 0))[0]
@@ -116,7 +121,9 @@ def rigid_load(q_of, film_at, eta, x):
 @pytest.mark.parametrize("along", [True, False], ids=["along", "across"])
 def test_rigid_waviness_against_christensens_averages(along):
     """Short waves of 0.4 h0: longitudinal ones average h and h³, transverse ones 1/h² and 1/h³ (Christensen 1969)."""
-    eta, h0, amplitude = 0.01, 2e-6, 0.8e-6
+    eta = 0.01
+    h0 = 2e-6
+    amplitude = 0.8e-6
     oil = Lubricant(eta, viscosity_law="constant")
     phase = 2 * np.pi * (np.arange(64) + 0.5) / 64
 
@@ -127,7 +134,8 @@ def test_rigid_waviness_against_christensens_averages(along):
         return SPEED * (wavy**-2).mean(axis=1) / (wavy**-3).mean(axis=1), 1 / (wavy**-3).mean(axis=1)
 
     ends = (4.5e-4, 1.5e-4)
-    n, waves = 1200, 100
+    n = 1200
+    waves = 100
     dx = sum(ends) / n
     if along:
         heights = amplitude * np.cos(2 * np.pi * (np.arange(32) + 0.5) / 32) * np.ones((4, 1))
@@ -150,7 +158,8 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
     enough of its inlet: q = U h where it ruptures, ∫ (U h - q)/h³ dx = 0 over its length (Jakobsson-Floberg-Olsson)."""
     from scipy.optimize import brentq
 
-    n, step = 600, 1e-6
+    n = 600
+    step = 1e-6
     x = (np.arange(n) - 400) * step
     oil = Lubricant(0.01, viscosity_law="constant")
     contact = LineContact(12.0, RADIUS, 1e13, SPEED, oil)
@@ -158,7 +167,9 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
     operator = half_space((n, 1), step, 1e13, ("free", "periodic"))
     problem = Problem(contact, 2 * SPEED, x, heights, operator, 0.09)
     found = solve_point(problem)
-    h, p, fill = found.gap[:, 0], found.pressure[:, 0], found.fill[:, 0]
+    h = found.gap[:, 0]
+    p = found.pressure[:, 0]
+    fill = found.fill[:, 0]
     q = found.flow_film
     carried = np.where(fill < 1, fill * (h + np.diff(h, prepend=h[0]) / 2), q)
     assert np.count_nonzero(np.abs(carried / q - 1) > 1e-6) <= 1  # but where the second film pushes back into a cell
@@ -178,7 +189,10 @@ def test_a_film_ruptures_and_refills_where_its_flow_says():
     assert (fill[second[0] - 10 : second[0] - 2] < 1).all() and fill.min() > 0
 
 
-ETA, U, DX, DY = 0.1, 0.4, 4e-6, 9e-6
+ETA = 0.1
+U = 0.4
+DX = 4e-6
+DY = 9e-6
 SHAPE = (40, 24)
 WATER = Lubricant(ETA, viscosity_law="constant")
 
@@ -192,14 +206,16 @@ def even(lubricant=WATER):
 @pytest.mark.parametrize("axis, waves", [(0, 2), (1, 2), (1, 3)])
 def test_a_wave_of_pressure_drives_its_flow_along_its_own_axis(axis, waves):
     """In an even gap: div(-h³/(12 eta) grad p), with the difference of neighbours for the derivative."""
-    h, step = 2e-7, (DX, DY)[axis]
+    h = 2e-7
+    step = (DX, DY)[axis]
     places = np.arange(SHAPE[axis])
     line = 1e7 * (2 + np.sin(2 * np.pi * waves * places / SHAPE[axis]))
     p = np.broadcast_to(line[:, None] if axis == 0 else line[None, :], SHAPE)
     found = balance(even(), p, np.full(SHAPE, h)).residual[2:-1]
     second = (np.roll(line, -1) - 2 * line + np.roll(line, 1)) / step**2
     expected = -(h**3) / (12 * ETA) * (second[2:-1, None] if axis == 0 else second[None, :])
-    everywhere, most = np.broadcast_to(expected, found.shape), abs(expected).max()
+    everywhere = np.broadcast_to(expected, found.shape)
+    most = abs(expected).max()
     np.testing.assert_allclose(found, everywhere, rtol=1e-8, atol=1e-8 * most)
 
 
@@ -214,8 +230,10 @@ def test_a_wedge_takes_in_what_it_is_dragged():
 
 def test_the_narrowest_place_limits_the_flow():
     """Between two cells with h linear the mean of 1/h³ is (h1 + h2)/(2 h1² h2²)."""
-    p, h = np.full(SHAPE, 1e7), np.full(SHAPE, 4e-7)
-    p[:, 5], h[:, 5] = 3e7, 1e-7
+    p = np.full(SHAPE, 1e7)
+    h = np.full(SHAPE, 4e-7)
+    p[:, 5] = 3e7
+    h[:, 5] = 1e-7
     flow = balance(even(), p, h).across.flow
     mean = (1e-7 + 4e-7) / (2 * 1e-14 * 16e-14)
     np.testing.assert_allclose(flow[:, 5], 2e7 / DY / (12 * ETA * mean), rtol=1e-9)
@@ -225,7 +243,8 @@ def test_the_narrowest_place_limits_the_flow():
 @pytest.mark.parametrize("s", [0.3, 3.0, 40.0])
 def test_sliding_thins_by_eyrings_law_and_by_the_limit(s):
     """Conry et al. (1987): the tangent √(1 + s²) along the sliding, the secant s/asinh(s) across; a limit adds s."""
-    oil, tau = Lubricant(ETA, 1e-8, eyring_stress=5e6), np.array([s * 5e6])
+    oil = Lubricant(ETA, 1e-8, eyring_stress=5e6)
+    tau = np.array([s * 5e6])
     along, across = (float(thinning(oil, tau, [5e6], way)[0][0]) for way in (True, False))
     assert along == pytest.approx(math.sqrt(1 + s * s)) and across == pytest.approx(s / math.asinh(s))
     limited = Lubricant(ETA, 1e-8, limiting_stress_coefficient=0.05)

@@ -65,7 +65,8 @@ def test_a_start_saves_work_and_changes_nothing_but_what_the_tolerance_allows():
     assert solved(slope=True).result.coefficient == FOUND.result.coefficient
     faster = solved(0.015)
     again = solved(start=faster)
-    finer, cold = solved(factors=(1, 1), start=FOUND), solved(factors=(1, 1))
+    finer = solved(factors=(1, 1), start=FOUND)
+    cold = solved(factors=(1, 1))
     for warm, other in ((again, FOUND), (finer, cold)):
         assert warm.result.coefficient == pytest.approx(other.result.coefficient, rel=2e-3)
         assert 0 < warm.work < other.work

@@ -20,7 +20,9 @@ from lubfric.oil import Lubricant, viscosity
 from lubfric.surface import Surface
 from verification.studies.waviness import STEEL, compared
 
-E_PRIME, SPEED, CELLS = 2e9, 0.5, 1024
+E_PRIME = 2e9
+SPEED = 0.5
+CELLS = 1024
 
 
 @pytest.mark.parametrize(

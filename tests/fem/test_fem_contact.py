@@ -37,7 +37,8 @@ def press(layer, load=LOAD, **options):
 def test_another_algorithm_finds_the_same_pressure(seed, load):
     """Non-negative least squares on the same compliance, at the approach that was found."""
     layer = make_layer(MeshTri.init_tensor(np.linspace(-0.5, 0.5, 13), np.linspace(-0.5, 0, 7)), BODY)
-    compliance, gap0 = layer.compliance, 0.3 * np.random.default_rng(seed).standard_normal(layer.x.size)
+    compliance = layer.compliance
+    gap0 = 0.3 * np.random.default_rng(seed).standard_normal(layer.x.size)
     found = solve_contact(lambda f: compliance @ f, layer.weights, gap0, load, tolerance=1e-10)
     factor = np.linalg.cholesky(compliance)
     force, _ = nnls(factor.T, -np.linalg.solve(factor, gap0 - found.approach))
@@ -49,7 +50,8 @@ def test_another_algorithm_finds_the_same_pressure(seed, load):
 def test_capped_contact_of_random_heights_meets_every_condition(bricks, seed, pressure, over):
     """From a few touching nodes to full contact, from nearly all saturated to nearly none."""
     grid, compliance = bricks
-    weights, limit = grid.weights.ravel(), over * pressure
+    weights = grid.weights.ravel()
+    limit = over * pressure
     gap0 = np.random.default_rng(seed).standard_normal(weights.size)
     found = solve_contact(compliance.displacement, weights, gap0, pressure, limit=limit)
     gap = gap0 - found.approach + compliance.displacement(found.pressure * weights)

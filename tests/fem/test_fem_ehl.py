@@ -77,7 +77,8 @@ def test_a_film_that_shear_thins():
     line = contact(20, 10)
     sliding = 2 * line.entrainment_speed
     newtonian, thinned = solve_thinned(line, Law(5e5), sliding, refinements=0)
-    zero, film = np.zeros(3), np.array([0.5, 1.0, 2.0])
+    zero = np.zeros(3)
+    film = np.array([0.5, 1.0, 2.0])
     s = thinned.film.stress_per_film / film / 5e5
     assert thinned.film.factor(zero, zero, film) == pytest.approx(np.hypot(1, s), rel=1e-6)
     own = lubfric.solve_ehl(**case_of(20, 10), sliding=sliding, eyring_stress=5e5)

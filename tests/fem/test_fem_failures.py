@@ -14,7 +14,8 @@ from verification.fem.report import InputError, SolveError
 from verification.parts import case_of
 from verification.studies.reynolds import PARABOLA, parabola_mesh
 
-UNIT, STEEL = Elastic(1.0, 0.3), Elastic.from_e_prime(231e9, 0.3)
+UNIT = Elastic(1.0, 0.3)
+STEEL = Elastic.from_e_prime(231e9, 0.3)
 OIL = Fluid(0.1)
 BRICKS = layer3d.Layer3D(UNIT, (1.0, 1.0), layer3d.graded_levels(1.0, 2, 4.0), (8, 8), 1)
 STRIP = Strip((24, 12), (1e-6, 1e-6), STEEL)

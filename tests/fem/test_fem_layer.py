@@ -76,9 +76,11 @@ def brick(nodes, degree, layers=None, depth=1.0, body=UNIT):
 @pytest.mark.parametrize("degree, element", [(1, ElementHex1), (2, ElementHex2)])
 def test_assembled_layer_is_that_of_scikit_fem(degree, element):
     """The energy of a random periodic displacement, with the mesh of the whole period assembled by scikit-fem."""
-    nx, ny = 3 * degree, 2 * degree
+    nx = 3 * degree
+    ny = 2 * degree
     layer = Layer3D(UNIT, (1.2, 0.7), graded_levels(0.9, 2, 3.0), (nx, ny), degree)
-    x, y = np.linspace(0, 1.2, 4), np.linspace(0, 0.7, 3)
+    x = np.linspace(0, 1.2, 4)
+    y = np.linspace(0, 0.7, 3)
     basis = Basis(MeshHex.init_tensor(x, y, layer.levels), ElementVector(element()), intorder=2 * degree)
     planes = np.unique(np.round(basis.doflocs[2], 9))
     ix, iy = (np.round(basis.doflocs[i] / w * degree).astype(int) for i, w in enumerate(layer.cell_size))
@@ -95,7 +97,8 @@ def test_assembled_layer_is_that_of_scikit_fem(degree, element):
 
 def test_bricks_are_reciprocal_and_the_same_from_every_cell():
     layer = brick(8, 2)
-    waves, rng = fourier_compliance(layer), np.random.default_rng(2)
+    waves = fourier_compliance(layer)
+    rng = np.random.default_rng(2)
     p, q = rng.standard_normal((2, 8, 8))
     assert np.sum(q * waves.displacement(p)) == pytest.approx(np.sum(p * waves.displacement(q)), rel=1e-11)
     moved = np.roll(waves.displacement(p), (2, 4), (0, 1))

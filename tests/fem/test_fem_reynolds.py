@@ -31,7 +31,8 @@ def test_closed_forms_agree_with_quadrature_and_with_the_literature():
 
 def test_the_exact_pad_solves_the_equation():
     pad = exact.ExponentialPad(0.1, 1.0, 0.01, 0.007, 2e-6, 1e-6)
-    x, d = np.array([0.004, 0.001]), 2e-5
+    x = np.array([0.004, 0.001])
+    d = 2e-5
 
     def flow(x, axis):
         step = d * np.eye(2)[axis]
@@ -48,14 +49,17 @@ def test_rupture_under_a_parabola(degree):
     assert np.isclose(s.inflow(s.problem.mesh.p.min()), PARABOLA.flow, rtol=1e-4)
     # complementarity of what comes back: pressure, lost flow, and never both
     inside = (s.basis.doflocs[0] > s.problem.mesh.p.min()) & (s.basis.doflocs[0] < s.problem.mesh.p.max())
-    p, lost = s.pressure[inside] / PARABOLA.pressure_scale, s.reaction[inside] / PARABOLA.flow
+    p = s.pressure[inside] / PARABOLA.pressure_scale
+    lost = s.reaction[inside] / PARABOLA.flow
     assert p.min() >= 0 and lost.min() > -1e-8 and np.max(p * lost) < 1e-8
     assert lost.max() > 1e-4
 
 
 def test_slopes_are_derivatives():
-    p, d = np.linspace(0, 5e8, 7), 1e3
-    compressible, linear = Fluid(0.04, density_law="dowson-higginson"), Fluid(0.04, density_law="linear")
+    p = np.linspace(0, 5e8, 7)
+    d = 1e3
+    compressible = Fluid(0.04, density_law="dowson-higginson")
+    linear = Fluid(0.04, density_law="linear")
     viscous = (Fluid(0.04, law, 2e-8).log_viscosity for law in ("barus", "roelands"))
     for law in (*viscous, compressible.rho, linear.rho):
         assert np.allclose(slope(law, p), (law(p + d) - law(p - d)) / (2 * d), rtol=1e-5, atol=1e-18)

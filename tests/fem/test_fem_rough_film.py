@@ -17,7 +17,8 @@ EXACT = Parabola(viscosity=0.01, speed=0.1, radius=2e-3, film_thickness=1e-6)
 def given(contact=lambda x: np.zeros(x.shape, bool)):
     x = np.linspace(-1.2e-4, 6e-5, 241)
     wide = np.ones(8)
-    gap, pressure = EXACT.film([x])[:, None] * wide, EXACT.pressure([x])[:, None] * wide
+    gap = EXACT.film([x])[:, None] * wide
+    pressure = EXACT.pressure([x])[:, None] * wide
     return GivenGap(x, 7.5e-7, gap, pressure, contact(x)[:, None] & (wide > 0), 2e-3, 0.0)
 
 

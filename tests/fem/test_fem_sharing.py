@@ -13,7 +13,8 @@ from verification.fem.fluid import Fluid
 from verification.fem.harmonic import Strip, compliance, press
 from verification.fem.sharing import FlatBodies, rupture, share_load, shear
 
-E_PRIME, CELL = 231e9, 1e-6
+E_PRIME = 231e9
+CELL = 1e-6
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
 
 
@@ -61,7 +62,9 @@ def test_shear_of_a_rigid_film():
 
 
 def test_closed_forms_of_contact_agree_with_each_other():
-    line, ball, wave = Line(E_PRIME, 2e-3, 4e-6), Sphere(E_PRIME, 2e-3, 4e-6), Wave(E_PRIME, 1e-7, 5e-5, 0.3)
+    line = Line(E_PRIME, 2e-3, 4e-6)
+    ball = Sphere(E_PRIME, 2e-3, 4e-6)
+    wave = Wave(E_PRIME, 1e-7, 5e-5, 0.3)
     x = np.linspace(-4e-6, 4e-6, 200001)
     assert np.trapezoid(line.peak * np.sqrt(1 - (x / 4e-6) ** 2), x) == pytest.approx(line.load, rel=1e-6)
     r = x[100000:]
@@ -77,7 +80,8 @@ def test_closed_forms_of_contact_agree_with_each_other():
 
 
 def test_shear_laws_of_the_finite_elements():
-    newton, limited = Fluid(0.1), Fluid(0.1, eyring_stress=2e6, limiting_stress=(1e6, 0.05))
+    newton = Fluid(0.1)
+    limited = Fluid(0.1, eyring_stress=2e6, limiting_stress=(1e6, 0.05))
     assert newton.stress(0.0, -1e6) == pytest.approx(-1e5)
     assert limited.stress(0.0, 1e3) == pytest.approx(100.0, rel=1e-8)  # Newtonian far below tau_E
     assert limited.stress(1e9, -1e7) == pytest.approx(-2e6 * math.asinh(0.5), rel=1e-12)
@@ -94,7 +98,9 @@ def test_cell_means_are_double_integrals_of_the_kernel(away):
     from lubfric.contact import half_space
     from verification.studies.load_sharing import cell_mean
 
-    dx, n, wave = 2e-6, 12, 2
+    dx = 2e-6
+    n = 12
+    wave = 2
     made = cell_mean(half_space((n, 8), (dx, 1e-6), E_PRIME, ("free", "periodic")))
     kernel = np.fft.irfft(made.symbol, n=made.padded[0], axis=0)[away] * np.pi * E_PRIME / (4 * dx)
     k = 2 * np.pi * wave / 8e-6 * dx

@@ -94,7 +94,8 @@ def grubin(M, L):
     """Flow film of Grubin's inlet: 6 L (8 M/pi)^(-3/2) ∫ G/(F + G)³ dX = 1 over X = cosh t > 1, F = h R/b², where the
     dry gap is G = (sinh 2t - 2t)/4."""
     t = np.linspace(1e-6, 20, 400_001)
-    gap, scale = 0.25 * np.sinh(2 * t) - 0.5 * t, 8 * M / math.pi
+    gap = 0.25 * np.sinh(2 * t) - 0.5 * t
+    scale = 8 * M / math.pi
     integrand = gap * np.sinh(t)
     return scale * brentq(lambda F: 6 * L * np.trapezoid(integrand / (F + gap) ** 3, t) / scale**1.5 - 1, 1e-6, 1.0)
 
@@ -109,7 +110,8 @@ def test_grubin_inlet_is_approached_at_high_load():
 def test_kostreva_complementarity(rpm, h_min, p_max):
     """M. M. Kostreva, Int. J. Numer. Meth. Fluids 4 (1984) 377-397: 100 lb, Barus, X in [-3, 2] with P = 0 at both
     ends."""
-    M, L = 1.563 * math.sqrt(500 / rpm), 5.677 * (rpm / 500) ** 0.25
+    M = 1.563 * math.sqrt(500 / rpm)
+    L = 5.677 * (rpm / 500) ** 0.25
     arguments, _unit = contact(M, L, viscosity_law="barus", tolerance=3e-4)
     arguments["inlet_length"] = 3 * half_width(arguments)
     r = solve_ehl(**arguments)
@@ -232,7 +234,8 @@ def wolveridge(contact, flooded, distance):
     """Grubin's inlet cut off at the meniscus, as Wolveridge, Baron and Archard did (Proc. IMechE 185 (1970-71)
     1159-1169): near the dry contact its gap is g = (2 sqrt2/3) sqrt(b) s^(3/2)/R, so that h^(4/3) grows as the integral
     of t^(3/2)/(1 + t^(3/2))³ up to the meniscus."""
-    b, radius = half_width(contact), contact["radius"]
+    b = half_width(contact)
+    radius = contact["radius"]
 
     def integral(film, end):
         scale = (3 * radius * film / (2 * math.sqrt(2 * b))) ** (2 / 3)
@@ -247,7 +250,8 @@ def wolveridge(contact, flooded, distance):
 def test_starved_films_are_those_of_two_published_laws(M, L):
     """Both laws leave the fluid's own pressure out of the shape of the gap: exact for heavy contacts only."""
     arguments, _ = contact(M, L, tolerance=1e-3, viscosity_law="barus")
-    flooded, b = solve_ehl(**arguments).flow_film, half_width(arguments)
+    flooded = solve_ehl(**arguments).flow_film
+    b = half_width(arguments)
     for k in (0.1, 0.3, 1.0, 3.0):
         distance = k * 3.52 * (arguments["radius"] * flooded) ** (2 / 3) / b ** (1 / 3)
         share = solve_ehl(**arguments, inlet_length=b + distance).flow_film / flooded
@@ -258,7 +262,8 @@ def test_starved_films_are_those_of_two_published_laws(M, L):
 def test_a_starved_rigid_film_is_the_one_integrated_directly():
     """Constant viscosity, no deflection: p = 12 eta U ∫ (h - q)/h³ dx from the meniscus to the rupture at h = q."""
     arguments, _ = contact(1e-4, 0.0, tolerance=1e-4, viscosity_law="constant")
-    radius, load = arguments["radius"], arguments["load_per_width"]
+    radius = arguments["radius"]
+    load = arguments["load_per_width"]
     scale = 12 * arguments["viscosity"] * arguments["entrainment_speed"]
     length = math.sqrt(2 * radius * solve_ehl(**arguments).flow_film)
     for k in (0.3, 1.0, 4.0):
@@ -280,7 +285,8 @@ def test_a_starved_rigid_film_is_the_one_integrated_directly():
 @pytest.mark.parametrize("M, L", [(0.05, 1), (5, 5), (100, 10)])
 def test_what_arrives_is_what_flows(M, L):
     arguments, _ = contact(M, L, tolerance=1e-3, density_law="dowson-higginson")
-    full, b = solve_ehl(**arguments), half_width(arguments)
+    full = solve_ehl(**arguments)
+    b = half_width(arguments)
     inlets = []
     for r in (0.1, 0.5, 0.9, 0.99):
         fed = solve_ehl(**arguments, inlet_film=r * full.flow_film)
@@ -306,7 +312,8 @@ def test_warm_start_finds_the_same_film_in_fewer_steps():
             "load_per_width": load * arguments["load_per_width"],
             "entrainment_speed": speed * arguments["entrainment_speed"],
         }
-        cold, warm = solve_ehl(**changed), solve_ehl(**changed, start=first)
+        cold = solve_ehl(**changed)
+        warm = solve_ehl(**changed, start=first)
         assert warm.min_film == pytest.approx(cold.min_film, rel=1e-3)
         assert warm.report.iterations < cold.report.iterations and warm.report.converged
 
@@ -356,7 +363,8 @@ def test_film_at_any_position(M, L):
     x = np.concatenate([np.linspace(-25, 25, 400) * r.half_width, middles, middles]).reshape(2, -1)
     reference = hat_kernel(x.ravel() / r.half_width, r.x / r.half_width) @ r.pressure
     exact = r.approach + x**2 / (2 * r.radius) + (reference * r.half_width / r.e_prime).reshape(x.shape)
-    error, outside = np.abs(r.film_at(x) / exact - 1), (x < r.x[0]) | (x > r.x[-1])
+    error = np.abs(r.film_at(x) / exact - 1)
+    outside = (x < r.x[0]) | (x > r.x[-1])
     assert error.max() < 4e-3 and (not outside.any() or error[outside].max() < 2e-4)
     assert r.film_at(x).shape == x.shape
 

@@ -19,7 +19,8 @@ STEEL = math.sqrt(46 * 7850 * 460)
 OIL = Lubricant(
     0.0166, 2e-8, temperature=T0, temperature_coefficient=0.034, eyring_stress=5e6, limiting_stress_coefficient=0.08
 )
-MODULUS, RADIUS = 2.27e11, 0.01
+MODULUS = 2.27e11
+RADIUS = 0.01
 
 
 def exponential(**changed):
@@ -50,7 +51,9 @@ def swept(heat, x, length):
 
 @given(st.floats(-3, 5), st.floats(-7.5, -4), st.floats(0.01, 0.1))
 def test_newtonian_film_is_nahmes(log_sliding, log_film, beta):
-    lubricant, sliding, film = exponential(temperature_coefficient=beta), 10**log_sliding, 10**log_film
+    lubricant = exponential(temperature_coefficient=beta)
+    sliding = 10**log_sliding
+    film = 10**log_film
     stress, _ = heated_stress(lubricant, np.zeros(3), np.full(3, film), -sliding, np.full(3, T0))
     number = beta * 0.02 * sliding**2 / lubricant.conductivity
     assert stress == pytest.approx(-0.02 * sliding / film * references.nahme(number), rel=1e-8)
@@ -59,16 +62,20 @@ def test_newtonian_film_is_nahmes(log_sliding, log_film, beta):
 @pytest.mark.parametrize("sliding", [0.3, 10.0])
 def test_eyring_film_against_a_boundary_value_solver(sliding):
     """k T'' = -tau gamma(T), gamma = (tau_E/eta_w) exp(beta (T - T_w)) sinh(tau/tau_E), mean gamma = dU/h."""
-    lubricant, film, pressure = exponential(viscosity=0.5, eyring_stress=4e6), 3e-7, 0.0
+    lubricant = exponential(viscosity=0.5, eyring_stress=4e6)
+    film = 3e-7
+    pressure = 0.0
     stress, mean = heated_stress(lubricant, pressure, film, sliding, T0)
     eyring = 4e6 * (T0 + float(mean)) / T0
-    beta, k = 0.04, lubricant.conductivity
+    beta = 0.04
+    k = lubricant.conductivity
     wall_rate = eyring / 0.5 * math.sinh(float(stress) / eyring)
 
     def equations(y, t):
         return np.vstack([t[1], -float(stress) * wall_rate * np.exp(beta * t[0]) * film**2 / k])
 
-    x, start = np.linspace(0, 1, 21), np.zeros((2, 21))
+    x = np.linspace(0, 1, 21)
+    start = np.zeros((2, 21))
     solved = solve_bvp(equations, lambda a, b: np.array([a[0], b[0]]), x, start, tol=1e-8)
     assert solved.success
     y = np.linspace(0, 1, 4001)
@@ -94,7 +101,8 @@ def test_stress_and_temperature_satisfy_both_equations(ratio):
 def test_heated_force_lies_between_one_pass_and_isothermal(peak, ratio, log_speed):
     x, p, h, _ = contact(peak, 65)
     where = around(x, 10**log_speed, ratio)
-    heated, least = heated_film(OIL, x, p, h, where), isothermal_heat(OIL, x, p, h, where)
+    heated = heated_film(OIL, x, p, h, where)
+    least = isothermal_heat(OIL, x, p, h, where)
     most = shear_stress(OIL, p, ratio * 10**log_speed / h)
     force = np.trapezoid(heated.stress, x)
     assert np.trapezoid(least.stress, x) <= force * (1 + 1e-6)

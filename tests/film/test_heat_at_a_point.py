@@ -46,7 +46,9 @@ def test_switched_off_it_is_the_point_of_the_plain_numbers(model):
 @pytest.mark.parametrize("speed, ratio", [(1.0, 0.3), (0.05, 2.0)])
 def test_friction_is_that_of_the_standalone_solve(model, speed, ratio):
     found = at(model, speed, ratio, numerics={"heat": "on"})
-    film, contact, bodies = found.balance.film, found.balance.contact, BASE.bodies
+    film = found.balance.film
+    contact = found.balance.contact
+    bodies = BASE.bodies
     share = 1 - contact.touching(film.x)
     share = np.where(film.x[:-1] < film.rupture, share, 0)
     wet = 0.5 * (np.append(share[:1], share) + np.append(share, share[-1:]))
@@ -64,13 +66,15 @@ def test_friction_is_that_of_the_standalone_solve(model, speed, ratio):
 def test_the_film_is_thinner_by_the_inlet_factor(model):
     """The film of the heated inlet comes from a solve with another viscosity; Moes' exponent and the solve's agree to 1
     %."""
-    on, off = at(model, 5.0, 0.1), at(model, 5.0, 0.1, numerics={"heat": "off"})
+    on = at(model, 5.0, 0.1)
+    off = at(model, 5.0, 0.1, numerics={"heat": "off"})
     assert on.inlet_film_factor < 0.95
     assert on.central_film / off.central_film == pytest.approx(on.inlet_film_factor, rel=0.01)
 
 
 def test_what_is_left_out_is_part_of_the_numerical_error(model):
-    auto, on = at(model, 0.3, 0.01), at(model, 0.3, 0.01, numerics={"heat": "on"})
+    auto = at(model, 0.3, 0.01)
+    on = at(model, 0.3, 0.01, numerics={"heat": "on"})
     assert "flash left out" in auto.decision.heat and "flash left out" not in on.decision.heat
     assert auto.uncertainty.numerical >= abs(on.coefficient / auto.coefficient - 1) > 1e-3
     for name in ("shear_force", "couette_force"):

@@ -13,7 +13,11 @@ from lubfric.film import heated_stress, inlet_heat
 from lubfric.film.heat import viscosity_at
 from lubfric.oil import Lubricant
 
-T0, BETA, ETA, ALPHA, K = 350.0, 0.035, 0.05, 2.0e-8, 0.15
+T0 = 350.0
+BETA = 0.035
+ETA = 0.05
+ALPHA = 2.0e-8
+K = 0.15
 LAWS = {"temperature": T0, "temperature_coefficient": BETA, "conductivity": K}
 OIL = Lubricant(ETA, ALPHA, eyring_stress=5e6, limiting_stress_coefficient=0.06, limiting_stress_offset=2e6, **LAWS)
 SCENE = paper_scene(
@@ -33,7 +37,8 @@ def test_stresses_and_viscosity_over_temperature(temperature):
     np.testing.assert_allclose(OIL.limit.critical_at(p, temperature), limit, rtol=1e-12)
     assert OIL.flow_law.critical_at(p, temperature) == pytest.approx(5e6 * temperature / T0)
     pole = math.log(ETA) + 9.67
-    z, s0 = ALPHA * 1.96e8 / pole, BETA * (T0 - 138.0) / pole
+    z = ALPHA * 1.96e8 / pole
+    s0 = BETA * (T0 - 138.0) / pole
     exponent = pole * (1 + p / 1.96e8) ** z * ((temperature - 138.0) / (T0 - 138.0)) ** -s0
     log_viscosity, slope = viscosity_at(OIL, p, temperature)
     np.testing.assert_allclose(log_viscosity, exponent - 9.67, rtol=1e-12)
@@ -45,7 +50,8 @@ def test_stresses_and_viscosity_over_temperature(temperature):
 def test_a_film_that_hardly_heats_is_as_hot_in_the_mean_as_a_parabola():
     """Heat tau dU/h in a slab of conductivity k between walls: (tau dU/h) h²/(12 k) in the mean."""
     plain = Lubricant(ETA, 0.0, "constant", **LAWS)
-    film, sliding = np.array([2e-7]), 0.3
+    film = np.array([2e-7])
+    sliding = 0.3
     tau, rise = heated_stress(plain, np.zeros(1), film, sliding, np.array([T0]))
     assert tau[0] == pytest.approx(ETA * sliding / 2e-7, rel=1e-2)
     assert rise[0] == pytest.approx(tau[0] * sliding * 2e-7 / (12 * K), rel=1e-9)
@@ -54,7 +60,10 @@ def test_a_film_that_hardly_heats_is_as_hot_in_the_mean_as_a_parabola():
 def test_a_hot_carreau_film_is_that_of_the_heat_equation_across_it():
     """k T'' = -tau rate, rate = that of the stress in the walls times exp(beta (T - T_w)), from the middle to the wall;
     G goes with the mean temperature."""
-    G0, n, h, sliding = 2e5, 0.6, 4e-6, 12.0
+    G0 = 2e5
+    n = 0.6
+    h = 4e-6
+    sliding = 12.0
     oil = Lubricant(ETA, 0.0, "constant", carreau=(G0, n), **LAWS)
     (tau,), (rise,) = heated_stress(oil, np.zeros(1), np.array([h]), sliding, np.array([T0]))
     G = G0 * (T0 + rise) / T0
@@ -72,7 +81,10 @@ def test_a_hot_carreau_film_is_that_of_the_heat_equation_across_it():
 
 
 def test_a_film_at_its_limit_bears_what_its_mean_temperature_allows():
-    p, h, sliding, wall = 1.0e9, 3e-7, 0.5, 360.0
+    p = 1.0e9
+    h = 3e-7
+    sliding = 0.5
+    wall = 360.0
 
     def left(tau):
         return tau - (2e6 + 0.06 * p) * math.exp(585 / (wall + tau * sliding * h / (12 * K)) - 585 / T0)
@@ -122,7 +134,8 @@ def test_unlike_bodies_carry_the_heat_of_their_own_surface(key, other):
     """At a slide-roll ratio of 2 the first surface stands still and carries none away, at -2 the second. In between
     both do, the faster one more."""
     steel = getattr(SCENE.bodies, key)[0]
-    first, second = {key: (other, steel)}, {key: (steel, other)}
+    first = {key: (other, steel)}
+    second = {key: (steel, other)}
     for ratio, idle, moving in ((2.0, first, second), (-2.0, second, first)):
         plain = at(1.0, ratio)
         assert at(1.0, ratio, **idle).coefficient == plain.coefficient
@@ -133,6 +146,7 @@ def test_unlike_bodies_carry_the_heat_of_their_own_surface(key, other):
 
 def test_half_the_effusivity_is_a_flash_of_twice_the_heat():
     """Flash over stress and speed goes with 1/(e1 √u1 + e2 √u2), e = √(k rho c) (Jaeger 1942)."""
-    like, quarter = at(1.0, 0.02), at(1.0, 0.02, conductivity=(11.5, 11.5))
+    like = at(1.0, 0.02)
+    quarter = at(1.0, 0.02, conductivity=(11.5, 11.5))
     made = like.couette_force / quarter.couette_force
     assert quarter.flash_temperature_rise * made == pytest.approx(2 * like.flash_temperature_rise, rel=0.02)

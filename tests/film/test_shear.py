@@ -13,7 +13,10 @@ from lubfric.film import shear_force
 from lubfric.film.shear import rolling_error, spike_error
 from lubfric.oil import Lubricant
 
-R, ETA, U, B = 2e-3, 0.36, 1.0, 6e-3
+R = 2e-3
+ETA = 0.36
+U = 1.0
+B = 6e-3
 OIL = Lubricant(ETA, 1e-13, "barus")
 
 
@@ -54,13 +57,15 @@ def test_the_side_the_shear_is_taken_on():
 
 
 def test_reversed_motion_gives_the_same_force():
-    a, b = force(film()), force(film(-U))
+    a = force(film())
+    b = force(film(-U))
     assert b.couette == pytest.approx(a.couette) and b.rolling == pytest.approx(a.rolling)
 
 
 def test_contact_spots_carry_no_shear():
     result = film()
-    full, half = force(result), force(result, contact_fraction=evenly(0.5))
+    full = force(result)
+    half = force(result, contact_fraction=evenly(0.5))
     inlet_share = half.couette / full.couette - 0.5  # only the far inlet is left whole
     assert 0 <= inlet_share < 0.15
     one_sided = force(result, contact_fraction=lambda x: np.where(x[1:] < 0, 0.0, 1.0))
@@ -71,7 +76,8 @@ def test_contact_spots_carry_no_shear():
 
 def test_streamers_add_shear_behind_the_rupture():
     result = film()
-    dry, wet = force(result), force(result, cavitated="striated")
+    dry = force(result)
+    wet = force(result, cavitated="striated")
     assert 0.02 < wet.couette / dry.couette - 1 < 0.5 and wet.rolling == dry.rolling
 
 
@@ -92,7 +98,9 @@ def test_couette_of_a_heated_film_does_not_depend_on_where_its_nodes_begin():
     node is as thin as that between the nodes."""
     from types import SimpleNamespace
 
-    radius, sliding, found = 0.03, 2.0, []
+    radius = 0.03
+    sliding = 2.0
+    found = []
     oil = Lubricant(0.1, 1e-8)
     how = {"slide_roll_ratio": 0.5, "width": 0.01, "contact_fraction": lambda at: np.zeros(at.size - 1)}
     how["heated"] = lambda x, p, h: 0.8 * 0.1 * sliding / h
@@ -112,7 +120,8 @@ def test_couette_of_a_heated_film_does_not_depend_on_where_its_nodes_begin():
 def test_a_sum_of_rolling_tells_how_far_it_is_off(steps):
     """∫ (h/2) dp of h = 1 + x² and p = exp(-x²): the error told is the error made, or somewhat more."""
     x = np.linspace(-3.0, 2.0, steps)
-    h, p = 1 + x**2, np.exp(-(x**2))
+    h = 1 + x**2
+    p = np.exp(-(x**2))
     exact = quad(lambda t: 0.5 * (1 + t * t) * -2 * t * np.exp(-t * t), -3, 2, epsabs=1e-13)[0]
     off = abs(np.sum(0.25 * (h[1:] + h[:-1]) * np.diff(p)) - exact)
     assert off * 0.9 < rolling_error(p, h, 1.0) < 2 * off
@@ -122,7 +131,8 @@ def test_a_sum_of_rolling_tells_how_far_it_is_off(steps):
 def test_a_spike_between_the_nodes_is_seldom_worse_than_told(width):
     """Spikes anywhere between nodes one apart: nine of ten sums are off by no more than is told, which is no less than
     half a per cent of a narrow spike where the nodes see it worst."""
-    x, area = np.arange(41.0), width * np.sqrt(np.pi)
+    x = np.arange(41.0)
+    area = width * np.sqrt(np.pi)
     spikes = [np.exp(-(((x - at) / width) ** 2)) for at in np.linspace(20.0, 22.0, 41)]
     off = np.array([abs(np.sum(0.5 * (tau[1:] + tau[:-1])) - area) for tau in spikes])
     told = np.array([spike_error(x, tau) for tau in spikes])
@@ -146,7 +156,9 @@ def test_stress_above_what_oils_carry_is_told_with_its_force():
     """5 MPa + 0.12 p, typed; the film is so thick that it takes a thousandfold sliding."""
     result = film()
     found = force(result, slide_roll_ratio=1e3)
-    x, p, tau = result.x, result.pressure, ETA * 1e3 * U / result.film_thickness
+    x = result.x
+    p = result.pressure
+    tau = ETA * 1e3 * U / result.film_thickness
     above = np.maximum(tau - 5e6 - 0.12 * p, 0.0)
     full = x[:-1] < result.rupture
     expected = B * np.sum((0.5 * (above[1:] + above[:-1]) * np.diff(x))[full])

@@ -14,14 +14,16 @@ from lubfric.film.thinning import thinned
 from lubfric.models.load_sharing import exponents
 from lubfric.oil import shear_stress
 
-EYRING, CARREAU = {"eyring_stress": 5e6}, {"carreau": (5e6, 0.5)}
+EYRING = {"eyring_stress": 5e6}
+CARREAU = {"carreau": (5e6, 0.5)}
 
 
 def rate(law, x):
     """Rate of shear over stress, both in units of the critical stress, from the law as it is written."""
     if "eyring_stress" in law:
         return math.sinh(x)
-    n, size = law["carreau"][1], abs(x)
+    n = law["carreau"][1]
+    size = abs(x)
     if size < 1e-9:
         return x
     return math.copysign(brentq(lambda r: r * (1 + r * r) ** ((n - 1) / 2) - size, 0.5 * size, 2 * size + size**3), x)
@@ -98,7 +100,8 @@ def test_the_film_to_expect_is_that_of_the_solution_to_a_quarter(fluid):
 
 def test_carreaus_law_as_it_is_written():
     oil = Lubricant(0.04, 2e-8, "barus", carreau=(2e6, 0.4))
-    p, rates = 1e8, np.array([-1e7, 0.0, 1e3, 1e6, 1e9])
+    p = 1e8
+    rates = np.array([-1e7, 0.0, 1e3, 1e6, 1e9])
     newtonian = 0.04 * math.exp(2.0) * rates
     expected = newtonian * (1 + (newtonian / 2e6) ** 2) ** -0.3
     assert shear_stress(oil, p, rates) == pytest.approx(expected, rel=1e-12)

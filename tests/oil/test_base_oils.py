@@ -40,7 +40,8 @@ def test_what_is_typical_of_a_base_oil(base):
 
 def test_the_viscosity_falls_with_the_law_and_with_the_density():
     """D341 in closed form: d ln(Z)/dT = -n ln(Z)/T, Z = nu + 0.7; and the density falls by its slope."""
-    law, t = oil.walther((313.15, 400 * MM2), (343.15, 100 * MM2)), 333.15
+    law = oil.walther((313.15, 400 * MM2), (343.15, 100 * MM2))
+    t = 333.15
     made = oil.Oil(law, base="polyglycol")
     nu = made.kinematic_viscosity(t) / MM2
     of_nu = law.n * math.log(nu + 0.7) / t * (nu + 0.7) / nu

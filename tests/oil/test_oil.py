@@ -29,7 +29,8 @@ def test_viscosity_index_both_ways(nu40, nu100, index):
 
 def test_viscosity_index_above_the_table():
     nu100 = 80.0
-    low, high = 0.8353 * nu100**2 + 14.67 * nu100 - 216, 0.1684 * nu100**2 + 11.85 * nu100 - 97
+    low = 0.8353 * nu100**2 + 14.67 * nu100 - 216
+    high = 0.1684 * nu100**2 + 11.85 * nu100 - 97
     assert oil.viscosity_index(low * MM2, nu100 * MM2) == pytest.approx(0, abs=1e-9)
     assert oil.viscosity_index(high * MM2, nu100 * MM2) == pytest.approx(100, abs=1e-9)
     assert oil.viscosity_index(0.5 * (low + high) * MM2, nu100 * MM2) == pytest.approx(50, abs=1e-9)

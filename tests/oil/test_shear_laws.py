@@ -31,8 +31,14 @@ def differences(function, at, step):
 
 @pytest.mark.parametrize("key", [law.key for law in (*FLOW_LAWS, *LIMITS)])
 def test_the_parts_of_a_law_agree(key):
-    oil, p, s = Lubricant(0.04, 2e-8, **{key: LAWS[key]}, **WARM), 1e8, np.geomspace(0.01, 100.0, 9)
-    (law,), critical = oil.shear_laws, lambda p: oil.shear_laws[0].critical(p)[0]
+    oil = Lubricant(0.04, 2e-8, **{key: LAWS[key]}, **WARM)
+    p = 1e8
+    s = np.geomspace(0.01, 100.0, 9)
+    (law,) = oil.shear_laws
+
+    def critical(p):
+        return oil.shear_laws[0].critical(p)[0]
+
     assert law.critical(p)[1] == pytest.approx(differences(critical, p, 1e4), rel=1e-6)
     assert law.warmth(350.0) == 1
     stress = law.stress(s * critical(p), critical(p))
@@ -59,21 +65,24 @@ def everywhere(scene):
 @pytest.mark.parametrize("key", LAWS)
 def test_the_key_of_a_law_reaches_the_number_everywhere(key):
     plain = SCENE.with_(lubricant={"eyring_stress": None})
-    found, newtonian = everywhere(plain.with_(lubricant={key: LAWS[key]})), everywhere(plain)
+    found = everywhere(plain.with_(lubricant={key: LAWS[key]}))
+    newtonian = everywhere(plain)
     assert found == pytest.approx(found[0], rel=0.06) and np.all(np.abs(found / newtonian - 1) > 0.08)
 
 
 class Bare(ShearLaw):
     """tau + tau³/tau_c² = Newtonian stress, with what friction needs of it."""
 
-    key, critical = "eyring_stress", Eyring.critical
+    key = "eyring_stress"
+    critical = Eyring.critical
 
     def f(self, s):
         return 2 / np.sqrt(3) * np.sinh(np.arcsinh(1.5 * np.sqrt(3) * s) / 3)
 
 
 class Cubic(Bare):
-    thins, warmth = True, ShearLaw.as_temperature
+    thins = True
+    warmth = ShearLaw.as_temperature
 
     def tangent(self, s):
         x = self.f(s)
@@ -87,7 +96,9 @@ def test_friction_in_every_model_and_in_time_follows_a_law_of_ones_own(monkeypat
     """By quadrature over the film; a smooth strip and a run in time have its friction. Eyring's is another."""
     eyring = lubfric.friction(SCENE)
     monkeypatch.setattr(lubricant, "FLOW_LAWS", (Cubic,))
-    found, oil, sliding = lubfric.friction(SCENE), SCENE.lubricant, 0.3
+    found = lubfric.friction(SCENE)
+    oil = SCENE.lubricant
+    sliding = 0.3
     film = found.balance.film
     newtonian = lubricant.viscosity(oil, film.pressure) * sliding / film.film_thickness
     tau = np.array([np.roots([1e-12, 0, 1, -n])[-1].real for n in newtonian])
@@ -102,7 +113,9 @@ def test_friction_in_every_model_and_in_time_follows_a_law_of_ones_own(monkeypat
 def test_heat_and_the_deterministic_flow_follow_a_law_of_ones_own(monkeypatch):
     """A film that heats itself: the heat equation across it in closed form; the flow: tangent and secant."""
     monkeypatch.setattr(lubricant, "FLOW_LAWS", (Cubic,))
-    oil, h, sliding = Lubricant(0.05, viscosity_law="constant", eyring_stress=2e5, **WARM), 4e-6, 12.0
+    oil = Lubricant(0.05, viscosity_law="constant", eyring_stress=2e5, **WARM)
+    h = 4e-6
+    sliding = 12.0
     (tau,), (rise,) = heated_stress(oil, np.zeros(1), np.array([h]), sliding, np.array([350.0]))
     rate = (tau + tau**3 / (2e5 * (350 + rise) / 350) ** 2) / 0.05
     a = 1 + 0.035 * tau * sliding**2 / (8 * 0.15 * rate)

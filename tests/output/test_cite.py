@@ -13,7 +13,8 @@ from lubfric.output import main
 
 def test_the_papers_are_those_of_what_was_used():
     scene = paper_scene(numerics={"sampling": "patch"})
-    film, mixed = lubfric.friction(scene, 1.0).cite(), lubfric.friction(scene, 0.01, fields=True).cite()
+    film = lubfric.friction(scene, 1.0).cite()
+    mixed = lubfric.friction(scene, 0.01, fields=True).cite()
     assert film.startswith("A. Akchurin") and "10.1007/s11249-015-0536-z" in film and "Polonsky" not in film
     assert "Polonsky" in mixed and "Gupta" not in mixed
 

@@ -133,7 +133,8 @@ def test_a_history_is_drawn_by_its_table(figures):
 
 
 def test_a_map_is_seen_from_above_in_micrometres():
-    x, y = 1e-6 * np.array([-2.0, 0.0, 2.0]), 1e-6 * np.array([0.0, 5.0])
+    x = 1e-6 * np.array([-2.0, 0.0, 2.0])
+    y = 1e-6 * np.array([0.0, 5.0])
     values = np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])
     image = field_image(new_figure().subplots(), x, y, values, "viridis", "label")
     np.testing.assert_array_equal(image.get_array(), [[1, 3, 5], [2, 4, 6]])
@@ -172,7 +173,8 @@ def test_the_picture_of_the_roughness_is_the_beginning_of_a_long_line(figures, s
         part = 1e9 * prepared.surface.heights[:, :rows]
         np.testing.assert_allclose(image.get_array(), (part - part.mean()).T, atol=1e-9)
         assert f"Sq = {part.std():.4g} nm" in image.axes.get_title() and image.axes.get_aspect() == 1.0
-        (share, height), z = figures[-1].axes[1].lines[0].get_data(), prepared.surface.heights
+        (share, height) = figures[-1].axes[1].lines[0].get_data()
+        z = prepared.surface.heights
         assert np.mean(1e9 * (z - z.mean()) > height[100]) == pytest.approx(share[100] / 100, abs=2 / z.size)
 
 
@@ -183,7 +185,9 @@ def test_fields_are_written_the_right_way_round(solved):
         np.testing.assert_array_equal(kept["gap_0"], point.gap)
         assert kept["spacing"] == pytest.approx((1.1e-6, 1.7e-6)) and kept["speed"] == [0.01]
         np.testing.assert_array_equal(kept["film_pressure_0"], point.balance.film.pressure)
-    x, y, values = np.array([0.0, 1.0, 2.0]), np.array([10.0, 20.0]), np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])
+    x = np.array([0.0, 1.0, 2.0])
+    y = np.array([10.0, 20.0])
+    values = np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])
     text = grid_bytes(x, y, {"gap": values}, "t")
     head, _, rest = text.partition(b"double\n")
     assert b"DIMENSIONS 3 2 1" in head

@@ -28,7 +28,9 @@ class Balanced(HTMLParser):
 
     def __init__(self):
         super().__init__()
-        self.open, self.seen, self.text = [], [], []
+        self.open = []
+        self.seen = []
+        self.text = []
 
     def handle_starttag(self, tag, attrs):
         self.seen.append((tag, dict(attrs)))
@@ -65,11 +67,13 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
 
 def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undrawn):
     (tmp_path / "s.toml").write_text(SCENE)
-    out, scene = tmp_path / "o", lubfric.load_scene(tmp_path / "s.toml")
+    out = tmp_path / "o"
+    scene = lubfric.load_scene(tmp_path / "s.toml")
     for speeds in (np.geomspace(0.01, 1.0, 9).tolist(), [0.01, 0.02, 0.03], [0.01, 0.3]):
         given = ",".join(map(str, speeds))
         assert main(["run", str(tmp_path / "s.toml"), "--speeds", given, "--out", str(out)]) == 0
-        curve, page = lubfric.stribeck(scene, speeds), Balanced()
+        curve = lubfric.stribeck(scene, speeds)
+        page = Balanced()
         page.feed((out / "report.html").read_text(encoding="utf-8"))
         text = " ".join(page.text)
         assert all(lack_in_words(lack) in text for lack in curve.points[0].lacks)
@@ -108,7 +112,8 @@ def test_measured_points_are_drawn_among_the_curve(run, tmp_path, capsys, monkey
     (tmp_path / "m.csv").write_text("U [mm/s],mu\n10,0.08\n100,0.03\n")
     from matplotlib.axes import Axes
 
-    drawn, real = [], Axes.errorbar
+    drawn = []
+    real = Axes.errorbar
 
     def errorbar(self, x, y, *arguments, **options):
         drawn.append((np.array(x), np.array(y)))
@@ -133,7 +138,8 @@ def test_a_name_is_drawn_as_text(tmp_path, monkeypatch, name):
     """Title, legend of a measured curve and file names: as they are, whatever matplotlib takes for a formula."""
     from matplotlib.figure import Figure
 
-    titles, real = [], Figure.savefig
+    titles = []
+    real = Figure.savefig
 
     def savefig(self, *arguments, **options):
         texts = [*(axes.title for axes in self.axes), *filter(None, [self._suptitle])]

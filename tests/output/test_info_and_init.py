@@ -75,7 +75,8 @@ def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):
 
 def test_the_roller_of_the_examples_is_an_answer(root, tmp_path):
     """One scene of 25 lines, one command, on a ground surface such as the measured one that is not shipped."""
-    scene, lay = root / "docs" / "examples" / "roller.toml", {"correlation_length": (2.2e-6, 20e-6), "acf": "gaussian"}
+    scene = root / "docs" / "examples" / "roller.toml"
+    lay = {"correlation_length": (2.2e-6, 20e-6), "acf": "gaussian"}
     assert len(scene.read_text(encoding="utf-8").splitlines()) <= 25
     ground = lubfric.generate_surface((166, 102), (0.5e-6, 2e-6), sq=77e-9, **lay, seed=3)
     path = write_x3p(tmp_path / "ground.x3p", ground.heights, steps=ground.spacing)

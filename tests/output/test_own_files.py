@@ -71,7 +71,8 @@ def everything(folder):
 @pytest.mark.parametrize("spelling", ["plain", "link"])
 @pytest.mark.parametrize("kind, name, refused", CASES)
 def test_no_file_that_is_not_ours_changes(tmp_path, capsys, kind, name, refused, spelling):
-    out, user = tmp_path / "out", tmp_path / "user" / "file"
+    out = tmp_path / "out"
+    user = tmp_path / "user" / "file"
     user.parent.mkdir()
     user.write_bytes(b"the user's own\n")
     (out / name).parent.mkdir(parents=True)
@@ -197,7 +198,9 @@ def test_a_record_that_is_none_is_refused_or_owns_nothing(tmp_path, capsys, cont
 def test_a_run_stopped_while_it_replaces_another_goes_on(tmp_path, monkeypatch, at):
     """A kill between any two of the files that appear: all is ours still, and result.json stands for a whole run."""
     out = tmp_path / "out"
-    run, real, count = command("run", tmp_path, "--out", str(out)), os.replace, [0]
+    run = command("run", tmp_path, "--out", str(out))
+    real = os.replace
+    count = [0]
     assert main([*run, "--ratios", "0.5,1"]) == 0
 
     def killed(part, path):

@@ -17,7 +17,8 @@ pytest.importorskip("PIL")
 def test_the_mean_of_the_box_is_loves_kernel_summed_over_it():
     from lubfric.contact.kernels import love_coefficients
 
-    count, step = 201, 1e-6
+    count = 201
+    step = 1e-6
     kernel = love_coefficients((count, count), (step, step), spheres.E_PRIME)
     half = kernel[: count // 2 + 1, : count // 2 + 1]
     whole = 4 * half.sum() - 2 * half[0].sum() - 2 * half[:, 0].sum() + half[0, 0]

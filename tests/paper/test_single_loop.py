@@ -8,7 +8,10 @@ from lubfric.contact import half_space
 from lubfric.contact.solve import solve_contact
 from lubfric.paper import alternating, single_loop
 
-E, D, N, RADIUS = 231e9, 1e-6, 96, 2e-3
+E = 231e9
+D = 1e-6
+N = 96
+RADIUS = 2e-3
 BOUNDARIES = {"flat": ("periodic", "periodic"), "cylinder": ("free", "periodic"), "ball": ("free", "free")}
 CASES = [(shape, hardness) for shape in BOUNDARIES for hardness in (None, 2e9)]
 
@@ -19,13 +22,18 @@ def case(shape, hardness, size=None):
     x = (np.arange(N) - (N - 1) / 2) * D
     b = size or 15e-6
     if shape == "flat":
-        film, area, pressure = np.zeros((N, N)), np.ones((N, N)), size or 300e6
+        film = np.zeros((N, N))
+        area = np.ones((N, N))
+        pressure = size or 300e6
     elif shape == "cylinder":
-        film, area = (np.repeat((x**2 / (2 * RADIUS))[:, None], N, 1), np.repeat((abs(x) <= b)[:, None] * 1.0, N, 1))
+        film = np.repeat((x**2 / (2 * RADIUS))[:, None], N, 1)
+        area = np.repeat((abs(x) <= b)[:, None] * 1.0, N, 1)
         pressure = b**2 * np.pi * E / (8 * RADIUS) / (N * D)
     else:
         square = x[:, None] ** 2 + x**2
-        film, area, pressure = (square / (2 * RADIUS), (square <= b**2) * 1.0, 2 / 3 * b**3 * E / RADIUS / (N * D) ** 2)
+        film = square / (2 * RADIUS)
+        area = (square <= b**2) * 1.0
+        pressure = 2 / 3 * b**3 * E / RADIUS / (N * D) ** 2
     boundary = BOUNDARIES[shape]
     operator = half_space((N, N), D, E, boundary)
     direct = solve_contact(

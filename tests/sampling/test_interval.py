@@ -41,7 +41,8 @@ def test_a_place_moves_f_by_its_gap_and_by_where_it_touches():
     law = {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.09}
     scene = PAPER.with_(bodies={"load": 110.0}, lubricant=law, numerics={"film_deflection": "scaled"})
     points, f, sampling = seeds(scene, 0.03, range(1, 9))
-    scatter, told = f.std(ddof=1) / f.mean(), math.sqrt(np.mean(sampling**2))
+    scatter = f.std(ddof=1) / f.mean()
+    told = math.sqrt(np.mean(sampling**2))
     assert 0.002 < told < 0.012 and 0.5 < told / scatter < 2
     assert points[0].errors.contact_load > 2 * told
 

@@ -155,7 +155,8 @@ def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correla
     """On twice as long ones, the waves that the film carries die away: f was 34 % lower at film/Sq 1."""
     for motion, most in ((ROLLING, 0.25), ({}, 0.5)):
         prepared = lubfric.prepare(FINE.with_(motion=motion))
-        strips, factors = prepared.strips, strip_of(prepared, 0)[1]
+        strips = prepared.strips
+        factors = strip_of(prepared, 0)[1]
         along, across = (f * cell / one for f, cell, one in zip(factors, strips.cells.coarse, strips.lengths))
         assert most / 2 < along <= most and 0.25 < across <= 0.5
 
@@ -188,7 +189,8 @@ def test_the_flow_of_a_limit_twice_as_high_by_hand():
     twice = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2 * scene.lubricant.limiting_stress_offset}
     surface, factors = strip_of(prepared, 0)
     other = solve_strip(scene.with_(lubricant=twice), surface, 0.03, factors=factors).result
-    dx, ny = other.spacing[0], other.pressure.shape[1]
+    dx = other.spacing[0]
+    ny = other.pressure.shape[1]
     rate = 2 * 0.03 / other.gap
     law = lubfric.oil.shear_stress(scene.lubricant, other.pressure, rate)
     stress = np.where(other.gap < 20e-9, 0.09 * other.pressure, np.where(other.wet, law, 0.0))
@@ -205,7 +207,8 @@ def test_a_patch_has_one_answer_by_whatever_name_and_goes_to_its_own_cells():
     """By default, by name, and solved by hand on the map's own cells."""
     fine = PATCH.with_(contact={"shape": (80, 64), "spacing": 1.2e-6})
     patch = fine.with_(numerics={"tolerance": 1e-4})
-    auto, named = lubfric.friction(patch, 0.01), lubfric.friction(patch, 0.01, model="deterministic")
+    auto = lubfric.friction(patch, 0.01)
+    named = lubfric.friction(patch, 0.01, model="deterministic")
     surface = lubfric.prepare(patch).surface
     own = solve_strip(patch, surface, 0.01).result
     assert auto.coefficient == named.coefficient == pytest.approx(own.coefficient, rel=3e-3)
@@ -259,8 +262,12 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
     places alone tell it). Windows of a measured map may differ by more than their places tell."""
     monkeypatch.setattr(levels, "numbers_of", lambda _, result: {"coefficient": result.coefficient})
     strips = replace(prepared.strips, lengths=(8e-6, 8e-6), windows=windows)
-    model, rng = replace(prepared, strips=strips), np.random.default_rng(5)
-    sums, means, stated, alone = [], [], [], []
+    model = replace(prepared, strips=strips)
+    rng = np.random.default_rng(5)
+    sums = []
+    means = []
+    stated = []
+    alone = []
     for _ in range(200):
         pairs, of_line = synthetic(rng, 24, between=between)
         with_line, without = (levels._sum(model, pairs[:n], one) for one in (of_line, None))
@@ -277,7 +284,9 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
     gap differ from those of the line as `line_of` says, and over the line the differences are zero in the mean."""
     prepared = lubfric.prepare(SCENE.with_(numerics={"model": "load-sharing", "sampling_tolerance": 0.004}))
     found = sampled(prepared, 0.005)
-    line, rows, scene = line_of(prepared, found), [], prepared.scene
+    line = line_of(prepared, found)
+    rows = []
+    scene = prepared.scene
     assert line.count > 6 and line.deviations(1, 24).mean() == pytest.approx(0.0, abs=1e-12)
     for index in range(line.count):
         strip = on_strip(prepared, prepared.strips, index)

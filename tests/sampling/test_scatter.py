@@ -18,7 +18,9 @@ def correlated(rng, count, length):
 
 def test_neighbouring_blocks_are_alike_near_their_common_end():
     """Values of the correlation exp(-(y/l)²), of which the mean over L has the variance sqrt(pi) l/L, for L >> l."""
-    rng, length, count = np.random.default_rng(7), 8.0, 180 * 8
+    rng = np.random.default_rng(7)
+    length = 8.0
+    count = 180 * 8
     kernel = np.exp(-2 * (np.arange(-40, 41) / length) ** 2)
     kernel /= np.linalg.norm(kernel)
     noise = rng.standard_normal((2000, count + 80))
@@ -29,8 +31,12 @@ def test_neighbouring_blocks_are_alike_near_their_common_end():
 
 def test_what_blocks_scatter_by_with_a_quantity_known_exactly_is_no_error():
     """Draws whose covariate is shifted to its known mean, as a line made with exactly its Sq is."""
-    rng, count, length = np.random.default_rng(6), 3200, 10
-    means, found, blind = [], [], []
+    rng = np.random.default_rng(6)
+    count = 3200
+    length = 10
+    means = []
+    found = []
+    blind = []
     for _ in range(300):
         other = correlated(rng, count, length)
         other -= other.mean()

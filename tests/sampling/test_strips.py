@@ -12,13 +12,15 @@ PAPER = paper_scene()
 
 def test_a_strip_is_always_the_same_and_like_no_other():
     strips = lubfric.prepare(PAPER).strips
-    one, both = strips.stack(1), strips.stack(2)
+    one = strips.stack(1)
+    both = strips.stack(2)
     length = one.shape[1]
     assert both.shape[1] == 2 * length and one.size[1] == pytest.approx(90 * strips.lengths[1], rel=0.05)
     np.testing.assert_array_equal(strips.stack(2).heights, both.heights)
     middle = slice(length // 4, length)
     np.testing.assert_array_equal(one.heights[:, middle], both.heights[:, middle])
-    first, second = both.heights[:, :length].ravel(), both.heights[:, length:].ravel()
+    first = both.heights[:, :length].ravel()
+    second = both.heights[:, length:].ravel()
     assert abs(np.corrcoef(first, second)[0, 1]) < 0.1
     assert both.sq == pytest.approx(PAPER.surface.sq, rel=0.03)
     other = lubfric.prepare(PAPER.with_(surface={"seed": 2})).strips.stack(1)

@@ -119,6 +119,7 @@ def test_a_run_on_one_patch_takes_the_cells_of_the_patch():
     strip = strip_for(prepared)[0]
     assert strip.strips.cells.own and strip.surface.spacing == strip.contact.spacing == pytest.approx(spacing)
     assert strip.surface.shape == strip.contact.heights.shape == scene.contact.shape
-    run, own = lubfric.transient(scene), scene.with_(numerics={"grid": "given", "film_deflection": "hydrodynamic"})
+    run = lubfric.transient(scene)
+    own = scene.with_(numerics={"grid": "given", "film_deflection": "hydrodynamic"})
     assert run.coefficient[0] == pytest.approx(lubfric.friction(own).coefficient, rel=0.003)
     assert run.line_length == pytest.approx(scene.contact.shape[1] * spacing[1])

@@ -13,7 +13,11 @@ from lubfric.estimate.missed import missed_load, summit_radius
 from lubfric.estimate.scatter import BlockError, add_errors
 from lubfric.estimate.uncertainty import interval, load_sharing_error
 
-E_PRIME, WIDTH, RX, RY, SQ = 2.3e11, 6e-3, 40e-6, 90e-6, 1e-7
+E_PRIME = 2.3e11
+WIDTH = 6e-3
+RX = 40e-6
+RY = 90e-6
+SQ = 1e-7
 T_975 = {1: 12.7062, 2: 4.3027, 5: 2.5706, 10: 2.2281, 30: 2.0423}  # of any table of Student's t
 
 
@@ -61,7 +65,8 @@ def test_the_error_of_load_sharing_itself_is_that_of_its_rule():
     films = [load_sharing_error(ratio, 0.0, 0.0, 0.03) for ratio in (2.0, 4.0, 8.0)]
     assert np.array(films) == pytest.approx(np.array([[0.3, 0.3], [0.2, 0.2], [0.05, 0.05]]))
     down, up = load_sharing_error(1.0, 0.5, 0.06, 0.02)
-    others, of_all = (0.35 * 0.08 + 0.3 * 0.02) / 0.08, 0.25 * math.sqrt(0.5)
+    others = (0.35 * 0.08 + 0.3 * 0.02) / 0.08
+    of_all = 0.25 * math.sqrt(0.5)
     assert (down, up) == pytest.approx((1 - (1 - others) * (1 - of_all), others + of_all))
     down, up = load_sharing_error(8.0, 0.1, 0.012, 0.0)
     of_all = 0.25 * math.sqrt(0.9)

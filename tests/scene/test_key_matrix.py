@@ -254,7 +254,8 @@ def moved_map(scene, change):
 
 def test_similar_contacts_have_one_coefficient():
     """Lengths times 2, pressures times 3: f stays (Barus has no pressure of its own)."""
-    a, b = 2.0, 3.0
+    a = 2.0
+    b = 3.0
     scaled = {
         "bodies": {"radius": a, "width": a, "load": a * a * b, "e_prime": b, "hardness": b},
         "lubricant": {
@@ -345,15 +346,21 @@ def test_shear_and_flow_of_a_film_obey_the_laws_asked_for(law):
     """Couette force by quadrature of the law; and the mass flow rho (U h - h³ p'/12 eta) the same everywhere."""
     scene = FILM.with_(lubricant=law)
     result = lubfric.friction(scene)
-    film, oil, speed = result.balance.film, scene.lubricant, scene.motion.entrainment_speed
+    film = result.balance.film
+    oil = scene.lubricant
+    speed = scene.motion.entrainment_speed
     assert result.contact_load == 0
-    x, p, h = film.x, film.pressure, film.film_thickness
+    x = film.x
+    p = film.pressure
+    h = film.film_thickness
     wet = x <= film.rupture
     tau = own_stress(oil, p, scene.motion.slide_roll_ratio * speed / h)[wet]
     inlet = oil.viscosity * scene.motion.slide_roll_ratio * speed * 2 * scene.bodies.radius / abs(x[0])
     force = scene.bodies.width * (np.trapezoid(tau, x[wet]) + inlet)
     assert result.couette_force == pytest.approx(force, rel=0.01)
-    pm, hm, slope = (p[1:] + p[:-1]) / 2, (h[1:] + h[:-1]) / 2, np.diff(p) / np.diff(x)
+    pm = (p[1:] + p[:-1]) / 2
+    hm = (h[1:] + h[:-1]) / 2
+    slope = np.diff(p) / np.diff(x)
     newtonian = dataclasses.replace(oil, eyring_stress=None, limiting_stress_coefficient=None)
     eta = own_stress(newtonian, pm, 1.0)
     rho = 1 + (0.6e-9 * pm / (1 + 1.7e-9 * pm) if oil.density_law != "constant" else 0 * pm)
@@ -367,7 +374,8 @@ def test_flat_contact_is_the_periodic_contact_at_the_mean_pressure_of_the_strip(
     """Hardness and geometry: gap and area from a dry contact solved here, at F_C over the Hertz strip; the gap within
     its stated error, which is below two percent."""
     scene = BASE.with_(bodies={"hardness": 4e8})
-    result, surface = lubfric.friction(scene), contact_maps(scene)[0]
+    result = lubfric.friction(scene)
+    surface = contact_maps(scene)[0]
     pressure = result.contact_load / (2 * scene.bodies.half_width * scene.bodies.width)
     dry = lubfric.solve_contact(
         surface.heights.max() - surface.heights,
@@ -484,7 +492,8 @@ def _point(scene, mode):
 
 @pytest.mark.parametrize("numerics", STEADY_ONLY, ids=str)
 def test_what_a_transient_does_not_do_it_refuses(numerics):
-    plan, cylinder = lubfric.Transient(1e-4, outputs=1), "model" in numerics
+    plan = lubfric.Transient(1e-4, outputs=1)
+    cylinder = "model" in numerics
     with pytest.raises(lubfric.InputError, match=f"numerics.{next(iter(numerics))}|{next(iter(numerics))} "):
         lubfric.transient((CYLINDER if cylinder else BASE).with_(numerics=numerics, transient=plan))
 
@@ -499,7 +508,8 @@ def test_a_line_and_its_tolerance_reach_the_sweep_and_the_run_in_time():
         contact={"region": "hertz"},
         surface={"oversize": 1},
     )
-    point, swept = lubfric.friction(line), lubfric.stribeck(line, [line.motion.entrainment_speed]).points[0]
+    point = lubfric.friction(line)
+    swept = lubfric.stribeck(line, [line.motion.entrainment_speed]).points[0]
     assert swept.coefficient == point.coefficient and point.uncertainty.sampling > 0
     tight = line.with_(numerics={"sampling_tolerance": point.uncertainty.sampling / 1.5})
     for longer in (lubfric.friction(tight), lubfric.stribeck(tight, [tight.motion.entrainment_speed]).points[0]):

@@ -41,7 +41,8 @@ def maps(tmp_path):
 def test_two_generated_bodies_are_independent_also_with_one_seed(tmp_path):
     both = GENERATED + "[counterface]\nsq = 1e-7\ncorrelation_length = 4e-6\nacf = 'gaussian'\n"
     two, one = (loaded(tmp_path, text) for text in (both, GENERATED))
-    found, alone = contact_maps(two)[0], contact_maps(one)[0]
+    found = contact_maps(two)[0]
+    alone = contact_maps(one)[0]
     other = found.heights - (alone.heights - alone.heights.mean())
     assert abs(np.corrcoef(other.ravel(), alone.heights.ravel())[0, 1]) < 0.3
     assert other.std() == pytest.approx(1e-7, rel=1e-6) and found.periodic_axes == (True, True)
@@ -58,7 +59,8 @@ def test_the_order_of_two_measured_bodies_does_not_matter(maps):
 
 def oblique(seed, degrees, count=128, step=1e-6):
     """Ridges (m) of random heights and distances, whose normal lies at an angle to x."""
-    rng, angle = np.random.default_rng(seed), np.deg2rad(degrees)
+    rng = np.random.default_rng(seed)
+    angle = np.deg2rad(degrees)
     x = (np.arange(count) - count / 2) * step
     along = x[:, None] * np.cos(angle) + x[None, :] * np.sin(angle)
     z = sum(np.cos(2 * np.pi * along / rng.uniform(8e-6, 25e-6) + rng.uniform(0, 6.3)) for _ in range(20))
@@ -186,7 +188,8 @@ def test_the_same_by_call():
 def test_instrument_files_from_scene_command_and_reader(tmp_path, capsys, instruments, name):
     """The same Sq in each; the map with outliers asks for a word."""
     rough = lubfric.generate_surface((80, 60), 2e-6, sq=1e-7, correlation_length=9e-6, acf="gaussian", seed=1)
-    z, path = rough.heights.copy(), tmp_path / name
+    z = rough.heights.copy()
+    path = tmp_path / name
     if name == "spikes.sur":
         z[30, 40] = 5e-6
     (write_sur if name == "spikes.sur" else write_sdf)(path, z, rough.spacing)
@@ -203,11 +206,15 @@ def test_instrument_files_from_scene_command_and_reader(tmp_path, capsys, instru
 
 
 def test_scenes_and_results_keep_no_hold_of_the_callers_lists():
-    shape, spacing, speeds = [64, 64], [2e-6, 2e-6], [0.01, 0.02]
+    shape = [64, 64]
+    spacing = [2e-6, 2e-6]
+    speeds = [0.01, 0.02]
     patch = ContactDomain(geometry="flat", shape=shape, spacing=spacing)
     scene = lubfric.load_scene("flat").with_(contact=patch, surface={"correlation_length": 8e-6})
     scene = scene.with_(motion={"speeds": speeds})
-    shape[0], spacing[0], speeds[0] = 1, 1.0, 9.0
+    shape[0] = 1
+    spacing[0] = 1.0
+    speeds[0] = 9.0
     assert scene.contact.shape == (64, 64) and scene.contact.spacing == (2e-6, 2e-6)
     assert scene.motion.speeds == (0.01, 0.02) and hash(scene) == hash(scene.with_(name=scene.name))
     asked = np.array([0.05, 0.1])

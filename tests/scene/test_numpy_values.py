@@ -32,7 +32,8 @@ SCENE = paper_scene(numerics={"sampling": "patch"})
     ],
 )
 def test_a_scene_holds_the_numbers_of_python(section, given, plain):
-    scene, same = SCENE.with_(**{section: given}), SCENE.with_(**{section: plain})
+    scene = SCENE.with_(**{section: given})
+    same = SCENE.with_(**{section: plain})
     assert scene == same and fingerprint(scene) == fingerprint(same)
     assert scene_from_table(tomllib.loads(scene.to_toml()), Path(), "paper") == same
     if not set(given) & {"radii"}:

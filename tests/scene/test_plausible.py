@@ -21,7 +21,8 @@ def test_built_in_scenes_are_usual(name):
 
 @pytest.mark.parametrize("name", [name for name, q in KEYS.items() if q.meant])
 def test_a_usual_value_in_each_mistaken_unit_is_found_out(name):
-    (low, high), unit = KEYS[name].usual, KEYS[name].unit
+    (low, high) = KEYS[name].usual
+    unit = KEYS[name].unit
     middle = (max(low, high / 1e6) * high) ** 0.5
     assert slip(name, middle) is None
     for other in KEYS[name].meant:

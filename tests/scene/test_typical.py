@@ -59,7 +59,8 @@ def test_its_range_is_in_the_interval(name):
     loaded = QUICK.with_(bodies={"load": 400.0}, motion={"slide_roll_ratio": 0.5}, lubricant={"eyring_stress": 1e7})
     known = lubfric.friction(loaded.with_keys({name: word}), 0.03)
     plain = lubfric.friction(loaded.with_keys({name: value}), 0.03)
-    (low, high), (least, most) = plain.uncertainty.interval, known.uncertainty.interval
+    (low, high) = plain.uncertainty.interval
+    (least, most) = known.uncertainty.interval
     assert known.coefficient == plain.coefficient and plain.uncertainty.inputs == 0 < known.uncertainty.inputs
     assert least <= low and high <= most and most - least > high - low
 

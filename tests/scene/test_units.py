@@ -177,7 +177,8 @@ def test_a_map_made_for_an_ra_has_it_and_one_for_an_rz_about():
 def test_ra_and_rz_of_every_map_are_told():
     """Rz is that along x, over sampling lengths of 0.8 mm, and of the measured points only."""
     made = heights_of(ra="0.2 um")
-    z, seen = made.heights, np.random.default_rng(0).random(made.shape) < 0.7
+    z = made.heights
+    seen = np.random.default_rng(0).random(made.shape) < 0.7
     for heights, mask in ((z, None), (np.where(seen, z, np.nan), seen)):
         lines = heights.reshape(5, 800, 400)
         rz = np.mean(np.nanmax(lines, 1) - np.nanmin(lines, 1))

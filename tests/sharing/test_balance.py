@@ -86,7 +86,8 @@ def test_an_unclosable_balance_is_reported(spring):
 
 def test_a_film_of_the_whole_load_that_fails_does_not_hide_the_balance(spring, monkeypatch):
     """A balance in contact excludes separation."""
-    speed, solve = 0.03, Point.film
+    speed = 0.03
+    solve = Point.film
 
     def failing(self, film_load, start=None, cells=0):
         if film_load > 0.999 * B.load:
@@ -104,7 +105,8 @@ def test_a_film_of_the_whole_load_that_fails_does_not_hide_the_balance(spring, m
 def test_both_balances_recomputed_from_the_fields(scene):
     prepared = lubfric.prepare(scene)
     point = lubfric.friction(prepared, 0.01, fields=True)
-    film, contact = point.balance.film, point.balance.contact.fields
+    film = point.balance.film
+    contact = point.balance.contact.fields
     dx, dy = prepared.surface.spacing
     carried = contact.pressure.sum() * dx * dy / (contact.pressure.shape[1] * dy) * B.width
     fluid = np.sum(0.5 * (film.pressure[1:] + film.pressure[:-1]) * np.diff(film.x)) * B.width
@@ -138,7 +140,8 @@ def test_the_slower_the_nearer_to_boundary_lubrication(load):
 
 
 def test_johnsons_modulus_keeps_the_strip_and_matters_not_where_the_film_carries_all(patch):
-    point, alone = lubfric.friction(SCALED, 1e-2, fields=True), lubfric.friction(patch, 1e-2)
+    point = lubfric.friction(SCALED, 1e-2, fields=True)
+    alone = lubfric.friction(patch, 1e-2)
     film = point.balance.film
     assert film.half_width == pytest.approx(B.half_width, rel=1e-12)
     assert film.e_prime == pytest.approx(B.e_prime * point.film_load / B.load, rel=1e-12)
@@ -160,7 +163,8 @@ def test_a_thick_film_needs_no_contact_and_is_the_rigid_cylinder(patch):
 
 
 def test_what_must_not_change_the_coefficient(patch):
-    expected, heights = lubfric.friction(patch, 0.01).coefficient, patch.surface.heights
+    expected = lubfric.friction(patch, 0.01).coefficient
+    heights = patch.surface.heights
     same = [
         lubfric.friction(on(patch, heights + 3e-6), 0.01),  # datum of the map
         lubfric.friction(on(patch, np.roll(heights, 31, axis=1)), 0.01),  # along the width

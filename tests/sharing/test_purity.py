@@ -37,7 +37,8 @@ SCENES = {
     "measured": None,
 }
 CHEAP = LINE.with_(numerics={"tolerance": 0.05, "sampling_tolerance": 0.3}, surface={"correlation_length": 4e-6})
-QUICK, REST = list(SCENES)[1:3], [name for name in SCENES if name not in ("patch", "summits")]
+QUICK = list(SCENES)[1:3]
+REST = [name for name in SCENES if name not in ("patch", "summits")]
 
 
 @pytest.fixture(scope="session")

@@ -18,7 +18,9 @@ class Made:
     contact and a power of U beyond, summits of 3 Sq."""
 
     def __init__(self, lift_off, exponent, friction=0.1):
-        self.lift_off, self.exponent, self.friction = lift_off, exponent, friction
+        self.lift_off = lift_off
+        self.exponent = exponent
+        self.friction = friction
 
     def share(self, speed):
         return np.maximum(1 - (speed / self.lift_off) ** self.exponent, 0.0) ** 1.5
@@ -41,7 +43,8 @@ class Made:
 
     def steepness(self, speeds):
         """d ln((1 - share)/share)/d ln U = -d ln(share)/d ln U/(1 - share); NaN without contact."""
-        share, power = self.share(speeds), (speeds / self.lift_off) ** self.exponent
+        share = self.share(speeds)
+        power = (speeds / self.lift_off) ** self.exponent
         with np.errstate(divide="ignore", invalid="ignore"):
             steep = 1.5 * self.exponent * power / ((1 - power) * (1 - share))
         return np.where((share > 0) & (share < 1), steep, np.nan)
@@ -51,7 +54,8 @@ class Made:
 @pytest.mark.parametrize("exponent", [0.8, 1.0, 1.2])
 @pytest.mark.parametrize("tolerance", [0.01, 0.05])
 def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, exponent, tolerance):
-    curve, speeds = Made(lift_off, exponent), [1e-4, *(lift_off * np.array([0.1, 0.45, 1.6])), 1.0]
+    curve = Made(lift_off, exponent)
+    speeds = [1e-4, *(lift_off * np.array([0.1, 0.45, 1.6])), 1.0]
     while len(speeds) < 25:
         speed, error = next_speed(curve.through(np.array(speeds)), tolerance)
         if speed is None:
@@ -69,10 +73,12 @@ def test_a_known_curve_is_found_within_the_tolerance_from_few_points(lift_off, e
 
 @pytest.mark.parametrize("lift_off", [1e-6, 100.0])
 def test_curves_without_a_knee(lift_off):
-    curve, speeds = Made(lift_off, 0.8), list(FIRST)
+    curve = Made(lift_off, 0.8)
+    speeds = list(FIRST)
     while (speed := next_speed(curve.through(np.array(speeds)), 0.01)[0]) is not None:
         speeds.append(speed)
-    found, at = curve.through(np.array(speeds)), np.geomspace(1e-4, 1.0, 500)
+    found = curve.through(np.array(speeds))
+    at = np.geomspace(1e-4, 1.0, 500)
     assert found.lift_off is None and len(speeds) <= 10
     np.testing.assert_allclose(found.at(at), sum(curve.at(at)), rtol=0.01)
 
@@ -86,7 +92,8 @@ def test_contact_at_speeds_beyond_the_knee_that_the_clearance_tells(beyond):
     touching = speeds <= 0.05 * beyond
     share = np.where(touching, np.maximum(samples.share, 1e-5), 0.0)
     samples = replace(samples, share=share, boundary=0.1 * share)
-    found, at = Interpolant(samples, knee_of(samples)), np.geomspace(1e-4, 1.0, 2000)
+    found = Interpolant(samples, knee_of(samples))
+    at = np.geomspace(1e-4, 1.0, 2000)
     assert 0.05 * beyond < found.lift_off < 0.06
     np.testing.assert_allclose(found.at(at), sum(curve.at(at)), rtol=0.1)
     assert np.isfinite(found.error(at)).all()

@@ -44,7 +44,8 @@ def test_the_same_bits_on_a_pool_and_after_a_cut(study, tmp_path, monkeypatch, c
     class Cut(BaseException):
         pass
 
-    real, solved = points.friction, []
+    real = points.friction
+    solved = []
 
     def friction(*arguments, **options):
         if len(solved) == cut:
@@ -76,7 +77,8 @@ def test_a_curve_that_cannot_be_begun_is_one_row(tmp_path):
 
 def test_tables_leave_out_what_was_not_needed(study, tmp_path):
     pytest.importorskip("xarray"), pytest.importorskip("pandas")
-    data, frame = study.to_xarray(), study.to_frame()
+    data = study.to_xarray()
+    frame = study.to_frame()
     assert data.speed.dims == ("lubricant.viscosity", "point") and data.speed.attrs["units"] == "m/s"
     assert len(frame) == study.solved and frame["speed"].notna().all() and list(frame)[:2] == [*VARY, "speed"]
     study.to_csv(tmp_path / "study.csv")

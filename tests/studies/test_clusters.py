@@ -16,7 +16,8 @@ from small_study import SCENE, same
 import lubfric
 
 ROOT = Path(__file__).parents[2]
-VARY, SPEEDS = {"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}, tuple(np.geomspace(0.003, 0.3, 8))
+VARY = {"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}
+SPEEDS = tuple(np.geomspace(0.003, 0.3, 8))
 
 
 @pytest.fixture(scope="module")
@@ -38,9 +39,11 @@ def test_killed_dask_workers_lose_nothing(serial, tmp_path):
     being solved is lost with a worker, and none is solved twice. The other worker lives: a Dask that has lost all of
     them waits for new ones, as a nanny whose worker dies while it starts gives up."""
     distributed = pytest.importorskip("distributed")
-    rng, killed = np.random.default_rng(1), []
+    rng = np.random.default_rng(1)
+    killed = []
     for run in range(100):
-        store, ended = tmp_path / str(run), threading.Event()
+        store = tmp_path / str(run)
+        ended = threading.Event()
         with cluster() as workers, distributed.Client(workers) as client:
 
             def kill(store=store, ended=ended, workers=workers):

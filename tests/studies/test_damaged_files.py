@@ -84,7 +84,8 @@ def replaced(path, rng):
 
 def damage(path, rng):
     """Replace a file of a store or of a run by a damaged one; of records often with a checksum that is right."""
-    kind, record = rng.integers(10), path.suffix == ".bin"
+    kind = rng.integers(10)
+    record = path.suffix == ".bin"
     if kind == 0:
         replaced(path, rng)
     elif kind == 1 or not (record or path.suffix == ".json"):
@@ -154,12 +155,14 @@ def looked_at(found, folder):
 
 
 def test_damaged_studies_are_told_of_and_stop_nothing(stores, tmp_path, imports):
-    rng, told = np.random.default_rng(7), {"error": 0, "warning": 0, "none": 0}
+    rng = np.random.default_rng(7)
+    told = {"error": 0, "warning": 0, "none": 0}
     looked_at(stores[0][1], tmp_path)
     imports.clear()
     for trial in range(700):
         folder, sound = stores[trial % 3]
-        plan, points = folder / "points" / "plan.bin", sorted((folder / "points").glob("?" * 40 + ".bin"))
+        plan = folder / "points" / "plan.bin"
+        points = sorted((folder / "points").glob("?" * 40 + ".bin"))
         files = [plan] if trial % 4 == 0 else points
         with damaged(files[rng.integers(len(files))], rng), warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -185,7 +188,8 @@ def test_damaged_results_are_one_clear_error(tmp_path, imports, capsys, undrawn)
     (tmp_path / "s.toml").write_text(scene.to_toml())
     run = tmp_path / "run"
     assert main(["run", str(tmp_path / "s.toml"), "--speeds", "0.01,0.3", "--out", str(run)]) == 0
-    rng, refused = np.random.default_rng(8), 0
+    rng = np.random.default_rng(8)
+    refused = 0
     assert main(["plot", str(run)]) == 0
     imports.clear()
     for trial in range(300):

@@ -23,7 +23,8 @@ BOUNDS = {"bodies.boundary_friction_coefficient": (0.05, 0.2), "lubricant.viscos
 def in_joint_region(found, values):
     """Whether values lie in the joint 95 % region of a fit (F distribution of p and n - p)."""
     away = np.array([bounds.share(values[key]) for key, bounds in found.parameters.items()]) - found.unit
-    p, n = away.size, found.predicted.size
+    p = away.size
+    n = found.predicted.size
     return away @ np.linalg.solve(found.unit_covariance, away) / p <= f_distribution.ppf(0.95, p, n - p)
 
 
@@ -36,8 +37,11 @@ def made_up(seed, speeds=SPEEDS, noise=0.05):
 @pytest.fixture(scope="module")
 def timed():
     """A fit, and its processor seconds in those of the machine that forecasts are made for."""
-    measured, before, begun = made_up(1), slowness(), time.process_time()
-    found, ended = lubfric.fit(SCENE, measured, BOUNDS), time.process_time()
+    measured = made_up(1)
+    before = slowness()
+    begun = time.process_time()
+    found = lubfric.fit(SCENE, measured, BOUNDS)
+    ended = time.process_time()
     return found, (ended - begun) / (0.5 * (before + slowness()))
 
 
@@ -58,18 +62,22 @@ def test_the_time_of_a_fit_is_foretold_within_a_factor_of_four(timed):
 def hertz_and_eyring(slips, alpha, stress, viscosity=0.05, speed=2.0, radius=0.01, modulus=2.3e11, peak=1e9):
     """Traction of a Barus oil with the Eyring law under the pressure of Hertz, with the central film of Dowson and
     Toyoda: a closed form, but for an integral over the angle."""
-    load, half = 2 * np.pi * radius * peak**2 / modulus, 4 * radius * peak / modulus
-    entrained, loaded = viscosity * speed / (modulus * radius), load / (modulus * radius)
+    load = 2 * np.pi * radius * peak**2 / modulus
+    half = 4 * radius * peak / modulus
+    entrained = viscosity * speed / (modulus * radius)
+    loaded = load / (modulus * radius)
     film = 3.06 * radius * (alpha * modulus) ** 0.56 * entrained**0.69 * loaded**-0.10
     angle = np.linspace(-np.pi / 2, np.pi / 2, 2001)
-    p, dx = peak * np.cos(angle), half * np.cos(angle) * (angle[1] - angle[0])
+    p = peak * np.cos(angle)
+    dx = half * np.cos(angle) * (angle[1] - angle[0])
     rates = np.array(slips)[:, None] * speed / film
     return (stress * np.arcsinh(viscosity * np.exp(alpha * p) * rates / stress) * dx).sum(axis=1) / load
 
 
 def test_independent_data_of_eyring_are_found_within_their_intervals():
     """As of a rig that averages over both signs of slip: a closed form has no rolling part. Noise of 2 %."""
-    alpha, stress = "lubricant.pressure_viscosity_coefficient", "lubricant.eyring_stress"
+    alpha = "lubricant.pressure_viscosity_coefficient"
+    stress = "lubricant.eyring_stress"
     scene = lubfric.load_scene("paper").with_(
         bodies={"radius": 0.01, "width": 0.01, "e_prime": 2.3e11, "load": 2 * np.pi * 0.01 * 1e18 / 2.3e11 * 0.01},
         lubricant={"viscosity": 0.05, "viscosity_law": "barus", "density_law": "dowson-higginson"}
@@ -108,7 +116,8 @@ def test_the_true_values_are_in_the_region(fitted):
 def test_a_fit_prints_as_one_line_and_draws_its_residuals(fitted):
     from matplotlib.figure import Figure
 
-    (low, high), value = fitted.intervals["lubricant.viscosity"], fitted.values["lubricant.viscosity"]
+    (low, high) = fitted.intervals["lubricant.viscosity"]
+    value = fitted.values["lubricant.viscosity"]
     (_, drawn) = fitted.plot_residuals(Figure().add_subplot()).lines
     order = np.argsort(drawn.get_xdata())
     miss = 100 * (fitted.measured.coefficient / fitted.predicted - 1)
@@ -281,7 +290,8 @@ def test_a_short_form_is_fitted():
 
 def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_finds_too(tmp_path, capsys, monkeypatch):
     """Progress tells misfit and values once a curve; the last are those that were found."""
-    measured, told = made_up(3, SPEEDS[::2]), []
+    measured = made_up(3, SPEEDS[::2])
+    told = []
     lines = [f"{1e3 * u:.6g},{f:.6g}" for u, f in zip(measured.x, measured.coefficient)]
     (tmp_path / "rig.csv").write_text("\n".join(["U [mm/s],mu", *lines]))
     (tmp_path / "scene.toml").write_text(SCENE.to_toml())
@@ -316,7 +326,8 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
 
 def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_intervals():
     """In boundary lubrication f goes with the boundary friction coefficient, and so do their relative errors."""
-    key, speeds = "bodies.boundary_friction_coefficient", [1e-4, 2e-4, 4e-4]
+    key = "bodies.boundary_friction_coefficient"
+    speeds = [1e-4, 2e-4, 4e-4]
     scene = paper_scene(numerics={"sampling_tolerance": 0.1})
     points = [lubfric.friction(scene, speed) for speed in speeds]
     found = lubfric.fit(scene, lubfric.Measured(speeds, [p.coefficient for p in points]), {key: (0.05, 0.2)})
@@ -328,7 +339,8 @@ def test_what_another_piece_of_the_surface_would_move_is_told_beside_the_interva
 @pytest.mark.parametrize("stated, told", [(1.0, False), (0.1, True)])
 def test_points_farther_off_than_their_deviations_say_are_told(stated, told):
     """Points 3 % above and below in turn: with a tenth of that stated, the fit lies ten times as far off."""
-    key, speeds = "bodies.boundary_friction_coefficient", np.geomspace(1e-3, 5e-3, 6)
+    key = "bodies.boundary_friction_coefficient"
+    speeds = np.geomspace(1e-3, 5e-3, 6)
     f = lubfric.stribeck(SCENE, speeds).coefficient
     off = 0.03 * f * np.array([1, -1, -1, 1, 1, -1])
     found = lubfric.fit(SCENE, lubfric.Measured(speeds, f + off, stated * np.abs(off)), {key: (0.05, 0.2)})

@@ -12,7 +12,8 @@ from lubfric.errors import CONVERGED, Report
 from lubfric.studies.fit_input import parameters_of
 from lubfric.studies.fit_result import FitResult
 
-KEY, OTHER = "bodies.boundary_friction_coefficient", "lubricant.viscosity"
+KEY = "bodies.boundary_friction_coefficient"
+OTHER = "lubricant.viscosity"
 SCENE = paper_scene(surface={"sq": 0.0})
 T_975 = {3: 3.1824, 5: 2.5706, 10: 2.2281}
 

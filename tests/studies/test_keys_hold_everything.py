@@ -22,7 +22,8 @@ LABELS = {"name", "motion.speeds"}  # of a scene: no number depends on them
 def places(part, path=""):
     """The path of every field of a dataclass and of those in it, and what holds it."""
     for each in fields(part):
-        value, name = getattr(part, each.name), f"{path}.{each.name}" if path else each.name
+        value = getattr(part, each.name)
+        name = f"{path}.{each.name}" if path else each.name
         if is_dataclass(value):
             yield from places(value, name)
         else:
@@ -76,7 +77,8 @@ def test_speed_fields_and_versions_make_other_keys(monkeypatch):
 
 def test_a_map_comes_back_the_way_round_it_was_stored(tmp_path):
     """Column by column or row by row in memory, and turned."""
-    heights, kept = np.arange(6.0).reshape(2, 3), Store(tmp_path)
+    heights = np.arange(6.0).reshape(2, 3)
+    kept = Store(tmp_path)
     for name, each in {"a": heights, "b": heights.T, "c": np.asfortranarray(heights), "d": heights[:, ::-1]}.items():
         kept.add(name, (each,))
         np.testing.assert_array_equal(kept.get(name)[0], each, strict=True)

@@ -14,7 +14,9 @@ import lubfric
 from lubfric.studies.law import law_of
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
-WARM, LOADS = [333.15, 353.15], [4.0, 8.0]  # K, N
+# K, N
+WARM = [333.15, 353.15]
+LOADS = [4.0, 8.0]
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +35,8 @@ def law(study):
 def by_hand(n, U, eta, p):
     """The formula in words of one's own."""
     V = math.hypot(U, n["u0"])
-    e, q = math.log(eta / n["eta0"]), math.log(p / n["p0"])
+    e = math.log(eta / n["eta0"])
+    q = math.log(p / n["p0"])
     H = V / n["U1"] * math.exp(n["a"] * e + n["c"] * q)
     share = (1 + H ** n["n"] / n["m"]) ** -n["m"] / (1 + n["r"] * H)
     film = [n[f"C{i}"] * (V / n["U0"]) ** n[f"k{i}"] * math.exp(n[f"e{i}"] * e + n[f"d{i}"] * q) for i in (1, 2)]
@@ -41,7 +44,8 @@ def by_hand(n, U, eta, p):
 
 
 def test_it_is_as_close_to_the_points_as_it_says(study, law):
-    f, speeds = study["coefficient"], study.coords["speed"][1]
+    f = study["coefficient"]
+    speeds = study.coords["speed"][1]
     off = []
     for i, temperature in enumerate(WARM):
         for j, load in enumerate(LOADS):
@@ -90,7 +94,8 @@ def test_the_c_function_is_the_same_to_the_last_digits(law, tmp_path):
     flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-O2", "-shared", "-fPIC"]
     subprocess.run(["gcc", *flags, "-o", tmp_path / "f.so", tmp_path / "f.c", "-lm"], check=True)
     friction = ctypes.CDLL(str(tmp_path / "f.so")).friction
-    friction.restype, friction.argtypes = ctypes.c_double, [ctypes.c_double] * 3 + [ctypes.POINTER(ctypes.c_int)]
+    friction.restype = ctypes.c_double
+    friction.argtypes = [ctypes.c_double] * 3 + [ctypes.POINTER(ctypes.c_int)]
     outside = ctypes.c_int(-1)
     for at in ((0.0, 343.0, 1e8, 0), (0.03, 335.0, 1e8, 0), (-2.0, 350.0, 1e8, 0), (9.0, 300.0, 1e9, 7)):
         found = friction(*at[:3], ctypes.byref(outside))

@@ -141,7 +141,8 @@ def killed_until_done(scene, out, rng, kills):
 @pytest.mark.parametrize("kills", [1, pytest.param(30, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("text, uninterrupted", [(SCENE, "whole"), (MOVING, "whole_history")], ids=["sweep", "in time"])
 def test_killed_runs_lose_repeat_and_tear_nothing(request, tmp_path, text, uninterrupted, kills):
-    rng, left = np.random.default_rng(kills), kills
+    rng = np.random.default_rng(kills)
+    left = kills
     for run in range(100):
         out = tmp_path / str(run)
         solved, used = killed_until_done(written(tmp_path, text), out, rng, min(left, 4))
@@ -207,7 +208,8 @@ def test_a_command_that_ends_takes_its_processes_along_and_keeps_their_points(tm
 
 
 def test_an_interrupt_of_a_run_in_time(tmp_path, whole_history, monkeypatch, capsys):
-    real, count = Store.add, [0]
+    real = Store.add
+    count = [0]
 
     def add(*arguments, **options):
         real(*arguments, **options)

@@ -48,7 +48,8 @@ while True:
 
 
 def test_a_killed_writer_leaves_the_old_file_or_the_new(tmp_path):
-    path, rng = tmp_path / "file", np.random.default_rng(5)
+    path = tmp_path / "file"
+    rng = np.random.default_rng(5)
     for _ in range(3):
         process = started(REPLACER, path)
         process.stdout.readline()
@@ -142,7 +143,8 @@ def test_a_record_of_another_version_does_not_count(tmp_path, name):
 
 
 def test_every_outcome_comes_back_as_it_was(tmp_path):
-    entry, store = Validity("f", 2.0, 1.0, "", "too much", "less", True), Store(tmp_path)
+    entry = Validity("f", 2.0, 1.0, "", "too much", "less", True)
+    store = Store(tmp_path)
     model = prepare(SCENE)
     point = lubfric.friction(model, 0.01).without_fields()
     for key, error in enumerate(
@@ -211,7 +213,8 @@ def test_a_file_counts_by_its_bytes(tmp_path):
         return fingerprint(SCENE.with_(surface=rough))
 
     heights = np.random.default_rng(1).normal(size=(32, 32)) * 1e-8
-    one, other = print_of("a.npy", heights), print_of("b.npy", heights)
+    one = print_of("a.npy", heights)
+    other = print_of("b.npy", heights)
     assert one == other and print_of("a.npy", heights * 1.001) != one
 
 

@@ -52,7 +52,8 @@ def test_keys_of_several_dimensions_act_together(first):
     vary = {"bodies.hertz_pressure": [1e8, 2e8], "bodies.radius": [2e-3, 4e-3]}
     plan = lubfric.plan_study(SCENE, {first: vary[first], **vary}, SPEEDS)
     for index, scene in zip(np.ndindex(*plan.shape[:-1]), plan.scenes):
-        at, bodies = {axis.name: axis.values[i][0] for axis, i in zip(plan.axes, index)}, scene.bodies
+        at = {axis.name: axis.values[i][0] for axis, i in zip(plan.axes, index)}
+        bodies = scene.bodies
         assert bodies.radius == at["bodies.radius"]
         load = 2 * np.pi * bodies.radius * at["bodies.hertz_pressure"] ** 2 / bodies.e_prime * bodies.width
         assert bodies.load == pytest.approx(load, rel=1e-12)
@@ -133,7 +134,8 @@ def test_any_executor_gives_the_same_bits(serial, kind, tmp_path):
 
 def test_a_longer_study_takes_over_what_is_known(serial, tmp_path, monkeypatch):
     lubfric.study(SCENE, {"bodies.load": [5.5], "surface.seed": [1, 2]}, SPEEDS[1:], store=tmp_path)
-    solved, real = [], points.friction
+    solved = []
+    real = points.friction
     monkeypatch.setattr(points, "friction", lambda *args, **kw: solved.append(args) or real(*args, **kw))
     same(lubfric.study(SCENE, VARY, SPEEDS, store=tmp_path), serial)
     assert len(solved) == len(records(tmp_path)) - 4 == 8
@@ -157,7 +159,8 @@ def suicidal(model, speed, **options):
     return FRICTION(model, speed, **options)
 
 
-PARENT, FRICTION = os.getpid(), lubfric.friction
+PARENT = os.getpid()
+FRICTION = lubfric.friction
 
 
 @pytest.mark.parametrize("stored", [False, True])
@@ -210,7 +213,9 @@ def test_an_interrupt_keeps_what_is_done_and_progress_counts_it(tmp_path):
 
 def test_an_interrupt_waits_until_all_processes_have_begun(monkeypatch):
     """Else one of them ends with a traceback, before it leaves interrupts to the command."""
-    begun, submit, send = [], ProcessPoolExecutor.submit, signal.raise_signal
+    begun = []
+    submit = ProcessPoolExecutor.submit
+    send = signal.raise_signal
     monkeypatch.setattr(ProcessPoolExecutor, "submit", lambda *a: begun.append(submit(*a)) or send(signal.SIGINT))
     with pytest.raises(KeyboardInterrupt), pool(3):
         pass
@@ -224,7 +229,8 @@ def test_a_range_with_units_is_that_of_its_key():
     drawn = lubfric.sample([lubfric.Between("1 N", "0.01 kN"), lubfric.Between("20 °C", "60 °C")], 4, seed=3)
     plain = lubfric.sample([lubfric.Between(1.0, 10.0), lubfric.Between(20.0, 60.0)], 4, seed=3)
     oil = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 40}
-    scene, keys = SCENE.with_(lubricant=oil), ("bodies.load", "lubricant.temperature_celsius")
+    scene = SCENE.with_(lubricant=oil)
+    keys = ("bodies.load", "lubricant.temperature_celsius")
     (axis,), (same,) = (lubfric.plan_study(scene, {keys: values}, [0.1]).axes for values in (drawn, plain))
     assert np.array(axis.values) == pytest.approx(np.array(same.values), rel=1e-12)
     with pytest.raises(lubfric.InputError, match="another kind"):
@@ -300,7 +306,8 @@ def test_the_time_is_foretold_within_a_factor_of_four(scene, speeds):
     plan = lubfric.plan_study(scene.with_(numerics={"sampling_tolerance": 0.05}), {}, speeds)
     plan.explain()  # the packages that making a map needs are loaded
     number, unit = plan.explain().partition("time     about ")[2].split()[:2]
-    before, begun = slowness(), time.process_time()
+    before = slowness()
+    begun = time.process_time()
     lubfric.study(plan)
     took = (time.process_time() - begun) / (0.5 * (before + slowness()))
     assert unit == "s" and 1 / 3 < float(number) / took < 3, (number, took)
@@ -322,7 +329,8 @@ def test_explain_leaves_out_what_the_store_holds(tmp_path, speeds):
 
 def test_tables_hold_the_same_numbers(serial, tmp_path):
     pytest.importorskip("xarray"), pytest.importorskip("pandas")
-    data, frame = serial.to_xarray(), serial.to_frame()
+    data = serial.to_xarray()
+    frame = serial.to_frame()
     picked = data.coefficient.sel({"bodies.load": 5.5, "surface.seed": 2}).sel(speed=0.03)
     row = frame[(frame["bodies.load"] == 5.5) & (frame["surface.seed"] == 2) & (frame["speed"] == 0.03)]
     assert float(picked) == row["coefficient"].item() == serial["coefficient"][1, 1, 1]
@@ -335,7 +343,8 @@ def test_tables_hold_the_same_numbers(serial, tmp_path):
 
 
 def test_netcdf_and_parquet_round_trips(serial, tmp_path):
-    xarray, pandas = pytest.importorskip("xarray"), pytest.importorskip("pandas")
+    xarray = pytest.importorskip("xarray")
+    pandas = pytest.importorskip("pandas")
     pytest.importorskip("netCDF4"), pytest.importorskip("pyarrow")
     serial.to_xarray().to_netcdf(tmp_path / "study.nc")
     with xarray.open_dataset(tmp_path / "study.nc") as again:

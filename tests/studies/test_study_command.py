@@ -86,7 +86,8 @@ def test_bad_study_files_are_one_line(tmp_path, capsys, change, words):
 @pytest.mark.parametrize("sent, code", [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_an_interrupt_is_one_line_and_the_command_goes_on(tmp_path, sent, code):
     many = STUDY.replace("[3.0, 5.5]", str([3.0 + 0.001 * i for i in range(1500)]))
-    path, out = written(tmp_path, many), tmp_path / "out"
+    path = written(tmp_path, many)
+    out = tmp_path / "out"
     process = command("study", path, "--out", out, "--workers", 2, stderr=subprocess.PIPE, text=True)
     while process.poll() is None and not any(path.stat().st_size for path in out.glob(f"points/{'?' * 40}.bin")):
         time.sleep(0.05)

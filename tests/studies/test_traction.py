@@ -155,5 +155,6 @@ def test_a_key_with_long_words_stays_in_its_picture():
     loads = {"bodies.load": [3.0, 5.0], "lubricant.pressure_viscosity_coefficient": [1e-8, 2e-8]}
     axes = lubfric.study(scene, loads, [0.01, 1.0]).plot()
     axes.figure.canvas.draw()
-    key, title = axes.get_legend().get_window_extent(), axes.title.get_window_extent()
+    key = axes.get_legend().get_window_extent()
+    title = axes.title.get_window_extent()
     assert 0 < key.x0 < key.x1 < axes.figure.bbox.width and key.y1 <= title.y0

@@ -22,16 +22,19 @@ def open_map(surface):
 def test_the_gap_of_two_facing_waves():
     """cos(ky) against cos(ky) shifted: the second runs backwards in y, so a sine changes its sign and a cosine does
     not."""
-    x, y = np.arange(40)[:, None] * 1e-6, (np.arange(60) - 29.5)[None, :] * 1e-6
+    x = np.arange(40)[:, None] * 1e-6
+    y = (np.arange(60) - 29.5)[None, :] * 1e-6
     k = 2 * np.pi / 20e-6
-    cosine, sine = np.cos(k * (x + y)) * 1e-7, np.sin(k * (x + y)) * 1e-7
+    cosine = np.cos(k * (x + y)) * 1e-7
+    sine = np.sin(k * (x + y)) * 1e-7
     found = Surface(cosine, 1e-6).combined(Surface(sine, 1e-6)).heights
     expected = np.cos(k * (x + y)) * 1e-7 + np.sin(k * (x - y)) * 1e-7
     np.testing.assert_allclose(found - found.mean(), expected - expected.mean(), atol=1e-20)
 
 
 def test_maps_of_other_spacing_and_length_meet_on_the_finer_one_and_the_shorter_length():
-    fine, coarse = open_map(rough(1)), open_map(rough(2, (50, 100), 2e-6))
+    fine = open_map(rough(1))
+    coarse = open_map(rough(2, (50, 100), 2e-6))
     both = coarse.combined(fine)
     assert both.spacing == fine.spacing and both.shape == (100, 120) and both.periodic_axes == (False, False)
     repeated = rough(3, (64, 120)).combined(fine)  # a periodic map is repeated along the open one

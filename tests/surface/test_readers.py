@@ -11,7 +11,8 @@ import lubfric
 from lubfric import InputError, Surface, read_surface
 from lubfric.surface.read import INSTRUMENTS, SUFFIXES
 
-STEP, GROUND = (1e-6, 2.5e-6), (0.5e-6, 2e-6)
+STEP = (1e-6, 2.5e-6)
+GROUND = (0.5e-6, 2e-6)
 RAW = {"level": False, "fill": False}
 
 
@@ -48,7 +49,8 @@ def test_x3p_axis_order_offset_and_preparation(tmp_path):
 @pytest.mark.parametrize("kind, increment", [("D", None), ("L", 1e-15)])
 def test_x3p_masks(tmp_path, kind, increment):
     """Bits are packed lowest first in the order of the heights; NaN heights are unmeasured too."""
-    z, mask = heights((7, 5)), np.ones((7, 5), bool)
+    z = heights((7, 5))
+    mask = np.ones((7, 5), bool)
     mask[2, 3] = mask[0, 1] = False
     surface = read_surface(write_x3p(tmp_path / "a.x3p", z, kind, mask=mask, increment=increment), **RAW)
     assert np.array_equal(surface.mask, mask) and np.isnan(surface.heights[2, 3])
@@ -147,7 +149,8 @@ def test_npy(tmp_path):
 
 @pytest.mark.parametrize("suffix, separator", [(".txt", " "), (".csv", ","), (".asc", "\t"), (".dat", ";")])
 def test_text_matrix(tmp_path, suffix, separator):
-    z, path = heights(), tmp_path / f"a{suffix}"
+    z = heights()
+    path = tmp_path / f"a{suffix}"
     np.savetxt(path, z, delimiter=separator, header="spacing = 1e-6 2.5e-6")
     assert np.allclose(read_surface(path, **RAW).heights, z, rtol=1e-12)
     assert read_surface(path).spacing == STEP
@@ -170,7 +173,8 @@ def points(z):
 
 
 def test_xyz_in_any_order_and_unit(tmp_path):
-    z, path = heights(), tmp_path / "a.xyz"
+    z = heights()
+    path = tmp_path / "a.xyz"
     table = np.random.default_rng(2).permutation(points(z))
     np.savetxt(path, table, fmt="%.12e")
     surface = read_surface(path, **RAW)
@@ -183,9 +187,12 @@ def test_xyz_in_any_order_and_unit(tmp_path):
 
 def test_xyz_without_a_whole_line_of_points(tmp_path):
     """Points left out are unmeasured, also when all of one grid line are; the grid keeps its spacing."""
-    z, path = heights((9, 6)), tmp_path / "a.xyz"
+    z = heights((9, 6))
+    path = tmp_path / "a.xyz"
     keep = np.ones(z.shape, bool)
-    keep[3:5], keep[:, 2], keep[7, 4] = False, False, False
+    keep[3:5] = False
+    keep[:, 2] = False
+    keep[7, 4] = False
     np.savetxt(path, points(z)[keep.ravel()], fmt="%.12e")
     surface = read_surface(path, **RAW)
     assert np.array_equal(surface.mask, keep) and surface.spacing == pytest.approx(STEP, rel=1e-5)
@@ -197,7 +204,8 @@ def test_xyz_without_a_whole_line_of_points(tmp_path):
 
 
 def test_xyz_refuses_what_is_no_uniform_grid(tmp_path):
-    path, good = tmp_path / "a.xyz", points(heights()) * 1e6
+    path = tmp_path / "a.xyz"
+    good = points(heights()) * 1e6
     uneven = good.copy()
     uneven[good[:, 0] > good[:, 0].max() - 0.5, 0] += 0.3
     scattered = good.copy()
@@ -224,8 +232,11 @@ def test_xyz_refuses_what_is_no_uniform_grid(tmp_path):
 @pytest.mark.parametrize("separator", [";", "\t", " ", "   ", "; ", ";\t"])
 @pytest.mark.parametrize("number", ["%.9f", "%.9e", "%.9g"])
 def test_decimal_commas_are_read_where_something_else_separates(tmp_path, separator, number):
-    z, path = np.round(heights() * 1e9, 6), tmp_path / "a.csv"
-    z[0], z[2, 3] = np.arange(5), np.nan  # a line without any comma under %g
+    z = np.round(heights() * 1e9, 6)
+    path = tmp_path / "a.csv"
+    # a line without any comma under %g
+    z[0] = np.arange(5)
+    z[2, 3] = np.nan
     text = "\n".join(separator.join(number % v for v in row) for row in z)
     path.write_text(text.replace(".", ","))
     surface = read_surface(path, spacing=STEP, unit="nm", **RAW)
@@ -237,7 +248,8 @@ def test_decimal_commas_are_read_where_something_else_separates(tmp_path, separa
 
 
 def test_xyz_with_decimal_commas_and_titles(tmp_path):
-    z, path = heights(), tmp_path / "a.xyz"
+    z = heights()
+    path = tmp_path / "a.xyz"
     np.savetxt(path, points(z) * 1e6, fmt="%.9f", delimiter=";")
     path.write_text("X;Y;Z\n\u00b5m;\u00b5m;\u00b5m\n" + path.read_text().replace(".", ","), encoding="utf-8")
     surface = read_surface(path, unit="um", **RAW)
@@ -375,14 +387,16 @@ def with_holes(path):
     """Points unmeasured, and spikes beside them."""
     rough = lubfric.generate_surface((60, 50), STEP, sq=1e-7, correlation_length=8e-6, acf="gaussian", seed=4)
     z = rough.heights.copy()
-    z[[20, 40], 31], z[10:13, 8:10] = 4e-6, np.nan
+    z[[20, 40], 31] = 4e-6
+    z[10:13, 8:10] = np.nan
     return write_sur(path, z, STEP)
 
 
 def test_instrument_files(tmp_path, instruments):
     """Heights, extent and missing points as written, in another unit each; a key that applies to none is refused."""
     flat = tilted(tmp_path / "tilted.sdf")
-    surface, raw = read_surface(tmp_path / "tilted.sdf"), read_surface(tmp_path / "tilted.sdf", **RAW)
+    surface = read_surface(tmp_path / "tilted.sdf")
+    raw = read_surface(tmp_path / "tilted.sdf", **RAW)
     assert surface.shape == (40, 30) and surface.size == pytest.approx((40e-6, 75e-6))
     assert np.allclose(surface.heights, flat, atol=1e-15) and raw.sq > 1.05 * surface.sq
     holes = read_surface(with_holes(tmp_path / "holes.sur"), **RAW)

@@ -43,7 +43,9 @@ FORMS = {"exponential": lambda r: np.exp(-r), "gaussian": lambda r: np.exp(-(r**
 @pytest.mark.parametrize("acf", FORMS)
 def test_ensemble_autocorrelation_is_the_one_asked_for(acf):
     """The mean over 40 seeds against the zero-mean ACF; the standard error is near 0.01."""
-    scale, n, d = 12e-6, 256, 2e-6
+    scale = 12e-6
+    n = 256
+    d = 2e-6
     maps = (generated(acf=acf, correlation_length=scale, seed=seed) for seed in range(40))
     mean = np.mean([autocorrelation(surface, 0)[1] for surface in maps], axis=0)
     lags = np.arange(n // 2 + 1) * d
@@ -101,7 +103,8 @@ def test_generation_refuses(changes, words):
 @settings(max_examples=30)
 @given(st.tuples(*[st.floats(-1e-2, 1e-2) for _ in range(2)]), st.floats(-1e-3, 1e-3))
 def test_level_removes_any_plane_and_is_idempotent(slopes, offset):
-    x, y = np.arange(20) * 1e-6, np.arange(15) * 3e-6
+    x = np.arange(20) * 1e-6
+    y = np.arange(15) * 3e-6
     rough = np.random.default_rng(0).standard_normal((20, 15)) * 1e-7
     mask = np.random.default_rng(1).random((20, 15)) > 0.2
     tilted = rough + slopes[0] * x[:, None] + slopes[1] * y[None, :] + offset
@@ -121,7 +124,8 @@ def test_level_of_points_on_a_line_is_refused():
 
 def test_fill_never_overshoots_even_at_a_corner():
     rng = np.random.default_rng(4)
-    z, mask = rng.standard_normal((20, 20)), rng.random((20, 20)) > 0.4
+    z = rng.standard_normal((20, 20))
+    mask = rng.random((20, 20)) > 0.4
     mask[:3, :3] = False
     filled = Surface(np.where(mask, z, np.nan), 1e-6, mask=mask).fill().heights
     assert z[mask].min() <= filled.min() and filled.max() <= z[mask].max()
@@ -165,7 +169,8 @@ def test_mirror_closes_a_map_without_a_step():
 def test_resampling_a_band_limited_map_is_exact_there_and_back():
     coarse = waves()
     fine = coarse.resampled(shape=(160, 96))
-    x, y = (np.arange(160) + 0.5) / 160 - 0.5 / 64, (np.arange(96) + 0.5) / 96 - 0.5 / 48
+    x = (np.arange(160) + 0.5) / 160 - 0.5 / 64
+    y = (np.arange(96) + 0.5) / 96 - 0.5 / 48
     exact = 1e-7 * np.cos(2 * np.pi * (3 * x[:, None] + 2 * y[None, :]))
     assert np.allclose(fine.heights, exact, atol=1e-18)
     assert fine.size == pytest.approx(coarse.size) and fine.periodic_axes == (True, True)
@@ -190,7 +195,8 @@ def test_resampling_an_open_map():
 
 
 def test_resampling_by_spacing_cuts_the_rest_and_knows_what_stays_periodic():
-    whole, rest = waves().resampled(spacing=(2e-6, 2e-6)), waves().resampled(spacing=(1.5e-6, 2e-6))
+    whole = waves().resampled(spacing=(2e-6, 2e-6))
+    rest = waves().resampled(spacing=(1.5e-6, 2e-6))
     assert whole.shape == (32, 48) and whole.periodic_axes == (True, True)
     assert rest.shape == (42, 48) and rest.periodic_axes == (False, True) and rest.spacing[0] == 1.5e-6
     for bad in ({"shape": (4, 4), "spacing": 1e-6}, {}, {"spacing": 1.0}):
@@ -222,7 +228,8 @@ def test_statistics_of_a_cosine():
 
 def test_open_autocorrelation_counts_pairs_and_skips_unmeasured_points():
     rng = np.random.default_rng(3)
-    z, mask = rng.standard_normal((40, 9)), rng.random((40, 9)) > 0.3
+    z = rng.standard_normal((40, 9))
+    mask = rng.random((40, 9)) > 0.3
     surface = Surface(np.where(mask, z, np.nan), 1e-6, mask=mask)
     _, acf = autocorrelation(surface, 0)
     z = z - z[mask].mean()

@@ -9,7 +9,8 @@ import pytest
 from lubfric import Surface, generate_surface
 from lubfric.surface.statistics import autocorrelation, correlation_length, rms_slope
 
-DX, DY = 1e-6, 2.5e-6
+DX = 1e-6
+DY = 2.5e-6
 SHAPE = (120, 96)
 PLACES = [(np.arange(n) + 0.5) * step for n, step in zip(SHAPE, (DX, DY))]
 X, Y = np.meshgrid(*PLACES, indexing="ij")
@@ -62,7 +63,8 @@ def test_slopes_and_lengths_belong_to_their_axis():
     z = wave(0, 3)[0] + wave(1, 2, 2e-7)[0]
     surface = Surface(z, (DX, DY), periodic_axes=CLOSED)
     k = 2 * np.pi * np.array([3 / (SHAPE[0] * DX), 2 / (SHAPE[1] * DY)])
-    heights, steps = np.array([1e-7, 2e-7]) / math.sqrt(2), np.array([DX, DY])
+    heights = np.array([1e-7, 2e-7]) / math.sqrt(2)
+    steps = np.array([DX, DY])
     expected = heights * 2 / steps * np.sin(k * steps / 2)  # between neighbours
     assert rms_slope(surface)[:2] == pytest.approx(expected, rel=1e-9)
     for axis in (0, 1):
@@ -119,14 +121,16 @@ DONE = {
 @pytest.mark.parametrize("closed", [(False, False), (True, False)])
 def test_a_turned_sample_is_treated_as_it_lies(name, closed):
     surface = rough(closed)
-    one, other = DONE[name](surface), DONE[name](turned(surface))
+    one = DONE[name](surface)
+    other = DONE[name](turned(surface))
     assert other.spacing == one.spacing[::-1] and other.periodic_axes == one.periodic_axes[::-1]
     np.testing.assert_allclose(other.heights.T, one.heights, rtol=1e-7, atol=1e-17)
 
 
 def test_transposing_turns_cells_mask_and_ends():
     surface = rough((True, False))
-    other, by_hand = surface.transposed(), turned(surface)
+    other = surface.transposed()
+    by_hand = turned(surface)
     assert (other.spacing, other.periodic_axes) == ((DY, DX), (False, True))
     np.testing.assert_array_equal(other.heights, by_hand.heights)
     np.testing.assert_array_equal(other.mask, by_hand.mask)

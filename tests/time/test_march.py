@@ -37,7 +37,8 @@ def outputs(solver, plan, now):
 
 
 def test_decay_is_followed_to_every_output():
-    times, tolerance = np.array([0.0, 0.5, 2.0, 3.0]), 1e-5
+    times = np.array([0.0, 0.5, 2.0, 3.0])
+    tolerance = 1e-5
     plan = plan_of(times, (CONSTANT,), 1e-3, tolerance)
     found = outputs(Relaxation(CONSTANT), plan, begun())
     assert [now.time for now in found] == times[1:].tolist()

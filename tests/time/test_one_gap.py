@@ -31,11 +31,13 @@ def run(plan, times=None, **sections):
 
 def test_at_constant_speed_it_is_the_steady_answer_of_moving_roughness():
     """Of roughness slower than U/2, which moves by a cell in every step of both."""
-    motion, surface = {"slide_roll_ratio": 1.5}, lubfric.prepare(SCENE).surface
+    motion = {"slide_roll_ratio": 1.5}
+    surface = lubfric.prepare(SCENE).surface
     steady = solve_moving_strip(SCENE.with_(motion=motion), [RoughBody(surface, 0.3 * 0.25)], 0.3)
     found = run(Transient(1.0, tolerance=0.1), steady.times[steady.discarded - 1 :], motion=motion)
     assert found.report.converged and found.mass_residual.max() <= 1e-3
-    f, gap = found.coefficient[1:], found.mean_gap[1:]
+    f = found.coefficient[1:]
+    gap = found.mean_gap[1:]
     assert f.mean() == pytest.approx(steady.result.coefficient, rel=5e-3)
     np.testing.assert_allclose(gap, steady.series["mean_gap"][steady.discarded :], rtol=0.02)
 
@@ -46,7 +48,8 @@ FALLING = Transient(4e-4, speed=0.0, initial_film=5e-7)
 @pytest.mark.parametrize("plan", [Transient(4e-4, load=Harmonic(mean=15.0, amplitude=5.0, frequency=5e3)), FALLING])
 def test_smooth_bodies_have_the_smooth_film_of_a_run(plan):
     """By another program: complementarity on a graded grid."""
-    smooth, fine = {"sq": 0.0}, {"shape": (64, 32), "spacing": 1.5e-6}
+    smooth = {"sq": 0.0}
+    fine = {"shape": (64, 32), "spacing": 1.5e-6}
     found = run(plan, np.linspace(0, 4e-4, 9), surface=smooth, contact=fine)
     film = run(plan, found.time, surface=smooth, numerics={"model": "load-sharing"})
     np.testing.assert_allclose(found.central_film[1:], film.central_film[1:], rtol=0.015)
@@ -89,7 +92,8 @@ def test_it_stops_squeezes_and_starts_again():
 
 
 def test_motion_backwards_is_the_mirror_image():
-    plan, surface = Transient(2e-4, speed=Ramp(start=0.2, end=0.3, until=1e-4)), lubfric.prepare(SCENE).surface
+    plan = Transient(2e-4, speed=Ramp(start=0.2, end=0.3, until=1e-4))
+    surface = lubfric.prepare(SCENE).surface
     there = lubfric.transient(lubfric.prepare(SCENE.with_(transient=plan), surface), [0.0, 1e-4, 2e-4])
     turned, plan = (
         replace(surface, heights=surface.heights[::-1]),
@@ -104,7 +108,8 @@ def test_motion_backwards_is_the_mirror_image():
 
 
 def test_each_surface_is_displaced_by_the_integral_of_its_own_speed():
-    speed, sliding = Harmonic(amplitude=0.3, frequency=900.0), Ramp(start=0.0, end=0.4, until=1e-3)
+    speed = Harmonic(amplitude=0.3, frequency=900.0)
+    sliding = Ramp(start=0.0, end=0.4, until=1e-3)
     rough = {"sq": 5e-8, "correlation_length": 12e-6, "acf": "gaussian"}
     scene = SCENE.with_(
         surface=rough, counterface=rough, numerics={"sampling": "strips"}, contact={"shape": (24, 24)},
@@ -143,7 +148,9 @@ def test_steps_are_of_second_order(monkeypatch):
     solver, start, _ = begin_one_gap(SCENE.with_(transient=plan, surface={"sq": 5e-9}))
 
     def after(count):
-        step, films, now = 1e-4 / count, [start.film], start
+        step = 1e-4 / count
+        films = [start.film]
+        now = start
         for k in range(1, count + 1):
             memory = Memory(1 / step, films[-1])
             if k > 1:
@@ -160,7 +167,8 @@ def test_steps_are_of_second_order(monkeypatch):
 
 def test_a_killed_run_goes_on_to_the_same_bits(tmp_path):
     plan = Transient(1e-4, outputs=3, speed=Harmonic(mean=0.1, amplitude=0.3, frequency=8e3))
-    whole, seen = run(plan), []
+    whole = run(plan)
+    seen = []
 
     def stop(*now):
         seen.append(now)

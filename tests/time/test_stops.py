@@ -49,7 +49,8 @@ def test_a_run_sees_a_pulse_between_its_outputs_and_a_jump_at_one():
         plan = lubfric.Transient(duration=1.0, outputs=outputs, speed=speed)
         return lubfric.transient(scene.with_(transient=plan))
 
-    few, many = run(PULSE, 5), run(PULSE, 50)
+    few = run(PULSE, 5)
+    many = run(PULSE, 50)
     assert few.coefficient[2] == pytest.approx(many.coefficient[20], rel=2e-4)
     assert few.coefficient[2] < 0.994 * few.coefficient[1]  # 1 ms after the pulse the film still remembers it
     jump = run(Table(times=(0.0, 0.3, 0.3, 1.0), values=(0.01, 0.01, 0.02, 0.02)), 10)

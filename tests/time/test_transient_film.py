@@ -43,7 +43,9 @@ def test_a_steady_film_stays(M, L):
 def test_direction_and_units_do_not_matter():
     keywords, _, unit = moes(10, 5)
     keywords |= {"tolerance": 3e-3, "viscosity_law": "barus"}
-    speed, viscosity, times = keywords["entrainment_speed"], keywords["viscosity"], unit * np.array([0.0, 1.0, 3.0])
+    speed = keywords["entrainment_speed"]
+    viscosity = keywords["viscosity"]
+    times = unit * np.array([0.0, 1.0, 3.0])
 
     def film(times=times, **changed):
         return solve_transient_ehl(**keywords | changed, times=times)
@@ -81,13 +83,15 @@ def test_a_radius_that_grows_ends_in_the_steady_state():
 
 def test_reversal_passes_with_the_film_trapped_by_squeeze():
     keywords, problem, unit = moes(20, 5)
-    speed, period = keywords["entrainment_speed"], 12 * unit
+    speed = keywords["entrainment_speed"]
+    period = 12 * unit
     keywords["entrainment_speed"] = Harmonic(amplitude=speed, frequency=1 / period, phase=math.pi / 2)
     times = period * np.linspace(0, 1.5, 61)
     found = solve_transient_ehl(**keywords, times=times, **LOOSE)
     assert found.pressure.min() >= 0 and found.min_film.min() > 0.2 * found.min_film[0]
     np.testing.assert_allclose(found.load, problem.contact.load_per_width, rtol=1e-6)
-    half, whole = found.min_film[20:40], found.min_film[40:60]
+    half = found.min_film[20:40]
+    whole = found.min_film[40:60]
     np.testing.assert_allclose(whole, half, rtol=0.04)  # each half cycle mirrors the one before
     wet = found.pressure > 0
     assert not wet[0, -1] and not wet[20, 0]  # at full speed the outlet has ruptured, on either side in turn
@@ -124,7 +128,13 @@ def test_the_jacobian_is_the_derivative():
 def test_the_tail_is_the_integral_of_reynolds_equation():
     from scipy.integrate import quad
 
-    a, film, c, nu, speed, flow, rate = 12.0, 71.0, 0.9, 0.7, 0.8, 1.3, -0.2
+    a = 12.0
+    film = 71.0
+    c = 0.9
+    nu = 0.7
+    speed = 0.8
+    flow = 1.3
+    rate = -0.2
     h = lambda s: film + 0.5 * c * (s * s - a * a)  # noqa: E731
     slope = lambda s: 6 * nu * (flow + rate * (s - a) - speed * h(s)) / h(s) ** 3  # noqa: E731
     pressure, load = outside(a, film, c, nu, speed, flow, rate)

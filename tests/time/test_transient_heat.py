@@ -36,7 +36,8 @@ def in_time(scene, **plan):
 @pytest.mark.parametrize("speed, ratio", [(2.0, 0.2), (-2.0, -1.0)])
 def test_steady_motion_is_as_hot_in_time_as_without(speed, ratio):
     scene = BASE.with_(motion={"entrainment_speed": speed, "slide_roll_ratio": ratio})
-    steady, cold = lubfric.friction(scene), lubfric.friction(scene.with_(numerics={"heat": "off"}))
+    steady = lubfric.friction(scene)
+    cold = lubfric.friction(scene.with_(numerics={"heat": "off"}))
     found = in_time(scene)
     assert found.coefficient[-1] == pytest.approx(steady.coefficient, rel=5e-3)
     assert abs(cold.coefficient / steady.coefficient - 1) > 0.08
@@ -55,7 +56,8 @@ def test_the_film_far_before_a_hot_contact_is_as_thin_as_that_of_steady_motion(s
         motion={"entrainment_speed": speed, "slide_roll_ratio": ratio},
         numerics={"sampling": "patch", "film_deflection": "hydrodynamic", "accept": True},
     )
-    steady, found = lubfric.friction(scene), in_time(scene, duration=1e-3)
+    steady = lubfric.friction(scene)
+    found = in_time(scene, duration=1e-3)
     assert steady.inlet_film_factor < 0.1
     assert found.couette_force[-1] == pytest.approx(math.copysign(steady.couette_force, speed * ratio), rel=8e-3)
     assert abs(found.coefficient[-1] - steady.coefficient) < 8e-3 * steady.couette_force / scene.bodies.load
@@ -86,7 +88,8 @@ def test_a_reversal_is_warm_on_both_sides_and_cold_at_rest():
         sliding=0.4,
     )
     assert np.all(np.isfinite(found.coefficient))
-    fast, still = np.abs(found.entrainment_speed) > 1.9, np.abs(found.entrainment_speed) < 1e-9
+    fast = np.abs(found.entrainment_speed) > 1.9
+    still = np.abs(found.entrainment_speed) < 1e-9
     assert np.all(found.inlet_film_factor[fast] < 0.96) and np.all(found.inlet_film_factor[still] == 1)
     assert np.all(found.flash_temperature_rise[fast] > 0.2) and still.sum() == 2 and fast.sum() == 3
     assert any("slide-roll ratio" in text and "times" in text for text in found.validity)
@@ -96,7 +99,8 @@ def test_heat_that_a_plain_viscosity_leaves_out_is_told_with_its_size():
     """Of the size, at most, that an oil has which says how its viscosity falls: 3.5 % per K at 70 °C."""
     oil = {"pressure_viscosity_coefficient": 2e-8, "eyring_stress": 5e6}
     plain = BASE.with_(lubricant=lubfric.Lubricant(BASE.lubricant.viscosity, **oil))
-    steady, moving = lubfric.friction(plain), in_time(plain)
+    steady = lubfric.friction(plain)
+    moving = in_time(plain)
     assert moving.coefficient[-1] == pytest.approx(steady.coefficient, rel=5e-3)
     known = {"temperature": 343.15, "temperature_coefficient": 0.035} | oil
     warm = lubfric.friction(BASE.with_(lubricant=lubfric.Lubricant(BASE.lubricant.viscosity, **known)))
@@ -145,7 +149,8 @@ def test_an_unresolved_spike_is_told():
         surface={"sq": 1e-8},
         numerics={"heat": "off"},
     )
-    eyring, steady = in_time(scene), lubfric.friction(scene).coefficient
+    eyring = in_time(scene)
+    steady = lubfric.friction(scene).coefficient
     assert abs(eyring.coefficient[-1] / steady - 1) < 2 * eyring.shear_error[-1] + 5e-3
     assert not any("sum of the film's shear stress" in text for text in eyring.validity)
     newtonian = scene.with_(lubricant={"eyring_stress": None, "limiting_stress_coefficient": None})

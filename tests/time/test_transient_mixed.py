@@ -62,7 +62,8 @@ def test_a_slow_ramp_follows_the_stribeck_curve():
 
 
 def test_balances_hold_at_every_output():
-    speed, load = Harmonic(amplitude=0.05, frequency=50.0, phase=1.0), Harmonic(mean=4.0, amplitude=1.0, frequency=30.0)
+    speed = Harmonic(amplitude=0.05, frequency=50.0, phase=1.0)
+    load = Harmonic(mean=4.0, amplitude=1.0, frequency=30.0)
     found = run(Transient(0.02, speed=speed, load=load, tolerance=1e-3), np.linspace(0, 0.02, 21))
     total = found.contact_load + found.film_load
     np.testing.assert_allclose(total, found.load, rtol=1e-6)
@@ -98,7 +99,8 @@ def loop_gap(period):
 
 def test_the_friction_loop_has_its_hysteresis():
     """Slowing down drags a thick film along (less contact friction), speeding up a thin one."""
-    fast, slow = loop_gap(5e-3), loop_gap(0.1)
+    fast = loop_gap(5e-3)
+    slow = loop_gap(0.1)
     assert fast < -5e-4 and abs(slow) < 0.3 * abs(fast)
 
 
@@ -243,7 +245,8 @@ def test_three_hundred_steps_of_the_paper_scene_take_less_than_thirty_seconds():
     """Processor seconds of the machine that forecasts are made for."""
     wave = Harmonic(amplitude=0.03, frequency=10.0, phase=np.pi / 2)
     scene = paper_scene(numerics={"sampling": "patch"})
-    before, begun = slowness(), time.process_time()
+    before = slowness()
+    begun = time.process_time()
     found = lubfric.transient(scene.with_(transient=Transient(0.1, outputs=300, speed=wave)))
     took = time.process_time() - begun
     assert found.report.iterations >= 300 and took / (0.5 * (before + slowness())) < 30

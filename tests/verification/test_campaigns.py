@@ -87,7 +87,8 @@ def test_an_honest_interval_passes():
 
 def test_the_interval_of_a_trial_leaves_out_the_error_of_the_model_alone():
     found = coverage.trial((coverage.SPEEDS[1], 5))
-    half, sampling = (found["high"] - found["low"]) / (2 * found["f"]), found["sampling"]
+    half = (found["high"] - found["low"]) / (2 * found["f"])
+    sampling = found["sampling"]
     assert 1.96 * sampling < half < 2.3 * sampling and found["high"] - found["f"] == pytest.approx(half * found["f"])
 
 

@@ -24,7 +24,8 @@ def test_a_steady_film_balances_and_a_spoiled_one_does_not():
         return balances(strip.problem, replace(strip.result, **fields), [], 0.0)
 
     assert all(value <= ALLOWED[name] for name, value in off().items())
-    result, bump = strip.result, 1 + 0.05 * np.cos(np.arange(strip.problem.x.size))[:, None]
+    result = strip.result
+    bump = 1 + 0.05 * np.cos(np.arange(strip.problem.x.size))[:, None]
     assert off(gap=result.gap * bump)["gap"] > ALLOWED["gap"]
     assert off(pressure=1.01 * result.pressure)["load"] > ALLOWED["load"]
     assert off(flow_film=1.1 * result.flow_film)["mass"] > ALLOWED["mass"]
@@ -38,6 +39,7 @@ def test_a_pass_keeps_its_mass():
 
 
 def test_a_random_point_is_the_same_every_time():
-    first, again = drawn(5), drawn(5)
+    first = drawn(5)
+    again = drawn(5)
     assert first[3] == again[3] and np.array_equal(first[1][0].surface.heights, again[1][0].surface.heights)
     assert 5e3 <= first[0].bodies.load / first[0].bodies.width and -2 <= first[3]["slip"] <= 2

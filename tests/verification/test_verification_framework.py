@@ -27,7 +27,8 @@ def good(level):
     ax.plot([0, 1], [0, 1])
     yield plotting.finish("line", canvas, 'a "quoted" caption')
     yield Table("numbers", "caption", ("a", "b"), ((1, np.float64(2.5)), ("x", math.nan)))
-    corners, cells = np.array([[0.0, 0], [1, 0], [0, 1]]), {"triangle": np.array([[0, 1, 2]])}
+    corners = np.array([[0.0, 0], [1, 0], [0, 1]])
+    cells = {"triangle": np.array([[0, 1, 2]])}
     yield Field("mesh", "a triangle", corners, cells, {"p": np.arange(3.0)})
 
 
@@ -96,7 +97,9 @@ class Page(HTMLParser):
 
     def __init__(self, text):
         super().__init__()
-        self.open, self.seen, self.words = [], [], []
+        self.open = []
+        self.seen = []
+        self.words = []
         self.feed(text)
         self.close()
 

@@ -32,7 +32,8 @@ def test_in_pure_rolling_the_published_part_of_a_wave_is_left(smooth):
 
 def test_a_low_wave_in_time_is_the_linear_response(smooth):
     """Complex amplitudes of one frequency, and steps of BDF2, which lag by a phase of (w dt)²/3 each."""
-    count, height = 24, 1e-3 * smooth.H.min()
+    count = 24
+    height = 1e-3 * smooth.H.min()
     middle = smooth.body.line.probes(np.zeros((1, 1)))
     films = [
         (m.time, (middle @ m.H)[0])
@@ -49,7 +50,10 @@ def test_a_low_wave_in_time_is_the_linear_response(smooth):
 
 
 def test_waves_in_an_even_film_have_the_limits_of_the_theory():
-    k, film, e_prime, stiff = 1e5, 2e-7, 2.3e11, 15e9
+    k = 1e5
+    film = 2e-7
+    e_prime = 2.3e11
+    stiff = 15e9
     kept, inlet = references.hooke(k, 1.0 + 1e-9, film, 0.0 + 1e-30, stiff, e_prime)
     assert kept == pytest.approx(1.0)  # nothing slides, nothing drags
     c = film * e_prime * k / (4 * stiff)

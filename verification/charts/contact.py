@@ -12,7 +12,10 @@ from lubfric.paper import alternating, single_loop
 from ..opponents import CONTACT
 from .measure import interleaved, point
 
-SPACING, SIGMA, LENGTH, E_PRIME = 2e-6, 240e-9, 34e-6, 231e9
+SPACING = 2e-6
+SIGMA = 240e-9
+LENGTH = 34e-6
+E_PRIME = 231e9
 DEFAULT = 1e-6
 LONG = 5.0  # CPU seconds: a method that took longer is not asked for a tighter tolerance
 BOUNDARIES = {"periodic": ("periodic", "periodic"), "periodic along y": ("free", "periodic"), "free": ("free", "free")}
@@ -59,7 +62,9 @@ def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
     """{name: solve(tolerance) -> pressure}. The paper's methods are given the mean gap instead of the load."""
     kind = BOUNDARIES[boundary]
     spacing = 512 * SPACING / len(z)
-    operator, weight, gap0 = half_space(z.shape, spacing, E_PRIME, kind), np.ones(z.shape), z.max() - z
+    operator = half_space(z.shape, spacing, E_PRIME, kind)
+    weight = np.ones(z.shape)
+    gap0 = z.max() - z
     options = dict(operator=operator, boundary=kind, raise_on_failure=False)
     by_gap = options | {"weight": weight}
 
@@ -85,7 +90,8 @@ def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
 
 def panel(label: str, acf: str, n: int, load: float, boundary: str, tolerances, repeats: int) -> list[dict]:
     """Every method at every tolerance against one tight solution."""
-    z, found = heights(n, acf), []
+    z = heights(n, acf)
+    found = []
     asked = {"mean_pressure": load, "boundary": BOUNDARIES[boundary]}
     tight = solve_contact(z.max() - z, 512 * SPACING / n, E_PRIME, tolerance=1e-11, raise_on_failure=False, **asked)
     solvers = methods(z, load, boundary, tight.mean_gap)
@@ -112,7 +118,8 @@ def attempt(solve, tolerance: float):
 
 def grids(acf: str, sizes) -> list[dict]:
     """Contact area and mean gap of one surface on coarser grids against the finest, with a solver error of 1e-6."""
-    solved, found = {}, []
+    solved = {}
+    found = []
     for n in sizes:
         z = heights(n, acf)
         call = partial(solve_contact, z.max() - z, 512 * SPACING / n, E_PRIME, mean_pressure=200e6)

@@ -27,7 +27,9 @@ def cases(quick: bool) -> dict[str, tuple]:
 def measured(case: tuple) -> list[dict]:
     """Every method at every setting against a tight solution."""
     M, L, quick = case
-    arguments, panel, found = case_of(M, L), f"M = {M:g}, L = {L:g}", []
+    arguments = case_of(M, L)
+    panel = f"M = {M:g}, L = {L:g}"
+    found = []
     exact = quantities(solve_ehl(**arguments, tolerance=2e-5, raise_on_failure=False))
     for name, setting, films, seconds, size in runs(arguments, M, L, quick):
         off = np.abs(np.array(films) / exact[: len(films)] - 1)
@@ -40,7 +42,9 @@ def measured(case: tuple) -> list[dict]:
 
 def quantities(film) -> np.ndarray:
     """Smallest film and flow film [m], and ∫ eta/h dx, which is the Newtonian shear force per sliding speed."""
-    x, h, eta = film.x, film.film_thickness, film.viscosity
+    x = film.x
+    h = film.film_thickness
+    eta = film.viscosity
     wet = x <= film.rupture + 1e-12 * film.half_width
     return np.array([film.min_film, film.flow_film, np.trapezoid((eta / h)[wet], x[wet])])
 

@@ -29,8 +29,10 @@ def cases(quick: bool) -> dict[str, tuple[Case, str, bool]]:
 
 def measured(chosen: tuple[Case, str, bool]) -> list[dict]:
     """One way at every setting, against the deterministic model on another surface, or on all of the map."""
-    (case, way, quick), found = chosen, []
-    truth, one_map = reference(case)["f"], case.surface in MEASURED
+    (case, way, quick) = chosen
+    found = []
+    truth = reference(case)["f"]
+    one_map = case.surface in MEASURED
     seeds, settings = ((1,), ASKED[quick][:2]) if one_map else (SEEDS[quick], ASKED[quick])
     for sampling, model in settings:
         asked = {"sampling_tolerance": sampling, "model_tolerance": model} | WAYS[way]

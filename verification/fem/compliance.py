@@ -63,8 +63,10 @@ def layer_compliance(k, thickness: float, body: Elastic):
     for s -> 0. Written here with powers of exp(-2s), so that it neither overflows nor cancels.
     """
     k = np.abs(np.asarray(k, dtype=float))
-    s, nu = k * thickness, body.poisson
-    t, kappa = np.exp(-2 * s), 3 - 4 * nu
+    s = k * thickness
+    nu = body.poisson
+    t = np.exp(-2 * s)
+    kappa = 3 - 4 * nu
     excess = np.where(2 * s < SMALL, sinh_excess(2 * np.minimum(s, SMALL)) * t, (1 - t**2) / 2 - 2 * s * t)
     over_s = np.divide(excess, s, out=np.zeros_like(s), where=s > 0)
     above = kappa * over_s + 4 * (1 - 2 * nu) * t
@@ -83,7 +85,8 @@ def missing(s: float, poisson: float) -> float:
 
     For large s it is near ``q(s) exp(-2 s)`` with ``q = (4 s^2 + 4 s + 2 (5 - 12 nu + 8 nu^2))/(3 - 4 nu)``.
     """
-    t, kappa = np.exp(-2 * s), 3 - 4 * poisson
+    t = np.exp(-2 * s)
+    kappa = 3 - 4 * poisson
     square = 2 * s**2 + 5 - 12 * poisson + 8 * poisson**2
     return float(t * (kappa * t + square + 2 * s) / (kappa * (1 + t**2) / 2 + square * t))
 

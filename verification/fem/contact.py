@@ -123,7 +123,9 @@ def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
 
 def active_set(problem: Problem, force, touching, saturated, max_iterations: int):
     """(force, (iterations, history, status)). Forces may pull or exceed the limit slightly."""
-    history, fewest, patience = [], force.size + 1, PATIENCE
+    history = []
+    fewest = force.size + 1
+    patience = PATIENCE
     for iteration in range(1, max_iterations + 1):
         force, gap = equilibrium(problem, force, touching, saturated)
         scale = max(np.ptp(gap - problem.gap0), np.finfo(float).tiny)
@@ -191,7 +193,9 @@ def equilibrium(problem: Problem, force, touching, saturated):
     force += root**2 * (problem.load - force.sum()) / root2
     misfit = problem.gap0 + problem.displacement(force)
     residual = shift(root * misfit, root, root2)
-    direction, rho, used = -residual, residual @ residual, 1
+    direction = -residual
+    rho = residual @ residual
+    used = 1
     goal = INNER * problem.tolerance
     while used < INNER_LIMIT and np.isfinite(rho):
         approach = (root**2 @ misfit) / root2
@@ -226,7 +230,8 @@ def finish(problem: Problem, force, steps) -> Contact:
     weight = problem.weights * resting
     lowest = misfit[saturated].max(initial=-np.inf)  # approach at which all saturated nodes touch
     approach = float(weight @ misfit / weight.sum() if resting.any() else lowest)
-    gap, scale = misfit - approach, np.ptp(displacement)
+    gap = misfit - approach
+    scale = np.ptp(displacement)
     off = np.where(saturated, np.maximum(gap, 0), np.abs(gap))
     residuals = {
         "penetration": float(np.maximum(-gap[~saturated], 0).max(initial=0) / scale),

@@ -127,7 +127,8 @@ class Solution:
     def min_film(self) -> float:
         """Smallest film [m], that of the parabolas in the cells."""
         left, right, middle = self.H[self.body.line.element_dofs]
-        slope, bend = (right - left) / 2, (left + right) / 2 - middle
+        slope = (right - left) / 2
+        bend = (left + right) / 2 - middle
         lowest = np.clip(-slope / np.where(bend > 0, 2 * bend, 1.0), -1, 1)
         inside = np.where(bend > 0, middle + slope * lowest + bend * lowest**2, np.inf)
         return float(min(inside.min(), self.H.min())) * self.contact.film_unit
@@ -140,7 +141,8 @@ class Solution:
     @property
     def rolling(self) -> float:
         """1/2 ∫ h dp [N/m] of one surface. Upstream of the line p falls like |x|^-3 under a parabola."""
-        line, c = self.body.line, self.contact
+        line = self.body.line
+        c = self.contact
         first = int(np.argmin(self.body.x))
         upstream = 1.5 * self.P[first] * self.body.x[first] ** 2
         within = np.sum(np.asarray(line.interpolate(self.H)) * line.interpolate(self.P).grad[0] * line.dx)
@@ -230,7 +232,8 @@ def film_estimate(M: float, L: float) -> float:
 
     Only the mesh and the first guess are made from it.
     """
-    rigid, elastic = 3 / M, 2.621 * M**-0.2
+    rigid = 3 / M
+    elastic = 2.621 * M**-0.2
     isoviscous = (rigid ** (7 / 3) + elastic ** (7 / 3)) ** (3 / 7)
     if L < 0.01:
         return isoviscous

@@ -163,7 +163,8 @@ def assemble(film: Film, P: np.ndarray, H: np.ndarray) -> Flow:
 def inside(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
     """``-(q, v')`` and its derivatives by P and H."""
     line = film.line
-    p, h = line.interpolate(P), line.interpolate(H)
+    p = line.interpolate(P)
+    h = line.interpolate(H)
     size = np.abs(np.diff(line.mesh.p[0][line.mesh.t], axis=0)).T
     q, (p0, p1, h0, h1) = partials(
         lambda P, P1, H, H1: film.flux(P, P1, H, H1, size), np.asarray(p), p.grad[0], np.asarray(h), h.grad[0]

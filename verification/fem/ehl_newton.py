@@ -63,7 +63,9 @@ def newton(
 ) -> tuple[Iterate, float, SolveReport]:
     """The last iterate, the flow q and a report whose residuals are those of `measure`."""
     weights = load_weights(body)
-    it, history, status = start, [], ITERATION_LIMIT
+    it = start
+    history = []
+    status = ITERATION_LIMIT
     while True:
         at = imbalance(body, film, it, weights)
         residuals = measure(body, it, at)
@@ -97,7 +99,8 @@ def measure(body: Body, it: Iterate, at: Imbalance) -> dict[str, float]:
     - suction: flow that appears from nothing at nodes held at P = 0, in q
     - overlap: largest -H, in q
     """
-    r, scale = at.flow.residual, abs(at.flow.inflow)
+    r = at.flow.residual
+    scale = abs(at.flow.inflow)
     inner = it.held & (body.x < body.x.max())
     return {
         "elasticity": float(np.abs(at.force).max() / HERTZ_LOAD),
@@ -116,11 +119,14 @@ def step(body: Body, film: Film, it: Iterate, at: Imbalance, weights: np.ndarray
     free = np.flatnonzero(~held)
     dP = np.where(held, -it.P, 0.0)
     scale = 1 / abs(at.flow.inflow)
-    by_P, by_H = scale * at.flow.by_P[free], scale * at.flow.by_H[free]
-    lost, load = scale * at.flow.residual[free] + by_P @ dP, at.load + weights @ dP / HERTZ_LOAD
+    by_P = scale * at.flow.by_P[free]
+    by_H = scale * at.flow.by_H[free]
+    lost = scale * at.flow.residual[free] + by_P @ dP
+    load = at.load + weights @ dP / HERTZ_LOAD
     rhs = -np.concatenate([at.force + body.traction @ dP, lost, [load]])
     change = solve(tangent(body, by_P[:, free], by_H, free, weights), rhs, body.order)
-    du, dH0 = change[: it.u.size], change[-1]
+    du = change[: it.u.size]
+    dH0 = change[-1]
     dP[free] = change[it.u.size : -1]
     share = step_length(film, it.P, dP, at.H, dH0 - body.trace @ du)
     return Iterate(it.u + share * du, it.P + share * dP, it.H0 + share * dH0, held)

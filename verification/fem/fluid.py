@@ -60,7 +60,8 @@ class Fluid:
     @classmethod
     def of(cls, oil: Mapping[str, Any]) -> "Fluid":
         """The fluid of an oil that is told in the words of a scene, or of the arguments of ``lubfric.solve_ehl``."""
-        alpha, limit = oil.get("pressure_viscosity_coefficient", 0.0), oil.get("limiting_stress_coefficient")
+        alpha = oil.get("pressure_viscosity_coefficient", 0.0)
+        limit = oil.get("limiting_stress_coefficient")
         return cls(
             oil["viscosity"],
             oil.get("viscosity_law", "roelands") if alpha else "constant",

@@ -78,7 +78,8 @@ def press(
     **options,
 ) -> Contact:
     """`contact.solve_contact` of the strip: ``gap0`` and the fields of the result are (nx, ny), the load is in N/m."""
-    (nx, ny), (dx, dy) = compliance.strip.shape, compliance.strip.spacing
+    (nx, ny) = compliance.strip.shape
+    (dx, dy) = compliance.strip.spacing
     most = hardness * nx * dx
     fits = gap0.shape == (nx, ny) and 0 < load_per_width < most
     require(fits, f"gap0 has shape {gap0.shape}, {load_per_width = } N/m", f"{(nx, ny)}, 0 to {most:g}")
@@ -86,7 +87,8 @@ def press(
     def displacement(force: np.ndarray) -> np.ndarray:
         return compliance.apply(force.reshape(nx, ny) / (dx * dy)).ravel()
 
-    limit, cells = hardness if math.isfinite(hardness) else None, np.full(gap0.size, dx * dy)
+    limit = hardness if math.isfinite(hardness) else None
+    cells = np.full(gap0.size, dx * dy)
     found = solve_contact(displacement, cells, gap0.ravel(), load_per_width * ny * dy, limit=limit, **options)
     fields = ("pressure", "gap", "displacement", "touching", "saturated")
     return replace(found, **{name: getattr(found, name).reshape(nx, ny) for name in fields})
@@ -128,7 +130,8 @@ def stiffness(basis: Basis, body: Elastic, unit: float) -> tuple:
 
     @BilinearForm
     def energy(u, v, w):
-        (ux, uz, uy, *u_shears), (vx, vz, vy, *v_shears) = strains(u, w.k), strains(v, w.k)
+        (ux, uz, uy, *u_shears) = strains(u, w.k)
+        (vx, vz, vy, *v_shears) = strains(v, w.k)
         direct = lame * (ux + uz + uy) * (vx + vz + vy) + 2 * shear * (ux * vx + uz * vz + uy * vy)
         return direct + shear * sum(a * b for a, b in zip(u_shears, v_shears, strict=True))
 

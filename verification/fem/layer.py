@@ -116,7 +116,8 @@ def make_layer(
     """
     fits = degree in ELEMENTS and sides in ("periodic", "free")
     require(fits, f"degree = {degree}, sides = {sides!r}", "1 or 2, 'periodic' or 'free'")
-    (left, bottom), (right, top) = mesh.p.min(axis=1), mesh.p.max(axis=1)
+    (left, bottom) = mesh.p.min(axis=1)
+    (right, top) = mesh.p.max(axis=1)
     near = NEAR * (top - bottom)
     require(abs(top) <= near, f"the surface lies at z = {top}", "0")
     basis = Basis(mesh, ElementVector(ELEMENTS[degree]()), intorder=2 * degree)

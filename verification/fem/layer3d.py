@@ -88,7 +88,8 @@ class Layer3D:
         ``nodes`` says where each degree of freedom sits: ix, iy, iz from the element's lowest corner, 0 to
         ``degree``, and the component.
         """
-        (hx, hy), z = self.cell_size, self.levels
+        (hx, hy) = self.cell_size
+        z = self.levels
         mesh = MeshHex.init_tensor(np.array([0, hx]), np.array([0, hy]), z)
         basis = Basis(mesh, ElementVector(ELEMENTS[self.degree]()), intorder=2 * self.degree)
         component = np.zeros(basis.N, dtype=int)
@@ -145,7 +146,8 @@ def rigid_body_modes(layer: Layer3D) -> np.ndarray:
     q = layer.degree
     z = np.interp(np.arange(1, layer.planes + 1) / q, np.arange(layer.levels.size), layer.levels)
     x, y, z = (c - c.mean() for c in np.broadcast_arrays(x[None], y[None], z[:, None, None]))
-    one, none = np.ones_like(x), np.zeros_like(x)
+    one = np.ones_like(x)
+    none = np.zeros_like(x)
     modes = [(one, none, none), (none, one, none), (none, none, one), (none, -z, y), (z, none, -x), (-y, x, none)]
     B = np.array([np.stack(m, axis=-1).ravel() for m in modes]).T
     return B / np.linalg.norm(B, axis=0)
@@ -206,6 +208,7 @@ def solve(grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: in
     scale = float(np.linalg.norm(load))
     residual = float(np.linalg.norm(load - grid.matrix @ found)) / scale
     status = CONVERGED if residual <= tolerance else ITERATION_LIMIT
-    solver, past = "smoothed aggregation, conjugate gradients", tuple(r / scale for r in history)
+    solver = "smoothed aggregation, conjugate gradients"
+    past = tuple(r / scale for r in history)
     report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past)
     return report.checked(Solved(found.reshape(layer.planes, *layer.shape, 3), report))

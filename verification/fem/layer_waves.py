@@ -27,7 +27,8 @@ class FourierCompliance:
     def displacement(self, force) -> np.ndarray:
         """Displacement [m] of nodal forces [N], (nx, ny) or flattened, in the shape of the forces."""
         force = np.asarray(force, dtype=float)
-        (cx, cy), q = self.layer.cells, self.layer.degree
+        (cx, cy) = self.layer.cells
+        q = self.layer.degree
         waves = scipy.fft.rfft2(force.reshape(cx, q, cy, q).transpose(0, 2, 1, 3).reshape(cx, cy, q * q), axes=(0, 1))
         moved = scipy.fft.irfft2(np.matmul(self.symbol, waves[..., None])[..., 0], s=(cx, cy), axes=(0, 1))
         return moved.reshape(cx, cy, q, q).transpose(0, 2, 1, 3).reshape(force.shape)
@@ -62,7 +63,8 @@ def column_compliance(layer: Layer3D, phases: np.ndarray) -> np.ndarray:
         size = part.shape[-1]
         reduced = (twist @ part.reshape(len(shifts), -1)).reshape(-1, size, size)
         reduced = reduced if number else reduced[:, face:, face:]  # the base does not move
-        known, inner = below.shape[1], reduced.shape[1] - face
+        known = below.shape[1]
+        inner = reduced.shape[1] - face
         reduced[:, :known, :known] += below
         below = reduced[:, inner:, inner:]
         if inner:

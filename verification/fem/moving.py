@@ -19,7 +19,8 @@ from .ehl_newton import HERTZ_LOAD, load_weights, step_length
 from .report import SolveError, require
 from .ripple import stored
 
-BDF2, EULER = (1.5, -2.0, 0.5), (1.0, -1.0, 0.0)
+BDF2 = (1.5, -2.0, 0.5)
+EULER = (1.0, -1.0, 0.0)
 
 
 @LinearForm
@@ -47,12 +48,19 @@ def march(
     Raises `SolveError` where a step does not converge.
     """
     require(step > 0, f"step = {step} b/U", "> 0")
-    body, film = at.body, at.film
-    line, x, weights, compliance = body.line, body.x, load_weights(body), body.compliance
-    P, H0, last = at.P, at.approach, int(np.argmax(x))
+    body = at.body
+    film = at.film
+    line = body.line
+    x = body.x
+    weights = load_weights(body)
+    compliance = body.compliance
+    P = at.P
+    H0 = at.approach
+    last = int(np.argmax(x))
     held = at.P <= 0
     now = content(at, at.P, at.H)
-    before, time = now, 0.0
+    before = now
+    time = 0.0
     while True:
         a = BDF2 if time else EULER
         time += step
@@ -70,7 +78,8 @@ def march(
                 break
             held = new
             stored_P, stored_H = stored(film, P, H)
-            by_P, by_H = flow.by_P + a[0] / step * stored_P, flow.by_H + a[0] / step * stored_H
+            by_P = flow.by_P + a[0] / step * stored_P
+            by_H = flow.by_H + a[0] / step * stored_H
             dP, dH0 = newton_change(body, P, held, lost, load, by_P, by_H)
             share = step_length(film, P, dP, H, dH0 + compliance @ dP)
             P, H0 = P + share * dP, H0 + share * dH0
@@ -88,11 +97,13 @@ def content(at: Solution, P, H):
 
 def newton_change(body: Body, P, held, lost, load: float, by_P, by_H) -> tuple[np.ndarray, float]:
     """Change of pressure and approach by one step of Newton's method: ``lost`` and ``load`` to 0, ``held`` P to 0."""
-    free, weights = np.flatnonzero(~held), load_weights(body)
+    free = np.flatnonzero(~held)
+    weights = load_weights(body)
     dP = np.where(held, -P, 0.0)
     full = by_P[free].toarray() + by_H[free] @ body.compliance
     matrix = np.zeros((free.size + 1, free.size + 1))
-    matrix[:-1, :-1], matrix[:-1, -1] = full[:, free], np.asarray(by_H[free].sum(axis=1)).ravel()
+    matrix[:-1, :-1] = full[:, free]
+    matrix[:-1, -1] = np.asarray(by_H[free].sum(axis=1)).ravel()
     matrix[-1, :-1] = weights[free] / HERTZ_LOAD
     right = -np.append(lost[free] + full @ dP, load + weights @ dP / HERTZ_LOAD)
     change = np.linalg.solve(matrix, right)

@@ -112,7 +112,8 @@ class Solution:
 
     def friction(self, sliding_speed: float) -> tuple[float, float]:
         """``(integral eta Du/h, integral (h/2) dp/dx)`` over the part under pressure, N/m or N."""
-        film, fluid = self.problem.film, self.problem.fluid
+        film = self.problem.film
+        fluid = self.problem.fluid
         couette = Functional(lambda w: np.where(w.p > 0, fluid.eta(w.p) * sliding_speed / film(w.x), 0.0))
         rolling = Functional(lambda w: film(w.x) / 2 * grad(w.p)[0])
         p = self.basis.interpolate(self.pressure)
@@ -130,7 +131,8 @@ def weak_form(problem: Problem, p, gradient, w) -> tuple[np.ndarray, np.ndarray]
 
     ``p`` and its ``gradient`` may be real or complex; ``w`` are the fields of `given_fields`.
     """
-    h, fluid = w["film"], problem.fluid
+    h = w["film"]
+    fluid = problem.fluid
     rho = fluid.rho(p)
     mobility = rho * h**3 / (12 * fluid.eta(p))
     flow = mobility * gradient
@@ -147,8 +149,11 @@ def upwind_flow(problem: Problem, p, gradient, mobility, w) -> np.ndarray:
     doi:10.1016/0045-7825(91)90041-4. It vanishes where the pressure solves the equation, so the order stays.
     Laws and tau are taken at the real pressure: the tangent is that much short of exact.
     """
-    fluid, real, steady = problem.fluid, np.real(p), np.real(mobility)
-    rho, rho_slope = fluid.rho(real), slope(fluid.rho, real)
+    fluid = problem.fluid
+    real = np.real(p)
+    steady = np.real(mobility)
+    rho = fluid.rho(real)
+    rho_slope = slope(fluid.rho, real)
     wave = problem.speed * w["film"] * rho_slope
     stiffening = rho_slope / rho - slope(fluid.log_viscosity, real)
     steepening = steady * (stiffening * gradient + 3 * w["film_gradient"] / w["film"])
@@ -222,7 +227,8 @@ def solve_reynolds(
         p[known] = prescribed[known]
         held |= known
     flow = flow_scale(problem, basis, fields)
-    history, status = [], ITERATION_LIMIT
+    history = []
+    status = ITERATION_LIMIT
     for _ in range(max_iterations + 1):
         field = basis.interpolate(p)
         local = (np.asarray(field), np.asarray(grad(field)))
@@ -264,7 +270,8 @@ def solve_refined(problem: Problem, refinements: int, **options) -> list[Solutio
 
 def prolonged(coarse: Solution, problem: Problem) -> np.ndarray:
     """The vertex values of ``coarse``, linear in each cell, at the degrees of freedom on the refined mesh."""
-    old, new = coarse.problem.mesh, problem.mesh
+    old = coarse.problem.mesh
+    new = problem.mesh
     values = np.concatenate(vertices_and_middles(old, coarse.at_vertices), axis=-1)
     fits = np.allclose(np.concatenate(vertices_and_middles(old, old.p), axis=-1), new.p)
     require(fits, "the mesh does not follow from that of the coarse solution", "its uniform refinement")
@@ -294,7 +301,8 @@ def vertices_and_middles(mesh: skfem.Mesh, values: np.ndarray) -> list[np.ndarra
 
 def boundary_dofs(problem: Problem, basis: Basis) -> np.ndarray:
     """True at the degrees of freedom where p = 0 is prescribed."""
-    mesh, held = problem.mesh, np.zeros(basis.N, dtype=bool)
+    mesh = problem.mesh
+    held = np.zeros(basis.N, dtype=bool)
     facets = mesh.boundary_facets()
     if problem.open_boundary is not None:
         middle = mesh.p[:, mesh.facets[:, facets]].mean(axis=1)

@@ -26,20 +26,24 @@ def mass(u, v, w):
 def stored(film: Film, P, H):
     """Derivatives of ``(rho H, v)`` by P and by H."""
     line = film.line
-    p, h = np.asarray(line.interpolate(P)), np.asarray(line.interpolate(H))
+    p = np.asarray(line.interpolate(P))
+    h = np.asarray(line.interpolate(H))
     return mass.assemble(line, c=film.wave(p, h)), mass.assemble(line, c=film.density(p))
 
 
 def ripple(at: Solution, wavelength: float, speed: float = 0.0) -> np.ndarray:
     """Change of the smooth film per height of a wave exp(i k x) of ``wavelength`` [m] at one moment, complex, at the
     dofs of the line. ``speed``: of the waves, over the entrainment speed."""
-    body, contact = at.body, at.contact
+    body = at.body
+    contact = at.contact
     k = 2 * np.pi * contact.half_width / wavelength
     wave = np.exp(1j * k * body.x)
-    flow, weights = assemble(at.film, at.P, at.H), load_weights(body)
+    flow = assemble(at.film, at.P, at.H)
+    weights = load_weights(body)
     stored_P, stored_H = stored(at.film, at.P, at.H)
     free = np.flatnonzero(at.P > 0)
-    by_P, by_H = (flow.by_P - 1j * k * speed * stored_P)[free], (flow.by_H - 1j * k * speed * stored_H)[free]
+    by_P = (flow.by_P - 1j * k * speed * stored_P)[free]
+    by_H = (flow.by_H - 1j * k * speed * stored_H)[free]
     matrix = tangent(body, by_P[:, free], by_H, free, weights)
     right = np.concatenate([np.zeros(at.displacement.size), by_H @ wave, [0.0]])
     change = solve(matrix, right, body.order)

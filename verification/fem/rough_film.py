@@ -49,7 +49,8 @@ class GivenGap:
 
     def film(self, points) -> np.ndarray:
         """h [m] at points (2, ...)."""
-        x, first = points[0], self.x[0]
+        x = points[0]
+        first = self.x[0]
         inside = self._linear(self.gap, np.maximum(x, first), points[1])
         away = np.minimum(x, first)
         return inside + (away**2 - first**2) / (2 * self.radius) - self.log * np.log(away / first)
@@ -71,7 +72,8 @@ class GivenGap:
         nx, ny = field.shape
         s = np.clip((x - self.x[0]) / (self.x[1] - self.x[0]), 0, nx - 1 - 1e-9)
         t = y / self.dy - 0.5
-        i, j = np.floor(s).astype(int), np.floor(t).astype(int)
+        i = np.floor(s).astype(int)
+        j = np.floor(t).astype(int)
         s, t, j0, j1 = s - i, t - j, j % ny, (j + 1) % ny
         return (1 - s) * ((1 - t) * field[i, j0] + t * field[i, j1]) + s * (
             (1 - t) * field[i + 1, j0] + t * field[i + 1, j1]
@@ -81,7 +83,8 @@ class GivenGap:
 def mesh_of(given: GivenGap, cells: int) -> skfem.MeshTri:
     """Triangles with about ``cells`` of them across the period."""
     step = 2 * given.width / cells
-    first, last = given.x[0], given.x[-1]
+    first = given.x[0]
+    last = given.x[-1]
     inner = np.linspace(first, last, int(round((last - first) / step)) + 1)
     far = first * np.geomspace(FAR, 1.0, COARSE + 1)[:-1]
     y = np.linspace(0.0, given.width, cells // 2 + 1)

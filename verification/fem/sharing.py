@@ -200,10 +200,12 @@ def root(f: Callable[[float], float], done: Callable[[], bool], guess: float, st
         c = b - fb * (b - a) / (fb - fa)
         fc = f(c)
         if fc * fb < 0:
-            a, fa = b, fb
+            a = b
+            fa = fb
         else:
             fa *= 0.5
-        b, fb = c, fc
+        b = c
+        fb = fc
 
 
 def divided(bodies: Bodies | FlatBodies, split: float, refinements: int) -> Shared:
@@ -238,8 +240,10 @@ def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray
     Each is taken times the lubricated share ``wet`` of the cells between ``edges`` (1 outside). The first goes up to
     the rupture, where the film is that of the flow. Both come from far upstream, where the gap is a parabola.
     """
-    c, dofs = film.contact, film.body.line.doflocs[0]
-    start, end = dofs.min() * c.half_width, rupture(film)
+    c = film.contact
+    dofs = film.body.line.doflocs[0]
+    start = dofs.min() * c.half_width
+    end = rupture(film)
     left, right = film.body.line.mesh.p[0][film.body.line.mesh.t] * c.half_width
     x = np.unique([*np.linspace(left, right, PARTS, endpoint=False).ravel(), *edges, end])
     x = x[(x > start) & (x <= end)]
@@ -262,8 +266,10 @@ def upstream(t: float, n: int, floor: float, radius: float) -> float:
 
 def rupture(film: ehl.Solution) -> float:
     """Where the film behind its minimum is that of the flow (rho h = q/U at p = 0), m."""
-    c, order = film.contact, np.argsort(film.body.x)
-    x, H = film.body.x[order] * c.half_width, film.H[order] * c.film_unit
+    c = film.contact
+    order = np.argsort(film.body.x)
+    x = film.body.x[order] * c.half_width
+    H = film.H[order] * c.film_unit
     thinnest = int(H.argmin())
     beyond = thinnest + np.flatnonzero(H[thinnest:] > film.flow_film)[0]
 

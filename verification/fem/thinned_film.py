@@ -35,7 +35,8 @@ class Law:
         """The rate at the stress x and its derivative, real or complex."""
         if self.exponent is None:
             return np.sinh(x), np.cosh(x)
-        n, sign = self.exponent, np.where(np.real(x) < 0, -1.0, 1.0)
+        n = self.exponent
+        sign = np.where(np.real(x) < 0, -1.0, 1.0)
         size = x * sign + 1e-30
         r = np.where(np.real(size) < 1, size, size ** (1 / n))
         for _ in range(9):  # on the logarithm of both sides
@@ -75,7 +76,8 @@ def solve_thinned(contact: LineContact, law: Law, sliding: float, *, refinements
     """The Newtonian solution on the finest mesh, and from it that of the fluid with a ``law`` between surfaces that
     slide at ``sliding`` [m/s]."""
     newtonian = solve_ehl(contact, refinements=refinements)[-1]
-    body, plain = newtonian.body, newtonian.film
+    body = newtonian.body
+    plain = newtonian.film
     units = {
         "stress_per_film": contact.fluid.viscosity * sliding / contact.film_unit,
         "pull": 0.5 * contact.film_unit * contact.hertz_pressure / contact.half_width,

@@ -22,7 +22,8 @@ OWN = {  # the model, the grid and the film of the paper
     **{"sampling": "patch", "film_deflection": "hydrodynamic"},
 }
 PAPER = lubfric.load_scene("paper").with_(numerics=OWN)
-ELASTIC, SUMMITS = {"hardness": None}, {"model": "summits"}
+ELASTIC = {"hardness": None}
+SUMMITS = {"model": "summits"}
 MODELS: dict[str, dict[str, Any]] = {
     "half-space, elastic": {"bodies": ELASTIC},
     "half-space, elastic-plastic": {},
@@ -52,7 +53,8 @@ def friction_by_model(case: tuple) -> list[list[float]]:
     """Friction over ``speeds`` with each of `MODELS`, on a generated surface (acf, length, seed), or, with an ``axis``
     of its file along the motion, on the ground surface scaled to 100 nm with all but the flat strip."""
     (acf, length, seed), speeds, axis = case
-    scene, models = scene_of(acf, length, seed), list(MODELS.values())
+    scene = scene_of(acf, length, seed)
+    models = list(MODELS.values())
     if axis:
         rough = Roughness(file=str(real_surface()), sq=100e-9, motion_axis=axis)
         scene, models = PAPER.with_(surface=rough, contact={"shape": None, "spacing": None}), models[:3]
@@ -67,14 +69,16 @@ def film_load(case: tuple) -> float:
 def stribeck_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     """Fig. 8: three models with mean and band, the real surface, and F_H at 0.001 m/s over L."""
     quick = level == "quick"
-    speeds, seeds = np.geomspace(1e-3, 1.0, 5 if quick else 11), range(1, 3 if quick else 9)
+    speeds = np.geomspace(1e-3, 1.0, 5 if quick else 11)
+    seeds = range(1, 3 if quick else 9)
     cases = {f"{kind}, {seed}": ((*kind, seed), speeds, "") for kind in KINDS for seed in seeds}
     if real_surface() and not quick:
         cases |= {f"ground along {axis}": ((*KINDS[0], 1), speeds, axis) for axis in "xy"}
     found = {key: np.array(row) for key, (_, row) in zip(cases, run.solved(cases, friction_by_model))}
     curves = {kind: np.array([found[f"{kind}, {seed}"] for seed in seeds]) for kind in KINDS}
     real = {key[-1]: row for key, row in found.items() if key.startswith("ground")}
-    lengths, counted = LENGTHS[2:4] if quick else LENGTHS, range(1, 3 if quick else 13)
+    lengths = LENGTHS[2:4] if quick else LENGTHS
+    counted = range(1, 3 if quick else 13)
     wanted = {f"F_H, {length} m, {seed}": ("gaussian", length, seed) for length in lengths for seed in counted}
     loads = np.array([f for _, f in run.solved(wanted, film_load)]).reshape(len(lengths), -1)
     rows: list[tuple] = [
@@ -94,7 +98,8 @@ def stribeck_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     most = max(float(np.max(np.abs(change))) for change in plastic.values())
     headings = ("surface", "L [m]", "model", "speed [m/s]", "f mean [-]", "f lowest [-]", "f highest [-]")
     of_loads = ("L, Gaussian, 1/e [m]", "F_H mean [N]", "sd [N]", "lowest [N]", "highest [N]")
-    words, source = "f of the plastic surface against the elastic one: largest change", "the paper: it changes little"
+    words = "f of the plastic surface against the elastic one: largest change"
+    source = "the paper: it changes little"
     yield Check(words, most, 0.05, 0.0, source, AT_MOST)
     title = "Fig. 8: the cylinder, three contact models"
     yield Table("fig8", title, headings, rows)
@@ -115,7 +120,8 @@ def _draw_stribeck(speeds, curves, real, lengths, loads):
         name = f"ground surface, motion along its {axis}"
         panels[0].semilogx(speeds, c[1], "k--" if axis == "x" else "k:", lw=1, label=name)
     canvas.legend(*panels[0].get_legend_handles_labels(), loc="outside lower left", ncols=3, fontsize=8, frameon=False)
-    ax, microns = panels[2], np.array(lengths) * 1e6
+    ax = panels[2]
+    microns = np.array(lengths) * 1e6
     ax.errorbar(microns, loads.mean(1), loads.std(1), fmt="o-", capsize=3, label="mean and sd")
     ax.plot(np.repeat(microns, loads.shape[1]), loads.ravel(), ".", color="grey", ms=3, label="seeds")
     ax.axhline(PAPER_FILM_LOAD, color="C1", ls="--", label="paper: 0.225 N")
@@ -170,7 +176,8 @@ def pressure_map(level: str, run: Run = Run()) -> Iterator[Item]:
     for ax, (acf, _) in zip(panels, KINDS):
         scene = scene_of(acf)
         point = lubfric.friction(scene, 0.001, fields=True)
-        pressure, x = parts.contact_fields(point).pressure, parts.contact(point).x * 1e6
+        pressure = parts.contact_fields(point).pressure
+        x = parts.contact(point).x * 1e6
         colours = {"cmap": "magma_r", "vmin": 0, "vmax": 6, "aspect": "auto"}
         image(canvas, ax, pressure / 1e9, (x[0], x[-1], 0, 90), "contact pressure (GPa)", **colours)
         ax.set(xlim=(-15, 15), xlabel="x, direction of motion (µm)", ylabel="y (µm)")
@@ -202,7 +209,9 @@ def pressure_map(level: str, run: Run = Run()) -> Iterator[Item]:
 def sections(level: str, run: Run = Run()) -> Iterator[Item]:
     """Fig. 10: film h, separation h - epsilon and surface z through a contact spot, at 0.001 and 0.3 m/s."""
     canvas, panels = axes(1, 2, width=9.4, height=4.0)
-    model, rows, words = lubfric.prepare(PAPER), [], []
+    model = lubfric.prepare(PAPER)
+    rows = []
+    words = []
     pressure = parts.contact_fields(lubfric.friction(model, 0.001, fields=True)).pressure
     line = int(np.argmax(pressure.max(axis=0)))  # through the highest contact pressure
     z = parts.half_space(model).heights
@@ -210,9 +219,11 @@ def sections(level: str, run: Run = Run()) -> Iterator[Item]:
     for ax, speed in zip(panels, (0.001, 0.3)):
         point = lubfric.friction(model, speed, fields=True)
         contact = parts.contact(point)
-        x, h = contact.x, parts.film(point).film_at(contact.x)
+        x = contact.x
+        h = parts.film(point).film_at(contact.x)
         if contact.fields is not None:
-            offset, gap = contact.fields.approach, contact.fields.gap[:, line]
+            offset = contact.fields.approach
+            gap = contact.fields.gap[:, line]
         else:
             offset = -float(weight @ z.mean(axis=1))  # Eq. (8) without contact: volume of h over z
             gap = h - offset - z[:, line]

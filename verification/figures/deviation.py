@@ -78,12 +78,16 @@ def signed_deviation(asperity: np.ndarray, half_space: np.ndarray) -> tuple[floa
 
 def friction_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     """Fig. 5: friction over speed at 200 MPa for both lengths."""
-    load, (count, steps) = 200e6, (400, 9) if level == "quick" else (816, 25)
+    load = 200e6
+    (count, steps) = (400, 9) if level == "quick" else (816, 25)
     speeds = np.geomspace(1e-3, 10.0, steps)
     label = "Newtonian, film pressure only"
     cases = {f"{length} m": (label, length, 1, (load,), speeds, count) for length in LENGTHS}
     canvas, panels = axes(1, 2, width=8.6, height=3.8, sharey=True)
-    rows, at, d, apart = [], [], [], []
+    rows = []
+    at = []
+    d = []
+    apart = []
     for ax, ((_, length, *_), row) in zip(panels, run.solved(cases, both_models)):
         summit, half = np.array(row[0], dtype=float)
         ax.semilogx(speeds, summit, "o-", label="asperities (summits)")
@@ -128,7 +132,8 @@ def deviation_map(level: str, run: Run = Run()) -> Iterator[Item]:
     most = max(max(d[BASE_LABEL, length, 1]) for length in LENGTHS)
     source = "Fig. 6 of the paper: the asperity model lies above"
     yield Check("largest d of summits on an exponential surface, %", most, 0.0, 0.0, source, AT_LEAST)
-    title, pressures = "Fig. 6: d over load and L", ("mean Hertz pressure [Pa]", "peak Hertz pressure [Pa]")
+    title = "Fig. 6: d over load and L"
+    pressures = ("mean Hertz pressure [Pa]", "peak Hertz pressure [Pa]")
     columns = ("reading", "seed", "L [m]", *pressures, "d [%], + asperity model higher", "at speed [m/s]")
     yield Table("fig6", title, columns, rows)
     yield picture("fig6", title, *_verdict(d, labels, loads), _draw(d, labels, loads))

@@ -13,9 +13,13 @@ from ..kept import Run
 from ..plotting import axes, image
 from .page import picture
 
-RADIUS, HEIGHT, E_PRIME = 30e-6, 500e-9, 231e9
+RADIUS = 30e-6
+HEIGHT = 500e-9
+E_PRIME = 231e9
 SPACINGS = (14e-6, 20e-6, 30e-6, 40e-6)
-CELL, BOX = 115e-9, 230e-6  # the paper's grid: 2000 points of 115 nm
+# the paper's grid: 2000 points of 115 nm
+CELL = 115e-9
+BOX = 230e-6
 MEAN_OF_BOX = 8 / math.pi * math.asinh(1.0)  # u E'/(p a) at the centre of a square of side a under the pressure p
 
 
@@ -36,7 +40,8 @@ def approaches(distance: float, loads, cell: float = CELL) -> tuple[np.ndarray, 
     The kept one is that of the paper's box.
     """
     heights, step = unit_cell(distance, cell)
-    free, start = [], None
+    free = []
+    start = None
     for load in loads:
         asked = {"mean_pressure": load / distance**2, "tolerance": 1e-6, "start": start}
         start = solve_contact(HEIGHT - heights, step, E_PRIME, **asked)
@@ -59,7 +64,10 @@ def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
     side = 3 * heights.shape[0] * step * 1e6
     image(canvas, sketch, np.tile(heights, (3, 3)) * 1e9, (0, side, 0, side), "z (nm)", cmap="cividis")
     sketch.set(title="Fig. 3: part of the array, 20 µm apart", xlabel="x (µm)", ylabel="y (µm)")
-    rows, grows, falls, worst = [], [], [], 0.0
+    rows = []
+    grows = []
+    falls = []
+    worst = 0.0
     for distance in SPACINGS:
         free, held = approaches(distance, loads, cell)
         found = find_asperities(*unit_cell(distance, cell), E_PRIME, definition="summits")
@@ -85,7 +93,8 @@ def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
     last = "asperity model at the approach with the mean left out [N]"
     headings = ("spacing [m]", "load per asperity [N]", *both, last)
     yield Check("asperity model against Hertz, any spacing", worst, 0.02, 0.0, "Hertz 1882", AT_MOST)
-    name, step = "load over Hertz with the mean kept falls as spheres come closer: smallest step", np.diff(falls).min()
+    name = "load over Hertz with the mean kept falls as spheres come closer: smallest step"
+    step = np.diff(falls).min()
     yield Check(name, step, 0.0, 0.0, "Fig. 4 of the paper", AT_LEAST)
     title = "Figs. 3 and 4: spheres of 30 µm, 14 to 40 µm apart"
     yield Table("fig4", title, headings, rows)

@@ -12,7 +12,9 @@ from ..plotting import axes, image
 from .page import picture
 
 LENGTHS = (34e-6, 57e-6)
-SQ, SPACING, COUNT = 240e-9, 2e-6, 816
+SQ = 240e-9
+SPACING = 2e-6
+COUNT = 816
 
 
 def rough(length: float, acf: str = "exponential", seed: int = 1, count: int = COUNT, decay_level=math.exp(-1)):
@@ -25,7 +27,8 @@ def generated_surfaces(level: str, run: Run = Run()) -> Iterator[Item]:
     """Both lengths with both autocorrelation functions: what was asked of the maps, and what they have."""
     count = 400 if level == "quick" else COUNT
     canvas, grid = axes(2, 2, width=8.0, height=7.2)
-    rows, shown = [], min(count, 256)
+    rows = []
+    shown = min(count, 256)
     side = shown * SPACING * 1e6
     for row, acf in zip(grid, ("exponential", "gaussian")):
         for ax, length in zip(row, LENGTHS):

@@ -10,10 +10,17 @@ from pathlib import Path
 
 import lubfric
 
-MOST_SECONDS, MOST_BYTES = 8.0, 2 * 2**30
-REFUSED, PASSED = "refused", "passed as it may"
-RAW, ACCEPTED, SLOW, LARGE, WORDLESS = "raw error", "accepted", "slow", "large", "says too little"
-GOOD, BAD = (REFUSED, PASSED), (RAW, ACCEPTED, SLOW, LARGE, WORDLESS)
+MOST_SECONDS = 8.0
+MOST_BYTES = 2 * 2**30
+REFUSED = "refused"
+PASSED = "passed as it may"
+RAW = "raw error"
+ACCEPTED = "accepted"
+SLOW = "slow"
+LARGE = "large"
+WORDLESS = "says too little"
+GOOD = (REFUSED, PASSED)
+BAD = (RAW, ACCEPTED, SLOW, LARGE, WORDLESS)
 
 
 @dataclass(frozen=True)
@@ -47,20 +54,24 @@ def resident_memory() -> int:
 
 def judge(case: Case, folder: Path) -> tuple[str, str]:
     """(verdict, words) of one case. Only `lubfric.LubfricError` is a refusal, and its words must be one paragraph."""
-    before, begun = peak_memory(), time.process_time()
+    before = peak_memory()
+    begun = time.process_time()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             found = case.run(folder)
-        verdict, words = (PASSED if case.may_pass else ACCEPTED), repr(found)[:200]
+        verdict = PASSED if case.may_pass else ACCEPTED
+        words = repr(found)[:200]
     except lubfric.LubfricError as error:
         words = str(error)
         verdict = REFUSED if 10 <= len(words) <= 1200 else WORDLESS
     except BaseException as error:  # what must never happen
         if isinstance(error, KeyboardInterrupt):
             raise
-        verdict, words = RAW, f"{type(error).__name__}: {error}"
-    seconds, after = time.process_time() - begun, peak_memory()
+        verdict = RAW
+        words = f"{type(error).__name__}: {error}"
+    seconds = time.process_time() - begun
+    after = peak_memory()
     if verdict in GOOD and seconds > MOST_SECONDS:
         verdict = SLOW
     if verdict in GOOD and after > max(before, MOST_BYTES):

@@ -50,7 +50,8 @@ def x3p(points: bytes = MAP.T.tobytes(), old: str = "", new: str = "") -> bytes:
 
 def damaged(rng: np.random.Generator, content: bytes) -> tuple[bytes, str]:
     """``content`` cut, or with some bytes overwritten, or with a piece taken out."""
-    kind, size = int(rng.integers(3)), len(content)
+    kind = int(rng.integers(3))
+    size = len(content)
     if kind == 0:
         at = int(rng.integers(size))
         return content[:at], f"cut at {at}"

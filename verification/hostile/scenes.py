@@ -97,7 +97,9 @@ def misspelt(rng: np.random.Generator, word: str, known: set[str]) -> str:
 
 def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
     """At least ``count`` scenes: every single mutation, misspelt keys and tables, broken TOML, then random pairs."""
-    single, keys, broken = mutations(), keys_of_scene(), (*OWN["broken"], *LONG)
+    single = mutations()
+    keys = keys_of_scene()
+    broken = (*OWN["broken"], *LONG)
     known = {key for _, key, _ in keys} | set(GOOD)
     made = [
         case(f"[{section}] {key} = {str(value)[:40]}", text_of(changed(GOOD, section, key, value)))

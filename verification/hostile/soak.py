@@ -22,7 +22,9 @@ from .soak_scenes import random_scene
 
 CHUNK = 50  # scenes
 MOST_GROWTH = 256.0  # MiB from the first quarter of a process's chunks to its last: what the allocator keeps
-ANSWERED, REFUSED, RAW = "answered", "refused", "raw error"
+ANSWERED = "answered"
+REFUSED = "refused"
+RAW = "raw error"
 
 
 def soak(level: str, run: Run = Run()) -> Iterator[Item]:
@@ -87,7 +89,8 @@ def scene_row(seed: int, number: int) -> dict:
 
 def _features(prepared, result) -> Iterator[str]:
     """Names of what a soak should have had some of, as far as this scene has it."""
-    scene, share = prepared.scene, result.contact_load / prepared.scene.bodies.load
+    scene = prepared.scene
+    share = result.contact_load / prepared.scene.bodies.load
     yield scene.contact.geometry
     yield "asperities" if scene.contact.model != "half-space" else "height map"
     yield "separated" if share == 0 else "contact below 1 %" if share < 0.01 else "contact above 1 %"

@@ -19,10 +19,14 @@ def friction_force(scene, sides, contact_load: float, speed: float) -> tuple[flo
     size [N] of the parts of the film's share (of which f may be a small difference), and how much less [N] its stress
     sums to on half of the nodes, which tells a pressure spike that they do not hold.
     """
-    bodies, ratio, film = scene.bodies, scene.motion.slide_roll_ratio, sides.film
+    bodies = scene.bodies
+    ratio = scene.motion.slide_roll_ratio
+    film = sides.film
     sign = math.copysign(1.0, speed)
     order = slice(None) if sign > 0 else slice(None, None, -1)
-    x, p, h = film.x[order] * sign, film.pressure[order], film.film_thickness[order]
+    x = film.x[order] * sign
+    p = film.pressure[order]
+    h = film.film_thickness[order]
     wet = x <= sign * film.rupture + 1e-12 * film.half_width
     x, p, h = x[wet], p[wet], h[wet]
     cells = 1 - _touched(sign * x, sides)
@@ -75,10 +79,14 @@ def _inside(x, half) -> np.ndarray:
 def _couette(scene, x, p, h, free, contact_load, speed, hot=True) -> float:
     """Couette force over the film per width [N/m], and upstream of it, where a film is as much thinned by its own heat
     as at its first node. That of a film that heats itself is taken from fewer nodes."""
-    oil, slide = scene.lubricant, abs(scene.motion.slide_roll_ratio * speed)
+    oil = scene.lubricant
+    slide = abs(scene.motion.slide_roll_ratio * speed)
     upstream = oil.viscosity * slide * _upstream(x[0], h[0], scene.bodies.radius) if slide else 0.0
-    fluid, pressed = Fluid.of(vars(oil)), np.maximum(p, 0.0)
-    log_ratio, eta, tau = fluid.log_viscosity(pressed), fluid.eta(pressed), fluid.stress(pressed, slide / h)
+    fluid = Fluid.of(vars(oil))
+    pressed = np.maximum(p, 0.0)
+    log_ratio = fluid.log_viscosity(pressed)
+    eta = fluid.eta(pressed)
+    tau = fluid.stress(pressed, slide / h)
     force = float(np.trapezoid(free * tau, x))
     if oil.eyring_stress is None and oil.limiting_stress_coefficient is None:
         rate = free * slide / h
@@ -87,7 +95,8 @@ def _couette(scene, x, p, h, free, contact_load, speed, hot=True) -> float:
         some = _where_it_varies(tau)
         x, p, h, log_ratio, free, tau = (a[some] for a in (x, p, h, log_ratio, free, tau))
         heated = free * heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed)
-        hot, cold = np.trapezoid(heated, x), np.trapezoid(free * tau, x)
+        hot = np.trapezoid(heated, x)
+        cold = np.trapezoid(free * tau, x)
         upstream *= heated[0] / (free[0] * tau[0])
         return float(hot if hot < MOSTLY * cold else force + hot - cold) + upstream
     return force + upstream

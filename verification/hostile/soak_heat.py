@@ -10,7 +10,10 @@ import numpy as np
 
 from ..parts import halved
 
-ACROSS, STEPS, KEPT = 25, 2000, 0.9  # nodes of half the film; steps of the fixed point, what they keep of the last
+# nodes of half the film; steps of the fixed point, what they keep of the last
+ACROSS = 25
+STEPS = 2000
+KEPT = 0.9
 SETTLED = 1e-5  # of the largest stress: what a step still moves
 
 
@@ -22,8 +25,12 @@ def heats(scene) -> bool:
 def moes(w, radius, e_prime, speed, viscosity, alpha) -> float:
     """Film [m] by Moes' formula as it is printed."""
     u1 = 2 * viscosity * speed / (e_prime * radius)
-    m, l = w / (e_prime * radius * math.sqrt(u1)), alpha * e_prime * u1**0.25
-    ri, ei, rp, ep = 3 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75
+    m = w / (e_prime * radius * math.sqrt(u1))
+    l = alpha * e_prime * u1**0.25
+    ri = 3 / m
+    ei = 2.621 * m**-0.2
+    rp = 1.287 * l ** (2 / 3)
+    ep = 1.311 * m**-0.125 * l**0.75
     s = 0.2 * (7 + 8 * math.exp(-2 * ei / ri))
     iso = ri ** (7 / 3) + ei ** (7 / 3)
     piezo = (rp**-3.5 + ep**-3.5) ** (-2 * s / 7) if l > 1e-6 else 0.0
@@ -32,7 +39,9 @@ def moes(w, radius, e_prime, speed, viscosity, alpha) -> float:
 
 def inlet_viscosity(scene, speed: float) -> float:
     """Viscosity [Pa s] at which Moes' film is as thin as the heat of the inlet makes it (Gupta et al. 1992)."""
-    oil, bodies, u = scene.lubricant, scene.bodies, abs(speed)
+    oil = scene.lubricant
+    bodies = scene.bodies
+    u = abs(speed)
     if not heats(scene) or u == 0:
         return oil.viscosity
     number = oil.viscosity * oil.temperature_coefficient * u * u / oil.conductivity
@@ -54,7 +63,9 @@ def heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed) -> np.nd
     ``log_ratio`` is ln(eta/eta0) at the nodes, at the temperature of the oil. ``free`` is the share of the width on
     which they have film.
     """
-    oil, bodies, k = scene.lubricant, scene.bodies, scene.lubricant.conductivity
+    oil = scene.lubricant
+    bodies = scene.bodies
+    k = scene.lubricant.conductivity
     slide = abs(scene.motion.slide_roll_ratio * speed)
     walls = [abs(abs(speed) + side * slide / 2) for side in (-1, 1)]
     effusivity = [math.sqrt(k_s * c_s) for k_s, c_s in zip(bodies.conductivity, bodies.volumetric_heat)]
@@ -64,7 +75,8 @@ def heated_stress(scene, x, p, h, log_ratio, free, contact_load, speed) -> np.nd
     spots = np.sqrt(np.maximum(1 - (x / bodies.half_width) ** 2, 0.0)) * 2 * contact_load
     spots *= bodies.boundary_friction_coefficient * slide / (math.pi * bodies.half_width * bodies.width)
     z = np.linspace(0, 0.5, ACROSS)
-    wall, rise = np.full(x.size, oil.temperature), np.zeros((x.size, ACROSS))
+    wall = np.full(x.size, oil.temperature)
+    rise = np.zeros((x.size, ACROSS))
     tau = np.zeros(x.size)
     for _ in range(STEPS):
         log_eta, beta = _viscosity(oil, log_ratio, wall)
@@ -102,7 +114,9 @@ def _twice_integrated(source, z) -> np.ndarray:
 
 def _viscosity(oil, log_ratio, temperature) -> tuple[np.ndarray, np.ndarray]:
     """ln eta and -d ln(eta)/dT at temperatures [K], by Roelands' law where it is asked for, else exponential."""
-    t0, beta, cold = oil.temperature, oil.temperature_coefficient, math.log(oil.viscosity) + log_ratio
+    t0 = oil.temperature
+    beta = oil.temperature_coefficient
+    cold = math.log(oil.viscosity) + log_ratio
     if oil.viscosity_law != "roelands":
         return cold - beta * (temperature - t0), np.full(temperature.size, beta)
     power = beta * (t0 - 138) / (math.log(oil.viscosity) + 9.67)

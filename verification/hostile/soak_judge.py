@@ -23,10 +23,15 @@ from .soak_heat import inlet_viscosity
 ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
 PIECES = 3  # of the strips, on the scene's own cells and on those of the strips
 BY_PIECES = 0.5  # of the stated standard error: what other pieces may change
-LOOSE, TIGHT, CANCELS = 2e-3, 1e-4, 0.2  # of a film; f over its parts below which they cancel
+# of a film; f over its parts below which they cancel
+LOOSE = 2e-3
+TIGHT = 1e-4
+CANCELS = 0.2
 ROOT = 2e-4  # of ln(F_H/F_C), to which a bracketed root is closed
 ACROSS = 8001  # points of a film over a flat strip
-BESIDE, NEAR = 0.05, 0.4  # of ln(F_H/F_C): the second division, and how far a secant of both is trusted
+# of ln(F_H/F_C): the second division, and how far a secant of both is trusted
+BESIDE = 0.05
+NEAR = 0.4
 
 
 @dataclass(frozen=True)
@@ -84,7 +89,8 @@ class Judge:
         scene = self.prepared.scene
         case = case_of_scene(scene, film_load, self.speed)
         case |= {"e_prime": modulus * scene.bodies.e_prime, "viscosity": inlet_viscosity(scene, self.speed)}
-        stress, sliding = scene.lubricant.eyring_stress, scene.motion.slide_roll_ratio * self.speed
+        stress = scene.lubricant.eyring_stress
+        sliding = scene.motion.slide_roll_ratio * self.speed
         try:
             if stress is None:
                 return solve_differential_deflection(**case, tolerance=self.film_tolerance)
@@ -94,29 +100,38 @@ class Judge:
 
     def pressed(self, strip: Strip, film, load: float) -> tuple[float, float, np.ndarray]:
         """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
-        scene, x = self.prepared.scene, strip.x
-        smooth, flat, bodies = film.film_at(x), scene.contact.geometry == "flat", scene.bodies
+        scene = self.prepared.scene
+        x = strip.x
+        smooth = film.film_at(x)
+        flat = scene.contact.geometry == "flat"
+        bodies = scene.bodies
         half = bodies.half_width
         if flat:
-            pressure, gap0, weight = load / (2 * half * bodies.width), -strip.heights, np.ones(x.size)
+            pressure = load / (2 * half * bodies.width)
+            gap0 = -strip.heights
+            weight = np.ones(x.size)
             inner = np.linspace(-half, half, ACROSS)
             mean_film = float(np.trapezoid(film.film_at(inner), inner)) / (2 * half)
         else:
-            parabola, share = x**2 / (2 * bodies.radius), film.e_prime / bodies.e_prime if self.scaled else 1.0
+            parabola = x**2 / (2 * bodies.radius)
+            share = film.e_prime / bodies.e_prime if self.scaled else 1.0
             pressure = load / (bodies.width * x.size * strip.spacing[0])
-            gap0, weight = (parabola + share * (smooth - parabola))[:, None] - strip.heights, self._weight(strip)
+            gap0 = (parabola + share * (smooth - parabola))[:, None] - strip.heights
+            weight = self._weight(strip)
             mean_film = float(smooth @ weight / weight.sum())
         if load <= 1e-9 * bodies.load:
             return float((weight @ (gap0 - gap0.min()).mean(axis=1)) / weight.sum()), mean_film, np.zeros(x.size)
         asked = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
         boundary = ("periodic" if flat else "free", "periodic")
         dry = solve_contact(gap0, strip.spacing, bodies.e_prime, boundary=boundary, **asked)
-        gap, touching = np.maximum(dry.gap, 0), dry.pressure > 0
+        gap = np.maximum(dry.gap, 0)
+        touching = dry.pressure > 0
         columns = np.full(x.size, touching.mean()) if flat else touching.mean(axis=1)
         return float(gap.mean(axis=1) @ weight / weight.sum()), mean_film, columns
 
     def _weight(self, strip: Strip) -> np.ndarray:
-        half, dx = self.prepared.scene.bodies.half_width, strip.spacing[0]
+        half = self.prepared.scene.bodies.half_width
+        dx = strip.spacing[0]
         if self.prepared.scene.contact.region == "box":
             return np.ones(strip.x.size)
         inside = np.minimum(strip.x + dx / 2, half) - np.maximum(strip.x - dx / 2, -half)
@@ -138,10 +153,12 @@ def judge_of(prepared: Prepared, result) -> Judge:
     oil = scene.lubricant
     newtonian = oil.eyring_stress is None and oil.limiting_stress_coefficient is None  # whose spike f feels
     tolerance = TIGHT if cancels or newtonian or scene.motion.slide_roll_ratio == 0 else LOOSE
-    scaled, strips = scene.numerics.film_deflection == "scaled", prepared.strips
+    scaled = scene.numerics.film_deflection == "scaled"
+    strips = prepared.strips
     pairs: tuple[tuple[Strip, Strip], ...] = ()
     if strips is None or strips.whole:
-        n, dx = prepared.surface.shape[0], prepared.surface.spacing[0]
+        n = prepared.surface.shape[0]
+        dx = prepared.surface.spacing[0]
         strip = _strip(prepared.surface, (np.arange(n) - 0.5 * (n - 1)) * dx)
     else:
         while strips.cells.factors != result.decision.coarsening:
@@ -158,15 +175,18 @@ def _strip(surface, x) -> Strip:
 
 def _pair(strips: Strips, index: int) -> tuple[Strip, Strip]:
     """A piece on its own cells and on those of the strips."""
-    cells, piece = strips.cells, strips.piece(index)
+    cells = strips.cells
+    piece = strips.piece(index)
     kept = replace(piece, heights=cells.thinned(piece.heights, cells.factors), spacing=cells.coarse)
     return _strip(piece, cells.axis((1, 1))), _strip(kept, cells.axis())
 
 
 def verdict(prepared: Prepared, result) -> dict[str, float]:
     """Deviations of ``result`` by name, over what is allowed. At rest the contact carries all."""
-    scene, load = prepared.scene, prepared.scene.bodies.load
-    share, forces = result.contact_load / load, result.boundary_force + result.shear_force
+    scene = prepared.scene
+    load = prepared.scene.bodies.load
+    share = result.contact_load / load
+    forces = result.boundary_force + result.shear_force
     found = {
         "load": abs((result.contact_load + result.film_load) / load - 1),
         "friction sum": abs(result.coefficient * load - forces) / max(abs(forces), 1e-300),
@@ -177,7 +197,8 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
         expected = scene.bodies.boundary_friction_coefficient
         found["friction"] = abs(result.coefficient / expected - 1) / scene.numerics.tolerance
     elif scene.contact.model == "half-space" and scene.surface.sq:
-        stated, of_share = max(scene.numerics.tolerance, result.uncertainty.numerical), scene.numerics.tolerance
+        stated = max(scene.numerics.tolerance, result.uncertainty.numerical)
+        of_share = scene.numerics.tolerance
         judge = judge_of(prepared, result)
         if judge.pairs and share > 0:
             stated += BY_PIECES * result.uncertainty.sampling
@@ -203,9 +224,11 @@ def closed_again(judge: Judge, share: float, closely: bool = False) -> tuple[tup
     inside = min(max(share, 1e-13), 1 - 1e-13)
     here = math.log((1 - inside) / inside)
     beside = here + BESIDE
-    first, second = judge.sides(here), judge.sides(beside)
+    first = judge.sides(here)
+    second = judge.sides(beside)
     off, off_beside = (math.log(s.gap / s.mean_film) for s in (first, second))
-    (f, open_), (f_beside, _) = judge.coefficient(here, first), judge.coefficient(beside, second)
+    (f, open_) = judge.coefficient(here, first)
+    (f_beside, _) = judge.coefficient(beside, second)
     slope = (off_beside - off) / BESIDE
     moved = -off / slope if slope > 0 else math.inf
     if closely or abs(moved) > NEAR:

@@ -16,10 +16,12 @@ RANGES = {  # of the logarithms: N/m, m/s, m, Pa s, 1/Pa, m, slide-roll ratio
     "sq": (1e-8, 1e-6),
     "ratio": (0.02, 2.0),
 }
-WIDTH, E_PRIME = 1e-2, 231e9
+WIDTH = 1e-2
+E_PRIME = 231e9
 OTHERS = {"width": (1e-3, 5e-2), "e_prime": (1e9, 6e11)}  # of the logarithms: m, Pa
 OTHER_TOLERANCES = (0.002, 0.01, 0.03, 0.1)
-EYRING, LIMIT = {"eyring_stress": 5e6}, {"limiting_stress_coefficient": 0.06, "limiting_stress_offset": 2e6}
+EYRING = {"eyring_stress": 5e6}
+LIMIT = {"limiting_stress_coefficient": 0.06, "limiting_stress_offset": 2e6}
 STRESS_LAWS: tuple[dict[str, float], ...] = (EYRING, EYRING | LIMIT, LIMIT, {})
 GRADES = (10, 32, 68, 100, 220, 460)
 BASES = ("mineral", "pao", "ester", "polyglycol")
@@ -37,7 +39,8 @@ def random_scene(rng: np.random.Generator, any_material: bool = False) -> lubfri
     """
     v = _drawn(rng, RANGES)
     body = _drawn(rng, OTHERS) if any_material else {"width": WIDTH, "e_prime": E_PRIME}
-    flat, strips = bool(rng.random() < 0.5), bool(rng.random() < STRIPS)
+    flat = bool(rng.random() < 0.5)
+    strips = bool(rng.random() < STRIPS)
     scene = lubfric.load_scene("flat" if flat else "paper").with_(
         bodies={
             "radius": v["radius"],
@@ -89,7 +92,8 @@ def _lubricant(rng: np.random.Generator, v: dict[str, float]) -> dict[str, Any]:
 
 def _rough(rng: np.random.Generator, scene: lubfric.Scene, sq: float, steepest: float, flat: bool) -> lubfric.Scene:
     """``scene`` with a random map of ``sq`` [m], but at most ``steepest`` cells."""
-    half_width, nx = scene.bodies.half_width, int(rng.choice((28, 36, 48)))
+    half_width = scene.bodies.half_width
+    nx = int(rng.choice((28, 36, 48)))
     spacing = (6 * half_width if not flat else 2e-4) / nx
     long = nx == 48 and scene.numerics.sampling == "strips" and not flat  # their cells are twice the scene's
     keys: dict[str, Any] = {

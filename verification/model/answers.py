@@ -30,7 +30,9 @@ RATIOS = {"quick": (1.5,), "default": (1.5, 0.8, 0.3)}  # Moes' film over Sq; "f
 SEEDS = {"quick": 1, "default": 4, "full": 4}  # answers on generated surfaces; of a measured map there is one
 REFERENCE = 1001  # seed
 ASKED = {"tolerance": 0.01, "sampling_tolerance": 0.012, "model_tolerance": 0.03}  # of the reference
-CELLS, CELL = (640, 448), 1.8e-6  # of a map from a file, and their length [m] over that of the Gaussian correlation
+# of a map from a file, and their length [m] over that of the Gaussian correlation
+CELLS = (640, 448)
+CELL = 1.8e-6
 LENGTH = 8e-6
 ROLLER = "roller, 1 GPa"
 CONTACTS = {  # changes of the built-in scene, and the lengths of the surface over those of its own
@@ -110,7 +112,8 @@ def heights(kind: str, seed: int) -> np.ndarray:
     if kind == "self-affine":
         return drawn((1 + (np.hypot(qx, qy) * 20e-6) ** 2) ** -0.9)  # Hurst exponent .8
     if kind == "ridges at 45 degrees":
-        along, across = (qx + qy) / math.sqrt(2), (qx - qy) / math.sqrt(2)
+        along = (qx + qy) / math.sqrt(2)
+        across = (qx - qy) / math.sqrt(2)
         return drawn(np.exp(-((along * 20e-6) ** 2 + (across * 4e-6) ** 2) / 8))
     smooth = np.hypot(qx, qy) ** 2 * LENGTH**2 / 8
     z = np.minimum(drawn(np.exp(-smooth)), 0.3) + 0.1 * drawn(np.exp(-smooth / 4))
@@ -147,14 +150,16 @@ def solved(case: Case, seed: int, numerics: dict) -> dict:
             found = lubfric.friction(scene, case.speed(scene))
         except lubfric.LubfricError as error:
             return {"failure": f"{type(error).__name__}: {error}"[:200]}
-    known, f = found.uncertainty, found.coefficient
+    known = found.uncertainty
+    f = found.coefficient
     row = {"f": f, "low": known.interval[0], "high": known.interval[1], "by": found.decision.model}
     return row | {"error": math.hypot(known.numerical, known.sampling), "seconds": time.process_time() - begun}
 
 
 def answers(level: str, run: Run = Run(), rollers: bool = False) -> Iterator[Item]:
     """Every case by default, by load sharing alone, and by the reference: errors, intervals and coverage."""
-    found, failed = [], 0
+    found = []
+    failed = 0
     for case, truth in run.solved(cases(level, rollers), reference, "references"):
         seeds = range(1, 2 if case.surface in MEASURED else 1 + SEEDS[level])
         for _, row in run.solved({f"{case}, {seed}": (case, seed) for seed in seeds}, answer, "answers"):
@@ -184,7 +189,8 @@ def compared(name: str, found: list[tuple], failed: int, source: str) -> Iterato
 def judged(row: dict, truth: dict) -> tuple[float, float, float]:
     """Half of the interval; by how much f is off; and how much of that its interval on this side and twice the error of
     the reference allow; all relative to the reference."""
-    f, t = row["f"], truth["f"]
+    f = row["f"]
+    t = truth["f"]
     side = f - row["low"] if f > t else row["high"] - f
     return (row["high"] - row["low"]) / (2 * t), abs(f / t - 1), math.hypot(side / t, 2 * truth["error"])
 

@@ -18,9 +18,13 @@ from ..kept import Run
 from .answers import LENGTH, WAYS, Case, answer, compared, judged
 
 CONTACTS = {"5.5 N": 2.0, "110 N": 3.0}  # how many times as long their surface is, so that a strip takes seconds
-RATIOS, SLIPS = (1.5, 0.5), (0.5, -1.0)  # Moes' film over Sq; slide-roll ratios: surface 1 is rough
+# Moes' film over Sq; slide-roll ratios: surface 1 is rough
+RATIOS = (1.5, 0.5)
+SLIPS = (0.5, -1.0)
 SEEDS = {"quick": 3, "default": 3, "full": 6}  # answers of a case
-CHANGES, SHAPE = range(7001, 7003), (108, 96)  # seeds of the surfaces that tell the change, and their cells
+# seeds of the surfaces that tell the change, and their cells
+CHANGES = range(7001, 7003)
+SHAPE = (108, 96)
 FINE = 160 / 18, 40 / 18  # of these in a correlation length: along x twice those of an answer
 
 
@@ -34,8 +38,10 @@ def cases(level: str) -> list[Case]:
 def change(case_and_seed: tuple[Case, int]) -> float:
     """Relative change of f from the cells of an answer to endlessly short ones, on one surface."""
     case, seed = case_and_seed
-    scene, length = case.scene(seed, ""), LENGTH * case.longer
-    cells, z = (length / FINE[0], length / FINE[1]), scene.surface
+    scene = case.scene(seed, "")
+    length = LENGTH * case.longer
+    cells = (length / FINE[0], length / FINE[1])
+    z = scene.surface
     surface = lubfric.generate_surface(SHAPE, cells, seed=seed, sq=z.sq, acf=z.acf, correlation_length=length)
     speed = case.speed(scene)
     bodies = [RoughBody(surface, speed * (1 - case.slip / 2))]
@@ -46,7 +52,8 @@ def change(case_and_seed: tuple[Case, int]) -> float:
 def answers_moving(level: str, run: Run = Run()) -> Iterator[Item]:
     """Every answer by the moving model, and by load sharing alone, beside the mean of the others of its case on
     endlessly short cells."""
-    found, left = [], 0
+    found = []
+    left = 0
     for case in cases(level):
         changes = [row for _, row in run.solved({f"{case}, {k}": (case, k) for k in CHANGES}, change, "changes")]
         asked = {f"{case}, {seed}": (case, seed) for seed in range(1, 1 + SEEDS[level])}

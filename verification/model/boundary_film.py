@@ -19,7 +19,10 @@ RATIOS = (2.0, 1.4, 1.0, 0.7, 0.4, 0.2)  # smooth central film over Sq
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 PRESSURES = (0.5e9, 0.75e9, 1e9)  # Pa, of Hertz
 SURFACES = {"Gaussian": 150e-9, "exponential": 100e-9, "plateau": 200e-9}  # Sq [m]
-LENGTH, CELL, PATCH = 10e-6, 2e-6, (128, 64)  # correlation length, cells [m] and their number
+# correlation length, cells [m] and their number
+LENGTH = 10e-6
+CELL = 2e-6
+PATCH = (128, 64)
 
 
 def boundary_film(level: str, run: Run = Run()) -> Iterator[Item]:
@@ -69,15 +72,18 @@ def drawn(names: list[str], found: np.ndarray) -> Figure:
 def shares(case: tuple[str, float]) -> list[list[float]]:
     """Share of the load on gaps below each of `FILMS`, at each of `RATIOS`; NaN where it is not solved."""
     kind, pressure = case
-    scene, surface = roller(pressure), rough(kind)
-    rows, start = [], None
+    scene = roller(pressure)
+    surface = rough(kind)
+    rows = []
+    start = None
     for ratio in RATIOS:
         try:
             found = solve_strip(scene, surface, speed_of(scene, ratio * SURFACES[kind]), start=start)
         except lubfric.ConvergenceError:
             rows.append([math.nan] * len(FILMS))
             continue
-        p, h = found.result.pressure, found.result.gap
+        p = found.result.pressure
+        h = found.result.gap
         rows.append([float(p[h < film].sum() / p.sum()) for film in FILMS])
         start = found
     return rows
@@ -110,7 +116,8 @@ def rough(kind: str) -> lubfric.Surface:
 
 def speed_of(scene, film: float) -> float:
     """U [m/s] at which the smooth central film is ``film`` [m] thick, by two films and a power law between them."""
-    slow, fast = 0.1, 1.0
+    slow = 0.1
+    fast = 1.0
     cases = (case_of_scene(scene, scene.bodies.load, speed) for speed in (slow, fast))
     first, last = (lubfric.solve_ehl(**case).central_film for case in cases)
     return fast * (film / last) ** (math.log(fast / slow) / math.log(last / first))

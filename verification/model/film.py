@@ -15,7 +15,9 @@ from ..pace import paced
 WIDTH = 90e-6  # m, of the patch
 GRIDS = {"quick": (1, (32, 48, 64)), "default": (2, (64, 128, 256)), "full": (5, (128, 256, 512))}
 ALLOWED = {"quick": 0.05, "default": 0.01, "full": 0.005}  # change of f from the second grid to the third
-MEMORY, SECONDS = 6.0, 30.0  # GB; of a curve of 25 speeds on 128 cells
+# GB; of a curve of 25 speeds on 128 cells
+MEMORY = 6.0
+SECONDS = 30.0
 
 
 def grids(level: str, run: Run = Run()) -> Iterator[Item]:
@@ -38,7 +40,8 @@ def grids(level: str, run: Run = Run()) -> Iterator[Item]:
     columns: tuple[str, ...] = ("U (m/s)", "surfaces", f"largest change of f, {cells[1]} to {cells[2]}", "order")
     columns += (f"processor time at {cells[2]}, median", "memory")
     yield Table("refinement", "The coefficient on three grids", columns, table)
-    model, speeds = patch(1, 32 if level == "quick" else 128), np.geomspace(1.0, 1e-3, 25)
+    model = patch(1, 32 if level == "quick" else 128)
+    speeds = np.geomspace(1.0, 1e-3, 25)
     _, taken = paced(lambda: lubfric.stribeck(model, speeds))
     yield Check("25 speeds: processor time on the stated core", taken, SECONDS, 0.0, "asked", AT_MOST, unit="s")
     yield Check("memory", memory, MEMORY, 0.0, "of the process", AT_MOST, unit="GB")

@@ -15,7 +15,9 @@ from ..fem.fluid import Fluid
 
 FILMS = (5e-9, 10e-9, 20e-9, 30e-9, 40e-9)  # m
 SWEEP = 2.5  # half-widths that the film travels before anything counts
-SLOW, FAST = 0.5, 2.0  # of U: between them roughness moves while the lubricant passes one cell in a step
+# of U: between them roughness moves while the lubricant passes one cell in a step
+SLOW = 0.5
+FAST = 2.0
 EXACT = 1e-4  # residual of a step, times the cells along x
 FLOOR = 1e-9  # m
 BALANCES = "mass", "load", "gap", "bounds"
@@ -34,10 +36,13 @@ def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
     fastest = max(abs(body.speed) for body in bodies)
     if fastest == 0:
         return first | {"rest": first, "off": balances(problem, rest.result, [], 0.0, first["given"]), "steps": 0}
-    line, dx = problem.contact, problem.spacing[0]
-    U, width = line.entrainment_speed, max(line.half_width, math.sqrt(2 * line.radius * line.moes_film))
+    line = problem.contact
+    dx = problem.spacing[0]
+    U = line.entrainment_speed
+    width = max(line.half_width, math.sqrt(2 * line.radius * line.moes_film))
     step = dx / (U if SLOW <= fastest / U <= FAST else fastest)
-    start, count = math.ceil(SWEEP * width / (U * step)), max(4, round(whole.size[0] / (fastest * step)))
+    start = math.ceil(SWEEP * width / (U * step))
+    count = max(4, round(whole.size[0] / (fastest * step)))
     moving = moments(
         travelling(problem, bodies),
         step,
@@ -49,13 +54,16 @@ def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
     rows = [row(problem, *both) for both in zip(found[1:], sources[1:])]
     mean: dict[str, Any] = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
     mean["drawn"] = share(mean["given"], mean["enters"])
-    at, out = travelling(problem, bodies)((start + count) * step), float(np.mean(sources[2:]))
+    at = travelling(problem, bodies)((start + count) * step)
+    out = float(np.mean(sources[2:]))
     return mean | {"rest": first, "off": balances(at, found[-1], found, step, out), "steps": start + count}
 
 
 def row(problem, result, out: float) -> dict[str, Any]:
     """The numbers of one moment, in which touching cells give off ``out`` [m²/s]."""
-    p, h, enters = result.pressure, result.gap, result.flow_film * result.speed
+    p = result.pressure
+    h = result.gap
+    enters = result.flow_film * result.speed
     shares = [float(p[h < film].sum() / p.sum()) for film in FILMS]
     numbers = {"f": result.coefficient, "central": result.central_gap, "mean": result.mean_gap, "given": out}
     return numbers | {"enters": enters, "drawn": share(out, enters), "shares": shares}
@@ -83,8 +91,11 @@ def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) 
       mean gap between the ends of the contact.
     - bounds: the largest violation of p >= 0, 0 <= fill <= 1, p (1 - fill) = 0, h >= 1 nm, relative.
     """
-    line, dx, x = problem.contact, problem.spacing[0], result.x
-    results, U = passing or (result,) * 4, line.entrainment_speed
+    line = problem.contact
+    dx = problem.spacing[0]
+    x = result.x
+    results = passing or (result,) * 4
+    U = line.entrainment_speed
     carried = bool(passing) and abs(U * step / dx - 1) < 1e-9
     masses = [held(line, one, one.gap) for one in results]
     before = [np.vstack([m[:1] - x[0] / line.radius * dx, m[:-1]]) if carried else m for m in masses]
@@ -98,12 +109,14 @@ def balances(problem, result, passing: Sequence, step: float, out: float = 0.0) 
     enters = U * float(np.sum([one.flow_film for one in results[2:]])) + source
     p = result.pressure.mean(axis=1)
     face = x[:, None] - x[None, :]
-    a, b = face + dx / 2, face - dx / 2
+    a = face + dx / 2
+    b = face - dx / 2
     kernel = -4 / (math.pi * line.e_prime) * (a * np.log(np.abs(a)) - b * np.log(np.abs(b)) - dx)
     shape = x**2 / (2 * line.radius) - problem.heights.mean(axis=1) + kernel @ p
     inside = np.abs(x) < line.half_width
     off = (result.gap - result.dent).mean(axis=1)[inside] - shape[inside]
-    fill, top = result.fill, result.pressure.max()
+    fill = result.fill
+    top = result.pressure.max()
     broken = -result.pressure.min() / top, -fill.min(), fill.max() - 1, (result.pressure * (1 - fill)).max() / top
     return {
         "mass": abs(missing / enters),

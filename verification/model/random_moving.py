@@ -20,8 +20,13 @@ from .boundary_film import speed_of
 from .moved import BALANCES, passed
 
 POINTS = {"quick": 3, "default": 40, "full": 200}
-E_PRIME, LIGHTEST, HEAVIEST = 2.2e11, 5e3, 1e9  # Pa, N/m, Pa
-PER_LENGTH, PER_HALF_WIDTH, COLUMNS = 2.5, 3.0, 12
+# Pa, N/m, Pa
+E_PRIME = 2.2e11
+LIGHTEST = 5e3
+HEAVIEST = 1e9
+PER_LENGTH = 2.5
+PER_HALF_WIDTH = 3.0
+COLUMNS = 12
 ALLOWED = {"mass": 0.05, "load": 1e-3, "gap": 1e-2, "bounds": 1e-6}  # of a solved point
 DRAWN = 0.1  # share of the lubricant out of touching cells from which a result has a caution; it is in the balance
 OILS: tuple[dict, ...] = ({}, {"eyring_stress": 5e6}, {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06})
@@ -34,10 +39,15 @@ def drawn(seed: int) -> tuple[Any, list[RoughBody], float, dict]:
     def between(low: float, high: float) -> float:
         return float(math.exp(rng.uniform(math.log(low), math.log(high))))
 
-    radius, sq, length, ratio = between(2e-3, 2e-2), between(50e-9, 300e-9), between(8e-6, 25e-6), between(0.2, 3.0)
+    radius = between(2e-3, 2e-2)
+    sq = between(50e-9, 300e-9)
+    length = between(8e-6, 25e-6)
+    ratio = between(0.2, 3.0)
     lightest = math.sqrt(LIGHTEST * E_PRIME / (2 * math.pi * radius))
-    pressure, slip = between(lightest, HEAVIEST), rng.uniform(-2, 2)
-    kind, rough = int(rng.integers(len(OILS))), ("lower", "upper", "both")[int(rng.integers(3))]
+    pressure = between(lightest, HEAVIEST)
+    slip = rng.uniform(-2, 2)
+    kind = int(rng.integers(len(OILS)))
+    rough = ("lower", "upper", "both")[int(rng.integers(3))]
     scene = lubfric.load_scene("paper").with_(
         bodies={"radius": radius, "hertz_pressure": pressure, "e_prime": E_PRIME, "hardness": None},
         lubricant={"viscosity": between(0.01, 0.2), "pressure_viscosity_coefficient": 18e-9} | OILS[kind],

@@ -30,15 +30,22 @@ CONTACTS: dict[str, tuple[float, dict, float, float]] = {  # pressure [Pa], bodi
     "roller, 0.5 GPa": (0.5e9, {}, 150e-9, 10e-6),
     "light, 0.25 GPa": (0.25e9, {}, 100e-9, 8e-6),
 }
-SHAPE, PER_LENGTH = (128, 16), (5.0, 2.5)  # cells of a map, and in a correlation length: along x, where it moves, more
+# cells of a map, and in a correlation length: along x, where it moves, more
+SHAPE = (128, 16)
+PER_LENGTH = (5.0, 2.5)
 KINDS = "gaussian", "exponential", "plateau", "ridges across", "ridges along"
-RIDGE, CUT = 4.0, 0.3  # length of ridges over their width; height over Sq at which summits are cut off
-HOLDS, SURE = 0.95, 0.99  # share of points within the stated bound; and the quantile that is told
+# length of ridges over their width; height over Sq at which summits are cut off
+RIDGE = 4.0
+CUT = 0.3
+# share of points within the stated bound; and the quantile that is told
+HOLDS = 0.95
+SURE = 0.99
 
 
 def cases(level: str) -> dict[str, tuple]:
     """The cases of ``level`` by name: (contact, kind of surface, film/Sq, slide-roll ratio). Two are mapped."""
-    mapped, others = list(CONTACTS)[:2], list(CONTACTS)[2:]
+    mapped = list(CONTACTS)[:2]
+    others = list(CONTACTS)[2:]
     found = [(name, "gaussian", ratio, slip) for name in mapped for ratio in RATIOS for slip in SLIPS]
     if level == "quick":
         found = [one for one in found[: len(found) // 2] if one[2] >= 1 and abs(one[3]) == 0.1]
@@ -70,7 +77,8 @@ def solved(case: tuple) -> dict[str, Any]:
 def rough(kind: str, sq: float, length: float) -> lubfric.Surface:
     """The map of one of `KINDS`, with this Sq and correlation length [m], of ridges across them."""
     lengths = {"ridges across": (length, RIDGE * length), "ridges along": (RIDGE * length, length)}.get(kind, length)
-    acf, (along, across) = "exponential" if kind == "exponential" else "gaussian", (length / n for n in PER_LENGTH)
+    acf = "exponential" if kind == "exponential" else "gaussian"
+    (along, across) = (length / n for n in PER_LENGTH)
     cells = along, across * (RIDGE if kind == "ridges across" else 1.0)
     found = lubfric.generate_surface(SHAPE, cells, sq=sq, correlation_length=lengths, acf=acf, seed=11)
     return replace(found, heights=np.minimum(found.heights, CUT * sq)).scaled(sq=sq) if kind == "plateau" else found
@@ -131,7 +139,8 @@ def shares(found: list) -> Iterator[Check]:
 
 def drawn(found: list) -> Figure:
     """f and the share of the load over film/Sq at every slide-roll ratio, of the first two contacts."""
-    names, film = list(CONTACTS)[:2], FILMS.index(BOUNDARY_FILM)
+    names = list(CONTACTS)[:2]
+    film = FILMS.index(BOUNDARY_FILM)
     canvas, grid = plotting.axes(2, 2, 8.5, 6.0, sharex=True)
     for column, name in zip(grid.T, names):
         for k, slip in enumerate(SLIPS):

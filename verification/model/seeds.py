@@ -22,8 +22,12 @@ from ..sampling.coverage import within
 SPEEDS = (0.06, 0.03, 0.01, 0.003)  # m/s
 TRIALS = {"quick": 2, "default": 24, "full": 200}
 STRIPS = {"quick": 4, "default": 32, "full": 160}  # of plain sampling
-FIRST, PLAIN = 640_000, 650_000  # seeds
-SECOND_ORDER, BIAS = 1.3, 0.02  # of (sd/f)²; of f
+# seeds
+FIRST = 640_000
+PLAIN = 650_000
+# of (sd/f)²; of f
+SECOND_ORDER = 1.3
+BIAS = 0.02
 COLUMNS: tuple[str, ...] = ("speed", "answers", "coverage", "interval", "stated / scatter", "bias")
 COLUMNS += ("CPU time", "plain, to that scatter", "times cheaper")
 
@@ -54,14 +58,18 @@ def seeds(level: str, run: Run = Run()) -> Iterator[Item]:
     for speed in SPEEDS:
         f, half, seconds = _columns(run, answer, speed, range(FIRST, FIRST + TRIALS[level]), ("f", "half", "seconds"))
         one, each = _columns(run, plain, speed, range(PLAIN, PLAIN + STRIPS[level]), ("f", "seconds"))
-        truth, scatter = one.mean(), one.std(ddof=1) / one.mean()
-        error, bias = scatter / np.sqrt(one.size), f.mean() / truth - 1
-        covered, name = float((np.abs(f - truth) <= np.hypot(half, 2 * error * truth)).mean()), f"{speed:g} m/s"
+        truth = one.mean()
+        scatter = one.std(ddof=1) / one.mean()
+        error = scatter / np.sqrt(one.size)
+        bias = f.mean() / truth - 1
+        covered = float((np.abs(f - truth) <= np.hypot(half, 2 * error * truth)).mean())
+        name = f"{speed:g} m/s"
         stated = float(np.sqrt(np.mean((half / 1.96) ** 2)))
         needed = each.mean() * (one.std(ddof=1) / f.std(ddof=1)) ** 2
         yield within(f"{name}: coverage", covered, f.size, (0.9, 1.0), "strips one by one", f.size > STRIPS["quick"])
         open_ = np.hypot(error, f.std(ddof=1) / truth / np.sqrt(f.size))
-        slack, cheaper = BIAS + 2 * open_ + SECOND_ORDER * scatter**2, needed / seconds.mean()
+        slack = BIAS + 2 * open_ + SECOND_ORDER * scatter**2
+        cheaper = needed / seconds.mean()
         yield Check(f"{name}: bias of f", bias, 0.0, slack, "strips one by one", ABSOLUTE)
         yield Check(f"{name}: times cheaper than plain sampling", cheaper, 1.0, 0.0, "strips one by one", TOLD)
         shares = f"{100 * covered:.0f} %", f"{100 * half.mean() / truth:.1f} %", f"{stated / f.std(ddof=1):.2f}"

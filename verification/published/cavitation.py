@@ -18,7 +18,9 @@ from ..check import Check, Figure, Item
 from . import against
 
 DEEP = 100e-6  # m: the gap around the pad; so deep that the pressure there is nearly 0
-CURVATURE, RIGID = 1.0, 1e18  # m, Pa: the parabola of the model is taken off the pad; nothing deflects
+# m, Pa: the parabola of the model is taken off the pad; nothing deflects
+CURVATURE = 1.0
+RIGID = 1e18
 PLACES = (0.6, 0.75, 0.9)  # of the length, behind the pocket
 LAWS = ("constant", "dowson-higginson")
 GRIDS = {"narrow": ((100, 21), (200, 41)), "wide": ((200, 1), (400, 1))}  # cells that fit the pocket
@@ -37,9 +39,12 @@ class Pad:
 
     def problem(self, load: float) -> Problem:
         """As the model has it, with the gap at the end of the pad left open. ``load`` [N/m]."""
-        (nx, ny), p = self.cells, self.pocket
-        dx, dy = p.length / (nx - 0.5), p.width / max(ny - 1, 1)
-        x, y = (np.arange(nx) + 0.5) * dx, (np.arange(ny) - (ny - 1) / 2) * dy
+        (nx, ny) = self.cells
+        p = self.pocket
+        dx = p.length / (nx - 0.5)
+        dy = p.width / max(ny - 1, 1)
+        x = (np.arange(nx) + 0.5) * dx
+        y = (np.arange(ny) - (ny - 1) / 2) * dy
         gap = np.full((nx + 1, ny + (ny > 1)), DEEP)
         gap[:nx, :ny] = p.wedge(x)[:, None]
         gap[:nx, :ny] += p.depth * (p.inside(x)[:, None] & (2 * np.abs(y) < p.across - 1e-9))

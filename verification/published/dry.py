@@ -14,11 +14,21 @@ from ..exact_contact import Line
 from ..parts import pressed_cylinder
 from . import against
 
-E_PRIME, RADIUS, LOAD = 231e9, 2e-3, 5.5 / 6e-3  # Pa, m, N/m: the paper's cylinder
-AMPLITUDE, WAVELENGTH, WAVE = 100e-9, 45e-6, 256  # m, m, cells
+# Pa, m, N/m: the paper's cylinder
+E_PRIME = 231e9
+RADIUS = 2e-3
+LOAD = 5.5 / 6e-3
+# m, m, cells
+AMPLITUDE = 100e-9
+WAVELENGTH = 45e-6
+WAVE = 256
 SHARES = (0.1, 0.3, 0.5, 0.7, 0.9)
 COUNTED = "theirs is counted on cells that are not told; ours without the correction of its edges is {:.3g}"
-SQ, LENGTH, CELL, CELLS, SEEDS = 100e-9, 20e-6, 1e-6, 768, (1, 2, 3, 4)
+SQ = 100e-9
+LENGTH = 20e-6
+CELL = 1e-6
+CELLS = 768
+SEEDS = (1, 2, 3, 4)
 
 
 def dry(level: str) -> Iterator[Item]:
@@ -51,7 +61,8 @@ def dry(level: str) -> Iterator[Item]:
 
 def halved(solve, cells: int) -> tuple[float, float]:
     """The value with ``cells`` cells, and its relative change from half as many."""
-    fine, coarse = solve(cells), solve(cells // 2)
+    fine = solve(cells)
+    coarse = solve(cells // 2)
     return fine, abs(fine / coarse - 1)
 
 
@@ -66,7 +77,8 @@ def cylinder() -> Iterator[Check]:
         p = found.pressure[:, 0]
         return 2 * math.sqrt(p @ x**2 / p.sum()), float(p.max())
 
-    fine, coarse = solved(64), solved(32)
+    fine = solved(64)
+    coarse = solved(32)
     for name, unit, k, theirs in (("half-width", "m", 0, half_width), ("peak pressure", "Pa", 1, peak)):
         yield against("hertz", f"cylinder, {name}", fine[k], theirs, abs(fine[k] / coarse[k] - 1), unit)
 
@@ -150,7 +162,8 @@ def mean(values: Sequence[float], theirs: float) -> tuple[float, float, float]:
 
 def drawn(found: list[tuple[float, float]]) -> Figure:
     """Contact of the wave over the load."""
-    dense, (ours, errors) = np.linspace(0, 1, 200), np.array(found).T
+    dense = np.linspace(0, 1, 200)
+    (ours, errors) = np.array(found).T
     theirs = (dense, [references.westergaard_area(s) for s in dense], "-", "Westergaard 1939")
     curves = [theirs, (SHARES, ours, "o", "lubfric", ours * errors)]
     caption = "Contact of a wave with a flat, ours with its error beside the closed form"

@@ -36,7 +36,8 @@ def films(level: str) -> Iterator[Item]:
     yield from limits()
     for m, l in MOES:
         found = film(m, l)
-        ours, name = found.flow_film / unit(found), f"flow film, M = {m}, L = {l}"
+        ours = found.flow_film / unit(found)
+        name = f"flow film, M = {m}, L = {l}"
         yield against("moes", name, ours, references.moes(m, l), own(found))
     for m, l in GRUBIN:
         found = film(m, l, law="barus")
@@ -50,7 +51,8 @@ def films(level: str) -> Iterator[Item]:
         ):
             two = [film(m, l, density, viscosity) for viscosity in ("roelands", "barus")]
             films = [f.min_film if key == "dowson66" else f.central_film for f in two]
-            ours, theirs = sum(films) / 2, law(*numbers(two[0])) * RADIUS
+            ours = sum(films) / 2
+            theirs = law(*numbers(two[0])) * RADIUS
             error = abs(films[1] - films[0]) / 2 / ours + max(map(own, two))
             note = BEYOND if two[0].hertz_pressure > STATIC else ""
             yield against(key, f"{name}, M = {m}, L = {l}", ours, theirs, error, "m", note)
@@ -83,7 +85,9 @@ def numbers(found: lubfric.EHLResult) -> tuple[float, float, float]:
 def rigid() -> Iterator[Check]:
     """A load so light that nothing deflects: M = 0.001."""
     found = film(1e-3, 5.0, law="constant", tolerance=1e-4)
-    scale, h0, r = 1e-3 / unit(found), found.min_film, references.RIGID
+    scale = 1e-3 / unit(found)
+    h0 = found.min_film
+    r = references.RIGID
     yield against("martin", "rigid cylinder, smallest film", found.min_film * scale, r["smallest"], own(found))
     yield against("martin", "rigid cylinder, flow film", found.flow_film * scale, r["flow"], own(found))
     where = found.rupture / math.sqrt(2 * RADIUS * h0)

@@ -15,7 +15,9 @@ from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY
 from . import against
 from .films import film, own
 
-LOADS, OILS = (0.2, 1, 2, 5, 10, 30, 100, 200), (4, 8, 12, 16)  # M, L
+# M, L
+LOADS = (0.2, 1, 2, 5, 10, 30, 100, 200)
+OILS = (4, 8, 12, 16)
 STARVED = ((10, 4, 3.0), (10, 4, 8.0), (10, 12, 4.5), (100, 12, 2.0))  # M, L, beginning of the inlet in half-widths
 EYRING = ((100, 10, 5e6, 0.01), (200, 10, 5e6, 0.2), (50, 15, 2e6, 0.05))  # M, L, stress [Pa], slide-roll ratio
 WIDE = "theirs leaves out a dependence on M and L ('few per cents'); finite elements have ours (study ehl)"
@@ -59,19 +61,23 @@ def rolling(m: float, l: float, inlet: float | None = None) -> tuple[float, floa
 
 def starved(m: float, l: float, inlet: float) -> tuple[float, float, float]:
     """Torque with an inlet [b] over the flooded one, the gap there over the smallest film, and the relative error."""
-    full, (whole, first), (part, second) = film(m, l, "dowson-higginson", "barus"), rolling(m, l), rolling(m, l, inlet)
+    full = film(m, l, "dowson-higginson", "barus")
+    (whole, first) = rolling(m, l)
+    (part, second) = rolling(m, l, inlet)
     return part / whole, float(full.film_at(np.array([-inlet * full.half_width]))[0]) / full.min_film, first + second
 
 
 def rigid() -> Iterator[Check]:
     """Forces on the rigid cylinder."""
     found = film(1e-3, 5.0, law="constant", tolerance=1e-4)
-    forces, h0 = force(found, found.contact.lubricant, 1.0), found.min_film
+    forces = force(found, found.contact.lubricant, 1.0)
+    h0 = found.min_film
     scale = VISCOSITY * found.entrainment_speed * math.sqrt(RADIUS / h0)
     for name, ours in (("couette", forces.couette / scale), ("rolling", forces.rolling / (2 * scale))):
         error = own(found) + forces.quadrature / forces.couette
         yield against("martin", f"rigid cylinder, {name} force", ours, references.RIGID[name], error)
-    m, l = 0.05, 5.0
+    m = 0.05
+    l = 5.0
     found = film(m, l, law="constant", tolerance=1e-4)
     torque = force(found, found.contact.lubricant, 1e-9).rolling * RADIUS
     ours = torque * m / (found.hertz_pressure * found.half_width**2)

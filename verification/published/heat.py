@@ -15,7 +15,10 @@ from . import against
 
 OIL = Lubricant(0.1, viscosity_law="constant", temperature=313.15, temperature_coefficient=0.04, conductivity=0.13)
 NUMBERS = (0.1, 1.0, 10.0, 100.0)
-HALF, CARRIED, PEAK = 1e-4, 2e4, 1e7  # m, J/(m² K s^½) (m/s)^½, W/m²
+# m, J/(m² K s^½) (m/s)^½, W/m²
+HALF = 1e-4
+CARRIED = 2e4
+PEAK = 1e7
 
 
 def heat(level: str) -> Iterator[Item]:
@@ -27,7 +30,8 @@ def heat(level: str) -> Iterator[Item]:
         ("blok-flash", "Hertz", lambda t: np.sqrt(np.maximum(1 - t**2, 0)), references.FLASH_HERTZ),
         ("jaeger", "uniform", lambda t: (np.abs(t) <= 1).astype(float), references.FLASH_UNIFORM),
     ):
-        fine, coarse = flash(shape, 2.2 / 250), flash(shape, 2.2 / 125)
+        fine = flash(shape, 2.2 / 250)
+        coarse = flash(shape, 2.2 / 125)
         yield against(key, f"flash temperature, {name} band", fine, theirs, abs(fine / coarse - 1))
     for number, ratio, pressed in ((0.1, 0.1, 0.003), (1.0, 0.5, 0.003), (1.0, 2.0, 0.0)):
         made = inlet_heat(

@@ -22,10 +22,12 @@ def mixed(level: str) -> Iterator[Item]:
     patch; the error is twice its standard error.
     """
     found = np.array([shares((kind, PRESSURE)) for kind in SURFACES])[:, :, FILMS.index(BOUNDARY_FILM)]
-    ours, own = found.mean(axis=0), 2 * found.std(axis=0, ddof=1) / np.sqrt(len(found))
+    ours = found.mean(axis=0)
+    own = 2 * found.std(axis=0, ddof=1) / np.sqrt(len(found))
     low, high = references.load_share_band(RATIOS)
     for ratio, one, error, a, b in zip(RATIOS, ours, own, low, high):
-        name, half = f"load share of the asperities, film/Sq = {ratio:g}", (b - a) / (a + b)
+        name = f"load share of the asperities, film/Sq = {ratio:g}"
+        half = (b - a) / (a + b)
         note = "not independent: the boundary film of 20 nm is the candidate that lies nearest to these laws"
         if ratio * min(SURFACES.values()) <= BOUNDARY_FILM:
             note = "the film itself is 20 to 40 nm, so nearly all of it is below the boundary film; and ours is at rest"

@@ -34,7 +34,8 @@ def oils(level: str) -> Iterator[Item]:
         yield against("d341", f"viscosity at 70 °C, m = {m:g}, n = {n:g}", ours, at70, 0.0, "mm²/s")
     for pressure in (0.1e9, 0.5e9, 1e9):
         oily = Lubricant(0.1, 2e-8, density_law="dowson-higginson")
-        at, p = f"at {pressure / 1e9:g} GPa", np.array([pressure])
+        at = f"at {pressure / 1e9:g} GPa"
+        p = np.array([pressure])
         yield against(
             "roelands", f"viscosity {at}", viscosity(oily, p)[0], references.roelands(0.1, 2e-8, pressure), 0, "Pa s"
         )

@@ -79,7 +79,8 @@ def reduced(m: float, l: float, length: float, height: float, cells: float) -> t
 def steady(name: str) -> Iterator[Check]:
     """Residual wave and pressure of waves at rest, for the height that they have there."""
     alpha, film, pressure, wave = references.STEADY[name]
-    wide, narrow = ripples(alpha, film, 20), ripples(alpha, film, 10)
+    wide = ripples(alpha, film, 20)
+    narrow = ripples(alpha, film, 10)
     for what, k, theirs, unit in (("film", 0, wave, "m"), ("pressure", 1, pressure, "Pa")):
         error = abs(wide[k] / narrow[k] - 1)
         yield against("greenwood", f"waves at rest, {name}: {what}", wide[k], theirs, error, unit)
@@ -88,7 +89,9 @@ def steady(name: str) -> Iterator[Check]:
 def ripples(alpha: float, film: float, lengths: float) -> tuple[float, float]:
     """Amplitudes of film [m] and pressure [Pa], in a contact whose width is so many wavelengths."""
     w = references.STEADY_WAVE
-    b, k, height = lengths / 2 * w["wavelength"], 2 * math.pi / w["wavelength"], 0.1 * w["height"]
+    b = lengths / 2 * w["wavelength"]
+    k = 2 * math.pi / w["wavelength"]
+    height = 0.1 * w["height"]
     peak = w["pressure"] / (1 - (5 / lengths) ** 2 / 6)  # so that the mean over five wavelengths is theirs
     case: dict[str, Any] = {
         "load_per_width": math.pi * b * peak / 2,
@@ -103,7 +106,8 @@ def ripples(alpha: float, film: float, lengths: float) -> tuple[float, float]:
     for _ in range(4):
         case["entrainment_speed"] *= (film / lubfric.solve_ehl(**case, tolerance=1e-3).central_film) ** (1 / 0.7)
     at = laid_out(line_contact(case), 0.0, 40 * lengths / 2)
-    found, near = at_rest(at, k, height), np.abs(at.film.x) < 2.5 * w["wavelength"]
+    found = at_rest(at, k, height)
+    near = np.abs(at.film.x) < 2.5 * w["wavelength"]
     x = at.film.x[near]
     columns = np.stack([x**0, x / b, (x / b) ** 2, np.cos(k * x), np.sin(k * x)], axis=1)
     both = np.stack([(found.gap - at.film.gap)[near, 0], (found.pressure - at.film.pressure)[near, 0]], axis=1)
@@ -123,19 +127,23 @@ def sliding(speed: float, length: float) -> Check:
     values = []
     for cells in (40 * max(1.0, speed) / length, 20 * max(1.0, speed) / length):
         at = laid_out(line_contact(case | {"eyring_stress": g["eyring"]}), speed, cells)
-        gap, p = at.film.gap[at.middle, 0], at.film.pressure[at.middle, 0]
-        k, near = 2 * math.pi / (length * at.half_width), np.abs(at.film.x) < 0.6 * at.half_width
+        gap = at.film.gap[at.middle, 0]
+        p = at.film.pressure[at.middle, 0]
+        k = 2 * math.pi / (length * at.half_width)
+        near = np.abs(at.film.x) < 0.6 * at.half_width
         slid = 2 * abs(speed - 1) * case["entrainment_speed"]
         eta = references.roelands(case["viscosity"], alpha, p)
         drag = eta / math.hypot(1, eta * slid / (gap * g["eyring"])) * case["entrainment_speed"]
-        law, step = references.density, 1e5
+        law = references.density
+        step = 1e5
         stiffness = law(p) / ((law(p + step) - law(p - step)) / (2 * step))
         kept, inlet = references.hooke(k, speed, gap, drag, stiffness, g["e_prime"])
         wave = -response(at, k, 0.002 * gap)[0][near]
         columns = np.exp(1j * np.outer(at.film.x[near], [k, inlet]))
         values.append((np.linalg.lstsq(columns, wave, rcond=None)[0][0], kept))
     (fine, theirs), (coarse, _) = values
-    name, step = f"waves of {length:g} b at {speed:g} U, Eyring: amplitude kept", (fine - coarse) / 3
+    name = f"waves of {length:g} b at {speed:g} U, Eyring: amplitude kept"
+    step = (fine - coarse) / 3
     error = references.WITHIN / abs(theirs)
     return against("hooke", name, abs(fine + step), abs(theirs), abs(step / fine), error=error)
 

@@ -24,10 +24,18 @@ from . import SEED
 TRIALS = {"quick": 16, "default": 60, "full": 400}
 OTHERS = 200  # trials of other surfaces and loads, at most
 REPORTED = 1_000_000  # seeds of the truth begin so far behind those of the trials
-PATCHES, FEWEST, CLOSE = 160, 16, 0.1  # of the truth; it is closed to so much of the standard error asked
-LENGTHS, PIECES, PIECE = 1900, 8, 90  # of a patch, in correlation lengths; patches on the own cells, and their length
+# of the truth; it is closed to so much of the standard error asked
+PATCHES = 160
+FEWEST = 16
+CLOSE = 0.1
+# of a patch, in correlation lengths; patches on the own cells, and their length
+LENGTHS = 1900
+PIECES = 8
+PIECE = 90
 CHANCE = 2.0  # standard errors of a proportion or ratio of few trials, granted beyond the bounds
-RATIO, BIAS = 0.15, 0.3  # of the reported error over the scatter from 1; of the sampling tolerance
+# of the reported error over the scatter from 1; of the sampling tolerance
+RATIO = 0.15
+BIAS = 0.3
 ENDLESS = "plain balances of long patches"
 SHARED = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
 COLUMNS = ("case", "trials", "coverage", "bias")
@@ -130,7 +138,8 @@ def solve(scene, speed: float, asked: float) -> dict:
     """One point with its interval and its processor seconds."""
     begun = time.process_time()
     found = lubfric.friction(scene.with_(numerics={"sampling_tolerance": asked}), speed)
-    u, f = found.uncertainty, found.coefficient
+    u = found.uncertainty
+    f = found.coefficient
     half = f * math.hypot(u.numerical, stdtrit(max(u.freedom, 1.0), 0.975) * u.sampling)  # the truth, too, is Eq. (8)
     return {
         "f": f,
@@ -207,7 +216,8 @@ def checks(result: Result) -> Iterator[Check]:
 
     The coverage decides nothing in a case of which most trials say that the map is too small.
     """
-    case, n = result.case, len(result.rows)
+    case = result.case
+    n = len(result.rows)
     decides = float(result.column("few").mean()) <= 0.5
     yield within(f"{case.name}: coverage", float(result.covered.mean()), n, case.bounds, ENDLESS, decides)
     slack = RATIO + CHANCE / math.sqrt(2 * n)

@@ -15,17 +15,25 @@ from ..kept import Run
 from . import SEED
 from .coverage import SHARED, chance, solve, within
 
-MAP, CUTS = (1600, 1600), (2, 2)  # cells; pieces
+# cells; pieces
+MAP = (1600, 1600)
+CUTS = (2, 2)
 MAPS = {"quick": 1, "default": 2, "full": 6}
-PIECES, ASKED = (0.85, 0.99), 0.02  # bounds of the coverage by pieces; their standard error
+# bounds of the coverage by pieces; their standard error
+PIECES = (0.85, 0.99)
+ASKED = 0.02
 GENERATED = ("sq", "correlation_length")  # keys that do not go with a file
 SCENES = {"quick": 4, "default": 24, "full": 100}
-TIGHT, FLOOR, WITHIN = 1e-4, 1e-3, 0.95  # tolerance of the reference; what it may be off by; share asked for
+# tolerance of the reference; what it may be off by; share asked for
+TIGHT = 1e-4
+FLOOR = 1e-3
+WITHIN = 0.95
 
 
 def pieces(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
     """How often the interval of a quarter of a map holds the friction of the whole."""
-    maps, places = range(seed + 90_000, seed + 90_000 + MAPS[level]), (None, *np.ndindex(CUTS))
+    maps = range(seed + 90_000, seed + 90_000 + MAPS[level])
+    places = (None, *np.ndindex(CUTS))
     cases = {f"{one}, piece {place}": (one, place) for one in maps for place in places}
     rows = [row for _, row in run.solved(cases, piece)]
     covered = []
@@ -42,7 +50,8 @@ def piece(case: tuple[int, tuple[int, int] | None]) -> dict:
     whole = lubfric.generate_surface(MAP, 0.45e-6, **keys)
     heights = whole.heights
     if place is not None:
-        nx, ny = heights.shape[0] // CUTS[0], heights.shape[1] // CUTS[1]
+        nx = heights.shape[0] // CUTS[0]
+        ny = heights.shape[1] // CUTS[1]
         heights = heights[place[0] * nx : (place[0] + 1) * nx, place[1] * ny : (place[1] + 1) * ny]
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "piece.npy"
@@ -79,7 +88,9 @@ def beside(number: int) -> dict:
         return {}
     row: dict = {}
     for name in ESTIMATED:
-        value, reference, error = getattr(found, name), getattr(tight, name), getattr(found.errors, name)
+        value = getattr(found, name)
+        reference = getattr(tight, name)
+        error = getattr(found.errors, name)
         largest = max(abs(value), abs(reference), 1e-300)
         stated = error is not None and np.isfinite(error)
         row[name] = (abs(value - reference) / largest, error) if stated else None

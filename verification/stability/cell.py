@@ -10,7 +10,9 @@ from lubfric import LubfricError
 
 from ..check import AT_MOST, Check
 
-RIGHT, FAILED, WRONG = "right", "reported failure", "silently wrong"
+RIGHT = "right"
+FAILED = "reported failure"
+WRONG = "silently wrong"
 VERDICTS = (RIGHT, FAILED, WRONG)
 
 
@@ -48,7 +50,9 @@ def judged(cell: Cell, solve: Callable[[Cell], Any], deviations: Callable[[Cell,
     name). Any other exception is a defect and ends the map. A deviation above 1, or that is no number, makes the cell
     silently wrong. The cells of default methods decide: none may be silently wrong, and none inside its promise fail.
     """
-    begun, ratio, refused = time.perf_counter(), math.nan, ""
+    begun = time.perf_counter()
+    ratio = math.nan
+    refused = ""
     try:
         result = solve(cell)
     except Exception as failure:

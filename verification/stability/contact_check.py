@@ -30,7 +30,8 @@ def deflection(
 def _love_sum(pressure, spacing, e_prime) -> np.ndarray:
     """Love's solution, summed row by row without a transform."""
     nx, ny = pressure.shape
-    i, j = np.arange(1 - nx, nx), np.arange(1 - ny, ny)
+    i = np.arange(1 - nx, nx)
+    j = np.arange(1 - ny, ny)
     left, right = ((i - s / 2)[:, None] * spacing[0] for s in (1, -1))
     low, high = ((j - s / 2)[None, :] * spacing[1] for s in (1, -1))
 
@@ -62,12 +63,15 @@ def contact_deviations(
     - fields: gap against gap0 - approach + K p
     - load or volume: against what was prescribed
     """
-    p, limit = result.pressure, math.inf if hardness is None else hardness
+    p = result.pressure
+    limit = math.inf if hardness is None else hardness
     spacing = (spacing, spacing) if np.ndim(spacing) == 0 else spacing
     u = deflection(p, spacing, e_prime, boundary)
     gap = gap0 + u
     gap = gap - result.approach
-    total, touching, yielded = p.sum(), p > 0, p >= limit
+    total = p.sum()
+    touching = p > 0
+    yielded = p >= limit
     if mean_pressure == 0 or not touching.any():
         carried = 0.0 if mean_pressure in (None, 0) else 1.0
         return {"load": carried, "penetration": max(0.0, -gap.min()) / max(float(gap0.std()), 1e-300)}

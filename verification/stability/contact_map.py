@@ -16,7 +16,9 @@ from .cell import Cell
 from .contact_check import contact_deviations
 
 E_PRIME = 231e9
-PERIODIC, MIXED, FREE = ("periodic", "periodic"), ("free", "periodic"), ("free", "free")
+PERIODIC = ("periodic", "periodic")
+MIXED = ("free", "periodic")
+FREE = ("free", "free")
 BOUNDARIES = {"periodic": PERIODIC, "periodic along y": MIXED, "free": FREE}
 OWN = {"complementarity": 1e-5, "penetration": 1e-4, "sign": 1e-12, "fields": 1e-4, "load": 1e-5, "volume": 1e-4}
 SECOND = 1e-3  # of pressure and mean gap, beside plain Polonsky-Keer
@@ -114,7 +116,8 @@ def deviations(cell: Cell, result: ContactResult) -> dict[str, float]:
 
 
 def _second(result: ContactResult, p: Pressed, load: float) -> dict[str, float]:
-    operator, gap0 = half_space(p.shape, p.spacing, E_PRIME), p.gap0
+    operator = half_space(p.shape, p.spacing, E_PRIME)
+    gap0 = p.gap0
     pressure, converged = polonsky_keer(gap0, operator, load, tolerance=1e-9, max_iterations=3000)
     if not converged:
         return {}

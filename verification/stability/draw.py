@@ -72,7 +72,8 @@ def panel(ax, cells: list[Check]) -> None:
     """All cells of one map and method."""
     from matplotlib.ticker import MaxNLocator
 
-    name, method = cells[0].at["map"], cells[0].at["method"]
+    name = cells[0].at["map"]
+    method = cells[0].at["method"]
     *labels, linear = AXES.get(name, WHOLE)
     found = Counter(verdict_of(c) for c in cells)
     for order, verdict in enumerate(VERDICTS):

@@ -20,7 +20,8 @@ def deflection(points: np.ndarray, x: np.ndarray, p: np.ndarray, e_prime: float,
     def log(t):
         return np.log(np.where(t == 0, 1.0, np.abs(t)) / reference)
 
-    left, right = x[:-1] - points[:, None], x[1:] - points[:, None]
+    left = x[:-1] - points[:, None]
+    right = x[1:] - points[:, None]
     slope = np.diff(p) / np.diff(x)
     at_point = p[:-1] - slope * left  # the linear piece continued to the point
     flat = right * (log(right) - 1) - left * (log(left) - 1)
@@ -39,12 +40,16 @@ def film_deviations(result, case: dict) -> dict[str, float]:
     """
     sign = math.copysign(1.0, case["entrainment_speed"])
     order = slice(None) if sign > 0 else slice(None, None, -1)
-    x, p, h = (sign * result.x)[order], result.pressure[order], result.film_thickness[order]
-    radius, e_prime = case["radius"], case["e_prime"]
+    x = (sign * result.x)[order]
+    p = result.pressure[order]
+    h = result.film_thickness[order]
+    radius = case["radius"]
+    e_prime = case["e_prime"]
     shape = result.approach + deflection(x, x, p, e_prime, result.half_width) + x**2 / (2 * radius)
     before = x <= sign * result.rupture + 1e-12 * result.half_width
     flow = cell_flow(x, p, result, case)
-    q, wet = result.flow_film, before[1:]
+    q = result.flow_film
+    wet = before[1:]
     mid = 0.5 * (h[1:] + h[:-1])
     tail = 0.0 if case.get("inlet_length") else 0.5 * abs(x[0]) * p[0]
     load = 0.5 * ((p[1:] + p[:-1]) * np.diff(x)).sum() + tail
@@ -60,9 +65,11 @@ def film_deviations(result, case: dict) -> dict[str, float]:
 
 def cell_flow(x, p, result, case) -> np.ndarray:
     """Mass flow through the middle of each cell over rho0 |U| [m]."""
-    centre, dx = 0.5 * (x[1:] + x[:-1]), np.diff(x)
+    centre = 0.5 * (x[1:] + x[:-1])
+    dx = np.diff(x)
     inside = 0.5 * (p[1:] + p[:-1])
-    fluid, bent = Fluid.of(case), deflection(centre, x, p, case["e_prime"], result.half_width)
+    fluid = Fluid.of(case)
+    bent = deflection(centre, x, p, case["e_prime"], result.half_width)
     h = result.approach + bent + centre**2 / (2 * case["radius"])
     steps = 0.5 * np.diff(p)[:, None] * POINTS
     fluidity = np.exp(-fluid.log_viscosity(np.maximum(inside[:, None] + steps, 0.0))) @ (0.5 * WEIGHTS)

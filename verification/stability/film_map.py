@@ -20,7 +20,8 @@ FILM = 2.0  # times the tolerance asked for: allowed difference of films to the 
 OWN = {"elastic": 1e-3, "load": 1e-3, "tension": 1e-3, "gap": 1e-3, "flow": 0.01}
 NODES = 8193  # of the differential deflection: where it needs more it fails, and the tightest Newton solution judges
 FORMULA = 0.10  # error at which a regression formula counts as wrong
-DIFFERENTIAL, MOES = "differential deflection", "Moes formula"
+DIFFERENTIAL = "differential deflection"
+MOES = "Moes formula"
 LAWS = (("roelands", "constant"), ("barus", "constant"), ("roelands", "dowson-higginson"))
 PAPER = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosity_coefficient": 25e-9}
 
@@ -47,12 +48,14 @@ def solve(cell: Cell):
 
 def deviations(cell: Cell, result) -> dict[str, float]:
     """The own residuals of a film, and both films beside another discretisation, over what is allowed."""
-    case, tolerance = cell.problem.case, cell.problem.tolerance
+    case = cell.problem.case
+    tolerance = cell.problem.tolerance
     if cell.default:
         smallest, flow = reference(tuple(sorted(case.items())), tolerance)
     else:
         tight = solve_ehl(**case, tolerance=0.1 * TOLERANCE)
-        smallest, flow = tight.min_film, tight.flow_film
+        smallest = tight.min_film
+        flow = tight.flow_film
     if cell.method == MOES:
         return {"flow_film": abs(result / flow - 1) / FORMULA}
     ratios = {name: value / OWN[name] for name, value in film_deviations(result, case).items()}
@@ -108,7 +111,8 @@ def speeds(quick: bool) -> Iterator[Cell]:
         for load in np.geomspace(1e-2, 1e4, 2 if quick else 7).tolist():
             sign = -1.0 if round(math.log10(load)) % 2 else 1.0
             u1 = 2 * 0.36 * speed / (231e9 * 2e-3)
-            M, L = load / (231e9 * 2e-3) / math.sqrt(u1), 25e-9 * 231e9 * u1**0.25
+            M = load / (231e9 * 2e-3) / math.sqrt(u1)
+            L = 25e-9 * 231e9 * u1**0.25
             film = Film(PAPER | {"load_per_width": load, "entrainment_speed": sign * speed})
             where = ("film: speed and load", "steel cylinder, R = 2 mm", speed, load)
             yield Cell(*where, film, "solve_ehl", inside=promised(M, L))

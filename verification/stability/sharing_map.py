@@ -48,7 +48,8 @@ def model_of(name: str, sq: float, shape: int):
 def solve(cell: Cell) -> tuple:
     """The prepared scene, and the result of `lubfric.friction` at the speed of the cell."""
     p: Shared = cell.problem
-    model, speed = model_of(p.scene, p.sq, p.shape), p.speed
+    model = model_of(p.scene, p.sq, p.shape)
+    speed = p.speed
     if p.film:
         load = model.scene.bodies.load
 

@@ -19,8 +19,15 @@ from lubfric.oil import Lubricant
 from ..fem.fluid import Fluid
 from .cell import Cell
 
-RADIUS, E_PRIME, WIDTH, HARDNESS, FRICTION = 1e-2, 231e9, 60e-6, 6e9, 0.1
-ETA, ALPHA, COEFFICIENT, OFFSET = 0.04, 22e-9, 0.09, 2e6
+RADIUS = 1e-2
+E_PRIME = 231e9
+WIDTH = 60e-6
+HARDNESS = 6e9
+FRICTION = 0.1
+ETA = 0.04
+ALPHA = 22e-9
+COEFFICIENT = 0.09
+OFFSET = 2e6
 OIL = Lubricant(
     ETA, ALPHA, density_law="dowson-higginson", limiting_stress_coefficient=COEFFICIENT, limiting_stress_offset=OFFSET
 )
@@ -34,7 +41,8 @@ def cells(quick: bool) -> Iterator[Cell]:
     for sq in (1e-7,) if quick else (2.5e-8, 5e-8, 1e-7, 2e-7):
         for load in (1e4, 1e5) if quick else (1e3, 1e4, 1e5, 2e5, 3e5):
             for speed in (0.01, 0.3) if quick else np.geomspace(1e-3, 1.0, 10).tolist():
-                name, problem = f"whole: Sq {1e9 * sq:g} nm", (sq, load, speed)
+                name = f"whole: Sq {1e9 * sq:g} nm"
+                problem = (sq, load, speed)
                 yield Cell(name, "load by speed", load, speed, problem, "deterministic", inside=False)
 
 
@@ -60,7 +68,8 @@ def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = A
 def check(problem, found) -> dict[str, float]:
     """Deviations over what is allowed, from the fields."""
     dx, _ = found.spacing
-    p, h = found.pressure, found.gap
+    p = found.pressure
+    h = found.gap
     load = p.sum() * dx / p.shape[1] + found.inlet_load
     operator = half_space(p.shape, found.spacing, E_PRIME, ("free", "periodic"))
     elastic = (found.x**2 / (2 * RADIUS))[:, None] - problem.heights + operator.apply(p) + found.dent
@@ -75,12 +84,15 @@ def check(problem, found) -> dict[str, float]:
 def flow_error(found) -> float:
     """Largest relative difference of the flow through sections before the first touching cell, as a part of what is
     allowed there: 3 %, and what the judge's own quadrature leaves open (`_pressure_flow`)."""
-    speed, dx = found.speed, found.spacing[0]
+    speed = found.speed
+    dx = found.spacing[0]
     broken = np.flatnonzero(found.touching.any(axis=1))
     last = (broken[0] if broken.size else found.pressure.shape[0]) - 2
     if last < 3:
         return 0.0
-    p, h, fill = found.pressure[: last + 1], found.gap[: last + 1], found.fill[: last + 1]
+    p = found.pressure[: last + 1]
+    h = found.gap[: last + 1]
+    fill = found.fill[: last + 1]
     flow, open_ = _pressure_flow(p, h, speed, dx)
     mass = FLUID.rho(p) * h
     step = np.clip(mass[1:last] - mass[: last - 1], -mass[1:last], mass[1:last])  # a film that is never negative
@@ -108,5 +120,6 @@ def _mean_fluidity(p, film, speed: float, points: int) -> np.ndarray:
     between = p[:-1, :, None] + (p[1:] - p[:-1])[:, :, None] * np.linspace(0.0, 1.0, points)
     fluidity = 1 / FLUID.eta(between) + 2 * speed / (film[..., None] * (OFFSET + COEFFICIENT * between))
     weights = np.ones(points)
-    weights[1:-1:2], weights[2:-1:2] = 4.0, 2.0
+    weights[1:-1:2] = 4.0
+    weights[2:-1:2] = 2.0
     return FLUID.rho(between) * fluidity @ (weights / weights.sum())

@@ -12,7 +12,9 @@ from ..fem.triangles import von_mises
 from ..meshes import mesh_field
 from ..parts import pressed_cylinder
 
-E_PRIME, RADIUS, LINE_LOAD = 231e9, 2e-3, 5.5 / 6e-3
+E_PRIME = 231e9
+RADIUS = 2e-3
+LINE_LOAD = 5.5 / 6e-3
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
 B = float(np.sqrt(8 * LINE_LOAD * RADIUS / (np.pi * E_PRIME)))
 PEAK = 2 * LINE_LOAD / (np.pi * B)
@@ -68,10 +70,12 @@ def half_width(x, pressure) -> float:
 def hertz(level: str):
     """Hertz pressure: the orders, and the finest mesh against the closed form and `lubfric`."""
     fines = 0.4 / 2.0 ** np.arange({"quick": 3, "default": 4, "full": 5}[level])
-    rows, series = [], []
+    rows = []
+    series = []
     x, smooth = pressed_cylinder(LINE, 200)
     for degree in (2,) if level == "quick" else (1, 2):
-        errors, off = [], []
+        errors = []
+        off = []
         for fine in fines:
             found = hertz_layer(40, fine, degree)
             p = press(found)
@@ -79,7 +83,8 @@ def hertz(level: str):
             off.append(difference(found, p.pressure, np.interp(found.x, x, smooth.pressure[:, 0])))
             peak = p.pressure.max() / PEAK
             rows.append((f"P{degree}", found.x.size, fine, errors[-1], off[-1], peak, p.report.iterations))
-        check, why = f"Hertz line P{degree}: order of the pressure error", "an edge like a square root in some cell"
+        check = f"Hertz line P{degree}: order of the pressure error"
+        why = "an edge like a square root in some cell"
         series.append(Series(f"P{degree}", fines, errors, 1, check, 0.3, why, AT_LEAST))
     yield Check("Hertz line P2: peak pressure", p.pressure.max(), PEAK, 5e-3, HERTZ, unit="Pa")
     yield Check("Hertz line P2: half-width", half_width(found.x, p.pressure), B, 5e-3, HERTZ, unit="m")

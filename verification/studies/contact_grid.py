@@ -9,7 +9,10 @@ from ..convergence import Series, convergence
 from ..exact_contact import Line, Sphere, Wave
 from ..parts import pressed_cylinder
 
-E_PRIME, RADIUS, SIZE = 231e9, 2e-3, 4.5e-6  # Pa, m, m: modulus, radius, contact size of the paper
+# Pa, m, m: modulus, radius, contact size of the paper
+E_PRIME = 231e9
+RADIUS = 2e-3
+SIZE = 4.5e-6
 TOLERANCE = 1e-8
 CELLS = {"quick": (8, 16, 32), "default": (8, 16, 32, 64, 128), "full": (8, 16, 32, 64, 128, 256)}
 SPHERE_CELLS = {"quick": (4, 8, 16), "default": (4, 8, 16, 32, 64), "full": (4, 8, 16, 32, 64, 128)}
@@ -56,9 +59,11 @@ def family(solve, cells: tuple[int, ...], size: str, at: int, allowed: dict[str,
     errors = np.array(
         [np.sqrt(np.mean([np.square(solve(n, place / PLACES)) for place in range(PLACES)], axis=0)) for n in cells]
     )
-    sizes, series = 1 / np.array(cells), []
+    sizes = 1 / np.array(cells)
+    series = []
     for (quantity, (most, order)), column in zip(allowed.items(), errors.T, strict=True):
-        limit, note = most * (at / cells[-1]) ** order, f"{cells[-1]} {size}"
+        limit = most * (at / cells[-1]) ** order
+        note = f"{cells[-1]} {size}"
         yield bound(f"{name}: {quantity}, relative error", column[-1], limit, source, note)
         check = f"{name}: {quantity}, order"
         series.append(Series(quantity, sizes, column, order, check, 0.3, REASONS[order], AT_LEAST))
@@ -90,14 +95,16 @@ def cylinder(cells: int, place: float) -> tuple[float, ...]:
 def sphere(cells: int, place: float) -> tuple[float, ...]:
     """Errors with ``cells + place`` cells in the contact radius, on a square of four radii."""
     across = cells + place
-    exact, dx = Sphere(E_PRIME, RADIUS, SIZE), SIZE / across
+    exact = Sphere(E_PRIME, RADIUS, SIZE)
+    dx = SIZE / across
     n = 2 * int(2 * across)
     x = centred(n, dx)
     square = x[:, None] ** 2 + x**2
     options = {"boundary": ("free", "free"), "tolerance": TOLERANCE}
     mean = exact.load / (n * dx) ** 2
     c = lubfric.solve_contact(square / (2 * RADIUS), dx, E_PRIME, mean_pressure=mean, **options)
-    p, near = c.pressure, square < (2 * SIZE) ** 2
+    p = c.pressure
+    near = square < (2 * SIZE) ** 2
     fine = centred(8 * n, dx / 8)
     gap = exact.gap(np.hypot(fine[:, None], fine)).reshape(n, 8, n, 8).mean(axis=(1, 3))[near].mean()
     return (
@@ -117,7 +124,8 @@ def wave(cells: int, place: float) -> tuple[float, ...]:
     gap0 = np.tile(-exact.amplitude * np.cos(2 * np.pi * x / exact.length)[:, None], (1, 4))
     options = {"mean_pressure": exact.mean_pressure, "tolerance": TOLERANCE}
     c = lubfric.solve_contact(gap0, exact.length / n, E_PRIME, **options)
-    p, true = c.pressure[:, 0], exact.pressure(x)
+    p = c.pressure[:, 0]
+    true = exact.pressure(x)
     return (
         p.max() / exact.pressure(0) - 1,
         c.contact_area_fraction / exact.contact - 1,
@@ -132,7 +140,9 @@ def row_of_spheres(cells: int):
     The others press it down by ``(2/(pi E')) F sum 2/(n s)``, which is a constant and a curvature. The curvature widens
     the contact by less than 1e-4 at this distance.
     """
-    exact, dx, (nx, ny) = Sphere(E_PRIME, RADIUS, SIZE), SIZE / cells, (4 * cells, 24 * cells)
+    exact = Sphere(E_PRIME, RADIUS, SIZE)
+    dx = SIZE / cells
+    (nx, ny) = (4 * cells, 24 * cells)
     square = centred(nx, dx)[:, None] ** 2 + centred(ny, dx) ** 2
     options = {"boundary": ("free", "periodic"), "tolerance": 1e-6}
     mean = exact.load / (nx * ny * dx**2)

@@ -15,7 +15,10 @@ from ..fem.layer_waves import fourier_compliance
 
 E_PRIME = 231e9
 BODY = Elastic.from_e_prime(E_PRIME, 0.3)
-BOX, SQ, MEAN_PRESSURE, CAP = 50e-6, 100e-9, 300e6, 1.5e9
+BOX = 50e-6
+SQ = 100e-9
+MEAN_PRESSURE = 300e6
+CAP = 1.5e9
 THICKNESS = 1.25  # of the box
 DRY = "lubfric.solve_contact"
 NODES = {"quick": (32, 64), "default": (32, 64, 128), "full": (32, 64, 128, 256)}
@@ -39,7 +42,8 @@ def contact_rough(level: str):
 def roughness(x, y, seed: int = 2, waves: int = 4, slope: float = -1.8):
     """Heights [m] of rms SQ: waves of random phase, 1 to ``waves`` in the box, of amplitude |n|^slope."""
     phases = np.random.default_rng(seed).uniform(0, 2 * np.pi, (waves + 1, 2 * waves + 1))
-    total, power = np.zeros(np.broadcast_shapes(x.shape, y.shape)), 0.0
+    total = np.zeros(np.broadcast_shapes(x.shape, y.shape))
+    power = 0.0
     for i in range(waves + 1):
         for j in range(-waves, waves + 1):
             n = np.hypot(i, j)
@@ -151,15 +155,18 @@ def patch_difference(p: Patch, best: Patch) -> float:
 
 def patch_checks(name: str, patches, best: Patch, off):
     """Area, mean gap and pressure beside `lubfric`."""
-    finest, nodes = patches[-1], patches[-1].gap.shape[0]
-    label, other = f"rough patch, {name}, {nodes}²", f"{DRY}, {best.gap.shape[0]}²"
+    finest = patches[-1]
+    nodes = patches[-1].gap.shape[0]
+    label = f"rough patch, {name}, {nodes}²"
+    other = f"{DRY}, {best.gap.shape[0]}²"
     rows = [
         ("contact area", "1", finest.area, best.area, 0.02),
         ("mean gap", "m", finest.mean_gap, best.mean_gap, 5e-3),
         ("area at the cap", "1", finest.plastic_area, best.plastic_area, 4 / nodes),
     ]
     yield from compared(label, rows if np.isfinite(finest.limit) else rows[:2], other)
-    sizes, source = [1 / p.gap.shape[0] for p in patches], "edges like a square root, at places the grid does not know"
+    sizes = [1 / p.gap.shape[0] for p in patches]
+    source = "edges like a square root, at places the grid does not know"
     yield Series("", sizes, off, 1, f"{label}: order of the pressure difference", 0.4, source, AT_LEAST).judged()
     yield bound(f"{label}: pressure difference", off[-1], 2 / nodes, other, "L2")
 
@@ -174,7 +181,8 @@ def thickness(level: str):
         levels = -np.append(reach[reach <= 1.001 * depth * BOX][::-1], 0)
         return press_patch(Layer3D(BODY, (BOX, BOX), levels, (nodes, nodes), 2)).mean_gap
 
-    gaps, thick = np.array([gap(d) for d in depths]), gap(reach[-1] / BOX)
+    gaps = np.array([gap(d) for d in depths])
+    thick = gap(reach[-1] / BOX)
     off = np.abs(gaps / thick - 1)
     stiff = np.array([missing(2 * np.pi * d, BODY.poisson) for d in depths])
     caption = f"Mean gap of the rough patch on layers, {nodes}² nodes, over that on {reach[-1] / BOX:.3g} boxes"
@@ -197,7 +205,8 @@ def certified(level: str):
     solved = solve(multigrid(grid), force, tolerance=1e-9)
     misfit = solved.surface - roughness(*grid.x)
     gap = misfit - np.average(misfit, weights=force)
-    scale, note = np.ptp(solved.surface), f"{grid.unknowns} unknowns, {solved.report.iterations} iterations"
+    scale = np.ptp(solved.surface)
+    note = f"{grid.unknowns} unknowns, {solved.report.iterations} iterations"
     source = "conjugate gradients with smoothed aggregation on the assembled layer"
     yield bound(f"rough patch, {nodes}², multigrid: penetration", -gap.min() / scale, 1e-7, source, note)
     opening = np.average(np.abs(gap), weights=force) / scale

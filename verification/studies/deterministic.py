@@ -19,8 +19,12 @@ from ..waves import smooth_film
 from .given_fluid import contact_given_fluid
 from .waviness import waviness
 
-RADIUS, E_PRIME, VISCOSITY, ALPHA = 2e-3, 231e9, 0.36, 25e-9
-LOAD, WIDTH = 917.0, 90e-6
+RADIUS = 2e-3
+E_PRIME = 231e9
+VISCOSITY = 0.36
+ALPHA = 25e-9
+LOAD = 917.0
+WIDTH = 90e-6
 SPOT = 1e8  # Pa: from there on the pressure is prescribed to the finite elements
 CASES = {  # cells over 90 µm and speeds [m/s]
     "quick": ((112, (0.1,)),),
@@ -76,7 +80,8 @@ def smooth():
     for speed, load in ((0.3, LOAD), (0.1, 20 * LOAD)):
         case: dict[str, Any] = {"load_per_width": load, "entrainment_speed": speed, "density_law": "dowson-higginson"}
         case |= {"radius": RADIUS, "e_prime": E_PRIME, "viscosity": VISCOSITY, "pressure_viscosity_coefficient": ALPHA}
-        found, film = smooth_film(line_contact(case), 2 * speed), lubfric.solve_ehl(**case, tolerance=1e-4)
+        found = smooth_film(line_contact(case), 2 * speed)
+        film = lubfric.solve_ehl(**case, tolerance=1e-4)
         rows = [
             ("smallest film", "m", found.min_gap, film.min_film, 1e-3),
             ("flow film", "m", found.flow_film, film.flow_film, 1e-3),
@@ -87,7 +92,8 @@ def smooth():
 def dry():
     """At 2 µm/s the fluid carries nothing, and the dry contact is left."""
     case = problem(64, 2e-6)
-    found, exact = solve_point(case).pressure, dry_contact(case, tolerance=1e-8).pressure
+    found = solve_point(case).pressure
+    exact = dry_contact(case, tolerance=1e-8).pressure
     difference = np.sqrt(np.mean((found - exact) ** 2) / np.mean(exact**2))
     yield Check("dry limit: rms of the pressure", difference, 0.0, 0.01, "solve_contact", ABSOLUTE, grade="B")
 
@@ -102,7 +108,8 @@ def same_gap(cells: int, speed: float):
     given = GivenGap(found.x, case.spacing[1], gap, pressure, spots, RADIUS, case.edge_log)
     judge = rough_film(given, Fluid(VISCOSITY, "roelands", ALPHA), speed, cells=cells)
     half = pressure.shape[1] // 2
-    free, cell = ~spots[:, :half], case.spacing[0] / half
+    free = ~spots[:, :half]
+    cell = case.spacing[0] / half
     load = pressure[:, :half][free].sum() * cell + found.inlet_load
     by_elements = judge.pressure[free].sum() * cell + judge.upstream
     rows = [

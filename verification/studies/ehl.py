@@ -18,7 +18,8 @@ from ..meshes import mesh_field
 from ..parts import case_of
 from ..published.friction import force
 
-CONSTANT, COMPRESSIBLE = "constant", "dowson-higginson"
+CONSTANT = "constant"
+COMPRESSIBLE = "dowson-higginson"
 POINTS = (
     *((M, 5, CONSTANT) for M in (0.05, 0.5, 2, 5, 20, 100)),
     *((M, 10, CONSTANT) for M in (10, 50, 70)),
@@ -127,7 +128,8 @@ def solved(point: tuple[float, float, str], refinements: int) -> Pair:
 
 def point_checks(pair: Pair, level: str):
     """Flow film and smallest film against `lubfric` and the table."""
-    s, k = pair.finest, pair.finest.contact.moes_film
+    s = pair.finest
+    k = pair.finest.contact.moes_film
     allowed = 1e-2 if level == "quick" else 5e-3
     note = f"p_h = {s.contact.hertz_pressure / 1e9:.3f} GPa, {s.body.stiffness.shape[0]} degrees of freedom"
     rows = [
@@ -149,7 +151,8 @@ def summary(pairs: list[Pair]) -> Table:
     """The table of every contact on every mesh."""
     rows: list[tuple] = []
     for pair in pairs:
-        k, line = pair.finest.contact.moes_film, pair.line
+        k = pair.finest.contact.moes_film
+        line = pair.line
         for s in pair.solutions:
             mesh = (round(s.contact.hertz_pressure / 1e9, 3), s.body.stiffness.shape[0], s.body.line.N)
             off = [f"{100 * d:+.4f} %" for d in pair.differences(s)]
@@ -167,7 +170,8 @@ def summary(pairs: list[Pair]) -> Table:
 
 def body_field(pair: Pair) -> Field:
     """Displacement and stress of the body."""
-    s, c = pair.finest, pair.finest.contact
+    s = pair.finest
+    c = pair.finest.contact
     stress = s.body.stress(s.displacement) * c.hertz_pressure
     moved = s.body.everywhere(s.displacement)[s.body.basis.nodal_dofs].T * c.film_unit
     data = dict(zip(("stress_xx", "stress_zz", "stress_xz"), stress, strict=True), von_mises=von_mises(stress, POISSON))
@@ -207,7 +211,8 @@ def ringing():
         s = solve_ehl(contact, refinements=0, fineness=1.0, penalty=penalty)[0]
         order = np.argsort(s.body.x)
         variation[label] = np.abs(np.diff(s.P[order])).sum() / 2
-    name, source = "half the total variation of pressure", "1 for one hump of height p_h, spike on top"
+    name = "half the total variation of pressure"
+    source = "1 for one hump of height p_h, spike on top"
     note = "rings, as it must where nothing is added"
     yield Check(f"{name}, Galerkin", variation["Galerkin"], 2.0, 0.0, source, AT_LEAST, note=note)
     yield bound(f"{name}, slope penalty", variation["slope penalty"], 1.6, source, "does not ring")

@@ -62,7 +62,10 @@ def rigid(level: str):
     What is left on fine grids is the finite inlet, which is estimated apart. So the order is that of the changes from
     grid to grid.
     """
-    cells, errors, estimates, films = np.array(CELLS[level]), [], [], []
+    cells = np.array(CELLS[level])
+    errors = []
+    estimates = []
+    films = []
     for n in cells:
         f = film(RIGID_LOAD, 5.0, law="constant", tolerance=0.1, least_cells=int(n))
         scale = RIGID_LOAD / unit(f)
@@ -81,10 +84,12 @@ def rigid(level: str):
 
 def elastic(level: str):
     """Elastic, piezoviscous films against the solution on a grid of its own at the finest tolerance."""
-    series, rows = [], []
+    series = []
+    rows = []
     for M, L in ((20, 5),) if level == "quick" else ((0.5, 5), (20, 5), (50, 10)):
         finest = film(M, L, tolerance=1e-5)
-        cells, errors = [], []
+        cells = []
+        errors = []
         for tolerance in TOLERANCES[level]:
             f = film(M, L, tolerance=tolerance)
             if f.state.pressure.size >= finest.state.pressure.size or f.state.pressure.size in cells:
@@ -103,7 +108,8 @@ def elastic(level: str):
 
 def starved():
     """A starved inlet at light load: the load of the closed form with the same inlet."""
-    losses, inlets = [], np.array([1.5, 3.0, 6.0, 12.0, 24.0])
+    losses = []
+    inlets = np.array([1.5, 3.0, 6.0, 12.0, 24.0])
     flooded = film(RIGID_LOAD, 5.0, law="constant", tolerance=1e-4)
     for inlet in inlets:
         begins = inlet * math.sqrt(2 * RADIUS * flooded.min_film)
@@ -114,7 +120,8 @@ def starved():
         source = "closed form with the same inlet, Martin 1916"
         yield from compared(f"starved inlet at {inlet:g} √(2 R h)", rows, source)
         losses.append(1 - f.flow_film / flooded.flow_film)
-    name, source = "starved inlet: order of the loss of film", "pressure falls like |x|^-3, its integral like |x|^-2"
+    name = "starved inlet: order of the loss of film"
+    source = "pressure falls like |x|^-3, its integral like |x|^-2"
     series = [Series("flow film", 1 / inlets, losses, 2.0, name, 0.2, source, finest=3)]
     caption = "Loss of film by an inlet that is not flooded, rigid cylinder. lubfric's flooded inlet follows the "
     caption += "parabolic gap to infinity."

@@ -13,10 +13,15 @@ from lubfric.paper import alternating, single_loop
 from ..charts.measure import interleaved
 from ..check import AT_MOST, Check, Table
 
-E_PRIME, RADIUS, SPACING, SQ = 231e9, 2e-3, 1e-6, 1e-7
+E_PRIME = 231e9
+RADIUS = 2e-3
+SPACING = 1e-6
+SQ = 1e-7
 BOUNDARIES = {"flat": ("periodic", "periodic"), "cylinder": ("free", "periodic"), "ball": ("free", "free")}
 COUNTS = {"quick": 64, "default": 128, "full": 256}
-HARDNESS, TOLERANCE, AGREEMENT = 2e9, 1e-6, 1e-4
+HARDNESS = 2e9
+TOLERANCE = 1e-6
+AGREEMENT = 1e-4
 PAPER = "Akchurin et al. 2015, Appendix 2 and Sec. 2.2, doi:10.1007/s11249-015-0536-z"
 METHODS: dict[str, Callable] = {
     "single loop": single_loop,
@@ -41,7 +46,8 @@ class Case:
         film, area, pressure = body(shape, x, count * SPACING / 6)
         operator = half_space(z.shape, SPACING, E_PRIME, BOUNDARIES[shape])
         self.load = {"hardness": hardness, "boundary": BOUNDARIES[shape], "operator": operator}
-        self.shape, self.pressure = film - z, pressure
+        self.shape = film - z
+        self.pressure = pressure
         self.direct = self.by_load()
         volume = np.sum(area * np.maximum(self.direct.gap, 0)) / area.sum()
         self.given = (z, film + volume - np.sum(area * film) / area.sum(), SPACING, E_PRIME)
@@ -73,7 +79,8 @@ def formulations(level: str):
     residuals of the returned pressure. The printed algorithm and the test of Eq. (23) are tabulated with what they
     reach: "converged" is said only of residuals computed from the returned pressure.
     """
-    rows, repeats = [], 1 if level == "quick" else 3
+    rows = []
+    repeats = 1 if level == "quick" else 3
     for case in (Case(shape, hardness, COUNTS[level]) for shape in BOUNDARIES for hardness in (None, HARDNESS)):
         calls = {DIRECT: case.by_load}
         calls |= {name: partial(method, *case.given, **case.options) for name, method in METHODS.items()}
@@ -83,7 +90,8 @@ def formulations(level: str):
             off = float(np.linalg.norm(found.pressure - direct.pressure) / np.linalg.norm(direct.pressure))
             rows.append(row(case, name, found, off, seconds))
             if name in MUST_AGREE:
-                source, note = "load-controlled contact solve", found.report.message
+                source = "load-controlled contact solve"
+                note = found.report.message
                 about = {"note": note, "seconds": seconds}
                 yield Check(f"{name}: {case.name}", off, 0.0, AGREEMENT, source, AT_MOST, **about)
     caption = f"Contact formulations, {COUNTS[level]} x {COUNTS[level]} cells, cold start, tolerance 1e-6. {PAPER}"

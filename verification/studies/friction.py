@@ -126,7 +126,8 @@ def contact_cells(finest: int):
 
 def tolerance_of_the_job():
     """Error of f against the tolerance asked, when `lubfric` chooses grids and inner tolerances by it."""
-    heights, spacing = surface((256, 256), PATCH / 256), PATCH / 256
+    heights = surface((256, 256), PATCH / 256)
+    spacing = PATCH / 256
     reference = [lubfric.friction(model(heights, spacing), speed).coefficient for speed in SPEEDS]
     free: dict[str, Any] = dict.fromkeys(("film_tolerance", "balance_tolerance", "contact_tolerance"))
     free["grid"] = "auto"
@@ -140,7 +141,8 @@ def tolerance_of_the_job():
 
 def area_of_the_balance():
     """Strip or box: F_H at the paper's speed against the width of the patch. One surface is cut to all widths."""
-    spacing, cells = 0.9375e-6, 192
+    spacing = 0.9375e-6
+    cells = 192
     heights = surface((cells, cells), spacing)[:, :96]
     heights = lubfric.Surface(heights, (spacing, spacing)).periodic(axes=(False, True)).heights
 
@@ -155,7 +157,8 @@ def area_of_the_balance():
     yield bound(f"area A = strip: {name}", float(np.ptp(strip) / strip[-1]), 1e-6, source)
     yield Check(f"area A = box: {name}", float(np.ptp(box) / box[-1]), 0.02, 0.0, source, AT_LEAST)
     widths = np.array(WIDTHS) * 1e6
-    columns, rows = ("width (µm)", "strip |x| <= b", "whole box"), zip(widths.tolist(), strip.tolist(), box.tolist())
+    columns = ("width (µm)", "strip |x| <= b", "whole box")
+    rows = zip(widths.tolist(), strip.tolist(), box.tolist())
     yield Table("area", "F_H in N at 0.001 m/s.", columns, tuple(rows))
     caption = "Film load at 0.001 m/s against the width of the patch, for the two readings of the area A in Eq. (8): "
     caption += "over the Hertz strip it does not depend on how wide a box was drawn."
@@ -170,13 +173,15 @@ def area_of_the_balance():
 
 def patch_size():
     """Mean and scatter of f over realisations against the length of the patch along the line."""
-    spacing, lengths = 0.9375e-6, (45e-6, 90e-6, 180e-6, 360e-6)
+    spacing = 0.9375e-6
+    lengths = (45e-6, 90e-6, 180e-6, 360e-6)
     found = []
     for seed in range(12):
         heights = surface((384, 384), spacing, seed)[:96]
         cut = [model(heights[:, : round(length / spacing)], spacing) for length in lengths]
         found.append([lubfric.friction(made, 0.01).coefficient for made in cut])
-    mean, scatter = np.mean(found, axis=0), np.std(found, axis=0, ddof=1)
+    mean = np.mean(found, axis=0)
+    scatter = np.std(found, axis=0, ddof=1)
     name = "patch along the line: scatter of f at 360 µm over that at 45 µm"
     source = "independent stretches average out, one over the root of their number; 12 surfaces"
     yield Check(name, scatter[-1] / scatter[0], 8**-0.5, 0.45, source, AT_MOST)

@@ -23,7 +23,9 @@ from ..fem.harmonic import Compliance, Strip, compliance, press
 from .load_sharing import cell_mean
 
 SOURCE = "finite-element contact given the fluid"
-WIDTH, FINE = 90e-6, 256  # m, and cells along it on which the surface is made
+# m, and cells along it on which the surface is made
+WIDTH = 90e-6
+FINE = 256
 LENGTH = 5e-6  # m, of its correlation
 MORE = 1.02  # times the load, for the slope of the gap
 
@@ -46,13 +48,17 @@ class Case:
         return f"{self.cells} x {self.across} cells, {self.speed:g} m/s, floor {1e9 * self.floor:g} nm{plastic}"
 
 
-TOUCHING, DENTED = Case(64, 64, 0.01, 20e-9, 2.5e9, 2), Case(64, 64, 3e-4, 1e-9, 4e9, 2)
+TOUCHING = Case(64, 64, 0.01, 20e-9, 2.5e9, 2)
+DENTED = Case(64, 64, 3e-4, 1e-9, 4e9, 2)
 CASES = {
     "quick": (),
     "default": (TOUCHING, DENTED),
     "full": (TOUCHING, replace(TOUCHING, hardness=None), DENTED, Case(64, 64, 1e-4, 1e-9, None, 2)),
 }
-RMS, LOAD, GAP = 5e-3, 5e-3, 5e-4  # of the pressure, the load at the same gap, the gap; twice as long elements: 3 times
+# of the pressure, the load at the same gap, the gap; twice as long elements: 3 times
+RMS = 5e-3
+LOAD = 5e-3
+GAP = 5e-4
 MISPLACED = 0.1  # share of touching cells
 
 
@@ -69,9 +75,11 @@ def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Check]:
 
 def laid(case: Case, contact: LineContact) -> Problem:
     """The paper's roughness under ``contact`` at the case's speed, on an even number of cells along x."""
-    shape, rough = (FINE, FINE * case.across // case.cells), {"sq": 100e-9, "acf": "gaussian", "seed": 1}
+    shape = (FINE, FINE * case.across // case.cells)
+    rough = {"sq": 100e-9, "acf": "gaussian", "seed": 1}
     fine = lubfric.generate_surface(shape, WIDTH / FINE, correlation_length=LENGTH, **rough)
-    surface, line = fine.resampled(shape=(case.cells, case.across)), replace(contact, entrainment_speed=case.speed)
+    surface = fine.resampled(shape=(case.cells, case.across))
+    line = replace(contact, entrainment_speed=case.speed)
     upstream, downstream = reach(line, surface.sq)
 
     def over(ends) -> Problem:

@@ -54,11 +54,14 @@ def plane_wave(cells: int, degree: int, depth: float = 0.5, body: Elastic = BODY
 
 def plane_orders(level: str):
     """Plane strain: orders of P1 and P2 on one wave."""
-    exact, series, source = layer_compliance(K, WAVE / 2, BODY), [], "element theory, energy of a smooth load"
+    exact = layer_compliance(K, WAVE / 2, BODY)
+    series = []
+    source = "element theory, energy of a smooth load"
     for degree, cells in ((1, 2 * np.array(CELLS[level])), (2, np.array(CELLS[level]))):
         found = [plane_wave(n, degree) for n in cells]
         energy = np.abs([f[0] / exact - 1 for f in found])
-        name, order = f"plane layer P{degree}", 2 * degree
+        name = f"plane layer P{degree}"
+        order = 2 * degree
         check = f"{name}: order of the compliance"
         series.append(Series(f"P{degree}", WAVE / cells, energy, order, check, 0.2, source, finest=2))
         if degree == 2:  # for P1 the two coincide
@@ -72,12 +75,14 @@ def plane_orders(level: str):
 
 def plane_finite(level: str):
     """Plane strain at several depths and Poisson's ratios."""
-    rows, cells = [], 24 if level == "quick" else 48
+    rows = []
+    cells = 24 if level == "quick" else 48
     for poisson in (0.0, 0.3, 0.45):
         body = Elastic.from_e_prime(BODY.e_prime, poisson)
         for s in (0.3, 1.0, 3.0) if level == "quick" else (0.3, 1.0, 3.0, 6.0):
             depth = s / (2 * np.pi)
-            found, exact = plane_wave(cells, 2, depth, body)[0], layer_compliance(K, depth * WAVE, body)
+            found = plane_wave(cells, 2, depth, body)[0]
+            exact = layer_compliance(K, depth * WAVE, body)
             rows.append((poisson, s, found, float(exact), abs(found / exact - 1)))
     columns = ("Poisson's ratio", "kd", "finite elements (m/Pa)", "exact (m/Pa)", "relative error")
     yield Table("layer_finite", f"Compliance of a bonded layer, P2, {cells} cells per wavelength", columns, rows)
@@ -96,7 +101,9 @@ def brick(nodes: int, degree: int, depth: float = 1.0, layers: int | None = None
 
 def brick_orders(level: str):
     """Three dimensions: orders of trilinear and triquadratic bricks on a wave askew to the grid."""
-    exact, series, source = layer_compliance(K * np.sqrt(5), WAVE, BODY), [], "element theory, energy of a smooth load"
+    exact = layer_compliance(K * np.sqrt(5), WAVE, BODY)
+    series = []
+    source = "element theory, energy of a smooth load"
     for degree in (1, 2):
         nodes = 2 * np.array(CELLS[level] if degree == 1 or level == "full" else CELLS[level][:-1])
         errors = []
@@ -117,7 +124,8 @@ def brick_orders(level: str):
 
 def assembled(level: str):
     """The assembled layer by multigrid against the same layer wave by wave, and what the rigid-body modes are worth."""
-    n, rows = MULTIGRID[level], []
+    n = MULTIGRID[level]
+    rows = []
     for degree in (1, 2):
         grid = brick(n, degree, layers=n // (4 * degree))
         force = np.random.default_rng(7).standard_normal(grid.shape) * grid.weights
@@ -129,7 +137,8 @@ def assembled(level: str):
             off = float(np.abs(solved.surface - waves).max() / np.abs(waves).max())
             rows.append((f"Q{degree}", grid.unknowns, name, solved.report.iterations, solved.report.residual, off))
         best = next(r for r in rows if r[0] == f"Q{degree}")
-        name, source = f"Q{degree}, {n}² nodes: multigrid against wave by wave", "the same layer, another elimination"
+        name = f"Q{degree}, {n}² nodes: multigrid against wave by wave"
+        source = "the same layer, another elimination"
         yield bound(name, best[-1], 1e-7, source, f"{best[1]} unknowns, {best[3]} iterations to 1e-9")
     name = "Q1: iterations with rigid-body modes over those with translations alone"
     yield bound(name, rows[0][3] / rows[1][3], 0.9, "smoothed aggregation needs the near-null space")
@@ -140,7 +149,8 @@ def assembled(level: str):
 
 def approach(level: str):
     """How a wave on the layer nears the same wave on the half-space."""
-    depths, nu = np.arange(0.5, 5.1 if level == "quick" else 7.1, 0.5), BODY.poisson
+    depths = np.arange(0.5, 5.1 if level == "quick" else 7.1, 0.5)
+    nu = BODY.poisson
     cells = {"quick": 32, "default": 48, "full": 64}[level]
 
     def lacks(cells_deep: float) -> float:
@@ -154,7 +164,8 @@ def approach(level: str):
     exponent = np.polyfit(depths[far], np.log(np.abs(found[far]) / polynomial[far]), 1)[0]
     source = "expansion of the exact compliance, q(kd) exp(-2 kd)"
     yield Check("wave on a thick layer: exponent of the approach to the half-space", exponent, -2, 0.02, source)
-    worst, allowed = np.max(np.abs(found - exact)), {"quick": 5e-5, "default": 1e-5, "full": 3e-6}[level]
+    worst = np.max(np.abs(found - exact))
+    allowed = {"quick": 5e-5, "default": 1e-5, "full": 3e-6}[level]
     note = "1 - C/C(half-space), absolute"
     yield bound("wave on a layer: worst departure of the missing compliance", worst, allowed, SOURCE, note)
 
@@ -165,7 +176,8 @@ def bending(found: Layer) -> float:
     The pressure is ``p0 (1 - X^2)^1.5`` with X = x/b. A half-space sinks under it by ``(p0 b/E')(X^4 - 3 X^2)`` and a
     constant (from ``PV integral sqrt(1 - s^2) U_n(s)/(x - s) ds = pi T_(n+1)(x)``). The rest is fitted.
     """
-    big, b = found.x / HALF_WIDTH, HALF_WIDTH
+    big = found.x / HALF_WIDTH
+    b = HALF_WIDTH
     force = np.maximum(1 - big**2, 0) ** 1.5 * found.weights
     extra = found.displacement(force) - b / BODY.e_prime * (big**4 - 3 * big**2)
     inside = np.abs(big) < 1
@@ -177,18 +189,21 @@ def narrow(level: str):
     """The shape of the surface under a narrow load, with periodic and with free sides: 1/d² and its coefficient."""
     b = HALF_WIDTH
     depths = b * np.array([5, 10, 20] if level == "quick" else [5, 10, 20, 40])
-    deepest, fine = 2 * depths[-1], b / 20
+    deepest = 2 * depths[-1]
+    fine = b / 20
 
     def at(depth: float, sides: str = "periodic") -> float:
         mesh = graded_mesh(8 * depth, depth, 1.5 * b, fine)
         return bending(make_layer(mesh, BODY, strip=1.5 * b, sides=sides))
 
     # depths are powers of two apart, the meshes near the load alike: their error drops out of differences
-    base, number = at(deepest), curvature_number(BODY.poisson)
+    base = at(deepest)
+    number = curvature_number(BODY.poisson)
     found = np.array([at(d) - base for d in depths])
     inverse = b**2 * (depths**-2.0 - deepest**-2.0)
     source = "expansion of the exact compliance for a load narrow against d"
-    check, note = "narrow load: order in 1/d of the extra curvature", f"differences to a layer of {deepest / b:g} b"
+    check = "narrow load: order in 1/d of the extra curvature"
+    note = f"differences to a layer of {deepest / b:g} b"
     yield Series("", np.sqrt(inverse), found, 2, check, 0.05, source, note=note, finest=3).judged()
     name = f"narrow load: extra curvature from d = {deepest / b:g} b to {depths[-1] / b:g} b"
     source = f"J b²/d², J = {number:.4f} by quadrature"

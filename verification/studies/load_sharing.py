@@ -31,7 +31,9 @@ TIGHT = {  # the model of the finite elements: no more and no less
     "grid": "given",
     "accept": True,
 }
-STEP, POINTS = 0.1, 200  # of the trapezoidal rule in `twice_integrated`: its error is below 1e-15
+# of the trapezoidal rule in `twice_integrated`: its error is below 1e-15
+STEP = 0.1
+POINTS = 200
 SOURCE = "film and contact by finite elements, own root finder"
 
 
@@ -61,7 +63,8 @@ def load_sharing(level: str):
     points: list[Point] = []
     for cells in grids:
         heights = rough(grids[-1], cells)
-        body, coarser = strip(cells, fineness), {p.speed: p.fem.split for p in points}
+        body = strip(cells, fineness)
+        coarser = {p.speed: p.fem.split for p in points}
         points += [both(speed, heights, body, refinements, coarser.get(speed)) for speed in speeds]
     finest = points[-len(speeds) :]
     for p in finest:
@@ -100,7 +103,8 @@ def elastic() -> Elastic:
 
 def rough(finest: int, cells: int) -> np.ndarray:
     """One surface of ``finest`` squared cells, averaged in blocks."""
-    asked, block = scene().surface, finest // cells
+    asked = scene().surface
+    block = finest // cells
     made = {"sq": asked.sq, "acf": asked.acf, "correlation_length": CORRELATION, "seed": asked.seed}
     surface = lubfric.generate_surface((finest, finest), LENGTH / finest, **made)
     return surface.heights.reshape(cells, block, cells, block).mean(axis=(1, 3))
@@ -115,7 +119,8 @@ def strip(cells: int, fineness: int, across: float | None = None) -> Compliance:
 def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int, known: float | None) -> Point:
     """One speed by both methods. The finite-element root starts from no knowledge of the other's, but from the split
     that was ``known`` on coarser cells."""
-    s, cell = scene(), LENGTH / heights.shape[0]
+    s = scene()
+    cell = LENGTH / heights.shape[0]
     bodies = cylinder(s, speed, body, heights)
     guess, step = (0.0, 1.0) if known is None else (known, 0.05)
     found = share_load(bodies, refinements=min(refinements, 1), guess=guess, step=step)
@@ -127,7 +132,8 @@ def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int, 
 
 def cylinder(s: lubfric.Scene, speed: float, body: Compliance, heights: np.ndarray) -> Bodies:
     """The scene for the finite elements, which get nothing of it but its numbers."""
-    b, sliding = s.bodies, s.motion.slide_roll_ratio * speed
+    b = s.bodies
+    sliding = s.motion.slide_roll_ratio * speed
     hardness = b.hardness or math.inf
     return Bodies(whole(s, speed), b.width, body, heights, hardness, b.boundary_friction_coefficient, sliding)
 
@@ -151,7 +157,8 @@ def cell_mean(operator: HalfSpace) -> HalfSpace:
     where k = 0. Integrated over one cell and averaged over another, that is a second difference of its second
     antiderivative. u of a line load along y is 0 at the length of the patch, which is the level that lubfric takes.
     """
-    (nx, ny), (dx, dy) = operator.shape, operator.spacing
+    (nx, ny) = operator.shape
+    (dx, dy) = operator.spacing
     k = 2 * np.pi * np.arange(1, ny // 2 + 1) / (ny * dy)
     away = np.arange(nx + 1) * dx
     waves = twice_integrated(away[:, None] * k) / k**2
@@ -162,7 +169,8 @@ def cell_mean(operator: HalfSpace) -> HalfSpace:
     kernel = 4 / (np.pi * operator.e_prime) * (folded[1:] - 2 * folded[:-1] + below) / dx
     kernel[0, 1:] += 4 / (np.pi * operator.e_prime) * np.pi / k  # the kink at 0 of the part that decays
     mirrored = np.zeros((operator.padded[0], kernel.shape[1]))
-    mirrored[:nx], mirrored[-nx + 1 :] = kernel, kernel[:0:-1]
+    mirrored[:nx] = kernel
+    mirrored[-nx + 1 :] = kernel[:0:-1]
     return replace(operator, symbol=np.ascontiguousarray(np.fft.rfft(mirrored, axis=0).real))
 
 
@@ -188,9 +196,11 @@ def side_by_side(points: list[Point]) -> Table:
     """Every number of both programs."""
     rows = []
     for p in points:
-        f, m = p.fem, p.main
+        f = p.fem
+        m = p.main
         own = (f.coefficient, f.contact_load, f.film_load, f.mean_gap * 1e9, f.area, f.couette, f.rolling)
-        loads, forces = (m.coefficient, m.contact_load, m.film_load), (m.couette_force, m.rolling_force)
+        loads = (m.coefficient, m.contact_load, m.film_load)
+        forces = (m.couette_force, m.rolling_force)
         rows.append((p.speed, p.cells, "finite elements", *own))
         rows.append((p.speed, p.cells, "lubfric", *loads, m.mean_gap * 1e9, m.real_contact_area_fraction, *forces))
     caption = "Load sharing side by side; the area is the share of the Hertz strip in contact."
@@ -199,7 +209,9 @@ def side_by_side(points: list[Point]) -> Table:
 
 def approach(points: list[Point], grids: tuple[int, ...]):
     """Differences against cell size, with their orders."""
-    sizes, series = [1e6 * LENGTH / n for n in grids], []  # µm
+    # µm
+    sizes = [1e6 * LENGTH / n for n in grids]
+    series = []
     for label, name in (("coefficient", "coefficient"), ("F_H", "film_load"), ("mean gap", "mean_gap")):
         errors = [max(p.difference(name) for p in points if p.cells == n) for n in grids]
         series.append(Series(label, sizes, errors))
@@ -217,7 +229,8 @@ def pressure_field(p: Point) -> Field:
     x, y = np.meshgrid(edges, edges, indexing="ij")
     corner = np.arange((p.cells + 1) ** 2).reshape(p.cells + 1, -1)
     quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
-    contact, pressed = parts.contact_fields(p.main), parts.the(p.fem.pressed, "dry contact")
+    contact = parts.contact_fields(p.main)
+    pressed = parts.the(p.fem.pressed, "dry contact")
     values = {"pressure": pressed.pressure, "pressure_lubfric": contact.pressure}
     values |= {"gap": pressed.gap, "gap_lubfric": contact.gap}
     caption = f"Contact pressure (Pa) and gap (m) at {p.speed:g} m/s by finite elements and lubfric"
@@ -228,7 +241,8 @@ def pressure_field(p: Point) -> Field:
 def pressure_figure(p: Point):
     """Contact pressure of both and the film's pressure of both."""
     canvas, (left, middle, right) = plotting.axes(1, 3, width=9.6, height=3.4)
-    half, contact = LENGTH / 2 * 1e6, parts.contact_fields(p.main)
+    half = LENGTH / 2 * 1e6
+    contact = parts.contact_fields(p.main)
     own = parts.the(p.fem.pressed, "dry contact").pressure
     shown = {"origin": "lower", "extent": (-half, half, -half, half), "cmap": "magma_r", "vmin": 0}
     for ax, pressure, title in ((left, own, "finite elements"), (middle, contact.pressure, "lubfric")):
@@ -237,7 +251,8 @@ def pressure_figure(p: Point):
         ax.grid(False)
     left.set_ylabel("y (µm)")
     canvas.colorbar(image, ax=(left, middle), label="contact pressure (GPa)", shrink=0.85)
-    film, line = p.fem.film, parts.film(p.main)
+    film = p.fem.film
+    line = parts.film(p.main)
     x = np.linspace(-60e-6, 40e-6, 400)
     right.plot(x * 1e6, film.at(x)[0] / 1e6, label="finite elements")
     right.plot(line.x * 1e6, line.pressure / 1e6, "--", label="lubfric")

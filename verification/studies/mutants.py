@@ -21,7 +21,10 @@ from ..check import AT_LEAST, AT_MOST, Check
 ROOT = Path(__file__).parents[2]
 TABLE = Path(__file__).with_suffix(".txt")
 LONGEST = 600  # s
-PASSED, FAILED, BROKEN = 0, 1, -1  # as pytest returns them; BROKEN: neither, such as a test that cannot be loaded
+# as pytest returns them; BROKEN: neither, such as a test that cannot be loaded
+PASSED = 0
+FAILED = 1
+BROKEN = -1
 ON_PURPOSE = "lubfric.errors."
 
 
@@ -80,7 +83,8 @@ def is_test(name: str) -> bool:
 def trial(mutant: Mutant | None, names: tuple[str, ...]) -> int:
     """What came of the tests or studies ``names`` on a copy of `lubfric` that has the mistake of ``mutant``."""
     with tempfile.TemporaryDirectory() as folder:
-        library, out = Path(folder) / "lubfric", Path(folder) / "out"
+        library = Path(folder) / "lubfric"
+        out = Path(folder) / "out"
         shutil.copytree(ROOT / "lubfric", library)
         if mutant is not None:
             file, content = mutant.broken(library)

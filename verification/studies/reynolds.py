@@ -71,7 +71,8 @@ def parabola(refinements: int):
 
     It is chance where in its cell the rupture point lies, so errors are root mean squares over shifted meshes.
     """
-    e, series = PARABOLA, []
+    e = PARABOLA
+    series = []
     rows: list[tuple] = []
     for degree in (1, 2):
         runs = [ruptured(e, parabola_mesh(50, shift=shift), degree, refinements) for shift in np.arange(8) / 8]
@@ -117,7 +118,9 @@ def exact_constants() -> tuple[float, float, float, float]:
 def parabola_checks(finest: Solution, size: float, degree: int):
     """Checks of one element on its finest mesh."""
     source = "closed form with Reynolds' outlet, inlet at X = -100 (Martin 1916)"
-    found, true, near = constants(finest), exact_constants(), {1: 60, 2: 6}[degree] * size**2
+    found = constants(finest)
+    true = exact_constants()
+    near = {1: 60, 2: 6}[degree] * size**2
     for i, name in ((0, "load"), (1, "rupture point"), (3, "rolling friction")):
         yield Check(f"parabola P{degree}: {name}", found[i], true[i], near, source)
     # the Couette integral runs over whole cells under pressure; the last one is cut by the rupture point
@@ -128,7 +131,9 @@ def parabola_checks(finest: Solution, size: float, degree: int):
 
 def piezoviscous(refinements: int):
     """Barus and Roelands oils in the parabolic gap, which are exact through the reduced pressure."""
-    base, index, strong = exact.Parabola(0.04, 1.0, 0.01, 1e-6, -10.0), 0.6, 2e-8
+    base = exact.Parabola(0.04, 1.0, 0.01, 1e-6, -10.0)
+    index = 0.6
+    strong = 2e-8
     alpha = 0.99 / base.pressure(np.linspace(-2, 1, 200_001)[None] * base.scale).max()
 
     def roelands(coefficient: float):
@@ -164,7 +169,9 @@ def ringing():
     fluid = Fluid(GAS.viscosity, density_law="linear", bulk_modulus=AMBIENT)
     source = "isothermal gas slider (Harrison 1913) integrated upstream to 1e-9"
     for label, stabilisation in (("Galerkin", "none"), ("SUPG", "supg")):
-        errors, over, cells = [], [], np.array([20, 1280, 2560])
+        errors = []
+        over = []
+        cells = np.array([20, 1280, 2560])
         for count in cells:
             x = np.linspace(0, GAS.length, count + 1)
             s = solve_reynolds(Problem(skfem.MeshLine(x), GAS.film, fluid, GAS.speed, stabilisation=stabilisation))

@@ -12,8 +12,12 @@ from ..meshes import mesh_field
 
 KINDS = {"line": skfem.MeshLine, "triangle": skfem.MeshTri, "quadrilateral": skfem.MeshQuad}
 REFINEMENTS = {"quick": 2, "default": 3, "full": 4}
-LENGTH, WIDTH = 0.01, 0.006
-VISCOSITY, SPEED, INLET, OUTLET = 0.1, 1.0, 2e-6, 1e-6
+LENGTH = 0.01
+WIDTH = 0.006
+VISCOSITY = 0.1
+SPEED = 1.0
+INLET = 2e-6
+OUTLET = 1e-6
 
 
 def reynolds_surface(level: str):
@@ -61,7 +65,11 @@ class Manufactured:
 
     def source(self, x):
         """``-div(D grad p) + d(rho U h)/dx`` worked out by hand, with D = rho h^3/(12 eta)."""
-        p, dp, h, dh, f = self.pressure(x), self.gradient(x), self.film(x), self.film_slope(x), self.fluid
+        p = self.pressure(x)
+        dp = self.gradient(x)
+        h = self.film(x)
+        dh = self.film_slope(x)
+        f = self.fluid
         mobility = f.rho(p) * h**3 / (12 * f.eta(p))
         stiffening = slope(f.rho, p) / f.rho(p) - slope(f.log_viscosity, p)
         spread = mobility * (-(self.wave**2).sum() * p + stiffening * (dp * dp).sum(0) + 3 / h * (dh * dp).sum(0))
@@ -78,7 +86,8 @@ def box(kind: str, cells: int, width: float = WIDTH, length: float = LENGTH) -> 
 
 def manufactured(refinements: int):
     """The order of all six elements, and of the stabilised form."""
-    series, rows = [], []
+    series = []
+    rows = []
     sizes = [LENGTH / (8 * 2**i) for i in range(refinements + 1)]
     for kind in KINDS:
         case = Manufactured(1 if kind == "line" else 2)
@@ -111,14 +120,13 @@ def finite_width(refinements: int):
     source = "separation of variables, exact series (verification.exact.ExponentialPad)"
     found = {ratio: solved(pad(ratio)) for ratio in (0.05, 0.2, 1.0, 5.0, 20.0)}
     for ratio, s in found.items():
-        name, e = f"exponential pad, width/length {ratio:g}", pad(ratio)
+        name = f"exponential pad, width/length {ratio:g}"
+        e = pad(ratio)
         yield from compared(name, [("load", "N", s.load, e.load, 1e-5 * 8.0 ** (2 - refinements))], source)
         yield bound(f"{name}: pressure error", s.error(e.pressure), 6e-4 * 4.0 ** (2 - refinements), source)
     e = pad(0.02)
-    source, note = (
-        "infinitely narrow pad (Michell 1905, Ocvirk 1952)",
-        "the ends take a part of the order of width/length",
-    )
+    source = "infinitely narrow pad (Michell 1905, Ocvirk 1952)"
+    note = "the ends take a part of the order of width/length"
     name = "exponential pad, width/length 0.02: load"
     yield Check(name, solved(e).load, e.narrow_load, 0.03, source, unit="N", note=note)
 
@@ -126,10 +134,12 @@ def finite_width(refinements: int):
         return (x[0] > 1e-9) & (x[0] < LENGTH - 1e-9)
 
     closed = Problem(box("quadrilateral", 8), e.film, Fluid(VISCOSITY), SPEED, 2, open_boundary=side)
-    load, allowed = solve_refined(closed, refinements)[-1].load / WIDTH, 1e-4 * 8.0 ** (1 - refinements)
+    load = solve_refined(closed, refinements)[-1].load / WIDTH
+    allowed = 1e-4 * 8.0 ** (1 - refinements)
     rows = [("load / width", "N/m", load, e.wide_load, allowed)]
     yield from compared("exponential pad, closed sides", rows, "infinitely wide pad, quadrature")
-    s, p = found[1.0].problem.mesh, found[1.0].at_vertices
+    s = found[1.0].problem.mesh
+    p = found[1.0].at_vertices
     data = {"pressure": p, "film_thickness": e.film(s.p), "difference": p - pad(1.0).pressure(s.p)}
     caption = "Pad as wide as long: pressure (Pa), film (m), difference to the exact pressure (Pa)"
     yield mesh_field("pad", caption, s, data)
@@ -165,10 +175,12 @@ def parabolic(refinements: int):
         name = f"parabola on {kind}s of degree {degree}, infinitely wide"
         yield from compared(name, rows, "closed form with Reynolds' outlet (Martin 1916)")
     mesh = skfem.MeshQuad.init_tensor(x, np.linspace(-2, 2, 17) * e.scale)
-    s, other = solved(mesh, 1, refinements), solved(mesh.to_meshtri(), 2, refinements - 1)
+    s = solved(mesh, 1, refinements)
+    other = solved(mesh.to_meshtri(), 2, refinements - 1)
     name = "parabola of finite width"
     rows = [("load on quadrilaterals", "N", s.load, other.load, 0.1 * 4.0**-refinements)]
     yield from compared(name, rows, "triangles of degree 2")
-    fed, lost = s.reaction[s.reaction > 0].sum(), -s.reaction[s.reaction < 0].sum()
+    fed = s.reaction[s.reaction > 0].sum()
+    lost = -s.reaction[s.reaction < 0].sum()
     note = "over all edges and the ruptured part"
     yield from compared(name, [("flow in and out", "m³/s", fed, lost, 1e-7)], "conservation of mass", note)

@@ -9,8 +9,13 @@ import lubfric
 from ..check import ABSOLUTE, AT_MOST, Check
 
 SEEDS = {"quick": 30, "default": 60, "full": 100}
-SPEED, ASKED = 0.01, 0.02  # m/s, relative: of mixed lubrication
-SQ, LENGTH, CELL, CELLS = 100e-9, 10e-6, 0.5e-6, 1024
+# m/s, relative: of mixed lubrication
+SPEED = 0.01
+ASKED = 0.02
+SQ = 100e-9
+LENGTH = 10e-6
+CELL = 0.5e-6
+CELLS = 1024
 STEPS = (4, 20, 40)  # cells
 GAUSS = "Gaussian surface with the autocorrelation exp(-(r/length)²)"
 
@@ -28,7 +33,8 @@ def sampling(level: str) -> Iterator[Check]:
     f, stated = np.array([[p.coefficient, p.uncertainty.sampling] for p in found]).T
     ratio = float(f.std(ddof=1) / f.mean() / np.sqrt(np.mean(stated**2)))
     allowed = 2 / np.sqrt(2 * (count - 1))
-    name, source = f"scatter of f over {count} seeds, over the error stated", "chi-square law of a standard error"
+    name = f"scatter of f over {count} seeds, over the error stated"
+    source = "chi-square law of a standard error"
     yield Check(name, ratio, 1.0, allowed, source, ABSOLUTE, grade="B")
     worst = float(stated.max() / ASKED)
     yield Check("largest sampling error of f over the one asked for", worst, 1.0, 0.0, "what was asked", AT_MOST)

@@ -24,7 +24,10 @@ from .load_sharing import LENGTH, SOURCE, TIGHT, averaged, cylinder, rough, rows
 CELLS = 32
 TOLERANCE = {"quick": (3e-3, 1.2e-2, 5e-3), "default": (3e-3, 6e-3, 3e-3), "full": (3e-3, 6e-3, 3e-3)}
 REFINEMENTS = {"quick": 0, "default": 1, "full": 1}
-EYRING, LIMIT, OFFSET = 1e6, 0.02, 0.3e6  # Pa, 1, Pa: both cut the stress of a part of the film
+# Pa, 1, Pa: both cut the stress of a part of the film
+EYRING = 1e6
+LIMIT = 0.02
+OFFSET = 0.3e6
 
 
 LIMITED = {"eyring_stress": EYRING, "limiting_stress_coefficient": LIMIT, "limiting_stress_offset": OFFSET}
@@ -49,8 +52,10 @@ def sharing_cases(level: str):
     and scaled, on cells that are not square. Last is the nominally flat contact, whose patch is pressed on an
     elastic layer of bricks.
     """
-    asked, refinements = TOLERANCE[level], REFINEMENTS[level]
-    body, heights = strip(CELLS, 1), rough(CELLS, CELLS)
+    asked = TOLERANCE[level]
+    refinements = REFINEMENTS[level]
+    body = strip(CELLS, 1)
+    heights = rough(CELLS, CELLS)
     for name in list(CASES)[::4] if level == "quick" else CASES:
         speed, sections = CASES[name]
         s = scene().with_(**sections)
@@ -76,7 +81,8 @@ def yielded(found: Shared, main: lubfric.FrictionResult, body: Compliance, model
 
 def measured_map(allowed, refinements: int):
     """A ground surface in a file: along the other axis, with other cells along it, tilted, and too rough."""
-    across, speed = 1.1e-6, 0.01
+    across = 1.1e-6
+    speed = 0.01
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "ground.npy"
         np.save(path, ground(across))
@@ -92,7 +98,8 @@ def measured_map(allowed, refinements: int):
 def ground(across: float) -> np.ndarray:
     """Heights (CELLS, CELLS) m, grooved and skewed, with worn tops and deep scratches, on a tilted plane."""
     rng = np.random.default_rng(5)
-    y, x = np.arange(CELLS)[:, None] * across, np.arange(CELLS) * LENGTH / CELLS
+    y = np.arange(CELLS)[:, None] * across
+    x = np.arange(CELLS) * LENGTH / CELLS
     width = CELLS * across
     waves = sum(
         rng.standard_normal() * np.cos(2 * np.pi * (m * x / LENGTH + n * y / width) + rng.uniform(0, 6.3)) / m
@@ -104,12 +111,14 @@ def ground(across: float) -> np.ndarray:
 
 def flat(allowed, refinements: int):
     """The paper's nominally flat contact on a patch of few waves."""
-    nodes, speed = 64, 0.02
+    nodes = 64
+    speed = 0.02
     s = lubfric.load_scene("flat").with_(numerics=TIGHT | {"tolerance": 1e-3})
     x = np.arange(nodes) * BOX / nodes
     heights = roughness(x[:, None], x[None])
     model = prepare(s, lubfric.Surface(heights, (BOX / nodes,) * 2))
-    b, sliding = s.bodies, s.motion.slide_roll_ratio * speed
+    b = s.bodies
+    sliding = s.motion.slide_roll_ratio * speed
     bodies = FlatBodies(whole(s, speed), b.width, pressed_layer(32), b.boundary_friction_coefficient, sliding)
     found = share_load(bodies, refinements=refinements, tolerance=1e-4)
     yield from compared("flat", rows_of(lubfric.friction(model, speed), found, allowed), SOURCE)
@@ -118,7 +127,8 @@ def flat(allowed, refinements: int):
 def pressed_layer(nodes: int) -> Callable[[float], tuple[float, float]]:
     """Mean gap (m) and share in contact of the patch, pressed on a layer of bricks by a mean pressure (Pa)."""
     grid = layer_of(nodes, 2)
-    displacement, weights = fourier_compliance(grid).displacement, grid.weights.ravel()
+    displacement = fourier_compliance(grid).displacement
+    weights = grid.weights.ravel()
     gap0 = -roughness(*grid.x).ravel()
 
     def pressed(pressure: float) -> tuple[float, float]:

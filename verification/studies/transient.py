@@ -129,7 +129,8 @@ def marched(resolution: float, steps: int) -> float:
 
 def one_step(resolution: float) -> float:
     """Relative error of the sinking speed in one backward Euler step: the law holds with the film at its end."""
-    made, step = setting(resolution), 1e-2 * LONG
+    made = setting(resolution)
+    step = 1e-2 * LONG
     first = made.undeformed(1e-6)
     h = made.solve(step, Memory(1 / step, first.film), first.z).terms.H.min() * made.problem.film_unit
     return float((1e-6 - h) / step / (2 * h**1.5 * RATE) - 1)
@@ -140,7 +141,8 @@ def halved():
     keywords, problem, unit = contact(20, 5, "dowson-higginson")
     keywords["entrainment_speed"] = step_history(keywords["entrainment_speed"], 0.5)
     times = unit * np.array([row[0] for row in HALVED])
-    rows, source = [], "separate solver on nested meshes, X in [-4, 1.5]"
+    rows = []
+    source = "separate solver on nested meshes, X in [-4, 1.5]"
     found = solve_transient_ehl(**keywords, times=times)
     for i, (time, centre, smallest) in enumerate(HALVED):
         films = found.central_film[i] / problem.film_unit, found.min_film[i] / problem.film_unit
@@ -173,7 +175,8 @@ def stopped():
 def reversal():
     """Speed through zero and back."""
     keywords, problem, unit = contact(5, 5)
-    period, largest = 20 * unit, keywords["entrainment_speed"]
+    period = 20 * unit
+    largest = keywords["entrainment_speed"]
     keywords["entrainment_speed"] = Harmonic(amplitude=largest, frequency=1 / period, phase=math.pi / 2)
     found = solve_transient_ehl(**keywords, times=period * np.linspace(0, 2.5, 201), **COARSE)
     change = np.max(np.abs(found.min_film[161:201] / found.min_film[81:121] - 1))

@@ -27,7 +27,8 @@ def transient_mixed(level: str):
     time tolerance and from the film's grid, against the finest of each. Last comes the cost of a cycle of 300 steps.
     """
     n = CELLS[level]
-    contact, motion = {"shape": (n, n), "spacing": 90e-6 / n}, {"entrainment_speed": LARGEST}
+    contact = {"shape": (n, n), "spacing": 90e-6 / n}
+    motion = {"entrainment_speed": LARGEST}
     scene = lubfric.load_scene("paper").with_(
         contact=contact, motion=motion, numerics={"sampling": "patch", "model": "load-sharing"}
     )
@@ -73,9 +74,11 @@ def loops(model):
         plan = Transient(2 * period, speed=wave(0.94 * LARGEST, 1 / period, LARGEST))
         found = run(model, plan, period * np.linspace(0, 2, 81))
         opening.append(found.coefficient[70] - found.coefficient[50])  # up minus down at the mean speed
-    name, source = "hysteresis: f speeding up above f slowing down (shortest period)", "the film lags behind the speed"
+    name = "hysteresis: f speeding up above f slowing down (shortest period)"
+    source = "the film lags behind the speed"
     yield Check(name, opening[0], 1e-3, 0.0, source, AT_LEAST)
-    name, closed = "hysteresis: longest period against shortest", abs(opening[-1] / opening[0])
+    name = "hysteresis: longest period against shortest"
+    closed = abs(opening[-1] / opening[0])
     yield bound(name, closed, 0.1, "slow loops close on the Stribeck curve")
     period = PERIODS[1]
     plan = Transient(2.5 * period, speed=wave(LARGEST, 1 / period))
@@ -90,7 +93,8 @@ def stop_and_start(model):
     """Shut-down, standstill and start-up."""
     plan = Transient(0.02, speed=History(times=(0, 5e-3, 1e-2, 1.5e-2, 0.02), values=(0.1, 0, 0, 0.1, 0.1)))
     found = run(model, plan, np.linspace(0, 0.02, 161))
-    down, up = found.time <= 5e-3, (found.time >= 1e-2) & (found.time <= 1.5e-2)
+    down = found.time <= 5e-3
+    up = (found.time >= 1e-2) & (found.time <= 1.5e-2)
     low = np.interp(0.04, found.entrainment_speed[down][::-1], found.coefficient[down][::-1])
     high = np.interp(0.04, found.entrainment_speed[up], found.coefficient[up])
     name = "start-up friction over shut-down friction at 0.04 m/s"
@@ -102,7 +106,8 @@ def stop_and_start(model):
 
 def errors(model):
     """Error of friction against time for the time tolerance and the grid."""
-    times, speed = np.linspace(0, 0.01, 26), wave(LARGEST, 100.0)
+    times = np.linspace(0, 0.01, 26)
+    speed = wave(LARGEST, 100.0)
     tight = {"balance_tolerance": 1e-5, "contact_tolerance": 1e-5}
 
     def solved(film: float, step: float):

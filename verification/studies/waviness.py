@@ -23,10 +23,14 @@ from ..fem.ripple import ripple
 from ..parts import line_contact
 from ..waves import history, laid_out, response
 
-CELLS, HEIGHT = 40, 0.002  # a wave; of the film
+# a wave; of the film
+CELLS = 40
+HEIGHT = 0.002
 NEAR = 0.5  # half-widths: where both parts are fitted
 SOURCE = "linear response of full-system finite elements"
-ALLOWED, MOVING = 0.02, 0.1  # of the height of the waves, at rest and moving
+# of the height of the waves, at rest and moving
+ALLOWED = 0.02
+MOVING = 0.1
 COLUMNS = ("case", "speed/U", "wavelength/b", "surface: lubfric", "elements", "inlet: lubfric", "elements", "rms")
 
 
@@ -103,7 +107,8 @@ def compared(
     """The part that goes with the surface by lubfric and by finite elements, the part from the inlet by both (0 in
     pure rolling, where they are one), and the rms difference of the films. ``judged``: what the elements solve."""
     smooth = laid_out(case.line, speed, CELLS * (max(1.0, speed) if speed else 2.5) / length)
-    b, x = smooth.half_width, smooth.film.x
+    b = smooth.half_width
+    x = smooth.film.x
     near = np.flatnonzero(np.abs(x) < NEAR * b)
     mine, _ = response(smooth, 2 * np.pi / (length * b), HEIGHT * smooth.film.central_gap)
     solution = ehl.solve_ehl(
@@ -117,7 +122,8 @@ def compared(
 
 def parts(film: np.ndarray, x: np.ndarray, length: float, speed: float) -> tuple[float, float]:
     """Amplitudes of the wave of the surface and of that from the inlet; the second may fall along x."""
-    surface, inlet = np.exp(2j * np.pi * x / length), np.exp(2j * np.pi * x * speed / length)
+    surface = np.exp(2j * np.pi * x / length)
+    inlet = np.exp(2j * np.pi * x * speed / length)
     if speed == 1:
         return float(np.abs(np.vdot(surface, film)) / x.size), 0.0
     columns = np.stack([surface, inlet, inlet * x], axis=1)
@@ -131,14 +137,17 @@ def in_time() -> Iterator[Check]:
     height = 0.2 * smooth.film.central_gap
     times, gaps, _ = history(smooth, 2 * np.pi / smooth.half_width, height)
     at = ehl.solve_ehl(STEEL.elements(1.0), refinements=0, fineness=1.0, between=0.03)[-1]
-    b, unit, count = smooth.half_width, at.contact.film_unit, 64
+    b = smooth.half_width
+    unit = at.contact.film_unit
+    count = 64
 
     def waves(x, time):
         grown = min(time, 1.0)
         return height / unit * grown**2 * (3 - 2 * grown) * np.cos(2 * np.pi * (x - time))
 
     near = np.abs(smooth.film.x) < NEAR * b
-    pick, mine = at.body.line.probes(smooth.film.x[None, near] / b), gaps[:, near]
+    pick = at.body.line.probes(smooth.film.x[None, near] / b)
+    mine = gaps[:, near]
     whole = list(itertools.islice(march(at, waves, 1 / count), 5 * count))[-count:]
     judge = np.array([pick @ m.H for m in whole]) * unit
     turns = (

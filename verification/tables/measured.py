@@ -37,7 +37,8 @@ def roughness() -> Cells:
         "lay along the motion, 16 x 4 µm": {"correlation_length": (16e-6, 4e-6)},
         "lay across the motion, 4 x 16 µm": {"correlation_length": (4e-6, 16e-6)},
     }
-    scene, speeds = lubfric.load_scene("paper"), (0.003, 0.03, 0.1)
+    scene = lubfric.load_scene("paper")
+    speeds = (0.003, 0.03, 0.1)
     rows = [
         [name, *(f"{f:.3f}" for f in lubfric.stribeck(scene.with_(surface=keys), speeds).coefficient)]
         for name, keys in surfaces.items()

@@ -64,5 +64,7 @@ def source(command: str) -> str:
     """One line in italics: the command as it is typed, the day, the version and the machine."""
     from lubfric import __version__
 
-    day, machine, python = time.strftime("%Y-%m-%d"), platform.machine(), platform.python_version()
+    day = time.strftime("%Y-%m-%d")
+    machine = platform.machine()
+    python = platform.python_version()
     return f"*`{command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"

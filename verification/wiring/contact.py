@@ -46,7 +46,8 @@ def flat() -> Iterator[Check]:
         b = np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9))
         pressure = 5.5 / (2 * b * 6e-3)
         one = lubfric.solve_contact(z.max() - z, CELL, 231e9, mean_pressure=pressure, hardness=hardness, tolerance=1e-8)
-        gap, area = float(np.maximum(one.gap, 0).mean()), float(np.mean(one.pressure > 0))
+        gap = float(np.maximum(one.gap, 0).mean())
+        area = float(np.mean(one.pressure > 0))
         rows = [
             ("mean gap", "m", found.mean_gap, gap, 2e-3),
             ("area", "1", found.real_contact_area_fraction, area, 0.02),
@@ -107,7 +108,8 @@ def coarse() -> Iterator[Check]:
 
 def columns() -> Iterator[Check]:
     """The share in contact of stretches of x: it sums to all of it, and lies about the right place."""
-    x, share = np.arange(-5.0, 6.0), np.array([0, 0, 1, 0.5, 0, 0, 0, 0.2, 0, 0, 0.0])
+    x = np.arange(-5.0, 6.0)
+    share = np.array([0, 0, 1, 0.5, 0, 0, 0, 0.2, 0, 0, 0.0])
     state = ContactState(1.0, 1.0, x, share, 0.0, 0.0)
     edges = np.linspace(-6.0, 6.0, 481)
     found = state.touching(edges) * np.diff(edges)

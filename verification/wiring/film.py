@@ -89,13 +89,19 @@ def mixed(oil: dict, motion: dict) -> lubfric.Scene:
 
 def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
     """Shear force and coefficient at 0.1 m/s."""
-    s, speed, pieces = mixed(oil, motion), 0.1, 40
+    s = mixed(oil, motion)
+    speed = 0.1
+    pieces = 40
     found = lubfric.friction(s, speed, fields=True)
-    line, contact, fields = parts.film(found), parts.contact(found), parts.contact_fields(found)
+    line = parts.film(found)
+    contact = parts.contact(found)
+    fields = parts.contact_fields(found)
     x = np.sort(np.concatenate([np.linspace(a, b, pieces, endpoint=False) for a, b in zip(line.x[:-1], line.x[1:])]))
     x = x[x < line.rupture]
-    middle, dx = 0.5 * (x[1:] + x[:-1]), np.diff(x)
-    p, h = np.interp(middle, line.x, line.pressure), line.film_at(middle)
+    middle = 0.5 * (x[1:] + x[:-1])
+    dx = np.diff(x)
+    p = np.interp(middle, line.x, line.pressure)
+    h = line.film_at(middle)
     rate = s.motion.slide_roll_ratio * speed / h
     column = np.round((middle - contact.x[0]) / (contact.x[1] - contact.x[0])).astype(int)
     inside = (column >= 0) & (column < contact.x.size)
@@ -114,7 +120,8 @@ def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
 
 def upstream(line, radius: float) -> float:
     """∫ dx/h before the first node of a parabola."""
-    a, h = -line.x[0], line.film_thickness[0]
+    a = -line.x[0]
+    h = line.film_thickness[0]
     x = a * np.geomspace(1.0, 1e4, 4001)
     gap = h + (x**2 - a**2) / (2 * radius)
     return float(np.trapezoid(1 / gap, x)) + 2 * radius / x[-1]

@@ -16,7 +16,9 @@ from lubfric.scene.roughness import Roughness
 from ..check import ABSOLUTE, AT_LEAST, AT_MOST, Check
 from ..parts import half_space
 
-DX, DY = 0.8e-6, 1.3e-6  # of the file, along its first and second axis
+# of the file, along its first and second axis
+DX = 0.8e-6
+DY = 1.3e-6
 OWN = "the file, read and changed by plain NumPy"
 SIZE = (56, 40)
 PATCH = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling": "patch", "grid": "given"})
@@ -35,7 +37,8 @@ def wiring_maps(level: str) -> Iterator[Check]:
 def ground() -> np.ndarray:
     """Heights (56, 40) m, grooved along the first axis."""
     rng = np.random.default_rng(8)
-    x, y = np.arange(SIZE[0])[:, None] / SIZE[0], np.arange(SIZE[1]) / SIZE[1]
+    x = np.arange(SIZE[0])[:, None] / SIZE[0]
+    y = np.arange(SIZE[1]) / SIZE[1]
     z = np.zeros(SIZE)
     for m, n in itertools.product((0, 1), range(1, 9)):
         z += rng.standard_normal() * np.cos(2 * np.pi * (m * x + n * y) + m) / n
@@ -56,7 +59,8 @@ def measured(folder: Path) -> Iterator[Check]:
     np.save(folder / "um.npy", 1e6 * z)
     tilted = z + 1e-8 * np.arange(SIZE[0])[:, None] + 3e-10 * (np.arange(SIZE[1]) - 9) ** 2
     np.save(folder / "tilted.npy", tilted)
-    flat, along = planed(z), planed(z).T
+    flat = planed(z)
+    along = planed(z).T
     blocks = flat.reshape(28, 2, 20, 2).mean(axis=(1, 3))
     cases: dict[str, tuple[dict[str, Any], dict[str, Any], np.ndarray, tuple[float, float]]] = {
         "as it is": ({}, {}, flat, (DX, DY)),

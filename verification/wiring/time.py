@@ -47,7 +47,8 @@ def wiring_time(level: str) -> Iterator[Check]:
 def unchanged(name: str, oil: dict) -> Iterator[Check]:
     """Mixed lubrication at 0.1 m/s, a slide-roll ratio of 0.5, for a fifth of a passage of the contact."""
     s = mixed(oil, {"slide_roll_ratio": 0.5, "entrainment_speed": 0.1}).with_(numerics=TIGHT)
-    steady, run = lubfric.friction(s), lubfric.transient(s, [1e-5])
+    steady = lubfric.friction(s)
+    run = lubfric.transient(s, [1e-5])
     yield from ended(f"{name}, nothing changes", run, steady, UNCHANGED)
 
 
@@ -72,6 +73,7 @@ def ramped() -> Iterator[Check]:
     plan = lubfric.Transient(duration=end, outputs=1, **ramps, **bodies)
     scene = smooth({"eyring_stress": 2e6}, 30.0, (64, 12)).with_(motion={"slide_roll_ratio": 0.5}, numerics=TIGHT)
     run = lubfric.transient(scene.with_(transient=plan))
-    oil, motion = {"viscosity": 0.25}, {"entrainment_speed": 0.3, "slide_roll_ratio": 0.2}
+    oil = {"viscosity": 0.25}
+    motion = {"entrainment_speed": 0.3, "slide_roll_ratio": 0.2}
     later = scene.with_(bodies={"load": 22.0, "radius": 1.5e-3}, lubricant=oil, motion=motion)
     yield from ended("ramps", run, lubfric.friction(later), RAMPED)

@@ -38,7 +38,8 @@ def pressure_flow(problem: Problem, fluid: CellFluid, p, h, axis: int) -> Pressu
     def mean(f):
         return 0.5 * (before(f) + behind(f))
 
-    film, density = mean(h), mean(fluid.density)
+    film = mean(h)
+    density = mean(fluid.density)
     log_fluidity, l_before, l_behind = mean_fluidity(before(fluid.log_viscosity), behind(fluid.log_viscosity))
     fluidity = np.exp(log_fluidity)
     critical = [mean(tau_c) if np.ndim(tau_c) else tau_c for tau_c, _ in fluid.critical]
@@ -145,7 +146,9 @@ class Stencil:
         """Numbers (i ny + j) of the cells that the coefficients belong to (6, nx, ny); the own where there is none."""
         own = np.arange(nx * ny).reshape(nx, ny)
         found = np.stack([own, own, np.roll(own, 1, axis=1), own, np.roll(own, -1, axis=1), own])
-        found[0, 2:], found[1, 1:], found[5, :-1] = own[:-2], own[:-1], own[1:]
+        found[0, 2:] = own[:-2]
+        found[1, 1:] = own[:-1]
+        found[5, :-1] = own[1:]
         return found
 
 
@@ -163,7 +166,8 @@ def derivatives(problem: Problem, at: Balance, open_) -> tuple[np.ndarray, np.nd
         stencil.add("N", across[1] / dy)
         stencil.add("S", -np.roll(across[0], 1, axis=1) / dy)
         stencil.add(0, -np.roll(across[1], 1, axis=1) / dy)
-    own, before = at.couette.by_own / dx, at.couette.by_before / dx
+    own = at.couette.by_own / dx
+    before = at.couette.by_before / dx
     for stencil, factor in ((by_h, at.fluid.density), (by_p, at.fluid.density_slope * at.film)):
         stencil.add(0, own * factor)
         stencil.add("W", before[1:] * factor[:-1], here=slice(1, None))

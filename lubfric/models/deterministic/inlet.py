@@ -53,9 +53,12 @@ class Inlet:
 def inlet(problem: Problem, pressure, film) -> Inlet:
     """The `Inlet` upstream of the first cells, whose ``pressure`` [Pa] and ``film`` [m] are given (ny,). To the face
     before them the film continues up the parabola."""
-    lubricant, speed, radius = problem.lubricant, problem.speed, problem.radius
+    lubricant = problem.lubricant
+    speed = problem.speed
+    radius = problem.radius
     t, weight, integral = _rule()
-    x, dx = problem.x[0], problem.spacing[0]
+    x = problem.x[0]
+    dx = problem.spacing[0]
     film = film - x * dx / (2 * radius) + dx**2 / (8 * radius)
     start = -(x - dx / 2)
     begins = 0.0 if lubricant.inlet_length is None else start / lubricant.inlet_length
@@ -71,7 +74,8 @@ def inlet(problem: Problem, pressure, film) -> Inlet:
     reduced, reduced_slope = _reduced(lubricant, np.maximum(pressure, 0.0))
     T = 2 * film**3 * _ambient_thinning(problem, film) / (viscous * dx)
     T_h = 3 * T / film
-    top, below = speed * film + T * (A - reduced), 1 + T * B
+    top = speed * film + T * (A - reduced)
+    below = 1 + T * B
     flow = top / below
     by_film = (speed + T_h * (A - reduced) + T * A_h - flow * (T_h * B + T * B_h)) / below
     by_pressure = -T / below * reduced_slope

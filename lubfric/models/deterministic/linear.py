@@ -18,7 +18,8 @@ from .flow import Stencil, derivatives
 from .state import RUPTURED, TOUCHING, Iterate, State, stored
 
 ACCURACY = 0.01  # of the residual of the linear system; 0.03 costs 7 % less, and fails at 1 GPa and 0.03 m/s
-KRYLOV, CYCLES = 40, 3
+KRYLOV = 40
+CYCLES = 3
 PANEL = 4  # columns that are eliminated together: a sixth faster than the default
 SMALL = 24  # cells that nested dissection does not cut again
 
@@ -49,24 +50,32 @@ class System:
     dimension."""
 
     def __init__(self, at: Iterate):
-        problem, state = at.problem, at.state
+        problem = at.problem
+        state = at.state
         self.at = at
         self.film = max(at.mean_flow / problem.speed, problem.floor)
         self.row = 1.0 / (problem.speed * self.film / problem.spacing[0])
-        self.touching, ruptured, dented = state.kind == TOUCHING, state.kind == RUPTURED, state.yielded
+        self.touching = state.kind == TOUCHING
+        ruptured = state.kind == RUPTURED
+        dented = state.yielded
         self.to_pressure = np.where(ruptured | dented, 0.0, problem.load / (problem.spacing[0] * 64))
         self.to_dent = np.where(dented, self.film, 0.0)
         self.to_fill = np.where(ruptured, 1.0, 0.0)
-        inlet, shape = at.balance.inlet, at.gap.shape
+        inlet = at.balance.inlet
+        shape = at.gap.shape
         by_p = np.full(shape, problem.spacing[0] / shape[1])
         by_p[0] += inlet.load_by_pressure
-        self.load_by_p, self.load_by_h = by_p / problem.load, inlet.load_by_film / problem.load  # relative to the load
-        rows, patterns = self._rows(), Patterns.of(*shape)
+        # relative to the load
+        self.load_by_p = by_p / problem.load
+        self.load_by_h = inlet.load_by_film / problem.load
+        rows = self._rows()
+        patterns = Patterns.of(*shape)
         self.by_p, self.by_h, self.by_fill = (patterns.rows(data) for data in rows)
         lifted = self.to_pressure * problem.self_deflection + self.to_dent
         scales = self.to_pressure, lifted, self.to_fill
         together = sum(data * scale.ravel()[Stencil.neighbours(*shape)] for data, scale in zip(rows, scales))
-        self.order, matrix = patterns.order, patterns.ordered(together)
+        self.order = patterns.order
+        matrix = patterns.ordered(together)
         ordered = {"permc_spec": "NATURAL", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
         self.lu = splu(matrix, panel_size=PANEL, **ordered)
         self.load_row = (self.load_by_p * self.to_pressure).ravel()
@@ -75,11 +84,15 @@ class System:
 
     def _rows(self) -> tuple[np.ndarray, ...]:
         """d(equation)/dp, d/dh and d/dfill of every cell, as the data of a `Stencil`."""
-        at, fluid, fill, own = self.at, self.at.balance.fluid, self.at.state.fill, Stencil.NAMES.index(0)
+        at = self.at
+        fluid = self.at.balance.fluid
+        fill = self.at.state.fill
+        own = Stencil.NAMES.index(0)
         open_ = ~self.touching  # also where h is still the floor: it is about to rise
         rows = derivatives(at.problem, at.balance, open_)
         if at.past is not None:
-            film, rate = at.balance.film, stored(at.mass, at.past)[1]
+            film = at.balance.film
+            rate = stored(at.mass, at.past)[1]
             by = fluid.density_slope * film * fill, fluid.density * open_ * fill, fluid.density * film
             for data, mass in zip(rows, by):
                 data[own] += mass * rate
@@ -95,7 +108,8 @@ class System:
 
     def change(self, unknowns) -> Change:
         """The `Change` of scaled ``unknowns`` (n + 1,)."""
-        cells, approach = unknowns[:-1].reshape(self.at.gap.shape), float(unknowns[-1] * self.film)
+        cells = unknowns[:-1].reshape(self.at.gap.shape)
+        approach = float(unknowns[-1] * self.film)
         pressure, fill, dent = (cells * scale for scale in (self.to_pressure, self.to_fill, self.to_dent))
         return Change(pressure, fill, dent, self.at.problem.operator.apply(pressure) + dent + approach, approach)
 
@@ -129,13 +143,15 @@ def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYC
     iterations.
     """
     size = np.linalg.norm(right)
-    x, count = np.zeros_like(right), 0
+    x = np.zeros_like(right)
+    count = 0
     if size == 0:
         return x, 0
     rest = right.copy()
     for _ in range(cycles):
         beta = np.linalg.norm(rest)
-        basis, directions = [rest / beta], []
+        basis = [rest / beta]
+        directions = []
         hessenberg = np.zeros((most + 1, most))
         for k in range(most):
             directions.append(precondition(basis[k]))
@@ -172,7 +188,8 @@ class Patterns:
     @lru_cache(maxsize=8)
     def of(nx: int, ny: int) -> Patterns:
         """Those of a grid (nx, ny)."""
-        order, column = nested_dissection(nx, ny), Stencil.neighbours(nx, ny).reshape(-1, nx * ny)
+        order = nested_dissection(nx, ny)
+        column = Stencil.neighbours(nx, ny).reshape(-1, nx * ny)
         row = np.broadcast_to(np.arange(nx * ny), column.shape)
         place = np.empty_like(order)
         place[order] = np.arange(order.size)

@@ -37,13 +37,19 @@ from .state import RUPTURED, Iterate, Past, State, evaluated, kept, residuals
 
 EXACT = 1e-3  # tolerance of the residuals of a step
 LOOSE = 1e-4  # and of a strip, times its cells along x: f moves by .1 %
-MOST, PARTS = 160, 4  # factorisations of a step; Euler steps that lead to one that fails
+# factorisations of a step; Euler steps that lead to one that fails
+MOST = 160
+PARTS = 4
 RESOLVED = 8  # cells in the Hertz half-width, from which on the pressure is carried with the roughness
 SMOOTH = 0.4  # half-widths over which the pressure is smoothed to tell what goes with the roughness
 SWEEP = 2.5  # half-widths that the film travels before anything counts: from -1.5 to 1
-STEPS, KRYLOV = 4.0, 25.0  # factorisations and iterations in a step in time, about
+# factorisations and iterations in a step in time, about
+STEPS = 4.0
+KRYLOV = 25.0
 SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film"
-SLOW, FAST = 0.5, 2.0  # of U: roughness that is slower or faster passes a cell in a step; else the lubricant does
+# of U: roughness that is slower or faster passes a cell in a step; else the lubricant does
+SLOW = 0.5
+FAST = 2.0
 SAME = 1e-9  # relative: the lubricant passes one cell in a step
 AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
 
@@ -60,8 +66,10 @@ class Moment:
     def result(self) -> DeterministicResult:
         """Its fields and forces."""
         left = residuals(self.at)
-        worst, steps = max(left.values()), self.work.factorisations
-        cost, name = self.work.krylov, "film under moving roughness"
+        worst = max(left.values())
+        steps = self.work.factorisations
+        cost = self.work.krylov
+        name = "film under moving roughness"
         return assemble(self.at, Report(name, CONVERGED, steps, worst, worst, left, evaluations=cost))
 
 
@@ -87,13 +95,15 @@ def moments(
 
     The first is time 0 itself. Raises `ConvergenceError` where a step is not solved.
     """
-    problem, count = problem_at(0.0), 0
+    problem = problem_at(0.0)
+    count = 0
     at = before = evaluated(problem, solve_point(problem).state if start is None else start)
     smooth = max(1, round(SMOOTH * half_width(problem.contact) / problem.spacing[0]))
     yield Moment(0.0, at, Work(0))
     while True:
         count += 1
-        work, problem = Work(MOST), problem_at(count * step)
+        work = Work(MOST)
+        problem = problem_at(count * step)
         past = _past(problem, at, before, step, count == 1)
         near = (_carried(at.state, before.state, carried, smooth),) if carried else ()
         for state in (*near, at.state):
@@ -106,7 +116,8 @@ def moments(
         if not found.residual <= tolerance:
             name = f"film under moving roughness, step {count} of {step:.3g} s"
             advice = "shorter cells make the step shorter, and a higher speed the film thicker"
-            cost, left = work.factorisations, found.residuals
+            cost = work.factorisations
+            left = found.residuals
             Report(name, ITERATION_LIMIT, cost, found.residual, tolerance, left, advice=advice).raise_if_failed()
         at, before = found.at, at
         yield Moment(count * step, at, work)
@@ -131,7 +142,8 @@ def _in_parts(problem_at, at: Iterate, time: float, step: float, work: Work, tol
     """The state after the step after ``time`` in `PARTS` Euler steps, as far as they are solved: a start only, because
     they do not keep the mass that the steps of second order keep."""
     for part in range(1, PARTS + 1):
-        problem, past = problem_at(time + part * step / PARTS), Past(at.mass, step / PARTS)
+        problem = problem_at(time + part * step / PARTS)
+        past = Past(at.mass, step / PARTS)
         found = newton(problem, at.state, work, tolerance=tolerance, most=MOST // 4, past=past)
         if not found.residual <= tolerance:
             break
@@ -223,7 +235,8 @@ def solve_moving_strip(
     if speed < 0:
         bodies = [body._replace(surface=replace(body.surface, heights=body.surface.heights[::-1])) for body in bodies]
     fastest = max(bodies, key=lambda body: abs(body.speed))
-    cell, length = rest.problem.spacing[0], fastest.surface.size[0]
+    cell = rest.problem.spacing[0]
+    length = fastest.surface.size[0]
     step, discarded, count = _plan(rest.problem.contact, cell, fastest.speed, length)
     moved = max(1, round(abs(fastest.speed) * step / cell))
     moving = moments(

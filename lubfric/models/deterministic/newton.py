@@ -10,15 +10,28 @@ from .linear import Change, System
 from .problem import Problem
 from .state import TOUCHING, Iterate, Past, State, evaluated, residuals, settled
 
-KEEP, BELOW = 0.2, 3.0  # of h that a step must leave, and floors it may go below that
+# of h that a step must leave, and floors it may go below that
+KEEP = 0.2
+BELOW = 3.0
 SHORTEST = 0.1  # step, whatever the gap says
-HALVINGS, GROWTH, SURGE = 10, 1.05, 2.0
-PATIENCE, PROGRESS = 20, 0.95  # steps in which the residual has to fall to that part of what it was
+HALVINGS = 10
+GROWTH = 1.05
+SURGE = 2.0
+# steps in which the residual has to fall to that part of what it was
+PATIENCE = 20
+PROGRESS = 0.95
 FIRST = 3.0  # times dx/U: the first step in time
-SHRINK, GROW, EASY = 0.5, (2.0, 1.5), 5  # the first growth after so many Newton steps and fewer
-LEAST, LAST = 1e-3, 1e5  # times dx/U: shorter, the steps in time have failed; longer, they have arrived
+# the first growth after so many Newton steps and fewer
+SHRINK = 0.5
+GROW = (2.0, 1.5)
+EASY = 5
+# times dx/U: shorter, the steps in time have failed; longer, they have arrived
+LEAST = 1e-3
+LAST = 1e5
 INNER = 8  # Newton steps in a step in time
-LOOSE, PART = 0.1, 0.3  # how well they solve it: at most, and of the imbalance that is left to settle
+# how well they solve it: at most, and of the imbalance that is left to settle
+LOOSE = 0.1
+PART = 0.3
 SETTLED = 1e-5  # of that imbalance: the film is steady
 
 
@@ -96,7 +109,8 @@ def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float, float]:
     """The state after the longest part of ``step`` that is accepted, the merit of the longest part that was tried, and
     the part that was accepted."""
     apart = at.state.kind != TOUCHING
-    length, before = _longest(at, step), _merit(at, apart)
+    length = _longest(at, step)
+    before = _merit(at, apart)
     merits: list[float] = []
     for _ in range(HALVINGS):
         new = evaluated(at.problem, step.added(at.state, length), at.past)
@@ -128,7 +142,8 @@ def march(problem: Problem, state: State, work: Work, *, most: int) -> State:
     Behind closed furrows it is long, because valleys fill by what leaks in.
     """
     unit = problem.spacing[0] / problem.speed
-    step, last = FIRST * unit, work.factorisations + min(most, work.left)
+    step = FIRST * unit
+    last = work.factorisations + min(most, work.left)
     at = evaluated(problem, state)
     while work.factorisations < last and LEAST * unit <= step <= LAST * unit:
         left = residuals(settled(at))["mass"]

@@ -38,7 +38,8 @@ def plot_passing(path: Path | str, strip: MovingStrip) -> None:
     """Film, share of the load that rubs with f_b, and f over time; what does not count is grey."""
     figure = figures.new_figure(figsize=(7, 6.5))
     film, share, f = figure.subplots(3, 1, sharex=True)
-    series, t = strip.series, 1e3 * strip.times
+    series = strip.series
+    t = 1e3 * strip.times
     for name, label, color in (
         ("mean_gap", "mean gap", figures.BLUE),
         ("central_gap", "at x = 0", figures.GREEN),

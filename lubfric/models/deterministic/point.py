@@ -23,7 +23,9 @@ LOOSE = 1e-2  # on longer cells, from which a strip starts
 FIRST = 12_000  # cells from which longer ones come first
 HEAVIER = 1.03  # times the load: the second solve, for the slope
 # counted work [s of a usual core] a cell: a Newton step, its factorisation over log2 of the cells, a step of GMRES
-STEP, FACTORISATION, KRYLOV = 1.7e-6, 1.35e-7, 1.9e-7
+STEP = 1.7e-6
+FACTORISATION = 1.35e-7
+KRYLOV = 1.9e-7
 RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
 GROWING = 2.0  # the same, where the series ends; 1.7 to 2.2 was seen at 110 N on cells from 1.8 to 0.45 um
 UNKNOWN_RATIO = 0.6  # from two grids: as measured on cells of 3.6, 1.8 and 0.9 um of the built-in surface
@@ -46,7 +48,8 @@ class Strip:
     def deviations(self) -> np.ndarray:
         """(F_i - slope (w_i - w) - F)/w of every column i along y (ny,), with a mean of 0: what f of places deviates by
         if the load is balanced."""
-        friction, load = self.result.friction_at, self.result.load_at
+        friction = self.result.friction_at
+        load = self.result.load_at
         return (friction - friction.mean() - self.slope * (load - load.mean())) / self.result.load
 
 
@@ -74,7 +77,9 @@ def solve_strip(
     """
     check_resolved_gap(scene)
     problem = problem_of(scene, surface, speed, factors, upper)
-    work, rise, longer = 0.0, math.nan, (2 * factors[0], 2 * factors[1])
+    work = 0.0
+    rise = math.nan
+    longer = (2 * factors[0], 2 * factors[1])
     if start is None and problem.heights.size > FIRST and surface.shape[1] % longer[1] == 0:
         with suppress(ConvergenceError):
             start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE, upper=upper)
@@ -93,7 +98,8 @@ def solve_strip(
 def change_by_flow(strip: Strip, lubricant: Lubricant) -> float:
     """Relative change of f of ``strip`` if another ``lubricant`` flowed in its film, with the shear stress that it has.
     Raises `ConvergenceError`."""
-    problem, result = strip.problem, strip.result
+    problem = strip.problem
+    result = strip.result
     if lubricant == problem.lubricant:
         return 0.0
     other = replace(problem, contact=replace(problem.contact, lubricant=lubricant))
@@ -123,7 +129,8 @@ def problem_of(
     """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
     times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of it that is surface 2
     (all of it where only the counterface is rough). The lubricant flows with the viscosity of its heated inlet."""
-    film, ratio = scene.bodies.boundary_film, scene.motion.slide_roll_ratio
+    film = scene.bodies.boundary_film
+    ratio = scene.motion.slide_roll_ratio
     lubricant = film_lubricant(scene, speed)
     if [name for name, _ in moving_bodies(scene)] == ["counterface"]:
         upper = surface
@@ -158,7 +165,8 @@ def estimate(changes: Sequence[float], left: float = math.inf) -> float:
     ends there, with twice that ratio, since two changes tell it badly, and up to 2: on exponential surfaces under heavy
     loads the changes grow down to those cells.
     """
-    ratio, endless = UNKNOWN_RATIO, math.isinf(left)
+    ratio = UNKNOWN_RATIO
+    endless = math.isinf(left)
     if len(changes) > 1 and changes[-2] > 0:
         times, most = (1.0, RATIO[1]) if endless else (2.0, GROWING)
         ratio = min(max(times * changes[-1] / changes[-2], RATIO[0]), most)

@@ -29,9 +29,15 @@ from ...surface import Surface
 
 FLOOR = 1e-9  # m
 BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/deterministic.md)
-ROUGH_INLET, ROUGH_OUTLET = 14.0, 5.0  # the undeformed gap at the ends of the grid, in Sq
-HERTZ_INLET, HERTZ_OUTLET = 3.0, 1.8  # the ends, at least, in Hertz half-widths
-FILM_INLET, FILM_OUTLET = 1.5, 0.8  # and in sqrt(2 R h) of the smooth film
+# the undeformed gap at the ends of the grid, in Sq
+ROUGH_INLET = 14.0
+ROUGH_OUTLET = 5.0
+# the ends, at least, in Hertz half-widths
+HERTZ_INLET = 3.0
+HERTZ_OUTLET = 1.8
+# and in sqrt(2 R h) of the smooth film
+FILM_INLET = 1.5
+FILM_OUTLET = 0.8
 LARGEST = 2**20  # cells
 
 
@@ -118,7 +124,8 @@ def reach(contact: LineContact, sq: float) -> tuple[float, float]:
     The grid ends where the roughness is small compared with the gap (its effect on the flow, 6 (Sq/h)², is below some 3
     %) and where there is no pressure. Upstream of the grid the film continues in closed form.
     """
-    radius, b = contact.radius, contact.half_width
+    radius = contact.radius
+    b = contact.half_width
     film = min(contact.moes_film, contact.rigid_film) if contact.L == 0 else contact.moes_film
     thick = math.sqrt(2 * radius * film)
     rough_in, rough_out = (math.sqrt(2 * radius * n * sq) for n in (ROUGH_INLET, ROUGH_OUTLET))
@@ -143,8 +150,10 @@ def lay_out(
     lengths up and down stream (default: `reach`). Raises `InputError` for more cells than `LARGEST`, and for factors
     that do not divide the map.
     """
-    (nx, ny), (fx, fy) = surface.shape, factors
-    dx, dy = surface.spacing[0] * fx, surface.spacing[1] * fy
+    (nx, ny) = surface.shape
+    (fx, fy) = factors
+    dx = surface.spacing[0] * fx
+    dy = surface.spacing[1] * fy
     if ny % fy:
         raise InputError(f"factors = {factors} do not divide the {ny} cells of the map along y; allowed: its divisors")
     upstream, downstream = reach(contact, surface.sq) if ends is None else ends
@@ -152,7 +161,8 @@ def lay_out(
     if begins is not None and begins < upstream + dx:  # the first cell is the first that is all behind it
         upstream = begins - 1.5 * dx + 1e-9 * dx
     # the centres of the cells of the map are (i - (nx - 1)/2) dx/fx; those taken are fx//2, fx//2 + fx, ...
-    middle, taken = (nx - 1) / 2, fx // 2
+    middle = (nx - 1) / 2
+    taken = fx // 2
     first = math.floor((middle - taken) / fx - upstream / dx)
     last = math.ceil((middle - taken) / fx + downstream / dx)
     index = taken + fx * np.arange(first, last + 1)
@@ -177,12 +187,14 @@ def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]
 
     It is shifted by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
     """
-    (nx, ny), dx = surface.shape, surface.spacing[0]
+    (nx, ny) = surface.shape
+    dx = surface.spacing[0]
     fy = ny // problem.heights.shape[1]
     heights = surface.heights[:, fy // 2 :: fy] - surface.heights.mean()
     if not surface.periodic_axes[0]:
         heights = np.concatenate([heights, heights[::-1]])
     period = heights.shape[0]
     place = np.rint(problem.x / dx + (nx - 1) / 2).astype(int) % period
-    waves, k = np.fft.rfft(heights, axis=0), 2 * np.pi * np.fft.rfftfreq(period, dx)
+    waves = np.fft.rfft(heights, axis=0)
+    k = 2 * np.pi * np.fft.rfftfreq(period, dx)
     return lambda s: np.fft.irfft(waves * np.exp(-1j * k * s)[:, None], n=period, axis=0)[place]

@@ -121,9 +121,13 @@ class Rubbing:
 
 def rubbing(at: Iterate, law, film: float) -> Rubbing:
     """With a boundary ``film`` [m]. ``law``: the stress [Pa] that the lubricant has by itself (nx, ny)."""
-    problem, p, h, inlet = at.problem, at.state.pressure, at.balance.film, at.balance.inlet
+    problem = at.problem
+    p = at.state.pressure
+    h = at.balance.film
+    inlet = at.balance.inlet
     limit = problem.boundary_friction * p * (problem.sliding > 0)  # in pure rolling spots do not slide
-    dx, fluid = problem.spacing[0], at.state.kind == FLUID
+    dx = problem.spacing[0]
+    fluid = at.state.kind == FLUID
     thin = (at.state.kind == TOUCHING) | fluid & (h < film)
     spots = thin | fluid & (p > PRESSED) & (law > limit) if problem.lubricant.newtonian else thin
     wet = fluid & ~spots
@@ -138,8 +142,14 @@ def rubbing(at: Iterate, law, film: float) -> Rubbing:
 
 def assemble(at: Iterate, report: Report) -> DeterministicResult:
     """The result at a solved state."""
-    problem, state, h, inlet = at.problem, at.state, at.balance.film, at.balance.inlet
-    p, dx, touching, fluid = state.pressure, problem.spacing[0], state.kind == TOUCHING, state.kind == FLUID
+    problem = at.problem
+    state = at.state
+    h = at.balance.film
+    inlet = at.balance.inlet
+    p = state.pressure
+    dx = problem.spacing[0]
+    touching = state.kind == TOUCHING
+    fluid = state.kind == FLUID
     with np.errstate(over="ignore"):
         law = shear_stress(problem.sheared or problem.lubricant, p, problem.sliding / h)
     rubs, *others = (rubbing(at, law, times * problem.boundary_film) for times in (1.0, 0.5, 2.0))

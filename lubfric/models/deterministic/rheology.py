@@ -51,7 +51,8 @@ def mean_fluidity(left, right) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 def thinning(lubricant: Lubricant, newtonian_stress, critical, along: bool):
     """Φ [-] at the Newtonian stress eta Δu/h [Pa] on faces, with the ``critical`` stress [Pa] of each law there; its
     derivative d ln Φ/d ln s; and the parts of the derivative that belong to the laws."""
-    factor, slopes = 1.0, []
+    factor = 1.0
+    slopes = []
     for law, tau_c in zip(lubricant.shear_laws, critical):
         own, slope = law.thinning(newtonian_stress / tau_c, along)
         factor = own + (factor - 1.0)

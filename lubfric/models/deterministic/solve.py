@@ -14,17 +14,26 @@ from .result import DeterministicResult, assemble
 from .state import FLUID, RUPTURED, State, evaluated, residuals
 
 TOLERANCE = 1e-5
-NEAR, DIRECT, MARCHED = 40, 50, 500  # LU factorisations: from a state nearby, from the dry contact, in time
+# LU factorisations: from a state nearby, from the dry contact, in time
+NEAR = 40
+DIRECT = 50
+MARCHED = 500
 MOST = 800  # of all ways together, unless it is said
 FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
 LOOSE = 1e-3  # tolerance of solutions on the way
-LONGER, SHORTEST = 1.5, 0.05  # what a step in ln(speed) grows by, and the least one
+# what a step in ln(speed) grows by, and the least one
+LONGER = 1.5
+SHORTEST = 0.05
 ADVICE = "longer cells may lead there, or a higher speed"
-THIN_STRESS, THIN_OFFSET = 0.09, 2e6  # limiting stress over the pressure, and at ambient [Pa], of the fluid that starts
+# limiting stress over the pressure, and at ambient [Pa], of the fluid that starts
+THIN_STRESS = 0.09
+THIN_OFFSET = 2e6
 # a Newtonian
 DRY_TOLERANCE = 1e-4
 RUPTURE = 0.55  # of sqrt(2 R h): a little behind where a rigid film ruptures, 0.475
-SHARP, WORSE = 0.02, 2.0  # share of the load on spots from which on a finer grid starts from its dry contact
+# share of the load on spots from which on a finer grid starts from its dry contact
+SHARP = 0.02
+WORSE = 2.0
 WET = 0.1  # share up to which the film of longer cells is laid on the dry contact of shorter ones
 WHOLE = 0.3  # of a Newton step: from there the solution follows by longer ones, or not at all
 
@@ -119,7 +128,8 @@ def dry_contact(problem: Problem, tolerance=DRY_TOLERANCE) -> ContactResult:
 def dry_start(problem: Problem, dry: ContactResult) -> State:
     """The pressure of the ``dry`` contact, and its gap plus Moes' film. Behind contact and film the film has
     ruptured."""
-    p, film = dry.pressure, problem.contact.moes_film
+    p = dry.pressure
+    film = problem.contact.moes_film
     dent = np.where(p >= problem.hardness, np.maximum(-dry.gap, 0.0), 0.0)
     full = max(RUPTURE * math.sqrt(2 * problem.radius * film), problem.contact.half_width)
     kind = np.where((p <= 0) & (problem.x > full)[:, None], RUPTURED, FLUID).astype(np.int8)
@@ -164,7 +174,9 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     h0 is corrected, because the half-space has its zero, u = 0, at the length of the grid from a line load. The cells
     may also be those of ``coarse`` on a longer or shorter grid.
     """
-    old, (nx, ny), (nx_old, ny_old) = result.state, problem.heights.shape, coarse.heights.shape
+    old = result.state
+    (nx, ny) = problem.heights.shape
+    (nx_old, ny_old) = coarse.heights.shape
     along = (problem.x - coarse.x[0]) / coarse.spacing[0]
     across = (np.arange(ny) + 0.5) * (ny_old / ny) - 0.5
     nearest = old.kind[np.clip(np.rint(along).astype(int), 0, nx_old - 1)][:, np.rint(across).astype(int) % ny_old]
@@ -183,7 +195,8 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
     smooth = state(_interpolated(old.pressure, along, across), kind, _interpolated(old.dent, along, across), approach)
     if problem.spacing == coarse.spacing:
         return smooth, 0.0
-    new, spots = dry_contact(problem), result.split.spots / result.load
+    new = dry_contact(problem)
+    spots = result.split.spots / result.load
 
     def near(one: State) -> bool:
         left, others = (max(residuals(evaluated(problem, at)).values()) for at in (one, dry_start(problem, new)))
@@ -209,12 +222,15 @@ def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult
 
 def _interpolated(field, along, across) -> np.ndarray:
     """Linear interpolation at the cells ``along`` x (zero outside) and ``across`` y (periodic), counted in cells."""
-    i, j = np.floor(along).astype(int), np.floor(across).astype(int)
-    s, t = (along - i)[:, None], across - j
+    i = np.floor(along).astype(int)
+    j = np.floor(across).astype(int)
+    s = (along - i)[:, None]
+    t = across - j
     padded = np.zeros((field.shape[0] + 2, field.shape[1]))
     padded[1:-1] = field
     i = np.clip(i + 1, 0, field.shape[0])
-    j0, j1 = j % field.shape[1], (j + 1) % field.shape[1]
+    j0 = j % field.shape[1]
+    j1 = (j + 1) % field.shape[1]
     before = (1 - t) * padded[i][:, j0] + t * padded[i][:, j1]
     behind = (1 - t) * padded[i + 1][:, j0] + t * padded[i + 1][:, j1]
     return (1 - s) * before + s * behind

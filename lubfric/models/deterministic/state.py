@@ -8,7 +8,9 @@ import numpy as np
 from .flow import Balance, balance
 from .problem import Problem
 
-FLUID, RUPTURED, TOUCHING = 0, 1, 2
+FLUID = 0
+RUPTURED = 1
+TOUCHING = 2
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
 
 
@@ -72,7 +74,8 @@ def stored(mass: np.ndarray, past: Past) -> tuple[np.ndarray, np.ndarray]:
     before, step, then, _ = past
     if then is None:
         return (mass - before) / step, np.full_like(mass, 1 / step)
-    now, free = kept(mass, *then), then[1] * (then[0] - mass) < 0.5 * mass
+    now = kept(mass, *then)
+    free = then[1] * (then[0] - mass) < 0.5 * mass
     return (now - before) / step, np.where(free, 1.0 + then[1], 0.5) / step
 
 
@@ -107,8 +110,10 @@ def _resorted(at: Iterate) -> State:
     - A fluid cell closer than the floor touches. A touching cell under suction opens (`_opened`).
     - A cell with a pressure above P_u yields. One whose dent would vanish stops yielding.
     """
-    problem, state = at.problem, at.state
-    p, kind = state.pressure, state.kind.copy()
+    problem = at.problem
+    state = at.state
+    p = state.pressure
+    kind = state.kind.copy()
     fluid, ruptured, touching = (kind == k for k in (FLUID, RUPTURED, TOUCHING))
     kind[ruptured & (state.fill > 1)] = FLUID
     kind[fluid & (p < 0)] = RUPTURED
@@ -155,7 +160,9 @@ def residuals(at: Iterate) -> dict[str, float]:
     - fill: the largest amount by which the fill of a ruptured cell is below 0 or above 1;
     - pressure: the largest of -p and p - P_u over the largest pressure.
     """
-    problem, state, r = at.problem, at.state, at.residual
+    problem = at.problem
+    state = at.state
+    r = at.residual
     flow = at.mean_flow * r.shape[1] / problem.spacing[0]
     touching = state.kind == TOUCHING
     closed = np.abs(at.gap[touching] - problem.floor).max(initial=0.0)

@@ -16,8 +16,13 @@ from .response import Response, divided, respond
 SAFE_FILM = 2.0  # times Moes' film: more than any film has
 BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
 EMPTY = math.log(1e-4)  # of a film that arrives: it is none if it carries less than that and leaves the gap empty
-FIRST_STEP, NEXT_STEP = 1.5, 0.7  # of ln(F_H/F_C): from a guess, and from a balance at another speed
-STEPS, FARTHEST, NEAR = 30, 1.0, 1e-3  # of Newton's method, its longest one, and how far it goes in ln(F_H/F_C)
+# of ln(F_H/F_C): from a guess, and from a balance at another speed
+FIRST_STEP = 1.5
+NEXT_STEP = 0.7
+# of Newton's method, its longest one, and how far it goes in ln(F_H/F_C)
+STEPS = 30
+FARTHEST = 1.0
+NEAR = 1e-3
 ROUNDS = 6  # each with tighter tolerances
 SETTLED = 0.3  # of ln(F_H/F_C): a response found as near as that to the balance is its own
 
@@ -181,7 +186,8 @@ def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
     only a start.
     """
     assert start.film is not None
-    load, slope = point.scene.bodies.load, start.slope
+    load = point.scene.bodies.load
+    slope = start.slope
     line = point.line(start.film_load)
     before, exponent, _ = exponents(replace(line, entrainment_speed=start.film.entrainment_speed))
     stiffness = max(2 * slope * load - exponent * start.contact_load, 0.0) / start.film_load
@@ -202,17 +208,21 @@ def _seen_root(point: Point, split: float, slope: float | None, step: float, fir
     root of the errors of a loose contact is none."""
     while True:
         root = _root(point, split, slope, step, first)
-        now, volume = point.settings.contact_tolerance, point.settings.balance_tolerance
+        now = point.settings.contact_tolerance
+        volume = point.settings.balance_tolerance
         tighter = now if root.payload is None else _contact_tolerance(point, root.payload.contact, volume)
         if tighter == now:
             return point, root
         point = replace(point, settings=replace(point.settings, contact_tolerance=tighter))
-        split, first = root.x, (None, root.payload)
+        split = root.x
+        first = (None, root.payload)
 
 
 def _contact_tolerance(point: Point, contact: ContactState, volume: float) -> float | None:
     """The tolerance that leaves less than ``volume`` of the gap of ``contact`` open: that of ``point`` if it does."""
-    now, own, fields = point.settings.contact_tolerance, point.contact.adjustable_tolerance, contact.fields
+    now = point.settings.contact_tolerance
+    own = point.contact.adjustable_tolerance
+    fields = contact.fields
     if own is None or fields is None or point.scene.numerics.contact_tolerance is not None:
         return now
     enough = max(volume * contact.mean_gap / fields.length, budget.TIGHTEST_CONTACT)
@@ -220,14 +230,16 @@ def _contact_tolerance(point: Point, contact: ContactState, volume: float) -> fl
 
 
 def _root(point: Point, split: float, slope: float | None, step: float, first) -> Root:
-    load, most = point.scene.bodies.load, point.contact.capacity
+    load = point.scene.bodies.load
+    most = point.contact.capacity
     lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
 
     def residual(x: float, last: Trial | None) -> tuple[float, Trial]:
         found = point.trial(*divided(load, x), last)
         return found.contact.volume_residual, found
 
-    tolerance, fed = point.settings.balance_tolerance, point.scene.lubricant.inlet_film is not None
+    tolerance = point.settings.balance_tolerance
+    fed = point.scene.lubricant.inlet_film is not None
     lowest = max(lowest, EMPTY) if fed else lowest
     known = {"slope": slope, "first": first, "bounds": (lowest, BOUNDS[1])}
     root = increasing_root(residual, split, step=step, tolerance=tolerance, **known)
@@ -235,7 +247,8 @@ def _root(point: Point, split: float, slope: float | None, step: float, first) -
 
 
 def _balance(point: Point, root: Root, response: Response) -> Balance:
-    trial, scene = root.payload, point.scene
+    trial = root.payload
+    scene = point.scene
     report = _report(scene, root.status, root.history, trial.contact, trial.film, (), point.settings.balance_tolerance)
     found = forces(scene, trial.film, trial.contact, trial.contact_load)
     loads = trial.film_load, trial.contact_load
@@ -252,10 +265,13 @@ def _first_settings(scene: Scene, alone: bool = False) -> Settings:
 
 def _needed(point: Point, balance: Balance) -> Settings:
     """The settings that ``balance`` shows to be needed: those of ``point`` if they are enough."""
-    numerics, now, response = point.scene.numerics, point.settings, balance.response
+    numerics = point.scene.numerics
+    now = point.settings
+    response = balance.response
     assert response is not None and balance.film is not None
     mean_film = balance.contact.mean_film
-    film, volume = now.film_tolerance, now.balance_tolerance
+    film = now.film_tolerance
+    volume = now.balance_tolerance
     if numerics.film_tolerance is None:
         share = budget.FILM_GRID * numerics.tolerance / max(response.per_film(balance.forces, mean_film), 1e-12)
         film = _tightened(film, max(min(share, budget.FIRST_FILM), budget.TIGHTEST_FILM))
@@ -279,7 +295,8 @@ def _tightened(now: float, needed: float) -> float:
 def _cells(point: Point, film: EHLResult, found: Forces) -> int:
     """Least number of cells of the film: twice its present number where the sum of its shear stress is not exact
     enough. It stays where that sum is of stresses that no oil carries."""
-    numerics, now = point.scene.numerics, point.settings.film_cells
+    numerics = point.scene.numerics
+    now = point.settings.film_cells
     resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
     if numerics.film_tolerance is not None or resolved:
         return now

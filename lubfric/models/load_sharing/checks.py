@@ -9,7 +9,9 @@ from ...oil import CELSIUS, NO_LIQUID
 from .heat import TYPICAL, typical_heat
 from .validity import Validity
 
-LAMINAR, TURBULENT = 1000.0, 2000.0  # rho U h/eta
+# rho U h/eta
+LAMINAR = 1000.0
+TURBULENT = 2000.0
 INERTIA = 0.1  # (rho U h/eta) h/b
 OPPOSED = 2.0  # slide-roll ratio
 DENSITY = 870.0  # kg/m³ of an oil, where none is given
@@ -39,10 +41,12 @@ def of_motion(scene, speed: float, film: float) -> Iterator[Validity]:
         if reynolds > LAMINAR:
             limit = TURBULENT if reynolds > TURBULENT else LAMINAR
             why = "the film is turbulent or near it"
-            what, remedy = "Reynolds number", "a laminar film needs less speed or more viscosity"
+            what = "Reynolds number"
+            remedy = "a laminar film needs less speed or more viscosity"
             yield Validity(what, reynolds, limit, "", why, remedy, reynolds > TURBULENT)
         elif inertia > INERTIA:
-            why, what = "Reynolds' equation leaves inertia out", "inertia over viscous forces in the film"
+            why = "Reynolds' equation leaves inertia out"
+            what = "inertia over viscous forces in the film"
             yield Validity(what, inertia, INERTIA, "", why, "less speed or more viscosity")
 
 
@@ -56,12 +60,16 @@ def of_film(scene, thickness: float, peak: float, shear, film_load: float, force
 
 def of_pressure(scene, peak: float) -> Iterator[Validity]:
     """Entries for the highest film pressure ``peak`` [Pa]."""
-    law, hertz_peak = scene.lubricant.viscosity_law, 4 / math.pi * scene.bodies.mean_hertz_pressure
+    law = scene.lubricant.viscosity_law
+    hertz_peak = 4 / math.pi * scene.bodies.mean_hertz_pressure
     limit = {"roelands": ROELANDS_LIMIT, "barus": BARUS_LIMIT}.get(law, math.inf)
     consequence = f"the {law} viscosity law is an extrapolation there"
-    remedy, severe = "the film's friction rests on it: a measured limiting stress is safer", peak > NO_LIQUID
+    remedy = "the film's friction rests on it: a measured limiting stress is safer"
+    severe = peak > NO_LIQUID
     if severe:
-        limit, consequence, remedy = NO_LIQUID, "no oil is a liquid there", "check bodies.load"
+        limit = NO_LIQUID
+        consequence = "no oil is a liquid there"
+        remedy = "check bodies.load"
     if not peak > limit:
         return
     if scene.lubricant.density_law == "constant" and hertz_peak < limit:
@@ -83,7 +91,9 @@ def of_inlet(scene, line, flow: float, friction: float) -> Iterator[Validity]:
     """Entries for a film of ``line``, a `LineContact`, that a given inlet changes: its ``flow`` film [m] over that of a
     full one, by Moes; or what the lubricant farther out would add to ``friction`` |f| F_T [N] by rolling, 12 eta U R/x
     a width from x on: ∫ h/2 dp/dx dx, where the film is far thicker than where it rolls in."""
-    oil, tolerance, flooded = scene.lubricant, scene.numerics.tolerance, line.moes_film
+    oil = scene.lubricant
+    tolerance = scene.numerics.tolerance
+    flooded = line.moes_film
     out = oil.inlet_length or math.inf
     lost = 12 * oil.viscosity * line.entrainment_speed * line.radius / out * scene.bodies.width
     if not oil.floods and flow <= (1 - tolerance) * flooded:
@@ -91,7 +101,8 @@ def of_inlet(scene, line, flow: float, friction: float) -> Iterator[Validity]:
         what = "film over that of a full inlet, by Moes,"
         yield Validity(what, flow / flooded, 1.0, "", consequence, "leave both out")
     elif lost > tolerance * friction:
-        what, why = "rolling friction of the inlet beyond inlet_length, in f,", "f rests on where the lubricant begins"
+        what = "rolling friction of the inlet beyond inlet_length, in f,"
+        why = "f rests on where the lubricant begins"
         yield Validity(what, 100 * lost / friction, 100 * tolerance, "%", why, "leave it out for a full inlet")
 
 
@@ -158,7 +169,8 @@ def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[
             severe,
         )
     elif friction > FRICTION and abs(shear.couette) > tolerance * friction_force:
-        what, why = "friction coefficient of the film", "more than any lubricant gives"
+        what = "friction coefficient of the film"
+        why = "more than any lubricant gives"
         yield Validity(what, friction, FRICTION, "", why, remedy)
 
 
@@ -217,12 +229,14 @@ def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Val
 def judged(prepared, speed: float, balance, ends: float) -> tuple[Validity, ...]:
     """Entries for every assumption that ``balance`` violates. Those about bodies and map (`Prepared.known`) come
     first. ``ends``: the share of the contact's load on the edge columns of its patch."""
-    scene, film = prepared.scene, balance.film
+    scene = prepared.scene
+    film = balance.film
     thickness = film.central_film if film is not None else math.nan
     entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
     entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
     if film is not None:
-        peak, found = float(film.pressure.max()), balance.forces
+        peak = float(film.pressure.max())
+        found = balance.forces
         force = abs(found.coefficient) * scene.bodies.load
         entries += of_inlet(scene, film.contact, film.flow_film, force)
         entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)

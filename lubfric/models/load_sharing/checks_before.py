@@ -15,8 +15,12 @@ from .validity import Validity
 
 NODES = 201  # across the Hertz strip
 
-WIDE, WIDEST = 0.1, 0.5  # half-width of the Hertz strip over R: half-space
-STEEP, STEEPEST = 0.5, 1.5  # rms slope
+# half-width of the Hertz strip over R: half-space
+WIDE = 0.1
+WIDEST = 0.5
+# rms slope
+STEEP = 0.5
+STEEPEST = 1.5
 NOISE = 0.8  # cells in a correlation length (white noise: 0.63)
 FILTERED = "lines in the right order, or surface.s_filter"
 FEW = 10  # correlation lengths that a patch should be wide
@@ -49,14 +53,17 @@ def of_bodies(bodies) -> Iterator[Validity]:
     wide = bodies.half_width / bodies.radius
     if wide > WIDE:
         remedy = "check bodies.load, e_prime and radius; a lighter load or a stiffer body"
-        why, what = "the contact is as wide as the body, which is then no half-space", "contact half-width over radius"
+        why = "the contact is as wide as the body, which is then no half-space"
+        what = "contact half-width over radius"
         yield Validity(what, wide, WIDEST if wide > WIDEST else WIDE, "", why, remedy, wide > WIDEST)
     if bodies.width < 2 * bodies.half_width:
-        why, what = "the contact is wider than long: no line contact", "line length over contact width"
+        why = "the contact is wider than long: no line contact"
+        what = "line length over contact width"
         yield Validity(what, bodies.width / (2 * bodies.half_width), 1.0, "", why, "check bodies.width and load")
     peak = hertz.line_peak_pressure(bodies.load / bodies.width, bodies.radius, bodies.e_prime)
     if bodies.hardness is None and peak > YIELDED:
-        why, what = "hard steel yields there, the bodies are elastic here", "peak Hertz pressure"
+        why = "hard steel yields there, the bodies are elastic here"
+        what = "peak Hertz pressure"
         yield Validity(what, peak / 1e9, YIELDED / 1e9, "GPa", why, "check bodies.load; give bodies.hardness")
 
 
@@ -65,14 +72,16 @@ def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterato
     motion; ``cells``: in its correlation length along x and y. NaN: not known."""
     if slope > STEEP:
         remedy = "check the units of heights and spacing; filter the map at the scale that matters"
-        why, what = "the half-space takes slopes as small: contact area and pressures are off", "rms slope of the map"
+        why = "the half-space takes slopes as small: contact area and pressures are off"
+        what = "rms slope of the map"
         yield Validity(what, slope, STEEPEST if slope > STEEPEST else STEEP, "", why, remedy, slope > STEEPEST)
     if lengths < FEW:
         why = "few asperities: another patch of the same surface would give another f"
         yield Validity("width of the map over its correlation length", lengths, FEW, "", why, "a larger map")
     for axis, count in zip("xy", cells):
         if count < NOISE:
-            what, remedy = f"cells in a correlation length along {axis}", f"a shorter step along {axis}, {FILTERED}"
+            what = f"cells in a correlation length along {axis}"
+            remedy = f"a shorter step along {axis}, {FILTERED}"
             yield Validity(what, count, NOISE, "", "neighbouring heights are as good as noise", remedy, severe=True)
 
 
@@ -93,7 +102,9 @@ def expected(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...
 
 def _of_film(scene, speed: float, film: float) -> list[Validity]:
     """Entries for a ``film`` [m] of even thickness under the Hertz pressure."""
-    bodies, lubricant, w = scene.bodies, scene.lubricant, scene.bodies.load / scene.bodies.width
+    bodies = scene.bodies
+    lubricant = scene.lubricant
+    w = scene.bodies.load / scene.bodies.width
     x = np.linspace(-1, 1, NODES) * bodies.half_width
     pressure = hertz.line_pressure(x, w, bodies.radius, bodies.e_prime)
     with np.errstate(over="ignore"):

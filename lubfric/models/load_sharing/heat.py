@@ -82,7 +82,8 @@ class Heat:
 
 def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
     """Inlet heating of ``scene`` at ``speed`` [m/s], and whether the film is to be solved with it."""
-    lubricant, numerics = scene.lubricant, scene.numerics
+    lubricant = scene.lubricant
+    numerics = scene.numerics
     if numerics.heat == "off" or not lubricant.heats or speed == 0:
         return None, False
     bodies = scene.bodies
@@ -110,13 +111,15 @@ def film_lubricant(scene, speed: float) -> Lubricant:
             f"factor of Gupta et al. (1992); allowed: up to about {LARGEST:g}, or numerics.heat = 'off' (speed, "
             "viscosity, temperature_coefficient and their units?)"
         )
-    lubricant, whole = scene.lubricant, scene.line_contact(speed)
+    lubricant = scene.lubricant
+    whole = scene.line_contact(speed)
 
     def thinner(log_share):
         made = replace(lubricant, viscosity=lubricant.viscosity * math.exp(log_share))
         return math.log(replace(whole, lubricant=made).moes_film / whole.moes_film)
 
-    wanted, share = math.log(found.factor), math.log(found.factor) / 0.7
+    wanted = math.log(found.factor)
+    share = math.log(found.factor) / 0.7
     for _ in range(6):  # the exponent of the viscosity changes slowly, between 0.5 and 1
         share *= wanted / thinner(share)
     return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
@@ -134,12 +137,15 @@ def point_heat(scene, film, contact, contact_load, force: float, shear) -> tuple
     pressed = float(film.pressure.max()) > NO_LIQUID  # a rigid film far above its range, on the way to one that is not
     if scene.motion.slide_roll_ratio == 0 or pressed or not shear.excess < math.inf:
         return Heat(inlet, used), warm, None
-    lubricant, numerics = scene.lubricant, scene.numerics
+    lubricant = scene.lubricant
+    numerics = scene.numerics
     nodes, change_by = _nodes(scene, film, contact, contact_load, force)
-    change, peclet = change_by(isothermal_heat(lubricant, *nodes).stress), peclet_at(scene, film.entrainment_speed)
+    change = change_by(isothermal_heat(lubricant, *nodes).stress)
+    peclet = peclet_at(scene, film.entrainment_speed)
     if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
         return Heat(inlet, used, change, None, peclet), warm, None
-    found, (x, *_, around) = heated_film(lubricant, *nodes), nodes
+    found = heated_film(lubricant, *nodes)
+    (x, *_, around) = nodes
     change = change_by(found.stress)
 
     def stress(at, pressure, thickness):
@@ -151,10 +157,14 @@ def point_heat(scene, film, contact, contact_load, force: float, shear) -> tuple
 def _nodes(scene, film, contact, contact_load: float, force: float):
     """Nodes running downstream, pressure and film there, and the `Surroundings`; and the function that tells by what
     share of ``force`` [N] a stress [Pa] (n,) makes the friction less than the isothermal stress does."""
-    bodies, motion = scene.bodies, scene.motion
-    speed, direction = abs(film.entrainment_speed), math.copysign(1.0, film.entrainment_speed)
+    bodies = scene.bodies
+    motion = scene.motion
+    speed = abs(film.entrainment_speed)
+    direction = math.copysign(1.0, film.entrainment_speed)
     order = np.argsort(film.x * direction)
-    x, p, h = film.x[order] * direction, film.pressure[order], film.film_thickness[order]
+    x = film.x[order] * direction
+    p = film.pressure[order]
+    h = film.film_thickness[order]
     share = 1.0 - contact.touching(x * direction)
     share = np.where(x[:-1] < film.rupture * direction, share, 0.0)
     wet = 0.5 * (np.append(share[:1], share) + np.append(share, share[-1:]))
@@ -189,7 +199,8 @@ def typical_heat(scene, film, contact, contact_load: float, force: float, shear)
     meaningless = float(film.pressure.max()) > NO_LIQUID or not shear.excess < math.inf
     if known or scene.numerics.heat == "off" or scene.motion.slide_roll_ratio == 0 or meaningless:
         return 0.0
-    temperature, coefficient = lubricant.temperature or TYPICAL[0], lubricant.temperature_coefficient or TYPICAL[1]
+    temperature = lubricant.temperature or TYPICAL[0]
+    coefficient = lubricant.temperature_coefficient or TYPICAL[1]
     like = replace(lubricant, temperature=temperature, temperature_coefficient=coefficient)
     nodes, change_by = _nodes(scene, film, contact, contact_load, force)
     return change_by(isothermal_heat(like, *nodes).stress)

@@ -16,12 +16,20 @@ from ...oil import carried_stress, shear_stress
 from ...scene import Scene, moves
 from .heat import TYPICAL
 
-STARVED, WORN, WARMER, RUBBED = 0.7, 0.6, 10.0, 0.75  # of the film; of Sq; K; of f_b
+# of the film; of Sq; K; of f_b
+STARVED = 0.7
+WORN = 0.6
+WARMER = 10.0
+RUBBED = 0.75
 GAP = 1.6  # Sq: mean gap of a contact that carries most of the load, about
 THICK = 3.0  # film over Sq from which roughness that moves hardly matters
-SOFT, DEEP = 5e9, 5.0  # Pa: E' of covered rollers and seals; half-widths that a cover must be thick
+# Pa: E' of covered rollers and seals; half-widths that a cover must be thick
+SOFT = 5e9
+DEEP = 5.0
 SURE = 1e-6  # of the load: a share of the asperities or of the film is not scaled beyond it
-UPSTREAM, RUPTURE = 4.0, 0.475  # of √(2 R h): how far a film reaches before and behind a narrow contact
+# of √(2 R h): how far a film reaches before and behind a narrow contact
+UPSTREAM = 4.0
+RUPTURE = 0.475
 ALONE = 0.1  # of f by asperities, below which the film makes it
 NARROW = 0.184  # by which the least film of a rigid contact is thinner than that which flows
 NODES = 201
@@ -51,7 +59,8 @@ def lacking(scene: Scene, sq: float, speed: float, known: tuple[float, float] | 
 
 def _of_film(scene: Scene, sq: float, speed: float, known) -> list[Lack]:
     """What needs a film."""
-    line, lubricant = scene.line_contact(speed), scene.lubricant
+    line = scene.line_contact(speed)
+    lubricant = scene.lubricant
     thinner = math.exp(-WARMER * (lubricant.temperature_coefficient or TYPICAL[1]))
     warm = scene.with_(lubricant={"oil": None, "viscosity": thinner * lubricant.viscosity})
     reach = line.half_width + flooded_inlet(math.sqrt(2 * line.radius * line.moes_film), line.half_width)
@@ -100,12 +109,14 @@ def _scaled(f_b: float, before, after, known) -> tuple[float, float]:
 
 def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[float, float]:
     """The friction [-] of asperities alone and of all, to some ten per cent, at so many times the expected ``film``."""
-    bodies, ratio = scene.bodies, scene.motion.slide_roll_ratio
+    bodies = scene.bodies
+    ratio = scene.motion.slide_roll_ratio
     rubs = bodies.boundary_friction_coefficient * (ratio != 0)
     if speed == 0:
         return rubs, rubs
     line = scene.line_contact(speed)
-    thickness, b = film * line.expected_film, line.half_width
+    thickness = film * line.expected_film
+    b = line.half_width
     share = math.exp(-1.8 * (thickness / sq) ** 1.2) if sq > 0 else 0.0
     rise = math.sqrt(2 * line.radius * thickness)
     begins = b + UPSTREAM * rise

@@ -56,7 +56,8 @@ class Point:
         Johnson, J. A. Greenwood, S. Y. Poon, Wear 19 (1972) 91-108, doi:10.1016/0043-1648(72)90445-0)."""
         bodies = self.scene.bodies
         share = film_load / bodies.load if self.scene.numerics.film_deflection == "scaled" else 1.0
-        load, e_prime = film_load / bodies.width, bodies.e_prime * share
+        load = film_load / bodies.width
+        e_prime = bodies.e_prime * share
         return replace(self.scene.line_contact(self.speed), load_per_width=load, e_prime=e_prime, lubricant=self.oil)
 
     def film(self, film_load: float, start: EHLResult | None = None, cells: int = 0) -> EHLResult:

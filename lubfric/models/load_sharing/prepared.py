@@ -30,7 +30,9 @@ from .checks_before import beforehand
 from .validity import Validity
 
 OWN = HalfSpaceContact, FlatContact, AsperityContact
-REMEMBERED, MOST_CELLS = 64, 8_000_000  # strips, pieces, operators and reference points; cells of all but the last
+# strips, pieces, operators and reference points; cells of all but the last
+REMEMBERED = 64
+MOST_CELLS = 8_000_000
 
 
 @dataclass(frozen=True, repr=False)
@@ -220,7 +222,8 @@ def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | 
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
     if not changed and isinstance(scene, Prepared):
         return scene
-    asked, ready = scene_of(scene).with_(numerics=changed), scene if isinstance(scene, Prepared) else None
+    asked = scene_of(scene).with_(numerics=changed)
+    ready = scene if isinstance(scene, Prepared) else None
     return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)
 
 

@@ -121,11 +121,13 @@ def respond(
 
     def at(s: float) -> dict[str, float]:
         loads = divided(total, s)
-        shared, factor = film_of(loads[0]), slopes.area_factor(loads[1] - load, width, state.real_contact_area_fraction)
+        shared = film_of(loads[0])
+        factor = slopes.area_factor(loads[1] - load, width, state.real_contact_area_fraction)
         mean_film = weighted_mean(shared.film_at(contact.x), contact.weight)  # the film fills the gap
         return quantities(forces(scene, shared, grown(state, factor), loads[1]), shared, loads, mean_film)
 
-    low, high = at(split - STEP), at(split + STEP)
+    low = at(split - STEP)
+    high = at(split + STEP)
     film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)
     ds_dgap = -1.0 / (-slopes.gap * load * film_load / (total * width) - film_rate)
     return Response(slopes, ds_dgap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
