@@ -182,7 +182,7 @@ def model_error(scene: Scene, found: Found) -> tuple[tuple[float, float], tuple[
         return UNKNOWN, (NOT_STUDIED,)
     if why := gap_not_resolved(scene):
         return UNKNOWN, (MODEL_UNKNOWN.format(why),)
-  
+
     sq = float(found.contact.heights.std())  # type: ignore[attr-defined]
     film = balance.film.central_film
     share = balance.contact_load / scene.bodies.load
