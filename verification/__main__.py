@@ -12,17 +12,20 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 # isort: split
 from . import frame
-from .studies import STUDIES
+from .catalogue import STUDIES
 
-# packages with a COMMAND of their own; imported only when asked for
-SUBCOMMANDS = ("published", "figures", "model", "sampling", "charts", "stability", "tables")
+# packages with a COMMAND of their own, imported only when the command is typed
+CAMPAIGNS = ("figures", "model", "sampling", "charts", "stability", "tables")
+SUBCOMMANDS = {"published": "verification.fem.published"} | {
+    name: f"verification.campaigns.{name}" for name in CAMPAIGNS
+}
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run the command that ``argv`` asks for, and return its exit code (see `verification.frame.main`)."""
     argv = sys.argv[1:] if argv is None else list(argv)
     if argv and argv[0] in SUBCOMMANDS:
-        return frame.main(importlib.import_module(f"verification.{argv[0]}").COMMAND, argv[1:])
+        return frame.main(importlib.import_module(SUBCOMMANDS[argv[0]]).COMMAND, argv[1:])
     summary = f"{__doc__} Other commands: {', '.join(SUBCOMMANDS)}."
     command = frame.Command("", summary, STUDIES, "out/verification", workers=min(2, os.cpu_count() or 1))
     if argv and not argv[0].startswith("-"):

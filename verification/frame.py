@@ -17,9 +17,9 @@ from typing import Any
 
 from . import kept
 from . import report as reports
+from .catalogue import Study
 from .check import Check
 from .run import Outcome, run
-from .studies import Study
 
 LEVELS = ("default", "quick", "full")
 
@@ -78,12 +78,14 @@ def campaign(
     add_options: Callable[[argparse.ArgumentParser], None] = lambda parser: None,
     own: Callable[[str, argparse.Namespace], dict[str, Any]] = lambda part, options: {},
 ) -> Command:
-    """A command whose ``parts`` are (name, "module:function" in this package, title, keywords).
+    """A command whose ``parts`` are (name, "module:function" in `verification.campaigns`, title, keywords).
 
     Each is ``function(level, run=..., **keywords)`` with a `kept.Run`, and yields what a study does. ``own(name,
     options)`` are more keywords.
     """
-    studies = tuple(Study(part, f"verification.{target}", title, levels, keys) for part, target, title, keys in parts)
+    studies = tuple(
+        Study(part, f"verification.campaigns.{target}", title, levels, keys) for part, target, title, keys in parts
+    )
     folder = f"out/{name}"
     return Command(name, summary, studies, folder, levels, add_options=add_options, own=own, campaign=True)
 
@@ -173,7 +175,7 @@ def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Name
 
 def put_tables(command: Command, outcome: Outcome, options: argparse.Namespace) -> None:
     """Put the tables of a study into the pages that name them, with the command that measures them."""
-    from .tables.pages import put
+    from .campaigns.tables.pages import put
 
     level = "" if options.level == command.levels[0] else f" --{options.level}"
     for table in outcome.tables:

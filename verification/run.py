@@ -15,8 +15,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from multiprocessing.connection import wait
 
+from .catalogue import Study
 from .check import AT_MOST, Check, Field, Figure, Item, Table
-from .studies import Study
 
 EXTRAS = {"skfem": "scikit-fem", "meshio": "meshio", "pyamg": "pyamg"}
 Progress = Callable[[Check], None]

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from lubfric import ConvergenceError, InputError, generate_surface
 from lubfric.contact import asperity_contact, separation_for_load
 from lubfric.contact.asperity import DEFINITIONS
-from verification.exact_contact import Sphere
+from verification.fem.exact_contact import Sphere
 
 E_PRIME = 231e9
 RADIUS = 30e-6

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from lubfric.models.deterministic import solve_point
-from verification.studies.deterministic import LOAD, contact
-from verification.studies.given_fluid import Case, elements, judged, laid
+from verification.fem.studies.deterministic import LOAD, contact
+from verification.fem.studies.given_fluid import Case, elements, judged, laid
 
 
 def test_the_contact_is_that_of_finite_elements_given_the_fluid():

@@ -13,7 +13,7 @@ from lubfric.models.deterministic.solve import refined_start
 from lubfric.models.deterministic.state import evaluated, residuals
 from lubfric.oil import Lubricant, shear_stress
 from lubfric.surface import Surface
-from verification.stability.whole_map import bearing, check
+from verification.campaigns.stability.whole_map import bearing, check
 
 E_PRIME = 231e9
 RADIUS = 2e-3

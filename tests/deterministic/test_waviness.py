@@ -18,7 +18,7 @@ from lubfric.film import LineContact
 from lubfric.models.deterministic import lay_out, solve_point
 from lubfric.oil import Lubricant, viscosity
 from lubfric.surface import Surface
-from verification.studies.waviness import STEEL, compared
+from verification.fem.studies.waviness import STEEL, compared
 
 E_PRIME = 2e9
 SPEED = 0.5

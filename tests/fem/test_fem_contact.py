@@ -7,12 +7,12 @@ from hypothesis import strategies as st
 from scipy.optimize import nnls
 from skfem import MeshTri
 
-from verification.fem.compliance import Elastic
-from verification.fem.contact import solve_contact
-from verification.fem.layer import graded_mesh, make_layer
-from verification.fem.layer3d import Layer3D, graded_levels
-from verification.fem.layer_waves import fourier_compliance
-from verification.fem.report import SolveError
+from verification.fem.solvers.compliance import Elastic
+from verification.fem.solvers.contact import solve_contact
+from verification.fem.solvers.layer import graded_mesh, make_layer
+from verification.fem.solvers.layer3d import Layer3D, graded_levels
+from verification.fem.solvers.layer_waves import fourier_compliance
+from verification.fem.solvers.report import SolveError
 
 BODY = Elastic.from_e_prime(2.0, 0.3)
 LOAD = np.pi / 4  # makes b = R = 1 and the peak 0.5 with E' = 2

@@ -8,12 +8,12 @@ from hypothesis import strategies as st
 pytest.importorskip("skfem")
 
 import lubfric
-from verification.fem.ehl import LineContact, Solution, solve_ehl
-from verification.fem.ehl_body import Layout, graded_mesh, make_body
-from verification.fem.ehl_film import Film, assemble
-from verification.fem.fluid import Fluid
-from verification.fem.thinned_film import Law, solve_thinned
-from verification.parts import ALPHA, VISCOSITY, case_of
+from verification.fem.parts import ALPHA, VISCOSITY, case_of
+from verification.fem.solvers.ehl import LineContact, Solution, solve_ehl
+from verification.fem.solvers.ehl_body import Layout, graded_mesh, make_body
+from verification.fem.solvers.ehl_film import Film, assemble
+from verification.fem.solvers.fluid import Fluid
+from verification.fem.solvers.thinned_film import Law, solve_thinned
 
 
 def contact(M: float, L: float) -> LineContact:

@@ -6,13 +6,13 @@ import pickle
 import numpy as np
 import pytest
 
-from verification.fem import contact, ehl, layer3d, reynolds, sharing
-from verification.fem.compliance import Elastic
-from verification.fem.fluid import Fluid
-from verification.fem.harmonic import Strip, compliance, press
-from verification.fem.report import InputError, SolveError
-from verification.parts import case_of
-from verification.studies.reynolds import PARABOLA, parabola_mesh
+from verification.fem.parts import case_of
+from verification.fem.solvers import contact, ehl, layer3d, reynolds, sharing
+from verification.fem.solvers.compliance import Elastic
+from verification.fem.solvers.fluid import Fluid
+from verification.fem.solvers.harmonic import Strip, compliance, press
+from verification.fem.solvers.report import InputError, SolveError
+from verification.fem.studies.reynolds import PARABOLA, parabola_mesh
 
 UNIT = Elastic(1.0, 0.3)
 STEEL = Elastic.from_e_prime(231e9, 0.3)

@@ -10,11 +10,11 @@ from scipy.linalg import expm
 from skfem import Basis, ElementHex1, ElementHex2, ElementVector, MeshHex, MeshTri
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
-from verification.fem.compliance import Elastic, half_space_compliance, layer_compliance, missing
-from verification.fem.layer import graded_mesh, make_layer
-from verification.fem.layer3d import Layer3D, graded_levels, multigrid, solve, stiffness
-from verification.fem.layer_waves import fourier_compliance
-from verification.fem.report import SolveError
+from verification.fem.solvers.compliance import Elastic, half_space_compliance, layer_compliance, missing
+from verification.fem.solvers.layer import graded_mesh, make_layer
+from verification.fem.solvers.layer3d import Layer3D, graded_levels, multigrid, solve, stiffness
+from verification.fem.solvers.layer_waves import fourier_compliance
+from verification.fem.solvers.report import SolveError
 
 STEEL = Elastic(206e9, 0.3)
 UNIT = Elastic(1.0, 0.3)

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from verification import exact
-from verification.fem.fluid import STEP, Fluid, slope
-from verification.fem.report import SolveError
-from verification.fem.reynolds import Problem, solve_refined, solve_reynolds
-from verification.studies.reynolds import parabola_mesh
+from verification.fem import exact
+from verification.fem.solvers.fluid import STEP, Fluid, slope
+from verification.fem.solvers.report import SolveError
+from verification.fem.solvers.reynolds import Problem, solve_refined, solve_reynolds
+from verification.fem.studies.reynolds import parabola_mesh
 
 OIL = Fluid(0.1)
 SLIDER = exact.Slider(0.1, 1.0, 0.01, 2e-6, 1e-6)

@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from verification.exact import Parabola
-from verification.fem.fluid import Fluid
-from verification.fem.report import InputError
-from verification.fem.rough_film import GivenGap, rough_film
+from verification.fem.exact import Parabola
+from verification.fem.solvers.fluid import Fluid
+from verification.fem.solvers.report import InputError
+from verification.fem.solvers.rough_film import GivenGap, rough_film
 
 EXACT = Parabola(viscosity=0.01, speed=0.1, radius=2e-3, film_thickness=1e-6)
 

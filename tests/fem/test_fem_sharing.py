@@ -5,13 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from verification.exact import Parabola
-from verification.exact_contact import Line, Sphere, Wave
-from verification.fem import ehl
-from verification.fem.compliance import Elastic
-from verification.fem.fluid import Fluid
-from verification.fem.harmonic import Strip, compliance, press
-from verification.fem.sharing import FlatBodies, rupture, share_load, shear
+from verification.fem.exact import Parabola
+from verification.fem.exact_contact import Line, Sphere, Wave
+from verification.fem.solvers import ehl
+from verification.fem.solvers.compliance import Elastic
+from verification.fem.solvers.fluid import Fluid
+from verification.fem.solvers.harmonic import Strip, compliance, press
+from verification.fem.solvers.sharing import FlatBodies, rupture, share_load, shear
 
 E_PRIME = 231e9
 CELL = 1e-6
@@ -96,7 +96,7 @@ def test_cell_means_are_double_integrals_of_the_kernel(away):
     from scipy.special import k0
 
     from lubfric.contact import half_space
-    from verification.studies.load_sharing import cell_mean
+    from verification.fem.studies.load_sharing import cell_mean
 
     dx = 2e-6
     n = 12

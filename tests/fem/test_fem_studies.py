@@ -3,9 +3,9 @@ them."""
 
 import pytest
 
+from verification.catalogue import STUDIES
 from verification.check import Check
 from verification.run import load
-from verification.studies import STUDIES
 
 NAMES = ("reynolds", "layer", "contact", "contact_grid", "ehl_grid")  # the others with python -m verification
 

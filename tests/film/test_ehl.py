@@ -15,7 +15,7 @@ from lubfric import ConvergenceError, InputError, solve_ehl
 from lubfric.film import LineContact, grid, hat_kernel, problem, reynolds, start
 from lubfric.film import nested as solve
 from lubfric.oil import Lubricant
-from verification.parts import ALPHA, VISCOSITY, case_of
+from verification.fem.parts import ALPHA, VISCOSITY, case_of
 
 
 def contact(M, L, **options):

@@ -12,7 +12,7 @@ from scipy.integrate import solve_bvp
 import lubfric
 from lubfric.film import Surroundings, heated_film, heated_stress, hertz, isothermal_heat
 from lubfric.oil import Lubricant, shear_stress
-from verification import references
+from verification.fem import references
 
 T0 = 343.15
 STEEL = math.sqrt(46 * 7850 * 460)

@@ -8,9 +8,9 @@ import pytest
 import lubfric
 from lubfric.film import hat_kernel
 from lubfric.paper import differential_equations, solve_differential_deflection
-from verification.parts import E_PRIME as E
-from verification.parts import RADIUS as R
-from verification.parts import case_of
+from verification.fem.parts import E_PRIME as E
+from verification.fem.parts import RADIUS as R
+from verification.fem.parts import case_of
 
 PAPER = {"load_per_width": 5.5 / 6e-3, "radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36}
 PAPER |= {"pressure_viscosity_coefficient": 25e-9}

@@ -9,7 +9,7 @@ import pytest
 
 from lubfric.contact.solve import solve_contact
 from verification.__main__ import main
-from verification.figures import FIGURES, deviation, spheres
+from verification.campaigns.figures import FIGURES, deviation, spheres
 
 pytest.importorskip("PIL")
 

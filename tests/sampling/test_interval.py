@@ -11,7 +11,7 @@ import lubfric
 from lubfric.estimate import forecast, sampled
 from lubfric.estimate.levels import levels_of
 from lubfric.output.describe import describe_scene
-from verification.hostile.soak_force import friction_force
+from verification.campaigns.hostile.soak_force import friction_force
 
 PAPER = paper_scene()
 PATCH = PAPER.with_(numerics={"sampling": "patch"})

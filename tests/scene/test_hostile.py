@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import lubfric
-from verification import hostile
-from verification.hostile import scenes, soak
-from verification.hostile.case import ACCEPTED, GOOD, RAW, REFUSED, Case, judge
-from verification.hostile.soak_judge import verdict
-from verification.hostile.soak_scenes import random_scene
+from verification.campaigns import hostile
+from verification.campaigns.hostile import scenes, soak
+from verification.campaigns.hostile.case import ACCEPTED, GOOD, RAW, REFUSED, Case, judge
+from verification.campaigns.hostile.soak_judge import verdict
+from verification.campaigns.hostile.soak_scenes import random_scene
 
 
 def test_the_scene_that_is_damaged_is_a_good_one(tmp_path):

@@ -12,8 +12,8 @@ from lubfric.scene import Harmonic, Ramp, Table
 from lubfric.time import Memory, make_fixed_grid, solve_transient_ehl, symmetric_nodes
 from lubfric.time.film_equations import Spring, StepEquations, outside, outside_shear
 from verification.check import Check
-from verification.studies import transient as study
-from verification.studies.transient import contact as moes
+from verification.fem.studies import transient as study
+from verification.fem.studies.transient import contact as moes
 
 LOOSE = {"tolerance": 3e-3, "time_tolerance": 1e-4}
 

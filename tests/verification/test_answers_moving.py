@@ -2,8 +2,8 @@
 
 import pytest
 
+from verification.campaigns.model import answers_moving
 from verification.check import Check, Table
-from verification.model import answers_moving
 
 
 def ways(f, half=0.003, by="deterministic"):

@@ -8,11 +8,11 @@ import pytest
 
 from verification import kept
 from verification.__main__ import main
-from verification.charts import contact
+from verification.campaigns.charts import contact
+from verification.campaigns.model import answers
+from verification.campaigns.sampling import coverage
 from verification.check import Check
 from verification.kept import Run
-from verification.model import answers
-from verification.sampling import coverage
 
 NAN = float("nan")
 

@@ -6,8 +6,8 @@ import numpy as np
 
 import lubfric
 from lubfric.models.deterministic import RoughBody, solve_strip
-from verification.model.moved import balances, passed
-from verification.model.random_moving import ALLOWED, drawn
+from verification.campaigns.model.moved import balances, passed
+from verification.campaigns.model.random_moving import ALLOWED, drawn
 
 SCENE = lubfric.load_scene("paper").with_(
     bodies={"radius": 5e-3, "load": 20.0, "width": 1e-3, "e_prime": 2.2e11, "hardness": None},

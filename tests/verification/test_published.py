@@ -5,13 +5,13 @@ import json
 import numpy as np
 import pytest
 
-from verification import references
 from verification.__main__ import main
+from verification.catalogue import PUBLISHED, STUDIES, Study
 from verification.check import Check, beside
-from verification.published import against
-from verification.published.cavitation import Pad
+from verification.fem import references
+from verification.fem.published import against
+from verification.fem.published.cavitation import Pad
 from verification.run import quiet, run_one
-from verification.studies import PUBLISHED, STUDIES, Study
 
 
 def test_both_errors_are_summed_by_squares_and_the_deviation_is_told_in_them():
@@ -23,14 +23,14 @@ def test_both_errors_are_summed_by_squares_and_the_deviation_is_told_in_them():
 
 
 def test_a_check_has_the_grade_of_its_study_unless_it_has_its_own(monkeypatch):
-    import verification.studies.sampling as module
+    import verification.fem.studies.sampling as module
 
     def made(level):
         yield Check("mine", 1.0, 1.0, 0.1, "x", grade="A")
         yield Check("of the study", 1.0, 1.0, 0.1, "x")
 
     monkeypatch.setattr(module, "sampling", made)
-    outcome = run_one(Study("s", "verification.studies.sampling:sampling", "s", grade="B"), "quick", quiet)
+    outcome = run_one(Study("s", "verification.fem.studies.sampling:sampling", "s", grade="B"), "quick", quiet)
     assert [c.grade for c in outcome.checks] == ["A", "B"]
     with pytest.raises(ValueError, match="grade = 'D'"):
         Check("x", 1.0, 1.0, 0.1, "x", grade="D")

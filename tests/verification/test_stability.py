@@ -10,11 +10,11 @@ import pytest
 from lubfric import ConvergenceError, solve_contact, solve_ehl
 from lubfric.contact import half_space
 from lubfric.models.deterministic import solve_point
-from verification.parts import case_of
-from verification.stability import contact_map, film_map, sharing_map, stability_map, whole_map
-from verification.stability.cell import FAILED, RIGHT, WRONG, Cell, judged, verdict
-from verification.stability.contact_check import contact_deviations, deflection
-from verification.stability.film_check import film_deviations
+from verification.campaigns.stability import contact_map, film_map, sharing_map, stability_map, whole_map
+from verification.campaigns.stability.cell import FAILED, RIGHT, WRONG, Cell, judged, verdict
+from verification.campaigns.stability.contact_check import contact_deviations, deflection
+from verification.campaigns.stability.film_check import film_deviations
+from verification.fem.parts import case_of
 
 HERE = Cell("contact: load and surface", "", 1.0, 1.0)
 

@@ -11,10 +11,10 @@ import pytest
 
 from verification import __main__ as command
 from verification import plotting
+from verification.catalogue import STUDIES, Study
 from verification.check import ABSOLUTE, AT_LEAST, AT_MOST, KINDS, RELATIVE, Check, Field, Table
-from verification.convergence import fitted_order
-from verification.fem.report import SolveError
-from verification.studies import STUDIES, Study
+from verification.fem.convergence import fitted_order
+from verification.fem.solvers.report import SolveError
 
 
 def good(level):

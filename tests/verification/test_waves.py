@@ -5,13 +5,13 @@ import itertools
 import numpy as np
 import pytest
 
-from verification import references
-from verification.fem.ehl import LineContact, solve_ehl
-from verification.fem.fluid import Fluid
-from verification.fem.moving import march
-from verification.fem.report import InputError
-from verification.fem.ripple import ripple
-from verification.parts import case_of
+from verification.fem import references
+from verification.fem.parts import case_of
+from verification.fem.solvers.ehl import LineContact, solve_ehl
+from verification.fem.solvers.fluid import Fluid
+from verification.fem.solvers.moving import march
+from verification.fem.solvers.report import InputError
+from verification.fem.solvers.ripple import ripple
 
 
 @pytest.fixture(scope="module")

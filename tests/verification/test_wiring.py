@@ -2,10 +2,10 @@
 
 import pytest
 
+from verification.campaigns.mutants import FAILED, table, trial
+from verification.catalogue import STUDIES
 from verification.check import Check
 from verification.run import load
-from verification.studies import STUDIES
-from verification.studies.mutants import FAILED, table, trial
 
 WIRING = [s for s in STUDIES if s.name.startswith("wiring")]
 

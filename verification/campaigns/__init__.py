@@ -1,0 +1,1 @@
+"""Campaigns of many cases: hostile input, intervals, charts, stability, wiring, mutants, tables, benchmarks."""

@@ -1,0 +1,123 @@
+"""Each constant of the contact search at half and at twice its value, on several surfaces.
+
+    OMP_NUM_THREADS=1 python -m verification.campaigns.benchmarks.contact_constants [--cells 256] [--docs docs]
+
+Periodic surfaces with exponential and Gaussian autocorrelation and self-affine ones (H = 0.8) at 50, 200 and 1000 MPa,
+one with a hardness of 3 GPa, one with a free axis, and two that start from the pressure of a third and of two thirds of
+the load, to tolerance 1e-4. Told are the convolutions against those of the
+values as they are (geometric mean and worst case), and how many solves did not converge.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+
+for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
+
+import numpy as np
+
+from lubfric import solve_contact
+from lubfric.contact import cells, half_space, problem, rounds, search, solve
+
+from . import page
+from .rough import E_PRIME, surface
+
+SPACING = 2e-6
+MODULES = (cells, problem, rounds, search, solve)
+KINDS = ("exponential", "gaussian", "self-affine")
+CONSTANTS = (
+    (search, "FIRST_PACE"),
+    (search, "LEARNING"),
+    (search, "STEPS"),
+    (search, "LOAD_ERROR"),
+    (search, "SHIFTS"),
+    (rounds, "REACH"),
+    (search, "PATIENCE"),
+    (search, "CAPACITY"),
+    (rounds, "MARGIN"),
+    (rounds, "FALL"),
+    (rounds, "RIGID"),
+    (rounds, "WASTED"),
+    (problem, "COARSEST"),
+    (problem, "COARSE_TOLERANCE"),
+    (problem, "COARSE_ITERATIONS"),
+    (cells, "DENSE"),
+    (cells, "FACTOR"),
+    (cells, "LEAST"),
+    (solve, "HEAVIER"),
+    (cells, "BLOCK"),
+)
+
+COLUMNS = ("constant", "value", "halved: convolutions, mean and worst", "doubled")
+
+
+def solvers(n: int) -> list:
+    """Functions that solve one case each and return (convolutions, converged)."""
+    cases = [(kind, load, "periodic", None) for kind in KINDS for load in (50e6, 200e6, 1e9)]
+    cases += [("exponential", 200e6, "periodic", 3e9), ("exponential", 200e6, ("free", "periodic"), None)]
+    warm = [("gaussian", 200e6, "periodic", None, share) for share in (1 / 3, 2 / 3)]
+    return [_solver(n, *case) for case in (*cases, *warm)]
+
+
+def _solver(n: int, kind: str, load: float, boundary, hardness, begun: float = 0.0):
+    gap0 = -surface(kind, (n, n), SPACING, 34e-6, 240e-9)
+    options = {"operator": half_space(gap0.shape, SPACING, E_PRIME, boundary), "boundary": boundary}
+    options |= {"hardness": hardness, "tolerance": 1e-4, "raise_on_failure": False}
+    if begun:
+        options["start"] = solve_contact(gap0, SPACING, E_PRIME, mean_pressure=begun * load, **options)
+
+    def solve():
+        report = solve_contact(gap0, SPACING, E_PRIME, mean_pressure=load, **options).report
+        return report.evaluations, report.converged
+
+    return solve
+
+
+def scaled(value, factor: float):
+    """A number, or each of a tuple, times ``factor``; whole numbers stay whole and at least one."""
+    if isinstance(value, tuple):
+        return tuple(scaled(v, factor) for v in value)
+    return max(1, round(factor * value)) if isinstance(value, int) else factor * value
+
+
+def solved_with(module, name: str, factor: float, solves) -> np.ndarray:
+    """Rows of the solves with a constant scaled wherever it was imported."""
+    value = getattr(module, name)
+    homes = [m for m in MODULES if getattr(m, name, None) is value]
+    try:
+        for home in homes:
+            setattr(home, name, scaled(value, factor))
+        return np.array([solve() for solve in solves], float)
+    finally:
+        for home in homes:
+            setattr(home, name, value)
+
+
+def words(rows, usual) -> str:
+    """Ratios to the usual rows."""
+    ratio = rows[:, 0] / usual[:, 0]
+    failed = int(np.count_nonzero(rows[:, 1] == 0))
+    text = f"{np.exp(np.log(ratio).mean()):.2f}, {ratio.max():.2f}"
+    return text + (f", {failed} not converged" if failed else "")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--cells", type=int, default=256)
+    page.add_option(parser)
+    options = parser.parse_args()
+    solves = solvers(options.cells)
+    [solve() for solve in solves]
+    rows = []
+    for module, name in CONSTANTS:
+        usual = solved_with(module, name, 1.0, solves)
+        found = [words(solved_with(module, name, factor, solves), usual) for factor in (0.5, 2.0)]
+        rows.append([f"`{module.__name__.rpartition('.')[2]}.{name}`", str(getattr(module, name)), *found])
+        print(" | ".join(rows[-1]), flush=True)
+    page.write("contact-constants", COLUMNS, rows, (parser, options))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,163 @@
+"""Dry contact against aspher and tamaas: processor time at one measured pressure error.
+
+    python -m verification.campaigns.benchmarks.contact_vs_aspher [--surfaces exponential gaussian self-affine] [--cells 816 2048]
+        [--loads 50 200 1000] [--repeats 3] [--target 1e-5] [--bound 0] [--kept FILE] [--json FILE] [--rows FILE ...]
+        [--docs docs]
+
+Periodic surfaces (exponential or Gaussian ACF, 1/e length 34 um, or self-affine with H = 0.8; sigma 240 nm, spacing 2
+um). Error: relative L2 distance of the pressure from a solution of lubfric at tolerance 1e-10, which tamaas at 1e-12
+confirms. For each solver the loosest tolerance of a ladder (two a decade) whose measured error is at most the target;
+repeats interleaved on one thread each, medians of processor seconds with quartiles; a solve of more than a minute is
+timed once. ``--kept``: a file that keeps those tolerances for a later run; ``--rows``: nothing is run, the table is
+made of what earlier runs wrote by ``--json``. tamaas, whose solves take tens of minutes, is stopped after ``--bound``
+times the time of lubfric (0: left out) and its error told: above the target, it is slower by more than that. Needs
+``pip install "lubfric[benchmark]"`` for the opponents; times lubfric alone without.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import time
+from pathlib import Path
+
+for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
+os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+
+import numpy as np
+
+from ..opponents import aspher_solver, lubfric_solver, tamaas_solver
+from . import page
+from .rough import E_PRIME, surface
+
+LADDER = [10 ** (-k / 2) for k in range(4, 25)]
+LONG = 60.0  # seconds: not repeated
+SPACING = 2e-6
+LENGTH = 34e-6
+SIGMA = 240e-9
+FIRST = {"lubfric": 1e-3, "aspher": 1e-2}  # tolerances that the search begins with
+
+
+def loosest(solve, load, reference, target, first):
+    """(tolerance, error, seconds): loosest of the ladder, from ``first`` on, that meets the target, or the best of
+    it."""
+    best = (np.nan, np.inf, np.nan)
+    for tolerance in LADDER:
+        if tolerance > first * 1.01:
+            continue
+        error, seconds = measured(solve, load, tolerance, reference)
+        if error < best[1]:
+            best = (tolerance, error, seconds)
+        if error <= target or tolerance < 1e-11:
+            return best
+    return best
+
+
+def measured(solve, load, tolerance, reference):
+    """(error, processor seconds) of one solve."""
+    begun = time.process_time()
+    pressure = solve(load, tolerance)
+    seconds = time.process_time() - begun
+    return float(np.linalg.norm(pressure - reference) / np.linalg.norm(reference)), seconds
+
+
+def compare(solvers, load, reference, target, repeats, first):
+    """Rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the tolerances
+    that the search begins with."""
+    found = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
+    seconds = {name: [f[2]] for name, f in found.items()}
+    for _ in range(repeats):
+        for name, solve in solvers.items():
+            if found[name][2] < LONG:
+                seconds[name].append(measured(solve, load, found[name][0], reference)[1])
+    return [(name, *found[name][:2], *np.quantile(seconds[name][-repeats:], (0.5, 0.25, 0.75))) for name in solvers]
+
+
+def stopped(heights, load, reference, seconds):
+    """Row of tamaas after about ``seconds``: its iterations are counted from the time of twenty."""
+    few = tamaas_solver(heights, SPACING, E_PRIME, max_iterations=20)
+    if few is None:
+        return []
+    each = measured(few, load, 1e-14, reference)[1] / 20
+    error, spent = measured(
+        tamaas_solver(heights, SPACING, E_PRIME, max_iterations=int(seconds / each)), load, 1e-14, reference
+    )
+    return [("tamaas", np.nan, error, spent, spent, spent)]
+
+
+def of_page(rows) -> tuple[list[str], list[list[str]]]:
+    """The table of the page: a row for each surface and grid, a column for each load."""
+    loads = sorted({r["load"] for r in rows})
+    lines = []
+    for surface_and_cells in dict.fromkeys((r["surface"], r["cells"]) for r in rows):
+        lines.append(["{}, {}²".format(*surface_and_cells)])
+        for load in loads:
+            here = [r for r in rows if (r["surface"], r["cells"], r["load"]) == (*surface_and_cells, load)]
+            seconds = {r["name"]: r["median"] for r in here}
+            ratio = f", {seconds['aspher'] / seconds['lubfric']:.1f}" if "aspher" in seconds else ""
+            lines[-1].append(f"{seconds['lubfric']:.3g} s{ratio}" if seconds else "")
+    return ["surface, grid", *(f"{load:g} MPa" for load in loads)], lines
+
+
+def case_rows(kind, cells, load, solvers, heights, options, kept) -> list[dict]:
+    """The rows of one case, printed as they come."""
+    reference = solvers["lubfric"](1e6 * load, 1e-10)
+    label = f"{kind} {cells} {load:g}"
+    table = compare(solvers, 1e6 * load, reference, options.target, options.repeats, FIRST | kept.get(label, {}))
+    kept[label] = {name: tolerance for name, tolerance, *_ in table if name != "lubfric"}
+    if options.bound:
+        table += stopped(heights, 1e6 * load, reference, options.bound * table[0][3])
+    rows = []
+    for name, tolerance, error, median, low, high in table:
+        print(
+            f"{kind:12s} {cells:5d}²  {load:5g} MPa  {name:8s} tolerance {tolerance:7.1e}  error {error:7.1e}  "
+            f"{median:8.3f} s [{low:.3f}, {high:.3f}]  {median / table[0][3]:6.2f} x lubfric",
+            flush=True,
+        )
+        row = {"surface": kind, "cells": cells, "load": load, "name": name, "error": error}
+        rows.append(row | {"tolerance": tolerance or None, "median": median, "low": low, "high": high})
+    return rows
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--surfaces", nargs="+", default=["exponential", "gaussian", "self-affine"])
+    parser.add_argument("--cells", type=int, nargs="+", default=[816, 2048])
+    parser.add_argument("--loads", type=float, nargs="+", default=[50, 200, 1000], help="MPa")
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--target", type=float, default=1e-5)
+    parser.add_argument("--bound", type=float, default=0.0, help="times lubfric's time, for tamaas (0: left out)")
+    parser.add_argument("--kept", type=Path)
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--rows", type=Path, nargs="+", default=[])
+    page.add_option(parser)
+    options = parser.parse_args()
+    if options.rows:
+        rows = [row for path in options.rows for row in json.loads(path.read_text())]
+        page.write("contact-aspher", *of_page(rows), (parser, options))
+    else:
+        run(parser, options)
+
+
+def run(parser, options) -> None:
+    """Every case, its rows written as they come."""
+    rows: list[dict] = []
+    kept = json.loads(options.kept.read_text()) if options.kept and options.kept.exists() else {}
+    for cells in options.cells:
+        for kind in options.surfaces:
+            heights = surface(kind, (cells, cells), SPACING, LENGTH, SIGMA)
+            made = {"lubfric": lubfric_solver, "aspher": aspher_solver}
+            solvers = {k: f(heights, SPACING, E_PRIME, 1) for k, f in made.items()}
+            solvers = {k: s for k, s in solvers.items() if s is not None}
+            for load in options.loads:
+                rows += case_rows(kind, cells, load, solvers, heights, options, kept)
+                for path, text in ((options.kept, kept), (options.json, rows)):
+                    if path:
+                        path.write_text(json.dumps(text, indent=1))
+                page.write("contact-aspher", *of_page(rows), (parser, options))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,67 @@
+"""Measured points: how they are taken and where."""
+
+import os
+import platform
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+
+from ...check import TOLD, Check
+from ...report import environment
+from ..opponents import version
+
+K = TypeVar("K")
+V = TypeVar("V")
+Quartiles = tuple[float, float, float]  # median, lower, upper, of processor seconds
+
+
+def point(
+    panel: str, method: str, setting: str, error: float, seconds: Sequence[float], **at: str | float | bool | None
+) -> dict:
+    """One setting of one method, as a check in plain types: its error against a tight solution, its time, and where it
+    is drawn.
+
+    ``at`` may say more: default (the setting that users get), apart (the error is that of the grid against a finer one,
+    not that of the solver), size (unknowns).
+    """
+    median, low, high = (float(s) for s in seconds)
+    where = at | {"panel": panel, "method": method, "setting": setting, "seconds": median, "low": low, "high": high}
+    name = f"{panel}; {method}; {setting}"
+    return Check(name, error, 0.0, 0.0, "a tighter solution", TOLD, seconds=median, at=where).as_dict()
+
+
+def interleaved(calls: Mapping[K, Callable[[], V]], repeats: int) -> dict[K, tuple[V, Quartiles]]:
+    """{name: (value, (median, lower, upper quartile) of processor seconds)}. The calls take turns in every repeat."""
+    seconds: dict[K, list[float]] = {name: [] for name in calls}
+    values: dict[K, V] = {}
+    for _ in range(repeats):
+        for name, call in calls.items():
+            begun = time.process_time()
+            values[name] = call()
+            seconds[name].append(time.process_time() - begun)
+    return {name: (values[name], quartiles(taken)) for name, taken in seconds.items()}
+
+
+def quartiles(seconds: list[float]) -> Quartiles:
+    """Median, lower and upper quartile."""
+    low, median, high = np.quantile(seconds, (0.25, 0.5, 0.75))
+    return float(median), float(low), float(high)
+
+
+def machine(_: None = None) -> str:
+    """One line for the head of a chart: processor, threads, how busy the machine is, versions, date."""
+    found = environment()
+    parts = [f"{name} {found[name]}" for name in ("python", "numpy", "scipy", "lubfric")]
+    parts += [f"{name} {version(name)}" for name in ("tamaas", "aspher") if version(name)]
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        lines = []
+    processors = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
+    return (
+        f"{(processors or [platform.machine()])[0]}, {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}, "
+        f"OMP_NUM_THREADS={os.environ.get('OMP_NUM_THREADS', 'unset')}; {', '.join(parts)}; {time.strftime('%Y-%m-%d')}"
+    )

@@ -1,0 +1,257 @@
+"""Closes the balance of a result anew: with another film solver, fresh dry contacts, and its own sums of friction
+forces.
+
+Nothing of `lubfric` is used but the surface, the dry contact of one pressed map, and the film by differential
+deflection. What joins them is written here. Two divisions of the load, the result's own and one beside it, give the one
+that balances by a secant. Where that is far off, a bracketed root does.
+"""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import brentq
+
+from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
+from lubfric.contact import Strips
+from lubfric.models.load_sharing import Prepared
+
+from ...fem.parts import case_of_scene
+from .soak_force import friction_force
+from .soak_heat import inlet_viscosity
+
+ALLOWED = {"load": 2e-3, "friction sum": 1e-9, "bounds": 0.5, "friction": 2.0, "contact share": 2.0}
+PIECES = 3  # of the strips, on the scene's own cells and on those of the strips
+BY_PIECES = 0.5  # of the stated standard error: what other pieces may change
+# of a film; f over its parts below which they cancel
+LOOSE = 2e-3
+TIGHT = 1e-4
+CANCELS = 0.2
+ROOT = 2e-4  # of ln(F_H/F_C), to which a bracketed root is closed
+ACROSS = 8001  # points of a film over a flat strip
+# of ln(F_H/F_C): the second division, and how far a secant of both is trusted
+BESIDE = 0.05
+NEAR = 0.4
+
+
+@dataclass(frozen=True)
+class Strip:
+    """Heights [m] of a piece of the surface, less their mean, with its spacing and x [m]."""
+
+    heights: np.ndarray
+    spacing: tuple[float, float]
+    x: np.ndarray
+
+
+@dataclass(frozen=True)
+class Sides:
+    """Film, mean gap and mean film over A [m], and the share of the width in contact at each x [m]."""
+
+    film: object
+    gap: float
+    mean_film: float
+    x: np.ndarray
+    touching: np.ndarray
+
+
+@dataclass(frozen=True)
+class Judge:
+    """A prepared scene at one speed [m/s].
+
+    The film is deflected by its own pressure or, ``scaled``, by the whole load. ``strip`` is the whole sample. There
+    are pairs of fine and coarse pieces besides, whose difference is added.
+    """
+
+    prepared: Prepared
+    speed: float
+    scaled: bool
+    strip: Strip
+    pairs: tuple[tuple[Strip, Strip], ...] = ()
+    film_tolerance: float = LOOSE
+
+    def sides(self, split: float) -> Sides:
+        """Film and contacts at ln(F_H/F_C)."""
+        load = self.prepared.scene.bodies.load
+        film_load = load / (1 + math.exp(-split))
+        film = self.film(film_load, film_load / load if self.scaled else 1.0)
+        gap, mean_film, touching = self.pressed(self.strip, film, load - film_load)
+        areas: list[float] = []
+        for pair in self.pairs:
+            (fine, under, more), (coarse, over, fewer) = (self.pressed(piece, film, load - film_load) for piece in pair)
+            gap += (fine - coarse) / len(self.pairs)
+            mean_film += (under - over) / len(self.pairs)
+            areas.append(more.mean() / fewer.mean() if fewer.any() and more.any() else 1.0)
+        return Sides(film, gap, mean_film, self.strip.x, touching * (np.mean(areas) if areas else 1.0))
+
+    def film(self, film_load: float, modulus: float):
+        """The film by differential deflection, or by the tightest Newton solution where that does not converge or where
+        shear thins the flow."""
+        scene = self.prepared.scene
+        case = case_of_scene(scene, film_load, self.speed)
+        case |= {"e_prime": modulus * scene.bodies.e_prime, "viscosity": inlet_viscosity(scene, self.speed)}
+        stress = scene.lubricant.eyring_stress
+        sliding = scene.motion.slide_roll_ratio * self.speed
+        try:
+            if stress is None:
+                return solve_differential_deflection(**case, tolerance=self.film_tolerance)
+        except LubfricError:
+            pass
+        return solve_ehl(**case, sliding=sliding, eyring_stress=stress, tolerance=1e-4)
+
+    def pressed(self, strip: Strip, film, load: float) -> tuple[float, float, np.ndarray]:
+        """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
+        scene = self.prepared.scene
+        x = strip.x
+        smooth = film.film_at(x)
+        flat = scene.contact.geometry == "flat"
+        bodies = scene.bodies
+        half = bodies.half_width
+        if flat:
+            pressure = load / (2 * half * bodies.width)
+            gap0 = -strip.heights
+            weight = np.ones(x.size)
+            inner = np.linspace(-half, half, ACROSS)
+            mean_film = float(np.trapezoid(film.film_at(inner), inner)) / (2 * half)
+        else:
+            parabola = x**2 / (2 * bodies.radius)
+            share = film.e_prime / bodies.e_prime if self.scaled else 1.0
+            pressure = load / (bodies.width * x.size * strip.spacing[0])
+            gap0 = (parabola + share * (smooth - parabola))[:, None] - strip.heights
+            weight = self._weight(strip)
+            mean_film = float(smooth @ weight / weight.sum())
+        if load <= 1e-9 * bodies.load:
+            return float((weight @ (gap0 - gap0.min()).mean(axis=1)) / weight.sum()), mean_film, np.zeros(x.size)
+        asked = {"mean_pressure": pressure, "hardness": bodies.hardness, "tolerance": 1e-6}
+        boundary = ("periodic" if flat else "free", "periodic")
+        dry = solve_contact(gap0, strip.spacing, bodies.e_prime, boundary=boundary, **asked)
+        gap = np.maximum(dry.gap, 0)
+        touching = dry.pressure > 0
+        columns = np.full(x.size, touching.mean()) if flat else touching.mean(axis=1)
+        return float(gap.mean(axis=1) @ weight / weight.sum()), mean_film, columns
+
+    def _weight(self, strip: Strip) -> np.ndarray:
+        half = self.prepared.scene.bodies.half_width
+        dx = strip.spacing[0]
+        if self.prepared.scene.contact.region == "box":
+            return np.ones(strip.x.size)
+        inside = np.minimum(strip.x + dx / 2, half) - np.maximum(strip.x - dx / 2, -half)
+        return np.clip(inside / dx, 0, 1)
+
+    def coefficient(self, split: float, sides: Sides) -> tuple[float, float]:
+        """f at a division of the load, and what the tolerance and the nodes of the film leave open of it."""
+        scene = self.prepared.scene
+        contact_load = scene.bodies.load / (1 + math.exp(split))
+        force, parts, spike = friction_force(scene, sides, contact_load, self.speed)
+        return force / scene.bodies.load, (self.film_tolerance * parts + spike) / scene.bodies.load
+
+
+def judge_of(prepared: Prepared, result) -> Judge:
+    """What closes ``result`` of ``prepared`` anew: a patch on its own cells, or the strips of the result."""
+    scene = prepared.scene
+    parts = abs(result.couette_force) + abs(result.rolling_force) + result.boundary_force
+    cancels = abs(result.coefficient) * scene.bodies.load < CANCELS * parts
+    oil = scene.lubricant
+    newtonian = oil.eyring_stress is None and oil.limiting_stress_coefficient is None  # whose spike f feels
+    tolerance = TIGHT if cancels or newtonian or scene.motion.slide_roll_ratio == 0 else LOOSE
+    scaled = scene.numerics.film_deflection == "scaled"
+    strips = prepared.strips
+    pairs: tuple[tuple[Strip, Strip], ...] = ()
+    if strips is None or strips.whole:
+        n = prepared.surface.shape[0]
+        dx = prepared.surface.spacing[0]
+        strip = _strip(prepared.surface, (np.arange(n) - 0.5 * (n - 1)) * dx)
+    else:
+        while strips.cells.factors != result.decision.coarsening:
+            strips = strips.halved()
+        strip = _strip(strips.stack(result.decision.strips), strips.cells.axis())
+        if not strips.cells.own:
+            pairs = tuple(_pair(strips, i) for i in range(min(PIECES, strips.pieces)))
+    return Judge(prepared, result.speed, scaled, strip, pairs, tolerance)
+
+
+def _strip(surface, x) -> Strip:
+    return Strip(surface.heights - surface.heights.mean(), surface.spacing, x)
+
+
+def _pair(strips: Strips, index: int) -> tuple[Strip, Strip]:
+    """A piece on its own cells and on those of the strips."""
+    cells = strips.cells
+    piece = strips.piece(index)
+    kept = replace(piece, heights=cells.thinned(piece.heights, cells.factors), spacing=cells.coarse)
+    return _strip(piece, cells.axis((1, 1))), _strip(kept, cells.axis())
+
+
+def verdict(prepared: Prepared, result) -> dict[str, float]:
+    """Deviations of ``result`` by name, over what is allowed. At rest the contact carries all."""
+    scene = prepared.scene
+    load = prepared.scene.bodies.load
+    share = result.contact_load / load
+    forces = result.boundary_force + result.shear_force
+    found = {
+        "load": abs((result.contact_load + result.film_load) / load - 1),
+        "friction sum": abs(result.coefficient * load - forces) / max(abs(forces), 1e-300),
+        "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0,
+    }
+    if result.speed == 0:
+        found["contact share"] = abs(share - 1) / scene.numerics.tolerance
+        expected = scene.bodies.boundary_friction_coefficient
+        found["friction"] = abs(result.coefficient / expected - 1) / scene.numerics.tolerance
+    elif scene.contact.model == "half-space" and scene.surface.sq:
+        stated = max(scene.numerics.tolerance, result.uncertainty.numerical)
+        of_share = scene.numerics.tolerance
+        judge = judge_of(prepared, result)
+        if judge.pairs and share > 0:
+            stated += BY_PIECES * result.uncertainty.sampling
+            of_share = max(of_share, BY_PIECES * result.errors.contact_load * share)
+        for closely in (False, True):  # cells that touch one by one: a secant of two balances may miss
+            (coefficient, open_), split = closed_again(judge, share, closely)
+            allowed = stated * abs(result.coefficient) + open_ / ALLOWED["friction"]
+            found["friction"] = abs(result.coefficient - coefficient) / allowed
+            found["contact share"] = abs(share - split) / of_share
+            if max(found[name] / ALLOWED[name] for name in ("friction", "contact share")) <= 1:
+                break
+    return {name: value / ALLOWED[name] for name, value in found.items()}
+
+
+def closed_again(judge: Judge, share: float, closely: bool = False) -> tuple[tuple[float, float], float]:
+    """((f, its error), F_C/F_T) of the balance nearest to a contact that carries ``share`` of the load: from two
+    divisions of the load or, ``closely``, by a bracketed root."""
+    if share == 0:
+        sides = judge.sides(40.0)
+        if sides.gap <= sides.mean_film:
+            return judge.coefficient(40.0, sides), 0.0
+        share = 1e-3
+    inside = min(max(share, 1e-13), 1 - 1e-13)
+    here = math.log((1 - inside) / inside)
+    beside = here + BESIDE
+    first = judge.sides(here)
+    second = judge.sides(beside)
+    off, off_beside = (math.log(s.gap / s.mean_film) for s in (first, second))
+    (f, open_) = judge.coefficient(here, first)
+    (f_beside, _) = judge.coefficient(beside, second)
+    slope = (off_beside - off) / BESIDE
+    moved = -off / slope if slope > 0 else math.inf
+    if closely or abs(moved) > NEAR:
+        return _bracketed(judge, here)
+    split = here + moved
+    return (f + (f_beside - f) * moved / BESIDE, open_), 1 / (1 + math.exp(split))
+
+
+def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
+    """As `closed_again`, by a root between divisions on both sides of it."""
+
+    def surplus(split):
+        sides = judge.sides(split)
+        return math.log(sides.gap / sides.mean_film)
+
+    if surplus(40.0) <= 0:
+        return judge.coefficient(40.0, judge.sides(40.0)), 0.0
+    low = high = here
+    step = 0.1
+    while surplus(low) > 0:
+        low, step = low - step, 3 * step
+    step = 0.1
+    while surplus(high) < 0 and high < 40:
+        high, step = high + step, 3 * step
+    split = brentq(surplus, low, high, xtol=ROOT) if high > low else low
+    return judge.coefficient(split, judge.sides(split)), 1 / (1 + math.exp(split))

@@ -1,0 +1,19 @@
+"""``python -m verification model``: how sure f is, model included, and what the deterministic model rests on.
+
+The default answer, and that of load sharing alone, are held beside the deterministic model on finer strips. The exit
+code is 1 when too few of their intervals hold f.
+"""
+
+from ... import frame
+
+PARTS: tuple[tuple[str, str, str, dict], ...] = (
+    ("answers", "model.answers:answers", "The default answer on surfaces and contacts of many kinds", {}),
+    ("answers-rollers", "model.answers:answers", "The default answer of rollers of 1 GPa", {"rollers": True}),
+    ("answers-moving", "model.answers_moving:answers_moving", "The default answer where the roughness moves", {}),
+    ("seeds", "model.seeds:seeds", "The default answer on fresh surfaces: coverage, bias, cost", {}),
+    ("boundary-film", "model.boundary_film:boundary_film", "How thick the boundary film should be", {}),
+    ("rolling", "model.rolling:rolling", "Eq. (8) beside roughness that moves", {}),
+    ("moving-points", "model.random_moving:random_moving", "Random contacts under moving roughness", {}),
+    ("grids", "model.film:grids", "One gap, one pressure on ever smaller cells", {}),
+)
+COMMAND = frame.campaign("model", __doc__, PARTS)

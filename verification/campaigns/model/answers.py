@@ -1,0 +1,212 @@
+"""The answer that a user gets without asking for anything, and the fast one by load sharing alone, on surfaces, loads
+and fluids of many kinds: how often f of the endless line lies within the interval.
+
+The reference of a case is solved once, and several answers, each on a surface of its own, are held beside it: the
+deterministic model on strips of another seed (of a measured map: on all of it), with about half of the errors asked.
+"""
+
+import itertools
+import math
+import tempfile
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import lubfric
+from lubfric.scene import Roughness
+
+from ...check import ABSOLUTE, TOLD, Check, Figure, Item, Table
+from ...fem.parts import halved
+from ...kept import Run
+from ...plotting import chart
+
+SEED = 884  # so that the first few differ in surface and load
+DRAWN = {"quick": 2, "default": 6, "full": 24}  # combinations, drawn from all; of rollers a third of them
+RATIOS = {"quick": (1.5,), "default": (1.5, 0.8, 0.3)}  # Moes' film over Sq; "full" has those of "default"
+SEEDS = {"quick": 1, "default": 4, "full": 4}  # answers on generated surfaces; of a measured map there is one
+REFERENCE = 1001  # seed
+ASKED = {"tolerance": 0.01, "sampling_tolerance": 0.012, "model_tolerance": 0.03}  # of the reference
+# of a map from a file, and their length [m] over that of the Gaussian correlation
+CELLS = (640, 448)
+CELL = 1.8e-6
+LENGTH = 8e-6
+ROLLER = "roller, 1 GPa"
+CONTACTS = {  # changes of the built-in scene, and the lengths of the surface over those of its own
+    "5.5 N": ({}, 1.0),
+    "27.5 N": ({"bodies": {"load": 27.5}}, 1.0),
+    "110 N": ({"bodies": {"load": 110.0}}, 1.0),
+    ROLLER: (
+        {
+            "bodies": {"radius": 6e-3, "width": 0.01, "load": 1600.0, "boundary_friction_coefficient": 0.12},
+            "lubricant": {"viscosity": 0.02, "pressure_viscosity_coefficient": 1.8e-8, "eyring_stress": 5e6},
+            "surface": {"sq": 150e-9},
+        },
+        1.25,
+    ),
+}
+GENERATED = {
+    "Gaussian": ("gaussian", (8e-6, 8e-6)),
+    "exponential": ("exponential", (8e-6, 8e-6)),
+    "ridges across": ("gaussian", (4e-6, 40e-6)),
+    "ridges along": ("gaussian", (40e-6, 4e-6)),
+}
+MEASURED = ("ridges at 45 degrees", "plateau", "peaks", "self-affine")
+COLUMNS = ("", "answers", "off by", "interval", "inside", "Eq. (8) off by", "interval ", "inside ")
+WAYS = {"default": {}, "load sharing": {"model": "load-sharing"}}
+
+
+@dataclass(frozen=True)
+class Case:
+    """A kind of surface under a contact with ``over`` = f_b over the limit of the oil, at a film/Sq and a slide-roll
+    ratio (2: the roughness rests); ``longer``: times the lengths of the surface."""
+
+    surface: str
+    contact: str
+    over: float
+    ratio: float
+    slip: float = 2.0
+    longer: float = 1.0
+
+    def scene(self, seed: int, folder: str, **numerics):
+        """The scene with a surface of its own ``seed``; maps are written to ``folder``."""
+        changes, times = CONTACTS[self.contact]
+        times *= self.longer
+        scene = lubfric.load_scene("paper").with_(**changes)
+        limit = scene.bodies.boundary_friction_coefficient / self.over
+        oil = {"limiting_stress_coefficient": limit, "density_law": "dowson-higginson"}
+        rough: dict | Roughness
+        if self.surface in GENERATED:
+            acf, lengths = GENERATED[self.surface]
+            rough = {"acf": acf, "correlation_length": tuple(times * one for one in lengths), "seed": seed}
+            rough["oversize"] = 1 if lengths[0] < 20e-6 else 3  # ridges along are longer than a light contact
+            patch: dict = {"spacing": 0.45e-6 * times}
+        else:
+            path = Path(folder) / f"{self.surface}-{seed}.npy"
+            np.save(path, heights(self.surface, seed) * scene.surface.sq)
+            rough = Roughness(file=str(path), spacing=CELL * times)
+            patch = {"shape": None, "spacing": None}
+        keys = {"accept": True, "film_deflection": "scaled"} | numerics
+        film = {"boundary_film": 20e-9}  # given, so that both answers have it and the interval leaves it out
+        motion = {"slide_roll_ratio": self.slip}
+        return scene.with_(bodies=film, lubricant=oil, surface=rough, contact=patch, motion=motion, numerics=keys)
+
+    def speed(self, scene) -> float:
+        """Speed [m/s] at which Moes' film of the whole load is so many Sq."""
+        sq = CONTACTS[self.contact][0].get("surface", {}).get("sq", 100e-9)
+        return halved(1e-7, 1e3, lambda u: scene.line_contact(u).moes_film < self.ratio * sq)
+
+
+def heights(kind: str, seed: int) -> np.ndarray:
+    """A map of this ``kind``, with a standard deviation of 1, from its spectrum."""
+    qx, qy = np.meshgrid(*(2 * np.pi * np.fft.fftfreq(n, CELL) for n in CELLS), indexing="ij")
+    rng = np.random.default_rng(seed)
+
+    def drawn(root) -> np.ndarray:
+        z = np.fft.ifft2(np.fft.fft2(rng.standard_normal(CELLS)) * root).real
+        return (z - z.mean()) / z.std()
+
+    if kind == "self-affine":
+        return drawn((1 + (np.hypot(qx, qy) * 20e-6) ** 2) ** -0.9)  # Hurst exponent .8
+    if kind == "ridges at 45 degrees":
+        along = (qx + qy) / math.sqrt(2)
+        across = (qx - qy) / math.sqrt(2)
+        return drawn(np.exp(-((along * 20e-6) ** 2 + (across * 4e-6) ** 2) / 8))
+    smooth = np.hypot(qx, qy) ** 2 * LENGTH**2 / 8
+    z = np.minimum(drawn(np.exp(-smooth)), 0.3) + 0.1 * drawn(np.exp(-smooth / 4))
+    z = (z - z.mean()) / z.std()
+    return z if kind == "plateau" else -z
+
+
+def cases(level: str, rollers: bool) -> dict[str, Case]:
+    """The combinations of ``level`` by name, the same first ones at every level: the lighter contacts, or rollers."""
+    contacts = [name for name in CONTACTS if (name == ROLLER) == rollers]
+    kinds = list(itertools.product((*GENERATED, *MEASURED), contacts, (1.0, 2.0)))
+    order = np.random.default_rng(SEED).permutation(len(kinds))[: max(1, DRAWN[level] // (3 if rollers else 1))]
+    every = [Case(*kinds[int(index)], ratio) for index in order for ratio in RATIOS.get(level, RATIOS["default"])]
+    return {f"{c.surface}; {c.contact}; {c.over:g}; {c.ratio:g}": c for c in every}
+
+
+def reference(case: Case) -> dict:
+    """f of the endless line, and its error."""
+    return solved(case, 1 if case.surface in MEASURED else REFERENCE, {"model": "deterministic"} | ASKED)
+
+
+def answer(case_and_seed: tuple[Case, int]) -> dict[str, dict]:
+    """f and its interval on one surface, both ways."""
+    case, seed = case_and_seed
+    return {way: solved(case, seed, numerics) for way, numerics in WAYS.items()}
+
+
+def solved(case: Case, seed: int, numerics: dict) -> dict:
+    """One point: f, half of its interval and its standard error, all relative; or why there is none."""
+    begun = time.process_time()
+    with tempfile.TemporaryDirectory() as folder:
+        scene = case.scene(seed, folder, **numerics)
+        try:
+            found = lubfric.friction(scene, case.speed(scene))
+        except lubfric.LubfricError as error:
+            return {"failure": f"{type(error).__name__}: {error}"[:200]}
+    known = found.uncertainty
+    f = found.coefficient
+    row = {"f": f, "low": known.interval[0], "high": known.interval[1], "by": found.decision.model}
+    return row | {"error": math.hypot(known.numerical, known.sampling), "seconds": time.process_time() - begun}
+
+
+def answers(level: str, run: Run = Run(), rollers: bool = False) -> Iterator[Item]:
+    """Every case by default, by load sharing alone, and by the reference: errors, intervals and coverage."""
+    found = []
+    failed = 0
+    for case, truth in run.solved(cases(level, rollers), reference, "references"):
+        seeds = range(1, 2 if case.surface in MEASURED else 1 + SEEDS[level])
+        for _, row in run.solved({f"{case}, {seed}": (case, seed) for seed in seeds}, answer, "answers"):
+            failed += "failure" in row["default"]
+            if truth.get("error") and all(row[way].get("low") is not None for way in WAYS):
+                found.append(((case.surface, case.contact), [judged(row[way], truth) for way in WAYS]))
+    yield from compared("answers-rollers" if rollers else "answers", found, failed, "finer strips")
+
+
+def compared(name: str, found: list[tuple], failed: int, source: str) -> Iterator[Item]:
+    """Table, checks and picture of answers ``found``: the groups of each, and by both ways what is `judged`."""
+    every = {way: np.array([both[k] for _, both in found]).reshape(-1, 3) for k, way in enumerate(WAYS)}
+    names = [name for name in dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in found)))) if name != ROLLER]
+    rows = [
+        [group, str(sum(here)), *told(every["default"][here]), *told(every["load sharing"][here])]
+        for group in (*names, "all")
+        if any(here := [group in (*groups, "all") for groups, _ in found])
+    ]
+    yield Table(name, f"The default answer, and load sharing alone, beside {source}", COLUMNS, rows)
+    for way, said in (("default", "default answer"), ("load sharing", "load sharing alone")):
+        inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if found else math.nan
+        yield Check(f"{said}: share of {len(found)} intervals with f", inside, 1.0, 0.1, source, ABSOLUTE)
+    yield Check("default answers that failed, or left moving roughness to Eq. (8)", failed, 0, 0.0, "the answers", TOLD)
+    yield drawn(name, every)
+
+
+def judged(row: dict, truth: dict) -> tuple[float, float, float]:
+    """Half of the interval; by how much f is off; and how much of that its interval on this side and twice the error of
+    the reference allow; all relative to the reference."""
+    f = row["f"]
+    t = truth["f"]
+    side = f - row["low"] if f > t else row["high"] - f
+    return (row["high"] - row["low"]) / (2 * t), abs(f / t - 1), math.hypot(side / t, 2 * truth["error"])
+
+
+def told(found: np.ndarray) -> list[str]:
+    """The root mean square error, the mean half of the interval, and the share of intervals that hold f."""
+    half, off, allowed = found.T
+    errors = math.sqrt(np.mean(off**2)), half.mean()
+    return [*(f"{100 * error:.1f} %" for error in errors), f"{100 * (off <= allowed).mean():.0f} %"]
+
+
+def drawn(name: str, every: dict[str, np.ndarray]) -> Figure:
+    """The error of f over what its interval allows, for both ways."""
+    curves: list[tuple] = [([1, 100], [1, 100], "k-", "allowed")]
+    for way, label in (("load sharing", "load sharing alone"), ("default", "default answer")):
+        curves.append((*100 * np.maximum(every[way][:, [2, 1]].T, 1e-4), "o", label))
+    caption = "Error of f over what its interval allows; below the line it is covered"
+    labels: dict[str, Any] = {"xlabel": "allowed by interval and reference (%)", "ylabel": "f off by (%)"}
+    return chart(name, caption, curves, xscale="log", yscale="log", **labels)

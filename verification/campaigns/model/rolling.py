@@ -1,0 +1,160 @@
+"""Load sharing beside roughness that moves: f and the share of the load over the slide-roll ratio and the film, and the
+load share over film/Sq beside published laws.
+
+Both models have the same periodic map, on cells of 0.4 correlation lengths, and half of that along x. Surface 1 is
+rough, so slide-roll ratios s and -s are two cases.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+import lubfric
+from lubfric.estimate import load_sharing_error
+from lubfric.models.deterministic import BOUNDARY_FILM, RoughBody
+
+from ... import plotting
+from ...check import AT_LEAST, TOLD, Check, Figure, Item, Table
+from ...fem.references import load_share_band
+from ...kept import Run
+from .boundary_film import roller, speed_of
+from .moved import FILMS, passed
+
+RATIOS = (2.0, 1.0, 0.6, 0.3)  # smooth central film over Sq
+SLIPS = (-1.0, -0.1, 0.0, 0.1, 0.5, 1.5, 2.0)  # slide-roll ratios; at 2 surface 1 rests
+CONTACTS: dict[str, tuple[float, dict, float, float]] = {  # pressure [Pa], bodies, Sq and correlation length [m]
+    "roller, 1 GPa": (1e9, {}, 150e-9, 10e-6),
+    "gear flank, 1.2 GPa": (1.2e9, {"radius": 10e-3}, 300e-9, 20e-6),
+    "roller, 0.5 GPa": (0.5e9, {}, 150e-9, 10e-6),
+    "light, 0.25 GPa": (0.25e9, {}, 100e-9, 8e-6),
+}
+# cells of a map, and in a correlation length: along x, where it moves, more
+SHAPE = (128, 16)
+PER_LENGTH = (5.0, 2.5)
+KINDS = "gaussian", "exponential", "plateau", "ridges across", "ridges along"
+# length of ridges over their width; height over Sq at which summits are cut off
+RIDGE = 4.0
+CUT = 0.3
+# share of points within the stated bound; and the quantile that is told
+HOLDS = 0.95
+SURE = 0.99
+
+
+def cases(level: str) -> dict[str, tuple]:
+    """The cases of ``level`` by name: (contact, kind of surface, film/Sq, slide-roll ratio). Two are mapped."""
+    mapped = list(CONTACTS)[:2]
+    others = list(CONTACTS)[2:]
+    found = [(name, "gaussian", ratio, slip) for name in mapped for ratio in RATIOS for slip in SLIPS]
+    if level == "quick":
+        found = [one for one in found[: len(found) // 2] if one[2] >= 1 and abs(one[3]) == 0.1]
+    else:
+        more = [(name, "exponential") for name in (mapped[0], others[-1])] + [(name, "gaussian") for name in others]
+        more += [(mapped[0], kind) for kind in KINDS[2:]]
+        found = [(*one, ratio, slip) for one in more for ratio in RATIOS[1::2] for slip in (-0.1, 0.5)] + found
+    return {"; ".join(map(str, one)): one for one in found}
+
+
+def solved(case: tuple) -> dict[str, Any]:
+    """Both models at one case; or why there is no answer."""
+    contact, kind, ratio, slip = case
+    pressure, bodies, sq, length = CONTACTS[contact]
+    scene = roller(pressure).with_(bodies=bodies, motion={"slide_roll_ratio": slip}, numerics={"accept": True})
+    surface = rough(kind, sq, length)
+    speed = speed_of(scene, ratio * sq)
+    fast = lubfric.friction(lubfric.prepare(scene.with_(numerics={"model": "load-sharing"}), surface), speed)
+    load = scene.bodies.load
+    numbers = {"f": fast.coefficient, "share": fast.contact_load / load, "ratio": fast.film_to_roughness_ratio}
+    numbers |= {"boundary": fast.boundary_force / load, "shear": fast.shear_force / load}
+    numbers["rolling"] = fast.rolling_force / load
+    try:
+        return {"speed": speed, "fast": numbers} | passed(scene, [RoughBody(surface, speed * (1 - slip / 2))], speed)
+    except lubfric.ConvergenceError as error:
+        return {"speed": speed, "fast": numbers, "failure": str(error)[:200]}
+
+
+def rough(kind: str, sq: float, length: float) -> lubfric.Surface:
+    """The map of one of `KINDS`, with this Sq and correlation length [m], of ridges across them."""
+    lengths = {"ridges across": (length, RIDGE * length), "ridges along": (RIDGE * length, length)}.get(kind, length)
+    acf = "exponential" if kind == "exponential" else "gaussian"
+    (along, across) = (length / n for n in PER_LENGTH)
+    cells = along, across * (RIDGE if kind == "ridges across" else 1.0)
+    found = lubfric.generate_surface(SHAPE, cells, sq=sq, correlation_length=lengths, acf=acf, seed=11)
+    return replace(found, heights=np.minimum(found.heights, CUT * sq)).scaled(sq=sq) if kind == "plateau" else found
+
+
+def rolling(level: str, run: Run = Run()) -> Iterator[Item]:
+    """Eq. (8) beside moving roughness, its stated error beside the one found, and the share of the load on thin gaps
+    beside four published laws."""
+    rows = list(run.solved(cases(level), solved))
+    found = [(case, row) for case, row in rows if "failure" not in row]
+    off = np.array([row["f"] / row["fast"]["f"] - 1 for _, row in found])
+    sides = np.array([stated(row["fast"]) for _, row in found])
+    off, told = np.abs(off), np.where(off < 0, *sides.T)
+    yield Check("moving points that were not solved", len(rows) - len(found), 0, 0.0, "the solver's report", TOLD)
+    name = f"Eq. (8) in rolling: share of {len(found)} points within its stated error"
+    yield Check(name, float(np.mean(off <= told)), HOLDS, 0.0, "moving roughness", AT_LEAST)
+    quantile = float(np.quantile(off / told, SURE))
+    yield Check("Eq. (8) in rolling: error over the stated one, 99 % quantile", quantile, 1.0, 0.0, "moving", TOLD)
+    columns = ("film/Sq", "f over Eq. (8)", "f over rest", "share: Eq. (8)", "at rest", "moving")
+    caption = "f of moving roughness, and the share of the load at 20 nm, lowest and highest of all that slide"
+    yield Table("rolling", caption, columns, list(summary(found)))
+    yield from shares(found)
+    yield drawn(found)
+
+
+def stated(fast: dict) -> tuple[float, float]:
+    """The error that Eq. (8) states of itself where roughness moves, below and above f."""
+    return load_sharing_error(*(fast[name] for name in ("ratio", "share", "boundary", "shear", "rolling")))
+
+
+def summary(found: list) -> Iterator[list[str]]:
+    """A row for every film."""
+    film = FILMS.index(BOUNDARY_FILM)
+    for ratio in RATIOS:
+        rows = np.array(
+            [
+                (at["f"] / at["fast"]["f"], at["f"] / at["rest"]["f"])
+                + (at["fast"]["share"], at["rest"]["shares"][film], at["shares"][film])
+                for case, at in found
+                if case[2] == ratio and case[3] != 0
+            ]
+        )
+        if rows.size:
+            yield [f"{ratio:g}", *(f"{low:.2f}–{high:.2f}" for low, high in zip(rows.min(axis=0), rows.max(axis=0)))]
+
+
+def shares(found: list) -> Iterator[Check]:
+    """How far the share of the load on gaps below each of `FILMS` is from the band of four laws, at most."""
+    ratios = np.array([case[2] for case, _ in found])
+    low, high = (side[:, None] for side in load_share_band(ratios))
+    for name, rows in (("moving", [row for _, row in found]), ("rest", [row["rest"] for _, row in found])):
+        at = np.array([row["shares"] for row in rows])
+        off = np.maximum(np.maximum(at - high, low - at), 0).max(axis=0)
+        for film, distance in zip(FILMS, off):
+            what = f"{name}, h < {film * 1e9:g} nm: largest distance of the share from the band"
+            yield Check(what, distance, 0.0, 1.0, "four laws", TOLD)
+
+
+def drawn(found: list) -> Figure:
+    """f and the share of the load over film/Sq at every slide-roll ratio, of the first two contacts."""
+    names = list(CONTACTS)[:2]
+    film = FILMS.index(BOUNDARY_FILM)
+    canvas, grid = plotting.axes(2, 2, 8.5, 6.0, sharex=True)
+    for column, name in zip(grid.T, names):
+        for k, slip in enumerate(SLIPS):
+            at = [(c[2], r) for c, r in found if c[0] == name and c[1] == "gaussian" and c[3] == slip]
+            ratios = [ratio for ratio, _ in at]
+            for ax, moving, fast in (
+                (column[0], [r["f"] for _, r in at], [r["fast"]["f"] for _, r in at]),
+                (column[1], [r["shares"][film] for _, r in at], [r["fast"]["share"] for _, r in at]),
+            ):
+                ax.plot(ratios, moving, f"C{k}o-", label=f"{slip:g}")
+                ax.plot(ratios, fast, f"C{k}--", lw=0.8)
+        dense = np.geomspace(min(RATIOS), max(RATIOS), 60)
+        column[1].fill_between(dense, *load_share_band(dense), color="0.85")
+        column[0].set(title=name, xscale="log", ylabel="f")
+        column[1].set(xlabel="film/Sq", ylabel="share of the load at 20 nm")
+    grid[1, 1].legend(title="slide-roll ratio", fontsize=8, loc="upper right")
+    return plotting.finish("rolling", canvas, "Moving roughness (lines), Eq. (8) (dashed), four published laws (grey)")

@@ -1,0 +1,84 @@
+"""The default answer on the built-in scene at four speeds, each time on a fresh surface: how often its interval holds f
+of an endless line, its bias, and its cost beside plain sampling.
+
+Plain sampling is the mean of strips 90 correlation lengths long, each solved by itself by the deterministic model on
+cells of a quarter of the correlation length: so many that their mean scatters no more than the answers do. It gives the
+truth, too. Strips that balance the load each by itself leave
+f too small by about 1.3 (sd/f)², of which a part is granted to the bias (`SECOND_ORDER`).
+"""
+
+import time
+from collections.abc import Iterator
+
+import numpy as np
+
+import lubfric
+from lubfric.models.deterministic import solve_strip
+
+from ...check import ABSOLUTE, TOLD, Check, Item, Table
+from ...kept import Run
+from ..sampling.coverage import within
+
+SPEEDS = (0.06, 0.03, 0.01, 0.003)  # m/s
+TRIALS = {"quick": 2, "default": 24, "full": 200}
+STRIPS = {"quick": 4, "default": 32, "full": 160}  # of plain sampling
+# seeds
+FIRST = 640_000
+PLAIN = 650_000
+# of (sd/f)²; of f
+SECOND_ORDER = 1.3
+BIAS = 0.02
+COLUMNS: tuple[str, ...] = ("speed", "answers", "coverage", "interval", "stated / scatter", "bias")
+COLUMNS += ("CPU time", "plain, to that scatter", "times cheaper")
+
+
+def answer(speed_and_seed: tuple[float, int]) -> dict:
+    """f, half of its interval, and processor seconds."""
+    speed, seed = speed_and_seed
+    begun = time.process_time()
+    found = lubfric.friction(lubfric.load_scene("paper").with_(surface={"seed": seed}), speed)
+    low, high = found.uncertainty.interval
+    return {"f": found.coefficient, "half": (high - low) / 2, "seconds": time.process_time() - begun}
+
+
+def plain(speed_and_seed: tuple[float, int]) -> dict:
+    """f of one strip, and processor seconds."""
+    speed, seed = speed_and_seed
+    scene = lubfric.load_scene("paper").with_(surface={"seed": seed})
+    strips = lubfric.prepare(scene).strips
+    assert strips is not None
+    begun = time.process_time()
+    f = solve_strip(scene, strips.strip(0), speed).result.coefficient
+    return {"f": f, "seconds": time.process_time() - begun}
+
+
+def seeds(level: str, run: Run = Run()) -> Iterator[Item]:
+    """Coverage, bias and cost at every speed."""
+    rows = []
+    for speed in SPEEDS:
+        f, half, seconds = _columns(run, answer, speed, range(FIRST, FIRST + TRIALS[level]), ("f", "half", "seconds"))
+        one, each = _columns(run, plain, speed, range(PLAIN, PLAIN + STRIPS[level]), ("f", "seconds"))
+        truth = one.mean()
+        scatter = one.std(ddof=1) / one.mean()
+        error = scatter / np.sqrt(one.size)
+        bias = f.mean() / truth - 1
+        covered = float((np.abs(f - truth) <= np.hypot(half, 2 * error * truth)).mean())
+        name = f"{speed:g} m/s"
+        stated = float(np.sqrt(np.mean((half / 1.96) ** 2)))
+        needed = each.mean() * (one.std(ddof=1) / f.std(ddof=1)) ** 2
+        yield within(f"{name}: coverage", covered, f.size, (0.9, 1.0), "strips one by one", f.size > STRIPS["quick"])
+        open_ = np.hypot(error, f.std(ddof=1) / truth / np.sqrt(f.size))
+        slack = BIAS + 2 * open_ + SECOND_ORDER * scatter**2
+        cheaper = needed / seconds.mean()
+        yield Check(f"{name}: bias of f", bias, 0.0, slack, "strips one by one", ABSOLUTE)
+        yield Check(f"{name}: times cheaper than plain sampling", cheaper, 1.0, 0.0, "strips one by one", TOLD)
+        shares = f"{100 * covered:.0f} %", f"{100 * half.mean() / truth:.1f} %", f"{stated / f.std(ddof=1):.2f}"
+        costs = f"{seconds.mean():.2g} s", f"{needed:.2g} s", f"{cheaper:.2g}"
+        rows.append((name, str(f.size), *shares, f"{100 * bias:+.1f} ± {100 * open_:.1f} %", *costs))
+    yield Table("answers-seeds", "The default answer on fresh surfaces", COLUMNS, rows)
+
+
+def _columns(run: Run, solve, speed: float, numbers: range, names: tuple[str, ...]) -> list[np.ndarray]:
+    cases = {f"{speed:g} m/s, {seed}": (speed, seed) for seed in numbers}
+    found = [row for _, row in run.solved(cases, solve, solve.__name__)]
+    return [np.array([row[name] for row in found]) for name in names]

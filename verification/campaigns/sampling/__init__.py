@@ -1,0 +1,27 @@
+"""``python -m verification sampling``: does the interval cover the friction of an endless line?
+
+Every case is solved many times, with seeds of its own. The exit code is 1 when coverage, reported error over scatter,
+or bias of a case is out of its bounds (`verification.campaigns.sampling.coverage`).
+"""
+
+from argparse import ArgumentParser, Namespace
+
+from ... import frame
+
+PARTS: tuple[tuple[str, str, str, dict], ...] = (
+    ("coverage", "sampling.coverage:coverage", "Intervals beside the friction of an endless line", {}),
+    ("pieces", "sampling.others:pieces", "Intervals of pieces beside their whole map", {}),
+    ("quantities", "sampling.others:quantities", "Every other number beside its stated error", {}),
+)
+SEED = 240_000
+
+
+def _options(parser: ArgumentParser) -> None:
+    parser.add_argument("--seed", type=int, default=SEED, help="of the surfaces (default: %(default)s)")
+
+
+def _own(part: str, options: Namespace) -> dict:
+    return {} if part == "quantities" else {"seed": options.seed}
+
+
+COMMAND = frame.campaign("sampling", __doc__, PARTS, add_options=_options, own=_own)

@@ -1,0 +1,263 @@
+"""Trials of the built-in scene at four speeds and of other surfaces and loads, each on a surface of its own, beside the
+friction of an endless line.
+
+That friction comes from plain balances of patches 1,900 correlation lengths long, with none of the library's own
+corrections. At this length the bias of a patch is below 0.1 %. Their cells are a quarter of the correlation length.
+What these cells change is found on shorter patches, on the scene's own cells and on one in so many of them.
+"""
+
+import math
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from scipy.special import stdtrit
+
+import lubfric
+
+from ...check import ABSOLUTE, Check, Figure, Item, Table
+from ...kept import Run
+from ...plotting import finish, panels
+from . import SEED
+
+TRIALS = {"quick": 16, "default": 60, "full": 400}
+OTHERS = 200  # trials of other surfaces and loads, at most
+REPORTED = 1_000_000  # seeds of the truth begin so far behind those of the trials
+# of the truth; it is closed to so much of the standard error asked
+PATCHES = 160
+FEWEST = 16
+CLOSE = 0.1
+# of a patch, in correlation lengths; patches on the own cells, and their length
+LENGTHS = 1900
+PIECES = 8
+PIECE = 90
+CHANCE = 2.0  # standard errors of a proportion or ratio of few trials, granted beyond the bounds
+# of the reported error over the scatter from 1; of the sampling tolerance
+RATIO = 0.15
+BIAS = 0.3
+ENDLESS = "plain balances of long patches"
+SHARED = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+COLUMNS = ("case", "trials", "coverage", "bias")
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene, its speed [m/s], the relative standard error asked, and the bounds of the coverage."""
+
+    name: str
+    speed: float = 0.01
+    asked: float = 0.02
+    bounds: tuple[float, float] = (0.92, 0.98)
+    changes: dict = field(default_factory=dict)
+
+    def scene(self, seed: int):
+        """The scene with a surface of its own ``seed``."""
+        rough = self.changes.get("surface", {}) | {"seed": seed}
+        return SHARED.with_(**self.changes | {"surface": rough})
+
+
+def _other(name: str, **changes) -> Case:
+    return Case(name, bounds=(0.88, 0.99), changes=changes)
+
+
+SPEEDS = (Case("0.003 m/s", 0.003), Case("0.01 m/s", 0.01, 0.01), Case("0.03 m/s", 0.03), Case("0.046 m/s", 0.046))
+CASES = (
+    *SPEEDS,
+    _other("exponential ACF", surface={"acf": "exponential"}),
+    _other("4 µm", surface={"correlation_length": 4e-6}),
+    _other("16 µm", surface={"correlation_length": 16e-6}, contact={"shape": (320, 200)}),
+    _other("55 N", bodies={"load": 55.0}),
+    _other("plastic", bodies={"hardness": 2e9}),
+    _other("2.2 x 40 µm", surface={"correlation_length": (2.2e-6, 40e-6)}, contact={"shape": (200, 600)}),
+)
+
+
+@dataclass(frozen=True)
+class Result:
+    """The rows of the trials of a case, and the truth with its relative standard error."""
+
+    case: Case
+    rows: list[dict]
+    truth: float
+    error: float
+
+    def column(self, name: str) -> np.ndarray:
+        """One number of all trials."""
+        return np.array([row[name] for row in self.rows])
+
+    @property
+    def covered(self) -> np.ndarray:
+        """For each trial, whether its interval holds the truth."""
+        return (self.column("low") <= self.truth) & (self.truth <= self.column("high"))
+
+    @property
+    def ratio(self) -> float:
+        """Root mean square of the reported standard error over the observed standard deviation."""
+        f = self.column("f")
+        return float(np.sqrt(np.mean((self.column("sampling") * f) ** 2)) / f.std(ddof=1))
+
+    @property
+    def bias(self) -> float:
+        """Deviation of the mean of the trials from the truth, relative to it."""
+        return float(self.column("f").mean() / self.truth - 1)
+
+    @property
+    def bias_error(self) -> float:
+        """Relative standard error of the bias."""
+        scatter = float(self.column("f").std(ddof=1)) / self.truth / math.sqrt(len(self.rows))
+        return math.hypot(scatter, self.error)
+
+
+def coverage(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
+    """How often the 95 % interval holds the friction of an endless line, over trials on surfaces of their own."""
+    results = []
+    for case in SPEEDS if level == "quick" else CASES:
+        trials = min(TRIALS[level], TRIALS["full"] if case in SPEEDS else OTHERS)
+        f, error = truths([case], seed, run)[case.name]
+        cases = {f"{case.name}, {seed + k}": (case, seed + k) for k in range(trials)}
+        results.append(Result(case, [row for _, row in run.solved(cases, trial)], f, error))
+        yield from checks(results[-1])
+    yield Table("sampling-coverage", "Trials of every case beside its endless line", COLUMNS, map(row, results))
+    yield picture(results)
+
+
+def truths(cases, seed: int, run: Run) -> dict[str, tuple[float, float]]:
+    """f of an endless line and its relative standard error, by the name of the case."""
+    wanted = {f"{case.name}, {seed}": (case, seed + REPORTED) for case in cases}
+    return {case.name: (f, error) for (case, _), (f, error) in run.solved(wanted, endless, "truths")}
+
+
+def trial(case_and_seed: tuple[Case, int]) -> dict:
+    """One trial of a case."""
+    case, seed = case_and_seed
+    return solve(case.scene(seed), case.speed, case.asked)
+
+
+def solve(scene, speed: float, asked: float) -> dict:
+    """One point with its interval and its processor seconds."""
+    begun = time.process_time()
+    found = lubfric.friction(scene.with_(numerics={"sampling_tolerance": asked}), speed)
+    u = found.uncertainty
+    f = found.coefficient
+    half = f * math.hypot(u.numerical, stdtrit(max(u.freedom, 1.0), 0.975) * u.sampling)  # the truth, too, is Eq. (8)
+    return {
+        "f": f,
+        "sampling": u.sampling,
+        "low": f - half,
+        "high": f + half,
+        "length": u.length,
+        "few": bool(u.notes),
+        "seconds": time.process_time() - begun,
+    }
+
+
+def endless(case_and_seed: tuple[Case, int]) -> tuple[float, float]:
+    """f of an endless line by the mean of patches with seeds from ``seed`` on, and its relative standard error."""
+    case, seed = case_and_seed
+    scene = case.scene(seed)
+    spacing, factors, along = cells_of(scene)
+    coarse = (spacing[0] * factors[0], spacing[1] * factors[1])
+    across = 4 * math.ceil(scene.contact.shape[0] / (4 * factors[0]))
+    change, own = _change(scene, case.speed, seed + 500, across)
+    columns = 64 * round(LENGTHS * along / coarse[1] / 64)
+    found: list[float] = []
+    while len(found) < FEWEST or (len(found) < PATCHES and _error(found) > CLOSE * case.asked):
+        surface = _surface(scene, (across, columns), coarse, seed + len(found))
+        found.append(_plain(scene, surface, case.speed))
+    return float(np.mean(found)) * (1 + change), math.hypot(_error(found), own)
+
+
+def cells_of(scene) -> tuple[tuple[float, float], tuple[int, int], float]:
+    """The scene's own spacing [m]; how many of its cells (a power of two) make a quarter of the correlation length
+    along x and y, and half the Hertz strip; the correlation length along y [m]."""
+    spacing, length = (
+        np.broadcast_to(v, 2).tolist() for v in (scene.contact.spacing, scene.surface.correlation_length)
+    )
+    most = min(length[0] / 4, scene.bodies.half_width / 2) / spacing[0], length[1] / 4 / spacing[1]
+    fx, fy = (2 ** max(0, math.floor(math.log2(m * (1 + 1e-9)))) for m in most)
+    return (spacing[0], spacing[1]), (fx, fy), length[1]
+
+
+def _change(scene, speed: float, seed: int, across: int) -> tuple[float, float]:
+    """Relative change of f from the cells of the long patches to the scene's own, and its standard error."""
+    spacing, (fx, fy), along = cells_of(scene)
+    if (fx, fy) == (1, 1):
+        return 0.0, 0.0
+    changes = []
+    for k in range(PIECES):
+        rows = 16 * fy * round(PIECE * along / (fy * spacing[1]) / 16)
+        fine = _surface(scene, (across * fx, rows), spacing, seed + k)
+        some = fine.heights[fx // 2 :: fx, fy // 2 :: fy]
+        coarse = replace(fine, heights=some, spacing=(spacing[0] * fx, spacing[1] * fy))
+        changes.append(_plain(scene, fine, speed) / _plain(scene, coarse, speed) - 1)
+    return float(np.mean(changes)), float(np.std(changes, ddof=1)) / math.sqrt(PIECES)
+
+
+def _error(values) -> float:
+    return float(np.std(values, ddof=1) / np.mean(values) / math.sqrt(len(values)))
+
+
+def _surface(scene, shape, spacing, seed: int):
+    rough = scene.surface
+    keys = {"sq": rough.sq, "correlation_length": rough.correlation_length, "acf": rough.acf}
+    return lubfric.generate_surface(shape, spacing, seed=seed, **keys)
+
+
+def _plain(scene, surface, speed: float) -> float:
+    """f of one patch on its own cells."""
+    contact = {"shape": surface.shape, "spacing": surface.spacing}
+    patch = scene.with_(contact=contact, numerics={"sampling": "patch", "grid": "given", "tolerance": 2e-3})
+    return lubfric.friction(lubfric.prepare(patch, surface), speed).coefficient
+
+
+def checks(result: Result) -> Iterator[Check]:
+    """Coverage, reported error over observed scatter, and bias against the truth.
+
+    The coverage decides nothing in a case of which most trials say that the map is too small.
+    """
+    case = result.case
+    n = len(result.rows)
+    decides = float(result.column("few").mean()) <= 0.5
+    yield within(f"{case.name}: coverage", float(result.covered.mean()), n, case.bounds, ENDLESS, decides)
+    slack = RATIO + CHANCE / math.sqrt(2 * n)
+    yield Check(f"{case.name}: reported over scatter", result.ratio, 1.0, slack, "scatter of the trials", ABSOLUTE)
+    slack = BIAS * case.asked + CHANCE * result.bias_error
+    yield Check(f"{case.name}: bias of f", result.bias, 0.0, slack, ENDLESS, ABSOLUTE)
+
+
+def within(name: str, found: float, trials: int, bounds: tuple[float, float], source: str, decides=True) -> Check:
+    """A check of a share of trials between two bounds, with what chance does to it."""
+    low, high = bounds
+    return Check(name, found, (high + low) / 2, (high - low) / 2 + chance(trials), source, ABSOLUTE, decisive=decides)
+
+
+def chance(trials: int) -> float:
+    """How much less than 95 % is granted to a share of few trials."""
+    return CHANCE * math.sqrt(0.05 * 0.95 / trials)
+
+
+def row(result: Result) -> tuple[str, ...]:
+    """The numbers of a case as cells of a table (`COLUMNS`)."""
+    return (
+        result.case.name + (f", asked {100 * result.case.asked:g} %" if result.case.asked != Case.asked else ""),
+        str(len(result.rows)),
+        f"{100 * result.covered.mean():.1f} %",
+        f"{100 * result.bias:+.2f} ± {100 * result.bias_error:.2f} %",
+    )
+
+
+def picture(results: list[Result]) -> Figure:
+    """Every interval of every case over the truth. Those that miss it are orange."""
+    canvas, grid = panels(len(results), 2, 11, 2.6)
+    for axis, result in zip(grid, results):
+        order = np.argsort(result.column("f"))
+        f, low, high = (100 * (result.column(name)[order] / result.truth - 1) for name in ("f", "low", "high"))
+        for hit, colour in ((True, "#0072B2"), (False, "#D55E00")):
+            k = np.flatnonzero(result.covered[order] == hit)
+            axis.vlines(k, low[k], high[k], color=colour, lw=0.9)
+        axis.plot(np.arange(f.size), f, ".", color="black", ms=2)
+        axis.axhline(0, color="black", lw=0.8)
+        axis.set_title(f"{result.case.name}: {100 * result.covered.mean():.1f} % of {f.size} cover")
+        axis.set(ylabel="f/f∞ − 1 (%)", xlabel="trials, by f", xticks=[])
+    return finish("coverage", canvas, "Every interval over the truth; those that miss it are orange", "png")

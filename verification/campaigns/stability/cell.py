@@ -1,0 +1,83 @@
+"""One condition, one method, one verdict, decided by a check that does not ask the solver."""
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from lubfric import LubfricError
+
+from ...check import AT_MOST, Check
+
+RIGHT = "right"
+FAILED = "reported failure"
+WRONG = "silently wrong"
+VERDICTS = (RIGHT, FAILED, WRONG)
+
+
+@dataclass(frozen=True)
+class Cell:
+    """The ``problem`` of a map, and where it is drawn: the map and panel, and x and y on their axes.
+
+    Users get the ``default`` method unasked. ``inside``: the range in which it promises to answer.
+    """
+
+    map: str
+    panel: str
+    x: float
+    y: float
+    problem: Any = None
+    method: str = "default"
+    default: bool = True
+    inside: bool = True
+
+    @property
+    def name(self) -> str:
+        """All of it in words."""
+        return f"{self.map}; {self.panel}; x = {self.x:g}, y = {self.y:g}; {self.method}"
+
+
+def verdict(check: Check) -> str:
+    """One of `VERDICTS`."""
+    return RIGHT if check.passed else FAILED if check.refused else WRONG
+
+
+def judged(cell: Cell, solve: Callable[[Cell], Any], deviations: Callable[[Cell, Any], dict[str, float]]) -> Check:
+    """Solve the cell, and set the worst of the ``deviations`` of its result against 1: each is over what is allowed.
+
+    A `lubfric.LubfricError` is a reported failure, and so is the analogue of the finite elements (an exception of that
+    name). Any other exception is a defect and ends the map. A deviation above 1, or that is no number, makes the cell
+    silently wrong. The cells of default methods decide: none may be silently wrong, and none inside its promise fail.
+    """
+    begun = time.perf_counter()
+    ratio = math.nan
+    refused = ""
+    try:
+        result = solve(cell)
+    except Exception as failure:
+        if not (isinstance(failure, LubfricError) or type(failure).__name__ in ("SolveError", "InputError")):
+            raise
+        note = refused = f"{type(failure).__name__}: {failure}"[:300]
+        seconds = time.perf_counter() - begun
+    else:
+        seconds = time.perf_counter() - begun
+        ratios = deviations(cell, result)
+        note = max(ratios, key=lambda name: ratios[name] if math.isfinite(ratios[name]) else math.inf)
+        ratio = ratios[note]
+    at: dict[str, str | float] = {"map": cell.map, "panel": cell.panel, "method": cell.method}
+    at |= {"x": float(cell.x), "y": float(cell.y), "default": cell.default, "inside": cell.inside}
+    return Check(
+        cell.name,
+        ratio,
+        1.0,
+        0.0,
+        "the judge beside this map",
+        AT_MOST,
+        "of what is allowed",
+        note,
+        seconds,
+        decisive=cell.default and (cell.inside or not refused),
+        refused=refused,
+        at=at,
+    )

@@ -1,0 +1,95 @@
+"""Draws and counts the maps."""
+
+from collections import Counter
+
+import numpy as np
+
+from ... import plotting
+from ...check import Check, Figure, Table
+from .cell import FAILED, RIGHT, VERDICTS, WRONG
+from .cell import verdict as verdict_of
+
+COLOURS = {RIGHT: "#009E73", FAILED: "#E69F00", WRONG: "#D50000"}
+MARKS = {RIGHT: "s", FAILED: "X", WRONG: "D"}
+AXES = {  # of a map: labels of x and y, and those of both that are linear
+    "film: load and material": ("load number M", "material number L", "y"),
+    "film: speed and load": ("entrainment speed, m/s", "load, N/m", ""),
+    "film: tolerance": ("case", "tolerance asked for", "x"),
+    "film: poor start": ("start from case", "case", "xy"),
+    "film: starved inlet": ("load number M", "oil ahead, inlet lengths", ""),
+    "contact: load and surface": ("mean pressure / flattening pressure", "surface", "y"),
+    "contact: hardness": ("hardness / E'", "mean pressure / hardness", ""),
+    "contact: size and aspect ratio": ("cell length / width", "grid", "y"),
+    "contact: mean gap": ("mean gap / gap at first touch", "surface", "y"),
+    "contact: roughness height": ("rms height, m", "mean pressure, Pa", ""),
+    "contact: tilt and offset": ("tilt, rms heights", "offset, m", "xy"),
+    "contact: precision, tolerance, start": ("tolerance", "input", "y"),
+    "sharing: flat": ("film / roughness", "rms height, m", ""),
+    "sharing: paper": ("film / roughness", "rms height, m", ""),
+    "sharing: speed, either sign": ("entrainment speed, m/s", "scene", "y"),
+    "sharing: share of the contact": ("$F_C/F_T$", "", "y"),
+}
+WHOLE = ("load, N/m", "entrainment speed, m/s", "")
+COUNTED = ("case", "start from case", "surface", "grid", "input", "scene", "")  # labels of axes that number things
+
+
+def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter]:
+    """Verdicts by (map, method, default)."""
+    found: dict[tuple[str, str, bool], Counter] = {}
+    for cell in cells:
+        key = (cell.at["map"], cell.at["method"], bool(cell.at["default"]))
+        found.setdefault(key, Counter())[verdict_of(cell)] += 1
+    return found
+
+
+def table(kind: str, cells: list[Check]) -> Table:
+    """Verdicts of the methods that users get unasked: of every map in which not all is right, and of all together."""
+    rows = [
+        (name, sum(found.values()), *(found[v] for v in VERDICTS))
+        for (name, _, default), found in counts(cells).items()
+        if default and found[RIGHT] < sum(found.values())
+    ]
+    chosen = [verdict_of(c) for c in cells if c.at["default"]]
+    maps = len({c.at["map"] for c in cells})
+    rows.append((f"all {maps} maps", len(chosen), *(chosen.count(v) for v in VERDICTS)))
+    inside = sum(verdict_of(c) == FAILED and bool(c.at["inside"]) for c in cells if c.at["default"])
+    caption = f"Cells by verdict. Reported failures inside the range promised: {inside}"
+    return Table(f"stability-{kind}", caption, ("map (default methods)", "cells", *VERDICTS), rows)
+
+
+def draw(kind: str, cells: list[Check]) -> Figure:
+    """One panel for each map and method. Cells that share a place show the worst verdict."""
+    panels = list(dict.fromkeys((c.at["map"], c.at["method"]) for c in cells))
+    canvas, axes = plotting.panels(len(panels), 3, width=11, height=2.9)
+    for ax, place in zip(axes, panels):
+        panel(ax, [c for c in cells if (c.at["map"], c.at["method"]) == place])
+    handles = [axes[0].plot([], [], MARKS[v], color=COLOURS[v], label=v)[0] for v in VERDICTS]
+    canvas.legend(handles=handles, loc="outside lower center", ncols=3, frameon=False)
+    return plotting.compact(plotting.finish(kind, canvas, f"Stability of the {kind} solvers", format="png"))
+
+
+def panel(ax, cells: list[Check]) -> None:
+    """All cells of one map and method."""
+    from matplotlib.ticker import MaxNLocator
+
+    name = cells[0].at["map"]
+    method = cells[0].at["method"]
+    *labels, linear = AXES.get(name, WHOLE)
+    found = Counter(verdict_of(c) for c in cells)
+    for order, verdict in enumerate(VERDICTS):
+        places = np.array([(c.at["x"], c.at["y"]) for c in cells if verdict_of(c) == verdict]).reshape(-1, 2)
+        ax.plot(*places.T, MARKS[verdict], color=COLOURS[verdict], markersize=4, zorder=1 + order)
+    for axis, label in zip("xy", labels):
+        if axis not in linear:
+            scale = "log" if min(c.at[axis] for c in cells) > 0 else "symlog"
+            ax.set(**{f"{axis}scale": scale})
+        ax.set(**{f"{axis}label": label})
+        one = ax.xaxis if axis == "x" else ax.yaxis
+        if label in COUNTED:
+            one.set_major_locator(MaxNLocator(integer=True, min_n_ticks=1))
+        if not label:
+            one.set_ticks([])
+    if name.startswith("sharing: speed"):
+        ax.set_xscale("symlog", linthresh=1e-10)
+        ax.set_xticks([-1, -1e-4, -1e-8, 1e-8, 1e-4, 1])
+    ax.set_title(f"{name}\n{method}: {found[RIGHT]} right, {found[FAILED]} failed, {found[WRONG]} wrong", fontsize=9)

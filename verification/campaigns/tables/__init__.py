@@ -1,0 +1,39 @@
+"""``python -m verification tables``: the tables of numbers in the documents, measured and written by this command.
+
+A document says where a table stands by two comments (`pages`). What stands between them is replaced by what is measured
+now, with the command, the date, the version and the machine beneath. The tables of longer campaigns (`pages.CAMPAIGNS`)
+are written by those, with ``--docs docs``.
+"""
+
+import inspect
+from argparse import ArgumentParser
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from ... import frame
+from ...check import AT_LEAST, Check, Item, Table
+from ...kept import Run
+from . import measured, studies
+from .measured import Cells
+
+TABLES: dict[str, Callable[[], Cells]] = measured.TABLES | studies.TABLES
+
+
+def caption(name: str) -> str:
+    """The first sentence on a table, by its function."""
+    return (inspect.getdoc(TABLES[name]) or name).split("\n")[0]
+
+
+def written(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
+    """One table, measured now."""
+    columns, rows = TABLES[name]()
+    yield Table(name, caption(name), columns, rows)
+    yield Check(f"{name}: rows", len(rows), 1, 0.0, "a table says something", AT_LEAST)
+
+
+def _options(parser: ArgumentParser) -> None:
+    parser.set_defaults(docs=Path("docs"))
+
+
+PARTS = [(name, "tables:written", caption(name), {"name": name}) for name in TABLES]
+COMMAND = frame.campaign("tables", __doc__, PARTS, ("default",), _options)

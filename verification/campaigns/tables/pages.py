@@ -1,0 +1,70 @@
+"""The marks in a page between which a table stands, and how a new table is put there.
+
+A page says where a table stands by two comments, ``<!-- table: NAME -->`` and ``<!-- end of table -->``. What stands
+between them is replaced as a whole. Tables come from `verification.campaigns.tables`, from campaigns (`CAMPAIGNS`) and from the
+scripts of `verification.campaigns.benchmarks` (`BENCHMARKS`).
+"""
+
+import platform
+import re
+import time
+from pathlib import Path
+
+from ...check import Table
+from ...wording import markdown
+
+BLOCK = re.compile(r"<!-- table: (?P<name>[a-z-]+) -->\n(?P<body>.*?)<!-- end of table -->", re.DOTALL)
+BENCHMARKS = {
+    "chosen-speeds": "chosen_speeds",
+    "contact-aspher": "contact_vs_aspher",
+    "contact-constants": "contact_constants",
+    "film-times": "ehl_times",
+    "study-points": "study",
+}
+CAMPAIGNS = {  # command: its tables
+    "charts": ("contact-methods",),
+    "model": (
+        "answers",
+        "answers-rollers",
+        "answers-moving",
+        "answers-seeds",
+        "refinement",
+        "boundary-film",
+        "rolling",
+    ),
+    "sampling": ("sampling-coverage", "sampling-numbers"),
+    "stability": ("stability-film", "stability-contact", "stability-sharing", "stability-whole"),
+}
+
+
+def put(docs: Path, table: Table, command: str) -> None:
+    """Write ``table``, and the ``command`` that measured it, into every page of the folder ``docs`` that names it."""
+    for page in sorted(docs.glob("*.md")):
+        text = page.read_text(encoding="utf-8")
+        new = replaced(text, table.name, body(table, command))
+        if new != text:
+            page.write_text(new, encoding="utf-8")
+
+
+def replaced(text: str, name: str, new: str) -> str:
+    """``text`` with the table ``name`` replaced; the comments around it stay."""
+
+    def one(match: re.Match) -> str:
+        return f"<!-- table: {name} -->\n{new}<!-- end of table -->" if match["name"] == name else match[0]
+
+    return BLOCK.sub(one, text)
+
+
+def body(table: Table, command: str) -> str:
+    """A table as Markdown, and the line beneath that says where it comes from."""
+    return f"\n{markdown(table.columns, table.rows)}\n\n{source(command)}\n\n"
+
+
+def source(command: str) -> str:
+    """One line in italics: the command as it is typed, the day, the version and the machine."""
+    from lubfric import __version__
+
+    day = time.strftime("%Y-%m-%d")
+    machine = platform.machine()
+    python = platform.python_version()
+    return f"*`{command}`, {day}, lubfric {__version__}, {machine}, Python {python}.*"

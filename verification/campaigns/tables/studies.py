@@ -1,0 +1,109 @@
+"""Tables of a page that are what the studies of `python -m verification` found, at their default level.
+
+A study runs once in a process, however many tables are made of it.
+"""
+
+import re
+from collections.abc import Callable
+from functools import cache
+from itertools import takewhile
+
+from ... import wording
+from ...catalogue import PUBLISHED, STUDIES
+from ...check import Check
+from ...fem.references import SOURCES, Source
+from ...run import Outcome, run_one
+from .measured import Cells
+
+LEVEL = "default"
+
+
+@cache
+def ran(name: str) -> Outcome:
+    """The study ``name``; raises RuntimeError where it did not come to its end."""
+    outcome = run_one(next(study for study in STUDIES if study.name == name), LEVEL)
+    if outcome.error:
+        raise RuntimeError(f"{name}: {outcome.error}")
+    return outcome
+
+
+def waviness() -> Cells:
+    """Small waves by both programs."""
+    found = next(t for t in ran("deterministic").tables if t.name == "waviness")
+    return found.columns, [[*row[:2], f"{row[2]:g}", *(f"{value:.3f}" for value in row[3:])] for row in found.rows]
+
+
+def load_sharing() -> Cells:
+    """Both programs at the paper's speeds, on the finest cells."""
+    found = next(t for t in ran("load_sharing").tables if t.name == "load_sharing")
+    finest = max(row[1] for row in found.rows)
+    rows = [
+        [f"{u:g}", who, f"{f:.5f}", f"{contact:.4f}", f"{film:.4f}", f"{gap:.2f}", f"{couette:.5f}"]
+        for u, cells, who, f, contact, film, gap, _, couette, _ in found.rows
+        if cells == finest
+    ]
+    columns = ["U (m/s)", f"{finest} x {finest} cells", "f", "F_C (N)", "F_H (N)", "mean gap (nm)", "Couette force (N)"]
+    return columns, rows
+
+
+def transient() -> Cells:
+    """What runs in time were held against: of the worst checks of every kind the ten nearest to their limits."""
+    worst: dict[str, tuple[float, Check]] = {}
+    checks = ran("transient").checks + ran("transient_mixed").checks
+    for check in (c for c in checks if c.decisive and c.unit != "s"):
+        kind = re.split(r" at T = |: (?=smallest|central)", check.name)[0]
+        used = check.deviation / check.tolerance if check.tolerance else check.deviation
+        if kind not in worst or used > worst[kind][0]:
+            worst[kind] = used, check
+    nearest = sorted(worst.items(), key=lambda item: -item[1][0])[:10]
+    rows = [[kind, f"{c.measured:.4g}", wording.allowed(c)] for kind, (_, c) in nearest]
+    return ["what", "found", "allowed"], rows
+
+
+def formulations() -> Cells:
+    """Convolutions and iterations of the paper's formulations beside the default."""
+    found = next(t for t in ran("formulations").tables if t.name == "formulations")
+    rows: dict[str, list[str]] = {}
+    columns = dict.fromkeys(row[1] for row in found.rows)
+    for case, _, status, iterations, convolutions, residual, *_ in found.rows:
+        solved = f"{convolutions} ({iterations})" if status == "converged" else f"stalls at {residual:.2g}"
+        rows.setdefault(case, [case]).append(solved)
+    return ["contact", *columns], list(rows.values())
+
+
+def publications() -> Cells:
+    """How many checks of `python -m verification published` passed, and how far ours is off: every source that differs
+    somewhere, and all others together."""
+    checks = [c for part in PUBLISHED for c in run_one(part, LEVEL).checks]
+    groups: dict[str, list[Check]] = {}
+    agreed = []
+    for source in SOURCES.values():
+        mine = [c for c in checks if c.source == source.text]
+        alike = all(c.passed for c in mine)
+        agreed += [authors(source)] if alike else []
+        groups.setdefault("others" if alike else f"{authors(source)}, {source.place}", []).extend(mine)
+    groups["; ".join(dict.fromkeys(agreed))] = groups.pop("others")
+    rows = []
+    for name, mine in groups.items():
+        off = [round(100 * (c.measured / c.expected - 1), 4) + 0.0 for c in mine]
+        rows.append([name, f"{sum(c.passed for c in mine)} of {len(mine)}", f"{min(off):+.2g} to {max(off):+.2g} %"])
+    return ["source", "passed", "ours off by"], rows
+
+
+def authors(source: Source) -> str:
+    """Surnames and year, as in "Dowson, Toyoda 1978"."""
+    person = re.compile(r"([A-Z]\. )+[\w-]+( et al\.| \d+)?")
+    people = takewhile(person.fullmatch, source.words.split(", "))
+    names = [re.sub(r"^([A-Z]\. )+| \d+$", "", part) for part in people]
+    year = re.search(r"\b(18|19|20)\d\d\b", source.words)
+    who = ", ".join(names) if len(names) < 3 else f"{names[0]} et al."
+    return f"{who} {year[0]}" if names and year else source.words
+
+
+TABLES: dict[str, Callable[[], Cells]] = {
+    "load-sharing": load_sharing,
+    "publications": publications,
+    "waviness": waviness,
+    "transient": transient,
+    "formulations": formulations,
+}

@@ -1,0 +1,78 @@
+"""Observed orders of convergence: measured, checked and drawn."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..check import ABSOLUTE, Check, Figure, Item
+from ..plotting import axes, finish
+
+
+def fitted_order(sizes, errors) -> float:
+    """Slope of the least-squares line through ``(log h, log e)``.
+
+    Raises ValueError unless there are at least two finite values > 0: an order fitted to others means nothing.
+    """
+    for name, values in (("sizes", sizes), ("errors", errors)):
+        a = np.asarray(values, dtype=float)
+        if a.ndim != 1 or a.size < 2 or not np.all(np.isfinite(a) & (a > 0)):
+            raise ValueError(f"{name} = {a}; an order needs at least two finite values > 0")
+    return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])
+
+
+@dataclass(frozen=True)
+class Series:
+    """Errors on ever finer meshes.
+
+    label : in the picture
+    sizes, errors : of every mesh
+    order : expected; None where none is known
+    check : name of the check on the order; "" where it is only drawn
+    tolerance, source, kind, note : of that check
+    finest : how many of the last meshes count for it; 0: all
+    """
+
+    label: str
+    sizes: Sequence[float] | np.ndarray
+    errors: Sequence[float] | np.ndarray
+    order: float | None = None
+    check: str = ""
+    tolerance: float = 0.0
+    source: str = "element theory, L2 norm"
+    kind: str = ABSOLUTE
+    note: str = ""
+    finest: int = 0
+
+    def judged(self) -> Check:
+        """The observed order beside the expected one."""
+        if self.order is None:
+            raise ValueError(f"series {self.label!r} has no expected order to be checked")
+        found = fitted_order(self.sizes[-self.finest :], self.errors[-self.finest :])
+        return Check(self.check, found, self.order, self.tolerance, self.source, self.kind, note=self.note, grade="B")
+
+
+def convergence(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Iterator[Item]:
+    """The checks on the orders, and the picture of all series against ``size``."""
+    for one in series:
+        if one.check:
+            yield one.judged()
+    yield picture(name, caption, series, size, error)
+
+
+def picture(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Figure:
+    """Errors against mesh size, log-log, each with its fitted order and a dotted line of the expected one."""
+    canvas, ax = axes(height=3.6 + 0.2 * ((len(series) + 1) // 2))
+    for one in series:
+        sizes = np.asarray(one.sizes, dtype=float)
+        errors = np.asarray(one.errors, dtype=float)
+        text = f"{one.label}: order {fitted_order(sizes, errors):.2f}"
+        text += "" if one.order is None else f" (expected {one.order:g})"
+        (line,) = ax.loglog(sizes, errors, "o-", label=text)
+        if one.order is not None:
+            finest = np.argmin(sizes)
+            expected = errors[finest] * (sizes / sizes[finest]) ** one.order
+            ax.loglog(sizes, expected, ":", color=line.get_color(), linewidth=1.0)
+    ax.set(xlabel=size, ylabel=error)
+    canvas.legend(loc="outside lower center", ncols=1 if len(series) == 1 else 2, frameon=False)
+    return finish(name, canvas, caption)

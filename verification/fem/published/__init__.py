@@ -1,0 +1,40 @@
+"""``python -m verification published``: `lubfric` beside numbers and laws of other people, and nothing else.
+
+These are the checks of grade A. The numbers are those of `verification.fem.references`, each with its source. A check
+passes when both differ by no more than what both leave open, as 95 % bounds summed by squares. Nothing is tuned: what
+differs by more is shown as failing, with the reason where it is known, and the command ends with 1.
+"""
+
+from __future__ import annotations
+
+from ... import check, frame
+from ...catalogue import PUBLISHED
+from ...check import Check
+from ..references import SOURCES
+
+WEAK = 0.25
+
+
+def summary(report) -> str:
+    """How many checks leave open so much that they say little; and those that failed, with the reason."""
+    weak = sum(c.tolerance > WEAK * abs(c.expected) for c in report.checks)
+    names = [c for c in report.checks if c.failed]
+    lines = [f"{weak} of {len(report.checks)} leave open more than {WEAK:.0%}: that they hold says little."]
+    lines += [f"{len(names)} of {len(report.checks)} differ by more than both errors:"] if names else []
+    for c in names:
+        lines += [f"  {c.name}: ours {c.measured:.4g}, theirs {c.expected:.4g}; {c.note or 'no reason known'}"]
+    return "\n".join(lines)
+
+
+LEVELS = ("default", "full")
+COMMAND = frame.Command("published", __doc__, PUBLISHED, "out/published", LEVELS, finished=lambda r, o: summary(r))
+
+
+def against(
+    key: str, name: str, ours: float, theirs: float, own_error: float, unit: str = "1", note: str = "", error=None
+) -> Check:
+    """Our value beside a number of the source ``key``. ``own_error`` and ``error`` (None: that of the source) are
+    relative, in 95 % bounds."""
+    source = SOURCES[key]
+    errors = abs(own_error * ours), abs((source.error if error is None else error) * theirs)
+    return check.beside(name, ours, theirs, errors, source.text, unit, note)

@@ -1,0 +1,111 @@
+"""Rolling and sliding friction of smooth films beside Biboulet and Houpert, Martin, Johnson and Tevaarwerk."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+import lubfric
+from lubfric.film import ShearForce, shear_force
+from lubfric.oil import Lubricant
+
+from ... import plotting
+from ...check import Check, Figure, Item
+from .. import references
+from ..parts import ALPHA, E_PRIME, RADIUS, VISCOSITY
+from . import against
+from .films import film, own
+
+# M, L
+LOADS = (0.2, 1, 2, 5, 10, 30, 100, 200)
+OILS = (4, 8, 12, 16)
+STARVED = ((10, 4, 3.0), (10, 4, 8.0), (10, 12, 4.5), (100, 12, 2.0))  # M, L, beginning of the inlet in half-widths
+EYRING = ((100, 10, 5e6, 0.01), (200, 10, 5e6, 0.2), (50, 15, 2e6, 0.05))  # M, L, stress [Pa], slide-roll ratio
+WIDE = "theirs leaves out a dependence on M and L ('few per cents'); finite elements have ours (study ehl)"
+
+
+def friction(level: str) -> Iterator[Item]:
+    """Forces on a smooth film: rolling without sliding, the rigid cylinder, and Eyring's traction.
+
+    The rolling force is `1/2 ∫ h dp` per length, that of one surface, as theirs. Theirs is one curve over M, with
+    Barus' law; the inlet is flooded, or begins with p = 0. Our error is what the solver states for the film, and for
+    the rolling force also that of its sum.
+    """
+    rolled: dict[tuple[float, float], tuple[float, float]] = {(m, l): rolling(m, l) for l in OILS for m in LOADS}
+    for (m, l), (ours, error) in rolled.items():
+        name = f"rolling torque, M = {m}, L = {l}"
+        yield against("biboulet", name, ours, references.rolling_torque(m), error, "p_h b²/M^1.5", WIDE)
+    for m, l, where in STARVED:
+        ours, s, error = starved(m, l, where)
+        name = f"rolling torque over the flooded one, M = {m}, L = {l}, inlet at {s:.0f} smallest films"
+        yield against("biboulet", name, ours, references.starved_torque(s), error)
+    yield from rigid()
+    for m, l, stress, ratio in EYRING:
+        yield eyring(m, l, stress, ratio)
+    yield drawn(rolled)
+
+
+def force(found: lubfric.EHLResult, oil: Lubricant, ratio: float) -> ShearForce:
+    """Forces per width without contact spots."""
+    return shear_force(found, oil, slide_roll_ratio=ratio, width=1.0, contact_fraction=lambda x: np.zeros(x.size - 1))
+
+
+def rolling(m: float, l: float, inlet: float | None = None) -> tuple[float, float]:
+    """Torque on a roller over p_h b²/M^1.5, and its relative error. ``inlet``: where it begins, in half-widths."""
+    flooded = film(m, l, "dowson-higginson", "barus")
+    b = flooded.half_width
+    found = film(m, l, "dowson-higginson", "barus", inlet_length=inlet * b) if inlet else flooded
+    size, error = found.rolling or (math.nan, math.nan)
+    unit = found.hertz_pressure * b**2 / (RADIUS * m**1.5)
+    return force(found, found.contact.lubricant, 1e-9).rolling / unit, own(found) + error / size
+
+
+def starved(m: float, l: float, inlet: float) -> tuple[float, float, float]:
+    """Torque with an inlet [b] over the flooded one, the gap there over the smallest film, and the relative error."""
+    full = film(m, l, "dowson-higginson", "barus")
+    (whole, first) = rolling(m, l)
+    (part, second) = rolling(m, l, inlet)
+    return part / whole, float(full.film_at(np.array([-inlet * full.half_width]))[0]) / full.min_film, first + second
+
+
+def rigid() -> Iterator[Check]:
+    """Forces on the rigid cylinder."""
+    found = film(1e-3, 5.0, law="constant", tolerance=1e-4)
+    forces = force(found, found.contact.lubricant, 1.0)
+    h0 = found.min_film
+    scale = VISCOSITY * found.entrainment_speed * math.sqrt(RADIUS / h0)
+    for name, ours in (("couette", forces.couette / scale), ("rolling", forces.rolling / (2 * scale))):
+        error = own(found) + forces.quadrature / forces.couette
+        yield against("martin", f"rigid cylinder, {name} force", ours, references.RIGID[name], error)
+    m = 0.05
+    l = 5.0
+    found = film(m, l, law="constant", tolerance=1e-4)
+    torque = force(found, found.contact.lubricant, 1e-9).rolling * RADIUS
+    ours = torque * m / (found.hertz_pressure * found.half_width**2)
+    yield against("biboulet-rigid", f"torque on a roller, M = {m}", ours, references.RIGID_TORQUE, own(found))
+
+
+def eyring(m: float, l: float, stress: float, ratio: float) -> Check:
+    """Traction of a heavy contact, Barus and Eyring; theirs with our central film."""
+    found = film(m, l, law="barus")
+    ours = force(found, Lubricant(VISCOSITY, ALPHA, "barus", eyring_stress=stress), ratio).couette
+    rate = ratio * found.entrainment_speed / found.central_film
+    half_width, peak = references.hertz_line(found.contact.load_per_width, RADIUS, E_PRIME)
+    theirs = references.eyring_force(stress, VISCOSITY, ALPHA, rate, half_width, peak)
+    name = f"Eyring traction, M = {m}, L = {l}, {stress / 1e6:g} MPa, slide-roll {ratio:g}"
+    return against("johnson", name, ours, theirs, own(found), "N/m")
+
+
+def drawn(rolled: dict[tuple[float, float], tuple[float, float]]) -> Figure:
+    """Rolling torque over theirs."""
+    canvas, ax = plotting.axes(width=6.0, height=3.8)
+    for k, l in enumerate(OILS):
+        ratios = [rolled[m, l][0] / references.rolling_torque(m) for m in LOADS]
+        errors = [rolled[m, l][1] * r for m, r in zip(LOADS, ratios)]
+        ax.errorbar(LOADS, ratios, errors, fmt="osD^"[k] + "-", lw=0.8, label=f"lubfric, L = {l}")
+    error = references.SOURCES["biboulet"].error
+    ax.axhspan(1 - error, 1 + error, color="0.88", label="Biboulet and Houpert ± 5 %")
+    ax.axhline(1.0, color="k", lw=0.8)
+    ax.set(xscale="log", xlabel="M", ylabel="rolling torque over theirs")
+    canvas.legend(loc="outside lower center", ncols=3, frameon=False)
+    return plotting.finish("rolling", canvas, "Rolling torque over eq. 42 of Biboulet and Houpert")

@@ -1,0 +1,337 @@
+"""Numbers and laws of other people, each once; their sources are in references.toml. This is a leaf: it imports nothing
+of this project.
+
+`lubfric` and the solvers of `verification` keep constants of their own, and do not import this. The checks of grade A
+(`verification.fem.published`) hold both against it. All units are SI unless a name says otherwise.
+
+``error`` of a source is a relative 95 % bound of its numbers. A closed form has that of its printed digits. Of a fit,
+or of an asymptote that is used at finite numbers, it is the accuracy that its authors state. Where they state none, or
+their text could not be had, 5 % is taken for all alike (`UNSTATED`).
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.special import erf
+
+UNSTATED = 0.05
+GOT = {
+    "printed": "printed",
+    "law": "a law that many books print",
+    "derived": "quadrature of the published equations",
+    "read": "read in the publication's text",
+    "transcribed": "transcribed from the publication, not confirmed in a second place",
+    "quoted": "as another publication quotes it, not confirmed in a second place",
+}
+
+
+@dataclass(frozen=True)
+class Source:
+    """A publication: ``words`` (who, where, when), ``place`` in it, how its numbers were ``got``, ``error`` (relative)
+    and what else a reader has to know."""
+
+    words: str
+    place: str
+    got: str
+    error: float = UNSTATED
+    note: str = ""
+
+    @property
+    def text(self) -> str:
+        """All in one line."""
+        return "; ".join(filter(None, (f"{self.words}, {self.place}", self.got, self.note)))
+
+
+def _sources() -> dict[str, Source]:
+    """Those of references.toml, by key."""
+    rows = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
+    return {key: Source(**row | {"got": GOT.get(row["got"], row["got"])}) for key, row in rows.items()}
+
+
+SOURCES = _sources()
+
+# ---- dry contact
+
+
+def hertz_line(load: float, radius: float, e_prime: float) -> tuple[float, float]:
+    """Half-width [m] and peak pressure [Pa] of a line contact; load [N/m]."""
+    half_width = math.sqrt(8 * load * radius / (math.pi * e_prime))
+    return half_width, 2 * load / (math.pi * half_width)
+
+
+def westergaard_area(share: float) -> float:
+    """Share of the length in contact at a ``share`` p/p* of the pressure that closes a sinusoid; p* =
+    pi E* amplitude/wavelength."""
+    return 2 / math.pi * math.asin(math.sqrt(share))
+
+
+def bisinusoid_area(share: float) -> float:
+    """Contact area fraction of ``amplitude cos cos`` near either end of the share p/p*; p* = sqrt(2) pi E*
+    amplitude/wavelength."""
+    return math.pi * (3 * share / (8 * math.pi)) ** (2 / 3) if share < 0.5 else 1 - 3 / (2 * math.pi) * (1 - share)
+
+
+# self-affine, waves from 1 to 100, by load over E* times slope: mean gap over Sq, area by both sets, mean square
+# pressure over (E* times slope)² (None: not among their data)
+SELF_AFFINE_SLOPE = 0.2765
+SELF_AFFINE: dict[float, tuple[float | None, tuple[float, float] | None, float | None]] = {
+    0.005 / SELF_AFFINE_SLOPE: (1.1806, (0.03791, 0.03994), None),
+    0.025 / SELF_AFFINE_SLOPE: (0.4398, (0.17770, 0.18524), 0.004888 / SELF_AFFINE_SLOPE**2),
+    0.113 / SELF_AFFINE_SLOPE: (0.03836, (0.64300, 0.65714), 0.02667 / SELF_AFFINE_SLOPE**2),
+    0.24 / SELF_AFFINE_SLOPE: (None, None, 0.07607 / SELF_AFFINE_SLOPE**2),
+}
+CHALLENGE = {"load": 0.01, "area": 0.0208, "mean square pressure": 0.00688}
+EDGE = (
+    math.pi - 1 + math.log(2)
+) / 24  # of the cells' edges around contacts, to be taken off their area: V. A. Yastrebov,
+# G. Anciaux, J.-F. Molinari, J. Mech. Phys. Solids 107 (2017) 469; a second program has it too
+
+
+def summit_density(length: float) -> float:
+    """Maxima per area [1/m²] of a Gaussian surface with the autocorrelation exp(-(r/length)²): m4/(6 pi sqrt(3) m2),
+    with m2 = 2 Sq²/length² and m4 = 12 Sq²/length⁴ of a profile."""
+    return 1 / (math.pi * math.sqrt(3) * length**2)
+
+
+# ---- films; h in units of Moes, sqrt(eta u_s/(E' R)) R; u is eta U/(E' R) with the mean speed
+
+RIGID = {"smallest": 2.447484, "flow": 3.000000, "rupture": 0.4751299, "couette": 2.848722, "rolling": 2.300538}
+BLOK = {"smallest": 1.049701, "flow": 1.286670}  # of L^(2/3)
+ISOVISCOUS_ELASTIC = 2.621
+RIGID_PIEZOVISCOUS = 1.287
+ELASTIC_PIEZOVISCOUS = 1.311
+
+
+def moes(m: float, l: float) -> float:
+    """Film where dp/dx = 0, incompressible."""
+    ri = 3 / m
+    ei = ISOVISCOUS_ELASTIC * m**-0.2
+    rp = RIGID_PIEZOVISCOUS * l ** (2 / 3)
+    ep = ELASTIC_PIEZOVISCOUS * m ** (-1 / 8) * l ** (3 / 4)
+    s = (7 + 8 * math.exp(-2 * ei / ri)) / 5
+    soft = (ri ** (7 / 3) + ei ** (7 / 3)) ** (3 / 7)
+    hard = (rp**-3.5 + ep**-3.5) ** (-2 / 7)
+    return (soft**s + hard**s) ** (1 / s)
+
+
+def grubin(u: float, g: float, w: float) -> float:
+    """h/R."""
+    return 1.95 * (g * u) ** (8 / 11) * w ** (-1 / 11)
+
+
+def dowson_higginson(u: float, g: float, w: float) -> float:
+    """Smallest h/R."""
+    return 2.65 * u**0.70 * g**0.54 * w**-0.13
+
+
+def dowson_toyoda(u: float, g: float, w: float) -> float:
+    """Central h/R."""
+    return 3.06 * u**0.69 * g**0.56 * w**-0.10
+
+
+@dataclass(frozen=True)
+class Pocket:
+    """A pad of ``length`` and ``width`` over a plane of twice the ``speed``, its gap from ``start`` to ``end``, with a
+    pocket of ``depth``: from ``begins`` to ``ends`` along the motion, ``across`` wide. ``pressures`` [MPa] behind it,
+    at 0.6, 0.75 and 0.9 of the length; ``load`` [N/m], about. SI units."""
+
+    length: float
+    begins: float
+    ends: float
+    start: float
+    end: float
+    depth: float
+    width: float = 1.0
+    across: float = 2.0
+    alpha: float = 0.0
+    pressures: tuple[float, ...] = ()
+    load: float = 0.0
+    viscosity: float = 0.01
+    speed: float = 0.5
+
+    def wedge(self, x):
+        """Gap of the pad without its pocket."""
+        return self.start + (self.end - self.start) * x / self.length
+
+    def inside(self, x):
+        """Where the pocket is along the motion."""
+        return (x >= self.begins) & (x < self.ends)
+
+
+BANDS = tuple(Pocket(10e-3, 2e-3, 5e-3, 1.05e-6, 1e-6, depth) for depth in (1e-6, 0.4e-6))
+_BERTOCCHI = (20e-3, 4e-3, 10e-3, 1.1e-6, 1e-6, 0.4e-6)
+BERTOCCHI = {
+    "narrow": Pocket(*_BERTOCCHI, 10e-3, 7e-3, 12e-9, (6.32, 4.11, 2.12), 3e4),
+    "wide": Pocket(*_BERTOCCHI, 0.3, 0.6, 12e-9, (36.13, 24.79, 10.11), 2.6e5),  # here a band: 0.21 of 0.3 m in theirs
+}
+
+
+def refilled(pad: Pocket) -> tuple[float, float, float]:
+    """Load [N/m], place of refilling [m] and highest pressure [Pa] of a pocket as wide as the pad, where the film
+    ruptures at the edge of the pocket, at constant viscosity and density, with the pressure of rupture outside."""
+    scale = 12 * pad.speed * pad.viscosity * pad.length / (pad.start - pad.end)
+    first = pad.wedge(pad.begins)
+    last = pad.wedge(pad.ends)
+    flow = pad.start * first / (pad.start + first)  # half of it, over U
+
+    def rise(gap, since):
+        return scale * (1 / gap - 1 / since - flow * (1 / gap**2 - 1 / since**2))
+
+    deep = last + pad.depth
+    constant = rise(last, pad.end) / scale - 1 / deep + flow / deep**2
+    full = 2 * flow / (1 - math.sqrt(1 + 4 * flow * constant))  # the gap where the pocket is full again
+    x = np.linspace(0, pad.length, 200001)
+    gap = pad.wedge(x)
+    p = np.where(x < pad.begins, rise(gap, pad.start), rise(gap, pad.end))
+    pocket = gap + pad.depth
+    p = np.where(pad.inside(x), np.where(pocket < full, rise(np.minimum(pocket, full), full), 0.0), p)
+    place = (pad.start + pad.depth - full) * pad.length / (pad.start - pad.end)
+    return float(np.trapezoid(p, x)), place, float(p.max())
+
+
+# ---- waves across the motion; their speed is that of their body over the entrainment speed
+
+AMPLITUDES = {  # wavelength/b: A_d/A_i at A_i = .1, .2 and .5 of the film
+    4: (0.030, 0.030, 0.029),
+    2: (0.073, 0.073, 0.073),
+    1: (0.183, 0.182, 0.195),
+    0.5: (0.394, 0.393, 0.378),
+    0.25: (0.660, 0.670, 0.679),
+    0.125: (0.839, 0.838, 0.859),
+}
+STEADY = {  # temperature: alpha [1/Pa], film [m], amplitudes of pressure [Pa] and film [m]
+    "50 °C": (14.8e-9, 1.341e-6, 0.388e9, 0.0331e-6),
+    "80 °C": (12.3e-9, 0.698e-6, 0.413e9, 0.0185e-6),
+}
+STEADY_WAVE = {"e_prime": 227e9, "wavelength": 0.2e-3, "height": 0.25e-6, "pressure": 1.016e9}
+WITHIN = 0.01  # of the roughness: how closely Hooke's formulas follow his solutions
+
+
+def amplitude_fit(m: float, l: float, wavelength: float) -> float:
+    """A_d/A_i in pure rolling; ``wavelength`` in half-widths."""
+    n = wavelength * m**0.75 / l**0.5
+    return 1 / (1 + 0.17 * n + 0.03 * n**2)
+
+
+def hooke(
+    k: float, speed: float, film: float, drag: float, stiffness: float, e_prime: float
+) -> tuple[complex, complex]:
+    """What an even ``film`` [m] keeps of a wave exp(i k x) of its surface, and the complex wavenumber of the wave from
+    the inlet. ``drag``: effective viscosity times entrainment speed [N/m]; ``stiffness``: bulk modulus [Pa]."""
+    q = 48 * drag * (speed - 1) / (e_prime * film**3 * k**2)
+    c = film * e_prime * k / (4 * stiffness)
+    kept = (1 - 1j * c * q) / (1 - 1j * (1 + c) * q)
+    q_inlet = 48 * drag / (e_prime * film**3 * (k * speed) ** 2)
+    c_inlet = c * speed
+    roots = np.roots([1j / q_inlet, -c_inlet, c_inlet - 1, 1])
+    return kept, k * speed * roots[np.argmin(np.abs(roots - 1))]
+
+
+# ---- friction and heat
+
+# of p_h b²/M and p_h b²/M^1.5, per length, on a roller
+RIGID_TORQUE = 1.4
+ELASTIC_TORQUE = 1.45
+
+
+def rolling_torque(m: float) -> float:
+    """Torque on a roller over p_h b²/M^1.5, per length: sqrt(M) times the rigid one, then constant."""
+    rigid = RIGID_TORQUE * math.sqrt(m)
+    return rigid / (1 + (rigid / ELASTIC_TORQUE) ** 10) ** 0.1
+
+
+def starved_torque(s: float) -> float:
+    """What of that torque is left where the inlet begins at a gap of ``s`` times the smallest flooded film."""
+    return (s**2 + 162.8 * s) / (s**2 + 193.1 * s + 1257)
+
+
+# of q_mean sqrt(2 b)/(e1 sqrt(u1) + e2 sqrt(u2))
+FLASH_HERTZ = 1.11
+FLASH_UNIFORM = 1.128
+
+
+def eyring_force(stress: float, viscosity: float, alpha: float, rate: float, width: float, peak: float) -> float:
+    """Traction [N/m] of a film of even thickness under Hertz pressure (``peak`` [Pa], half-``width`` [m]), Barus and
+    Eyring, for large arguments of asinh: 2 b tau_E (ln(2 eta rate/tau_E) + alpha p_mean)."""
+    return 2 * width * stress * (math.log(2 * viscosity * rate / stress) + alpha * peak * math.pi / 4)
+
+
+def nahme(number: float) -> float:
+    """Stress over the isothermal one of a film that heats itself; ``number`` = beta eta du²/k."""
+    a = number / 8
+    return math.asinh(math.sqrt(a)) / math.sqrt(a * (1 + a))
+
+
+def gupta(number: float, slide_roll: float, pressure_ratio: float) -> float:
+    """Film over the isothermal one; ``number`` = eta beta U²/k."""
+    over = 1 + 0.213 * (1 + 2.23 * slide_roll**0.83) * number**0.64
+    return (1 - 13.2 * pressure_ratio * number**0.42) / over
+
+
+def olver_spikes(number: float, slide_roll: float) -> float:
+    """The same by another fit."""
+    return 1 / (1 + 0.1 * (1 + 14.8 * slide_roll**0.83) * number**0.64)
+
+
+# ---- oils; kinematic viscosities in mm²/s, alpha in 1/GPa, temperatures in °C
+
+GOLD = {  # s, t of alpha = s nu^t
+    "mineral": (9.904, 0.1390),
+    "pao": (7.382, 0.1335),
+    "ester": (6.605, 0.1360),
+    "polyglycol": (5.489, 0.1485),
+}
+VISCOSITY_INDEX = {(73.3, 8.86): 92.4, (22.83, 5.05): 156.4, (30, 4.24): -25.6, (70, 11.1): 150.2, (68, 8.6): 96.8}
+D341 = {  # m, n: at 40, 70 and 100 °C
+    (9.5259, 3.7449): (31.81, 11.14, 5.385),
+    (9.2479, 3.5849): (99.14, 26.86, 10.954),
+    (8.8178, 3.3852): (217.98, 51.38, 18.915),
+    (7.4846, 2.8510): (218.06, 62.80, 25.577),
+    (6.5834, 2.4898): (218.78, 72.49, 31.906),
+}
+SO_KLAUS = {40: 28.0, 70: 21.0}  # mineral, VG 100, VI 95
+RIG_OILS: dict[str, tuple[float, float, str, float, dict[int, float]]] = {
+    # at 40 and 100 °C, base, density at 15.6 °C; alpha by temperature
+    "naphthenic": (97.9, 8.61, "mineral", 900, {40: 27.3, 60: 22.9, 80: 19.8, 100: 17.4}),
+    "paraffinic (FVA 3)": (96.0, 10.6, "mineral", 882, {40: 20.9, 60: 19.1, 80: 17.5, 100: 16.3}),
+    "PAO": (94.1, 14.0, "pao", 840, {40: 15.4, 60: 13.8, 80: 12.4, 100: 11.3}),
+}
+MACHINE_OILS: dict[str, dict[int, tuple[float, float]]] = {  # dynamic viscosity [mPa s], alpha at each temperature
+    "heavy machine oil": {30: (153, 23.7), 60: (34, 20.5), 100: (9.1, 15.8)},
+    "spindle oil": {30: (18.6, 20), 60: (6.3, 16), 100: (2.4, 13)},
+    "cylinder oil": {30: (810, 34), 60: (135, 28), 100: (26.8, 22)},
+}
+
+
+def roelands(viscosity: float, alpha: float, pressure: float) -> float:
+    """Viscosity [Pa s] under pressure [Pa]."""
+    pole = math.log(viscosity) + 9.67
+    return math.exp(pole * (1 + pressure / 1.96e8) ** (alpha * 1.96e8 / pole) - 9.67)
+
+
+def density(pressure: float) -> float:
+    """Density under pressure [Pa] over that without; printed as 1 + .6 p/(1 + 1.7 p) with p in GPa, and as (5.9e8 +
+    1.34 p)/(5.9e8 + p): this is the second."""
+    return (5.9e8 + 1.34 * pressure) / (5.9e8 + pressure)
+
+
+# ---- mixed lubrication
+
+LOAD_SHARES = {  # of the asperities, over film/Sq; Doleschel has the film over the mean Ra of two surfaces, here alike
+    "1 - erf(Λ) (Arana)": lambda ratio: 1 - erf(ratio),
+    "exp(-2.32 Λ^.97) (Zhou & Hoeprich)": lambda ratio: np.exp(-2.32 * ratio**0.97),
+    "exp(-1.8 Λ^1.2) (Patir & Cheng)": lambda ratio: np.exp(-1.8 * ratio**1.2),
+    "(1 - √π Λ/2)² (Doleschel)": lambda ratio: np.maximum(1 - math.sqrt(math.pi) * ratio / 2, 0) ** 2,
+}
+PAPER = {"mean Hertz pressure": 102e6, "half-width": 4.5e-6}  # Pa, m
+
+
+def load_share_band(ratios) -> tuple[np.ndarray, np.ndarray]:
+    """The lowest and the highest of the `LOAD_SHARES` at each of the ``ratios``."""
+    laws = np.array([law(np.asarray(ratios, dtype=float)) for law in LOAD_SHARES.values()])
+    return laws.min(axis=0), laws.max(axis=0)

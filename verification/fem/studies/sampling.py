@@ -1,0 +1,57 @@
+"""Surfaces as a sample: their statistics beside the laws of Gaussian surfaces, the scatter of f beside its error."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+import lubfric
+
+from ...check import ABSOLUTE, AT_MOST, Check
+
+SEEDS = {"quick": 30, "default": 60, "full": 100}
+# m/s, relative: of mixed lubrication
+SPEED = 0.01
+ASKED = 0.02
+SQ = 100e-9
+LENGTH = 10e-6
+CELL = 0.5e-6
+CELLS = 1024
+STEPS = (4, 20, 40)  # cells
+GAUSS = "Gaussian surface with the autocorrelation exp(-(r/length)²)"
+
+
+def sampling(level: str) -> Iterator[Check]:
+    """Generated surfaces have the slope and the structure function of the law that they are asked to have. The f of
+    many seeds scatters by the standard error that each of them states, and no error is larger than what was asked for.
+
+    The scatter of n seeds is known to one part in the square root of 2 (n - 1); twice that is allowed.
+    """
+    yield from statistics()
+    base = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling_tolerance": ASKED})
+    count = SEEDS[level]
+    found = [lubfric.friction(base.with_(surface={"seed": seed}), SPEED) for seed in range(1, count + 1)]
+    f, stated = np.array([[p.coefficient, p.uncertainty.sampling] for p in found]).T
+    ratio = float(f.std(ddof=1) / f.mean() / np.sqrt(np.mean(stated**2)))
+    allowed = 2 / np.sqrt(2 * (count - 1))
+    name = f"scatter of f over {count} seeds, over the error stated"
+    source = "chi-square law of a standard error"
+    yield Check(name, ratio, 1.0, allowed, source, ABSOLUTE, grade="B")
+    worst = float(stated.max() / ASKED)
+    yield Check("largest sampling error of f over the one asked for", worst, 1.0, 0.0, "what was asked", AT_MOST)
+
+
+def statistics() -> Iterator[Check]:
+    """Slope and structure function of one large surface: m2 = 2 Sq²/length² along each axis, and 2 Sq² (1 - acf)."""
+    keys = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian", "seed": 3}
+    z = lubfric.generate_surface((CELLS, CELLS), CELL, **keys).heights
+    for axis, name in enumerate("xy"):
+        waves = np.fft.fftfreq(CELLS, CELL) * 2 * np.pi
+        spectrum = np.abs(np.fft.fft(z, axis=axis)) ** 2
+        power = spectrum.mean(axis=1 - axis) / CELLS**2
+        slope = float(np.sqrt((waves**2) @ power))
+        yield Check(f"rms slope along {name}", slope, np.sqrt(2) * SQ / LENGTH, 0.05, GAUSS, grade="A")
+    for step in STEPS:
+        pairs = [np.mean((z - np.roll(z, step, axis)) ** 2) for axis in (0, 1)]
+        law = 2 * SQ**2 * (1 - np.exp(-((step * CELL / LENGTH) ** 2)))
+        name = f"structure function at {step * CELL / LENGTH:g} correlation lengths"
+        yield Check(name, float(np.mean(pairs)), law, 0.05, GAUSS, unit="m²", grade="A")

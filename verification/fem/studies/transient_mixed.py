@@ -1,0 +1,130 @@
+"""Load sharing in time: the paper scene ramped, stopped, reversed; error of friction for step and grid."""
+
+from dataclasses import replace
+
+import numpy as np
+
+import lubfric
+from lubfric.models.load_sharing import prepare
+from lubfric.scene import Harmonic, Ramp, Transient
+from lubfric.scene import Table as History
+
+from ...check import AT_LEAST, AT_MOST, Check, bound
+from ...pace import paced
+
+LARGEST = 0.05  # m/s
+PERIODS = (2.5e-3, 1e-2, 0.2)
+CELLS = {"quick": 64, "default": 128, "full": 200}
+STEADY = "lubfric.friction, the steady solver"
+
+
+def transient_mixed(level: str):
+    """Film and rough contact share the load of the moment, while the film remembers its past.
+
+    It is the paper's scene, for which a generated surface stands in for the measured one. Slow changes must follow the
+    Stribeck curve, and a scene that is held its steady answer. Fast changes leave it: slowing down drags a thick film
+    along, speeding up a thin one, so the friction loop opens with frequency. The error of friction follows from the
+    time tolerance and from the film's grid, against the finest of each. Last comes the cost of a cycle of 300 steps.
+    """
+    n = CELLS[level]
+    contact = {"shape": (n, n), "spacing": 90e-6 / n}
+    motion = {"entrainment_speed": LARGEST}
+    scene = lubfric.load_scene("paper").with_(
+        contact=contact, motion=motion, numerics={"sampling": "patch", "model": "load-sharing"}
+    )
+    model = prepare(scene)
+    yield from steady(model)
+    yield from loops(model)
+    yield from stop_and_start(model)
+    yield from errors(model)
+    yield from cost()
+
+
+def run(model, plan: Transient, times=None, **numerics):
+    """`lubfric.transient` of a prepared model with another plan (and numerics)."""
+    scene = replace(model.scene, transient=plan).with_(numerics=numerics)
+    return lubfric.transient(prepare(scene, like=model), times)
+
+
+def wave(amplitude: float, frequency: float, mean: float = 0.0) -> Harmonic:
+    """A speed that swings about ``mean`` from its largest value [m/s, Hz]."""
+    return Harmonic(mean=mean, amplitude=amplitude, frequency=frequency, phase=np.pi / 2)
+
+
+def steady(model):
+    """The scene held, and ramped slowly through lift-off."""
+    fine = prepare(model.scene.with_(numerics={"tolerance": 2e-3}), like=model)
+    held = run(fine, Transient(1.0), [0.0, 0.1, 1.0])
+    point = lubfric.friction(fine)
+    yield Check("held in time: friction", held.coefficient[-1], point.coefficient, 2e-3, STEADY)
+    yield bound("held in time: drift", np.ptp(held.coefficient) / point.coefficient, 5e-4, "a steady state")
+    ramp = Ramp(start=0.005, end=0.15, until=4.0)
+    slow = run(model, Transient(4.0, speed=ramp), np.linspace(0, 4, 13))
+    curve = lubfric.stribeck(model, slow.entrainment_speed)
+    off = np.max(np.abs(slow.coefficient / curve.coefficient - 1))
+    yield bound("slow ramp: largest departure from the Stribeck curve", off, 0.01, STEADY)
+    lost = np.max(slow.mass_residual)
+    yield bound("mass of the pressurised film: largest residual", lost, 1e-3, "balance over the step")
+
+
+def loops(model):
+    """Friction loops at three frequencies of a speed that pulsates without reversing, and of one that reverses."""
+    opening = []
+    for period in PERIODS:
+        plan = Transient(2 * period, speed=wave(0.94 * LARGEST, 1 / period, LARGEST))
+        found = run(model, plan, period * np.linspace(0, 2, 81))
+        opening.append(found.coefficient[70] - found.coefficient[50])  # up minus down at the mean speed
+    name = "hysteresis: f speeding up above f slowing down (shortest period)"
+    source = "the film lags behind the speed"
+    yield Check(name, opening[0], 1e-3, 0.0, source, AT_LEAST)
+    name = "hysteresis: longest period against shortest"
+    closed = abs(opening[-1] / opening[0])
+    yield bound(name, closed, 0.1, "slow loops close on the Stribeck curve")
+    period = PERIODS[1]
+    plan = Transient(2.5 * period, speed=wave(LARGEST, 1 / period))
+    found = run(model, plan, period * np.linspace(0, 2.5, 101))
+    change = np.max(np.abs(found.coefficient[60:101] / found.coefficient[20:61] - 1))
+    yield bound("reciprocating: third cycle against the second", change, 5e-3, "a periodic run becomes periodic")
+    share = found.film_load[90] / found.load[90]
+    yield Check("reciprocating: lubricant held at U = 0 carries load", share, 0.05, 0.0, "squeeze", AT_LEAST)
+
+
+def stop_and_start(model):
+    """Shut-down, standstill and start-up."""
+    plan = Transient(0.02, speed=History(times=(0, 5e-3, 1e-2, 1.5e-2, 0.02), values=(0.1, 0, 0, 0.1, 0.1)))
+    found = run(model, plan, np.linspace(0, 0.02, 161))
+    down = found.time <= 5e-3
+    up = (found.time >= 1e-2) & (found.time <= 1.5e-2)
+    low = np.interp(0.04, found.entrainment_speed[down][::-1], found.coefficient[down][::-1])
+    high = np.interp(0.04, found.entrainment_speed[up], found.coefficient[up])
+    name = "start-up friction over shut-down friction at 0.04 m/s"
+    yield Check(name, high / low, 1.1, 0.0, "the film lags", AT_LEAST)
+    rest = found.film_load[(found.time > 9e-3) & (found.time <= 1e-2)][-1] / found.load[0]
+    name = "after 5 ms of rest the contact carries the load: share left to the film"
+    yield bound(name, rest, 5e-3, "squeeze decays against the contact")
+
+
+def errors(model):
+    """Error of friction against time for the time tolerance and the grid."""
+    times = np.linspace(0, 0.01, 26)
+    speed = wave(LARGEST, 100.0)
+    tight = {"balance_tolerance": 1e-5, "contact_tolerance": 1e-5}
+
+    def solved(film: float, step: float):
+        return run(model, Transient(0.01, speed=speed, tolerance=step), times, film_tolerance=film, **tight)
+
+    best = solved(1e-3, 1e-6).coefficient
+    for name, film, step, source in (
+        ("step tolerance (3e-5)", 1e-3, 3e-5, "tolerance 1e-6"),
+        ("film tolerance (3e-3)", 3e-3, 1e-6, "film tolerance 1e-3"),
+    ):
+        error = np.max(np.abs(solved(film, step).coefficient - best))
+        yield bound(f"default {name}: error of f", error, 1e-3, source)
+
+
+def cost():
+    """The paper's own grid, in 300 steps of a reciprocating cycle."""
+    scene = lubfric.load_scene("paper").with_(transient=Transient(0.1, outputs=300, speed=wave(0.03, 10.0)))
+    found, seconds = paced(lambda: lubfric.transient(scene))
+    name = f"paper scene, {found.report.iterations} steps of a cycle: processor time on the stated core"
+    yield Check(name, seconds, 30.0, 0.0, "asked for", AT_MOST, unit="s")
