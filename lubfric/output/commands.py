@@ -25,7 +25,7 @@ from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
 from ..studies import Law, Store, fingerprint, fits
 from ..surface import rms_slope
-from .describe import Foretold, foretold
+from .describe import Estimate, estimate_scene
 from .pictures import plot_surface
 from .report import report_page
 
@@ -109,7 +109,7 @@ OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
 @contextmanager
 def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], str] | None, *key, **places):
     """Begin a run of ``scene``, which writes files with these ``names``: its `RunFolder`, known again by ``key``, the
-    scene made ready, and what is `foretold` of it at ``places``. On an interrupt ``kept()`` is said, if anything is.
+    scene made ready, and what is estimated of it (`Estimate`) at ``places``. On an interrupt ``kept()`` is said, if anything is.
 
     The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
     """
@@ -118,13 +118,16 @@ def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], 
     check_outputs(arguments, arguments.out, names, OUTPUTS)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
-    known = foretold(scene, prepared.strips, prepared.surface, **places)
-    for row in (*known.told["surface"], *(f"foretold: {text}" for text in (known.cost, *known.refused) if text)):
+    estimate = estimate_scene(scene, prepared.strips, prepared.surface, **places)
+    for row in (
+        *estimate.sections["surface"],
+        *(f"estimate: {text}" for text in (estimate.cost, *estimate.refusals) if text),
+    ):
         say(row)
     saying = keeping(kept) if kept else nullcontext()
     with saying, run_folder(arguments.out, begun, fingerprint(prepared, *key)) as folder:
         threading.Thread(target=figures.make_ready, daemon=True).start()  # while it is solved
-        yield folder, prepared, known
+        yield folder, prepared, estimate
 
 
 def read_record(folder: Path) -> dict:
@@ -227,7 +230,7 @@ class RunFolder:
         }
 
     def complete(
-        self, prepared: Prepared, known: Foretold, result, units, law: Law | str = "", doubts=(), **numbers: object
+        self, prepared: Prepared, estimate: Estimate, result, units, law: Law | str = "", doubts=(), **numbers: object
     ) -> None:
         """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run in the place
         of an earlier one; its record, which names the files, last as result.json. Then violated assumptions, ``doubts``
@@ -237,7 +240,7 @@ class RunFolder:
         if prepared.surface.sq > 0:
             self.draw("surface.png", plot_surface, prepared)
         record = self._record(prepared, result, units, **numbers)
-        self.contents["report.html"] = report_page(prepared, result, record, self.contents, known, law)
+        self.contents["report.html"] = report_page(prepared, result, record, self.contents, estimate, law)
         whole = plain({"files": sorted([*self.contents, RESULT])} | record)
         self.contents[RESULT] = json.dumps(whole, indent=1, allow_nan=False).encode()
         self.put(OUTPUTS, (*record["validity"], *doubts))

@@ -28,25 +28,25 @@ CELL_STEP = 1.5e-7
 # speeds at which the work is counted, and that stand in the table, about
 SOME = 25
 SHOWN = 6
-ABOUT_TABLE = "film of the whole load by closed forms, and whether it clears the summits (orders of magnitude)"
+TABLE_CAPTION = "film of the whole load by closed forms, and whether it clears the summits (orders of magnitude)"
 
 
 @dataclass(frozen=True)
-class Foretold:
+class Estimate:
     """What is known of a scene before it is solved.
 
     Attributes
     ----------
-    told : lines on "transient" (what changes in time), "surface", "contact", "model", "left out" and "validity"
+    sections : lines on "transient" (what changes in time), "surface", "contact", "model", "left out" and "validity"
     cost : the time that it will take, in words; "" where it is not known
     table : of some speeds, their headings first: expected film, whether it clears the summits, what the sample costs
-    refused : assumptions that fail by what is known so far, so that f means nothing
+    refusals : assumptions that fail by what is known so far, so that f means nothing
     """
 
-    told: dict[str, list[str]]
+    sections: dict[str, list[str]]
     cost: str
     table: list[tuple[str, ...]]
-    refused: list[str]
+    refusals: list[str]
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
@@ -55,17 +55,17 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     with told_doubts(scene):
         surface, strips = sample_of(scene)
         check_grid(scene, surface)
-    known = foretold(scene, strips, surface, speeds)
-    sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | known.told
+    estimate = estimate_scene(scene, strips, surface, speeds)
+    sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | estimate.sections
     rows = [f"  {'' if i else name:<14} {text}" for name, texts in sections.items() for i, text in enumerate(texts)]
-    widths = [max(map(len, column)) for column in zip(*known.table)]
-    table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in known.table]
-    return "\n".join([f"scene {scene.name}", *rows, f"  {ABOUT_TABLE}", *map(str.rstrip, table)])
+    widths = [max(map(len, column)) for column in zip(*estimate.table)]
+    table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in estimate.table]
+    return "\n".join([f"scene {scene.name}", *rows, f"  {TABLE_CAPTION}", *map(str.rstrip, table)])
 
 
-def foretold(
+def estimate_scene(
     scene: Scene, strips: Strips | None, surface: Surface, speeds: Sequence[float] | str = (), ratios=()
-) -> Foretold:
+) -> Estimate:
     """What is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own speed
     and the slide-roll ``ratios``. ``strips`` and ``surface``: as `lubfric.prepare` makes them."""
     own = scene.motion.entrainment_speed
@@ -85,12 +85,12 @@ def foretold(
     elif cost:
         model.append(f"cost: {cost}")
     at = expected(scene, surface, sorted(set(speeds)))
-    refused = _doubts([(speed, entry) for speed, entry in at if entry.severe])
+    refusals = _doubts([(speed, entry) for speed, entry in at if entry.severe])
     whole = map_of(surface, strips)
     notes = [note for note in whole.notes if "nm as it is" in note]
     lacks = lacking(scene, whole.sq, own)
     left_out = [f"likely changes of f at {own:g} m/s, by closed forms:", *map(lack_in_words, lacks)]
-    told = {
+    sections = {
         "transient": changing,
         "surface": [*map_in_words(surface, strips), *notes, slopes_in_words(whole)],
         "contact": [f"{_plan(scene, surface)}; {over}"],
@@ -98,7 +98,7 @@ def foretold(
         "left out": left_out if lacks else ["nothing that would change f by its tolerance"],
         "validity": _doubts(at) or ["no assumption of the model fails by what is known before the solve"],
     }
-    return Foretold(told, cost, _speed_table(scene, strips, surface, speeds), refused)
+    return Estimate(sections, cost, _speed_table(scene, strips, surface, speeds), refusals)
 
 
 def _doubts(at) -> list[str]:

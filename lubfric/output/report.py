@@ -16,7 +16,7 @@ from ..quantities import COLUMNS, counted
 from ..scene import Scene
 from ..studies import KNOWN, CurveResult, Law, StribeckResult
 from ..units import converted, printed, unit_for, worded
-from .describe import ABOUT_TABLE, Foretold
+from .describe import TABLE_CAPTION, Estimate
 from .inputs import FACTS, SECTIONS, inputs
 
 OF_POINT = ["coefficient", "contact_load", "film_load", "central_film", "film_to_roughness_ratio"]
@@ -33,10 +33,10 @@ UNKNOWN = "the error of the model is not known, and not in it"
 
 
 def report_page(
-    prepared: Prepared, result, record: dict, contents: dict[str, bytes], known: Foretold, law: Law | str = ""
+    prepared: Prepared, result, record: dict, contents: dict[str, bytes], estimate: Estimate, law: Law | str = ""
 ) -> bytes:
     """The page of ``result``, a curve or a run in time. ``record``: what result.json holds; ``contents``: of the files
-    of the run, its pictures among them; ``known``: before it was solved; ``law``: of a curve, or why it has none."""
+    of the run, its pictures among them; ``estimate``: before it was solved; ``law``: of a curve, or why it has none."""
     scene = prepared.scene
     curve = result if isinstance(result, CurveResult) else None
     answer, *more = _of_run(result) if curve is None else _of_curve(scene, curve)
@@ -53,11 +53,11 @@ def report_page(
         results="" if curve is None else "".join(_points(curve)),
         inputs="".join(_inputs(scene, section) for section in SECTIONS),
         law=_law(law, curve),
-        lacks=_lacks(scene, curve, known),
-        solved=_list([text for name in ("transient", "contact", "model") for text in known.told[name]]),
-        table=_rows(known.table[0], [_cells(row) for row in known.table[1:]]),
-        about_table=escape(ABOUT_TABLE),
-        map=escape("; ".join(known.told["surface"])),
+        lacks=_lacks(scene, curve, estimate),
+        solved=_list([text for name in ("transient", "contact", "model") for text in estimate.sections[name]]),
+        table=_rows(estimate.table[0], [_cells(row) for row in estimate.table[1:]]),
+        about_table=escape(TABLE_CAPTION),
+        map=escape("; ".join(estimate.sections["surface"])),
         notes=_list(prepared.surface.notes),
         sources=_list([] if curve is None else curve.cite().splitlines(), head="<h2>Sources</h2>"),
         made=_rows((), [f"<th>{escape(name)}</th><td>{escape(value)}</td>" for name, value in made]),
@@ -141,10 +141,10 @@ def _law(law: Law | str, curve: CurveResult | None) -> str:
     return f"<h2>The curve as a formula</h2>{said}" if law else ""
 
 
-def _lacks(scene: Scene, curve: CurveResult | None, known: Foretold) -> str:
+def _lacks(scene: Scene, curve: CurveResult | None, estimate: Estimate) -> str:
     """What is left out, and by how much f would change by it; of a curve at its point nearest to the scene's own."""
     if curve is None or (nearest := _nearest(scene, curve)) is None:
-        return _list(known.told["left out"])
+        return _list(estimate.sections["left out"])
     point, place = nearest
     lacks = map(lack_in_words, point.lacks)
     head = f"<p>Likely changes of f {escape(place)}, by closed forms:</p>"

@@ -17,7 +17,7 @@ from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
 from ..units import number_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
-from .describe import Foretold
+from .describe import Estimate
 from .fields import fields_bytes, vtk_bytes
 from .pictures import plot_contact, plot_history, plot_stribeck, plot_traction
 
@@ -56,10 +56,10 @@ def run_sweep(scene: Scene, arguments) -> None:
         enough = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
         workers = 2 if enough and studies.processors() > 1 else 1
     with studies.pool(workers) as executor:
-        with run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds) as (folder, prepared, known):
+        with run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds) as (folder, prepared, estimate):
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
             curve = studies.stribeck(prepared, speeds, None if speeds == studies.AUTO else executor, **options)
-            _write(folder, prepared, curve, arguments, known, chosen)
+            _write(folder, prepared, curve, arguments, estimate, chosen)
     _raise_if_failed(curve)
 
 
@@ -69,18 +69,23 @@ def run_traction(scene: Scene, arguments) -> None:
     ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
     names = ["traction.csv", "traction.png"]
     begun = run_begun(scene, arguments, names, None, ratios, "traction", ratios=ratios)
-    with begun as (folder, prepared, known):
+    with begun as (folder, prepared, estimate):
         progress = _progress("slide-roll ratio {:<9.4g}")
         curve = studies.traction(prepared, ratios, on_point=progress, raise_on_failure=False)
-        _write(folder, prepared, curve, arguments, known, [])
+        _write(folder, prepared, curve, arguments, estimate, [])
     _raise_if_failed(curve)
 
 
 def _write(
-    folder: RunFolder, prepared: Prepared, curve: studies.CurveResult, arguments, known: Foretold, chosen: list[float]
+    folder: RunFolder,
+    prepared: Prepared,
+    curve: studies.CurveResult,
+    arguments,
+    estimate: Estimate,
+    chosen: list[float],
 ) -> None:
     """The table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what was asked for beside.
-    ``known``: before it was solved."""
+    ``estimate``: before it was solved."""
     name = "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
     contents = folder.contents
     contents[f"{name}.csv"] = studies.csv_bytes(curve)
@@ -105,7 +110,7 @@ def _write(
     law = _law(curve)
     if isinstance(law, studies.Law):
         contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
-    folder.complete(prepared, known, curve, units, law, _doubts(prepared.scene, curve), points=numbers)
+    folder.complete(prepared, estimate, curve, units, law, _doubts(prepared.scene, curve), points=numbers)
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:

@@ -37,7 +37,7 @@ def run_history(scene: Scene, arguments) -> None:
     def kept() -> str:
         return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
 
-    with commands.run_begun(scene, arguments, names, kept) as (folder, prepared, known):
+    with commands.run_begun(scene, arguments, names, kept) as (folder, prepared, estimate):
         if folder.unfinished.is_dir():
             commands.say(f"going on from {folder.unfinished}")
         try:
@@ -48,7 +48,7 @@ def run_history(scene: Scene, arguments) -> None:
             result = error.result
             failure = error
         _write(folder, scene, result, arguments.animation)
-        folder.complete(prepared, known, result, OF_MOMENT)
+        folder.complete(prepared, estimate, result, OF_MOMENT)
     if failure:
         raise failure
 

@@ -10,7 +10,7 @@ from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
 from .film_setting import FINER, TIME_SHARE, ContactHistory, Setting, make_setting, steady_start
-from .march import Plan, Step, begun, checked_times, plan_of, report_of, steps
+from .march import Plan, Step, checked_times, initial_progress, plan_of, report_of, steps
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, di
 
 
 def _marched(setting: Setting, start: Step, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
-    now = begun(start, plan)
+    now = initial_progress(start, plan)
     outputs = [(0.0, start.terms)] if plan.times[0] == 0.0 else []
     for now in steps(setting, plan, now):
         if now.at_output:

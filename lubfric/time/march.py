@@ -137,7 +137,7 @@ def _onto(known: np.ndarray, found: list[float]) -> np.ndarray:
     return np.unique(times)
 
 
-def begun(first: Step, plan: Plan) -> Progress:
+def initial_progress(first: Step, plan: Plan) -> Progress:
     """The progress at t = 0 with the state ``first``."""
     return Progress((_level(first),), plan.first_step, first.payload, solution=first)
 

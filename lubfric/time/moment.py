@@ -26,7 +26,7 @@ from ..scene import Scene
 from .film_equations import outside_shear
 from .film_setting import WET
 from .march import Progress, Step
-from .sharing import Sharing, scene_at, sliding_at
+from .transient_load_sharing import TransientLoadSharing, scene_at, sliding_at
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"
@@ -35,13 +35,13 @@ AT_REST = 1e-6
 LOAD_STEP = 0.05
 
 
-def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
+def moment(model: TransientLoadSharing, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then."""
     solution = now.solution
     time = now.time
-    setting = sharing.setting
-    scene = scene_at(sharing.scene, time)
-    sliding = sliding_at(sharing.scene, time)
+    setting = model.setting
+    scene = scene_at(model.scene, time)
+    sliding = sliding_at(model.scene, time)
     t = solution.terms
     p = setting.problem
     contact = solution.payload
@@ -50,7 +50,7 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
     film_load = t.carried * setting.load_unit
     speed = scene.motion.entrainment_speed
     boundary = scene.bodies.boundary_friction_coefficient * contact.load * np.sign(sliding)
-    shear, heat = film_shear(sharing, scene, time, sliding, solution, boundary)
+    shear, heat = film_shear(model, scene, time, sliding, solution, boundary)
     loads = (contact.load, film_load)
     parts = (boundary, shear.total)
     force = boundary + shear.total
@@ -58,9 +58,9 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
     inlet, _ = inlet_at(scene, speed)
     heated_inlet = setting.contact.viscosity.before(time) != scene.lubricant.viscosity
     film_factor = inlet.factor if inlet is not None and heated_inlet else 1.0
-    length = sharing.correlation_length
+    length = model.correlation_length
     thinning = film_thinning(scene, film_load)
-    finite = moment_error(sharing.patch, state, loads, contact.softness, scene.bodies.width, length, parts, thinning)
+    finite = moment_error(model.patch, state, loads, contact.softness, scene.bodies.width, length, parts, thinning)
     touches = contact.load > 0.0
     wet = setting.grid.x[t.P > 0.0] * p.length_unit
     row = {
@@ -89,25 +89,27 @@ def moment(sharing: Sharing, now: Progress) -> tuple[dict[str, float], tuple[Val
         "max_pressure": t.P.max() * p.pressure_unit,
         "wet_from": wet[0] if wet.size else math.nan,
         "wet_to": wet[-1] if wet.size else math.nan,
-        "real_contact_area_fraction": state.real_contact_area_fraction * sharing.area if touches else 0.0,
-        "plastic_area_fraction": state.plastic_area_fraction and state.plastic_area_fraction * sharing.plastic,
-        "edge_load": sharing.patch.on_the_ends(state) if touches else 0.0,
+        "real_contact_area_fraction": state.real_contact_area_fraction * model.area if touches else 0.0,
+        "plastic_area_fraction": state.plastic_area_fraction and state.plastic_area_fraction * model.plastic,
+        "edge_load": model.patch.on_the_ends(state) if touches else 0.0,
         "load_residual": (film_load + contact.load) / total - 1.0,
         "volume_residual": state.volume_residual if touches else 0.0,
-        **_mass(sharing, solution),
+        **_mass(model, solution),
         "steps": now.steps,
     }
     peclet = heat.peclet if heat.heated else math.inf
     heat = replace(heat, inlet=inlet, used=film_factor < 1.0, heated=None, peclet=peclet)
-    return row, tuple([*_violated(sharing, scene, row, shear, heat), *of_typical_heat(scene, heat.typical)])
+    return row, tuple([*_violated(model, scene, row, shear, heat), *of_typical_heat(scene, heat.typical)])
 
 
-def _violated(sharing: Sharing, scene: Scene, row: dict, shear: ShearForce, heat: Heat) -> Iterator[Validity]:
+def _violated(
+    model: TransientLoadSharing, scene: Scene, row: dict, shear: ShearForce, heat: Heat
+) -> Iterator[Validity]:
     """The assumptions of the steady model and of a run that do not hold at one moment."""
     speed = row["entrainment_speed"]
     film = row["central_film"]
     force = abs(row["friction_force"])
-    prepared = sharing.prepared
+    prepared = model.prepared
     yield from prepared.known
     yield from of_ends(row["edge_load"], prepared.surface.size[0])
     yield from of_motion(scene, speed, film)
@@ -125,12 +127,12 @@ def _violated(sharing: Sharing, scene: Scene, row: dict, shear: ShearForce, heat
         yield from of_deflection(scene, row["mean_gap"], STEADY_ONLY)
 
 
-def _mass(sharing: Sharing, solution: Step) -> dict[str, float]:
+def _mass(model: TransientLoadSharing, solution: Step) -> dict[str, float]:
     """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET`` of
     the largest): flow into it, lubricant stored there; and the growth of the gap in the cavitated zone that nothing
     fills. mass_residual: what is missing in the balance, over the larger of the flow and ``NO_FLOW``."""
     t = solution.terms
-    p = sharing.setting.problem
+    p = model.setting.problem
     unit = p.film_unit * p.contact.entrainment_speed
     film = t.P[1:-1] > WET * t.P.max()
     stored = float(np.sum(t.stored[1:-1][film]))
@@ -147,7 +149,7 @@ def _mass(sharing: Sharing, solution: Step) -> dict[str, float]:
 
 
 def film_shear(
-    sharing: Sharing, scene: Scene, time: float, sliding: float, solution: Step, boundary: float
+    model: TransientLoadSharing, scene: Scene, time: float, sliding: float, solution: Step, boundary: float
 ) -> tuple[ShearForce, Heat]:
     """Forces [N] along +x on the upper surface, and the heat of these and of the ``boundary`` friction [N].
 
@@ -157,18 +159,18 @@ def film_shear(
     lubricant = scene.lubricant
     contact = solution.payload
     t = solution.terms
-    p = sharing.setting.problem
+    p = model.setting.problem
     wet = np.flatnonzero(t.P > 0.0)
     speed = scene.motion.entrainment_speed
 
     def cold(x, pressure, thickness):
         return shear_stress(lubricant, pressure, sliding / thickness)
 
-    isothermal = _summed(sharing, time, solution, cold, lubricant.viscosity * sliding)
+    isothermal = _summed(model, time, solution, cold, lubricant.viscosity * sliding)
     if wet.size < 3 or speed == 0.0:
         return isothermal, Heat()
     inside = slice(wet[0], wet[-1] + 1)
-    x = sharing.setting.grid.x[inside] * p.length_unit
+    x = model.setting.grid.x[inside] * p.length_unit
     film = SimpleNamespace(  # all that `point_heat` needs of the pressurised film
         x=x,
         pressure=t.P[inside] * p.pressure_unit,
@@ -185,15 +187,17 @@ def film_shear(
     def hot(x, pressure, thickness):
         return math.copysign(1.0, sliding) * np.abs(heated(x * along, pressure, thickness))
 
-    return _summed(sharing, time, solution, hot), heat
+    return _summed(model, time, solution, hot), heat
 
 
-def _summed(sharing: Sharing, time: float, solution: Step, stress: Callable, drag: float | None = None) -> ShearForce:
+def _summed(
+    model: TransientLoadSharing, time: float, solution: Step, stress: Callable, drag: float | None = None
+) -> ShearForce:
     """`ShearForce` by trapezes of ``stress(x, pressure, film)`` [Pa]. ``drag``: that times the film [N/m] beyond the
     ends of the grid; None: as at the last node, because at any film its own heat thins it by the same factor."""
     t = solution.terms
-    p = sharing.setting.problem
-    grid = sharing.setting.grid
+    p = model.setting.problem
+    grid = model.setting.grid
     x = grid.x * p.length_unit
     h = t.H * p.film_unit
     pressure = t.P * p.pressure_unit
@@ -210,8 +214,8 @@ def _summed(sharing: Sharing, time: float, solution: Step, stress: Callable, dra
         inside = slice(wet[0], wet[-1] + 1)
         off = max(off, spike_error(x[inside], tau[inside])) + rolling_error(pressure[inside], h[inside], 1.0)
     drags = tau[[0, -1]] * h[[0, -1]] if drag is None else np.full(2, drag)
-    more, rolling = _tails(sharing, time, drags, solution)
-    width = sharing.setting.contact.width
+    more, rolling = _tails(model, time, drags, solution)
+    width = model.setting.contact.width
     return ShearForce(
         couette=width * (float(np.sum(_halfway(tau) * full)) + more),
         rolling=width * (float(np.sum(rolls)) + rolling),
@@ -226,10 +230,10 @@ def _halfway(nodal: np.ndarray) -> np.ndarray:
     return 0.5 * (nodal[1:] + nodal[:-1])
 
 
-def _tails(sharing: Sharing, time: float, drags: np.ndarray, solution: Step) -> tuple[float, float]:
+def _tails(model: TransientLoadSharing, time: float, drags: np.ndarray, solution: Step) -> tuple[float, float]:
     """Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid. ``drags``: shear stress times
     film [N/m] at both ends."""
-    setting = sharing.setting
+    setting = model.setting
     t = solution.terms
     p = setting.problem
     grid = setting.grid

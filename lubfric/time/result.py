@@ -13,10 +13,10 @@ from ..quantities import OF_MOMENT, axis_label
 from ..scene import FRICTION as FRICTION_KEY
 from ..scene import moving_bodies, value_of
 from .march import Plan, Progress, report_of
-from .one_gap import OneGap
-from .sharing import Sharing
+from .transient_deterministic import TransientDeterministic
+from .transient_load_sharing import TransientLoadSharing
 
-Solver = Sharing | OneGap
+Solver = TransientLoadSharing | TransientDeterministic
 # at an output time: numbers by name, assumptions that do not hold, pressures [Pa] and films [m] over x
 Output = tuple[dict[str, float], tuple[Validity, ...], np.ndarray, np.ndarray]
 MANY = 30  # blocks less one: of a strip
@@ -190,7 +190,7 @@ def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, output
     half = 0.5 * columns["sliding_speed"]
     rough = [name for name, _ in moving_bodies(prepared.scene)]
     ways = {"surface": columns["entrainment_speed"] - half, "counterface": columns["entrainment_speed"] + half}
-    stands = (STANDS,) if isinstance(solver, Sharing) and any(ways[name].any() for name in rough) else ()
+    stands = (STANDS,) if isinstance(solver, TransientLoadSharing) and any(ways[name].any() for name in rough) else ()
     report = report_of("transient, BDF2", plan, now, f"{solver.cells}; surface: {surface}", worst)
     if prepared.strips is not None and not prepared.strips.whole:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]

@@ -9,12 +9,12 @@ from ..models.deterministic import State
 from ..models.load_sharing import Prepared, Validity, refused, scene_of
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint, opened
-from .begin import begin
-from .march import Plan, Progress, Step, begun, checked_times, plan_of, steps
+from .march import Plan, Progress, Step, checked_times, initial_progress, plan_of, steps
 from .moment import moment
-from .one_gap import OneGap, begin_one_gap, moment_of_gap
 from .result import Output, Solver, TransientResult, collect
-from .sharing import Contact, changes
+from .start import start_load_sharing
+from .transient_deterministic import TransientDeterministic, deterministic_moment, start_deterministic
+from .transient_load_sharing import Contact, transient_of
 
 CLASSES = classes_of(Progress, Contact, Validity, State)  # that a state or an output may hold
 STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
@@ -64,9 +64,11 @@ def transient(
     - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
     """
     scene, times = _with_plan(scene, times)
-    solver, start, grid_error = (begin_one_gap if scene_of(scene).numerics.model == "deterministic" else begin)(scene)
+    solver, start, grid_error = (
+        start_deterministic if scene_of(scene).numerics.model == "deterministic" else start_load_sharing
+    )(scene)
     scene = solver.scene
-    plan = changes(solver.scene)
+    plan = transient_of(solver.scene)
     tolerance = plan.tolerance or solver.time_error
     course = plan_of(times, plan.histories, solver.first_step, tolerance, solver.stops)
     key = fingerprint(solver.prepared, plan, times)
@@ -90,10 +92,10 @@ def _output_keys(key: str, count: int) -> list[str]:
 def _marched(solver: Solver, start: Step, plan: Plan, store: Store, key: str, on_step) -> tuple[Progress, list[Output]]:
     """The last progress of a run, and its outputs; from where the ``store`` has it under ``key``, if it does: its state
     and all outputs that the state knows of, which were kept before it."""
-    count, now = store.get(key, STATE) or (0, begun(start, plan))
+    count, now = store.get(key, STATE) or (0, initial_progress(start, plan))
     outputs: list[Output] = [*store.known(_output_keys(key, count), Output).values()]
     if len(outputs) < count:  # one was damaged, which was told
-        now = begun(start, plan)
+        now = initial_progress(start, plan)
         outputs = []
 
     def put_out(now: Progress) -> None:
@@ -115,9 +117,9 @@ def _marched(solver: Solver, start: Step, plan: Plan, store: Store, key: str, on
 def _output(solver: Solver, now: Progress) -> Output:
     """Numbers and fields after the last step."""
     terms = now.solution.terms
-    if isinstance(solver, OneGap):
+    if isinstance(solver, TransientDeterministic):
         fields = (f.mean(axis=1)[:: solver.back(now.time)] for f in (terms.state.pressure, terms.balance.film))
-        return (*moment_of_gap(solver, now), *fields)
+        return (*deterministic_moment(solver, now), *fields)
     p = solver.setting.problem
     return (*moment(solver, now), terms.P * p.pressure_unit, terms.H * p.film_unit)
 

@@ -108,7 +108,7 @@ def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys):
     command = ["run", str(tmp_path / "heavy.toml"), "--speeds", "0.001", "--fields", "0.001", "--out"]
     assert main([*command, str(tmp_path / "o")]) == 1
     said = capsys.readouterr().err
-    assert said.index("foretold: ") < said.index("not valid") < said.index("[1/1]")
+    assert said.index("estimate: ") < said.index("not valid") < said.index("[1/1]")
     assert "Newtonian shear asks" in said and "eyring_stress" in said and "--accept" in said
     record = json.loads((tmp_path / "o" / "result.json").read_text())
     assert record["points"][0]["validity"][0]["severe"] in (True, False) and "not valid" in record["points"][0]["error"]
@@ -139,4 +139,4 @@ def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys
     assert (tmp_path / "sharing.png").is_file()  # what the strips with one gap correct
     assert f"model {100 * table['model_error'][0]:.2g} %" in said
     assert main(["info", "paper", "--speeds", "0.001,0.3"]) == 0
-    assert f"foretold: {capsys.readouterr().out.partition('cost: ')[2].splitlines()[0]}\n" in said
+    assert f"estimate: {capsys.readouterr().out.partition('cost: ')[2].splitlines()[0]}\n" in said

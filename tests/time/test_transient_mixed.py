@@ -13,7 +13,7 @@ import lubfric
 from lubfric.models.load_sharing import prepare
 from lubfric.output import main
 from lubfric.scene import Harmonic, Ramp, Table, Transient
-from lubfric.time.sharing import Sharing
+from lubfric.time.transient_load_sharing import TransientLoadSharing
 
 SCENE = paper_scene(
     numerics={"sampling": "patch"},
@@ -134,13 +134,13 @@ def test_the_flat_contact_runs_in_time():
 
 
 def test_failed_steps_are_reported_with_the_rows_so_far(monkeypatch):
-    real = Sharing.solve
+    real = TransientLoadSharing.solve
 
     def failing(sharing, at, *rest):
         found = real(sharing, at, *rest)
         return replace(found, status="diverged") if at > 1.5e-3 else found
 
-    monkeypatch.setattr(Sharing, "solve", failing)
+    monkeypatch.setattr(TransientLoadSharing, "solve", failing)
     with pytest.raises(lubfric.ConvergenceError) as caught:
         lubfric.transient(MODEL, [0.0, 1e-3, 2e-3])
     assert caught.value.result.time.tolist() == [0.0, 1e-3] and "stopped at t" in caught.value.report.notes[-1]

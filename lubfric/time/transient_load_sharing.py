@@ -17,14 +17,14 @@ from .film_setting import TIME_SHARE, Setting
 from .march import Memory, Step
 
 FASTER = 1e6  # slide-roll ratio beyond which a moment counts as one of sliding alone
-LOOKS = 257  # times at which a run is looked through
+SAMPLED_TIMES = 257  # times at which a run is looked through
 FIRST_TOUCH = 1e-3  # of the load: tried when the film has just come too thin for separated surfaces
 LAST_TOUCH = 1e-5  # of the load: below it, ask whether the film clears the surface
 MOST_TRIALS = 16
 LOOSEST = 1e-4  # tolerance on the volume
 
 
-def changes(scene: Scene) -> Transient:
+def transient_of(scene: Scene) -> Transient:
     """What changes in a scene of a run in time."""
     assert scene.transient is not None
     return scene.transient
@@ -65,7 +65,7 @@ def sliding_at(scene: Scene, time: float, side: str = "before") -> float:
 
 
 def _value(scene: Scene, name: str, constant: float, time: float, side: str) -> float:
-    history = getattr(changes(scene), name)
+    history = getattr(transient_of(scene), name)
     return constant if history is None else getattr(history, side)(time)
 
 
@@ -83,12 +83,12 @@ class WarmInlet(History):
         return self._warm(time, "before")
 
     def range(self, duration: float) -> tuple[float, float]:
-        """The range that `LOOKS` times and every stop show."""
+        """The range that `SAMPLED_TIMES` times and every stop show."""
         return self._seen
 
     @cached_property
     def _seen(self) -> tuple[float, float]:
-        found = [self._warm(t, side) for t in looks(self.scene) for side in ("before", "at")]
+        found = [self._warm(t, side) for t in sampled_times(self.scene) for side in ("before", "at")]
         return min(found), max(found)
 
     def _warm(self, time: float, side: str) -> float:
@@ -99,21 +99,21 @@ class WarmInlet(History):
 def inlet_viscosity(scene: Scene) -> History:
     """The viscosity [Pa s] with which the film is solved: that of the scene, or its history. If the heat of the inlet
     would at some time thin the film by more than its share of the tolerance, it is that of the warm inlet."""
-    cold = changes(scene).viscosity or Constant(scene.lubricant.viscosity)
+    cold = transient_of(scene).viscosity or Constant(scene.lubricant.viscosity)
     if scene.numerics.heat == "off" or not scene.lubricant.heats:
         return cold
     if scene.numerics.heat == "auto":
-        moments = (scene_at(scene, time) for time in looks(scene))
+        moments = (scene_at(scene, time) for time in sampled_times(scene))
         if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in moments):
             return cold
     return WarmInlet(scene.with_(numerics={"heat": "on"}))
 
 
-def looks(scene: Scene) -> list[float]:
-    """Times [s] at which a run is looked through before it begins: `LOOKS` of them evenly, and all stops and jumps."""
-    plan = changes(scene)
+def sampled_times(scene: Scene) -> list[float]:
+    """Times [s] at which a run is looked through before it begins: `SAMPLED_TIMES` of them evenly, and all stops and jumps."""
+    plan = transient_of(scene)
     stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
-    return sorted({*np.linspace(0, plan.duration, LOOKS).tolist(), *stops})
+    return sorted({*np.linspace(0, plan.duration, SAMPLED_TIMES).tolist(), *stops})
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class Sharing:
+class TransientLoadSharing:
     """A solver of `lubfric.time.march`: film and rough contact share the load of the moment.
 
     ``prepared``: the strip of rough surface of the run; ``setting``: of the film; ``to_patch`` gives the film [m] at
@@ -241,8 +241,8 @@ class Sharing:
             return None
 
 
-def make_sharing(prepared: Prepared, setting: Setting, *of_strip: float) -> Sharing:
-    """The `Sharing` on the strip ``prepared``, with the operators between the film's grid and the patch. ``of_strip``:
+def make_load_sharing(prepared: Prepared, setting: Setting, *of_strip: float) -> TransientLoadSharing:
+    """The `TransientLoadSharing` on the strip ``prepared``, with the operators between the film's grid and the patch. ``of_strip``:
     its correlation length and factors."""
     p = setting.problem
     patch = prepared.contact
@@ -250,7 +250,9 @@ def make_sharing(prepared: Prepared, setting: Setting, *of_strip: float) -> Shar
     unit_vectors = np.eye(setting.grid.n + 1)
     to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit
     tolerance = min(prepared.scene.numerics.tolerance_of("balance"), LOOSEST)
-    return Sharing(prepared, setting, to_patch, patch.weight @ to_patch / patch.weight.sum(), tolerance, *of_strip)
+    return TransientLoadSharing(
+        prepared, setting, to_patch, patch.weight @ to_patch / patch.weight.sum(), tolerance, *of_strip
+    )
 
 
 def _softness(old: float, seen, load: float, found: ContactState) -> float:

@@ -14,7 +14,16 @@ from ..models.load_sharing import Prepared, on_stack, prepare, scene_of, solve_b
 from ..scene import Constant, Scene
 from .film_setting import FINER, ContactHistory, make_setting, steady_start
 from .march import Step
-from .sharing import Contact, Sharing, changes, inlet_viscosity, looks, make_sharing, scene_at, sliding_at
+from .transient_load_sharing import (
+    Contact,
+    TransientLoadSharing,
+    inlet_viscosity,
+    make_load_sharing,
+    sampled_times,
+    scene_at,
+    sliding_at,
+    transient_of,
+)
 
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
@@ -26,12 +35,12 @@ DONE = {  # what a run does of the steady options; the film is deflected by its 
 SOFT = 0.3  # of the mean gap: softness of the contact, until a step has measured it
 
 
-def begin(scene: Scene | Prepared) -> tuple[Sharing, Step, float]:
-    """Check a scene with a ``transient`` and make it ready. Returns the `Sharing`, the state at t = 0, and the relative
+def start_load_sharing(scene: Scene | Prepared) -> tuple[TransientLoadSharing, Step, float]:
+    """Check a scene with a ``transient`` and make it ready. Returns the `TransientLoadSharing`, the state at t = 0, and the relative
     error by the grid of the films of a steady start (NaN for another start)."""
     base = scene_of(scene)
-    plan = changes(base)
-    load = changes(base).load or Constant(base.bodies.load)
+    plan = transient_of(base)
+    load = transient_of(base).load or Constant(base.bodies.load)
     for name, done in DONE.items():
         value = getattr(base.numerics, name)
         if value not in done:
@@ -40,9 +49,9 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, Step, float]:
         said = f" rises to {load.range(plan.duration)[1]:g} N"
         most = f"up to bodies.load = {base.bodies.load:g} N"
         raise InputError(said, "transient.load", f"{most}, whose Hertz strip is the area A")
-    for time in looks(base) if base.bodies.boundary_friction_table is not None else ():
+    for time in sampled_times(base) if base.bodies.boundary_friction_table is not None else ():
         scene_at(base, time)  # raises where the table of f_b has no value
-    prepared, *of_strip = strip_for(scene if isinstance(scene, Prepared) else prepare(scene))
+    prepared, *of_strip = strip_of_run(scene if isinstance(scene, Prepared) else prepare(scene))
     sq = prepared.surface.sq
     contact = _contact_history(prepared.scene)
     if not sq > 0.0 and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
@@ -52,17 +61,17 @@ def begin(scene: Scene | Prepared) -> tuple[Sharing, Step, float]:
     allowed = base.numerics.tolerance_of("film")
     for finer in FINER:
         setting = make_setting(contact, allowed, sq=max(sq, 0.0), reach=reach, finer=finer)
-        sharing = make_sharing(prepared, setting, *of_strip)
-        start, grid_error = _first_state(sharing)
+        model = make_load_sharing(prepared, setting, *of_strip)
+        start, grid_error = _first_state(model)
         if not grid_error > allowed:  # NaN: no steady start to judge by
             break
-    return sharing, start, grid_error
+    return model, start, grid_error
 
 
 def _contact_history(scene: Scene) -> ContactHistory:
     """The line contact of a scene in time, with the scene's constants where nothing changes."""
     bodies = scene.bodies
-    plan = changes(scene)
+    plan = transient_of(scene)
     return ContactHistory(
         load=plan.load or Constant(bodies.load),
         radius=plan.radius or Constant(bodies.radius),
@@ -77,27 +86,27 @@ def _contact_history(scene: Scene) -> ContactHistory:
     )
 
 
-def _first_state(sharing: Sharing) -> tuple[Step, float]:
+def _first_state(model: TransientLoadSharing) -> tuple[Step, float]:
     """The state at t = 0 and the grid error of the steady film in it (NaN from another start)."""
-    plan = changes(sharing.scene)
+    plan = transient_of(model.scene)
     if plan.initial_film is not None:
-        return _flying(sharing, plan.initial_film), math.nan
-    still = sharing.setting.contact.speed.before(0.0) == 0.0
+        return _flying(model, plan.initial_film), math.nan
+    still = model.setting.contact.speed.before(0.0) == 0.0
     if plan.initial == "rest" or (plan.initial == "auto" and still):
-        return _resting(sharing), math.nan
+        return _resting(model), math.nan
     if still:
         raise InputError("transient.initial = 'steady' needs entrainment before t = 0; give 'rest', or a speed")
-    return _steady(sharing)
+    return _steady(model)
 
 
-def _untouched(sharing: Sharing, film: Step) -> Step:
-    state = sharing.patch.close(sharing.to_patch @ film.terms.H, 0.0)
+def _untouched(model: TransientLoadSharing, film: Step) -> Step:
+    state = model.patch.close(model.to_patch @ film.terms.H, 0.0)
     return replace(film, payload=Contact(0.0, state, max(SOFT * state.mean_gap, 1e-12)))
 
 
-def _flying(sharing: Sharing, film: float) -> Step:
+def _flying(model: TransientLoadSharing, film: float) -> Step:
     """No pressure anywhere under a parabola at the height ``film`` [m]."""
-    found = _untouched(sharing, sharing.setting.undeformed(film))
+    found = _untouched(model, model.setting.undeformed(film))
     state = found.payload.state
     if state.volume_residual > 0.0:
         said = f": the surfaces touch at {state.mean_film:g} m of mean film"
@@ -105,51 +114,51 @@ def _flying(sharing: Sharing, film: float) -> Step:
     return found
 
 
-def _resting(sharing: Sharing) -> Step:
+def _resting(model: TransientLoadSharing) -> Step:
     """The contact carries the load under the undeformed cylinder, its gap full of lubricant without pressure."""
-    setting = sharing.setting
-    patch = sharing.patch
-    load = sharing.setting.contact.load.before(0.0)
+    setting = model.setting
+    patch = model.patch
+    load = model.setting.contact.load.before(0.0)
     state = patch.close(patch.x**2 / (2.0 * setting.contact.radius.before(0.0)), load)
     touching = setting.undeformed(0.0).terms.H
-    film = state.mean_gap - float(sharing.mean_row @ touching)
+    film = state.mean_gap - float(model.mean_row @ touching)
     if film <= 0.0:
         said = "at rest the contact leaves no room for a film under the undeformed cylinder"
         ways = "initial = 'steady' with an entrainment speed, or transient.initial_film"
         raise InputError(f"{said}; give {ways}")
     found = setting.undeformed(film)
-    state = replace(state, mean_film=float(sharing.mean_row @ found.terms.H))
+    state = replace(state, mean_film=float(model.mean_row @ found.terms.H))
     return replace(found, payload=Contact(load, state, SOFT * state.mean_gap))
 
 
-def _steady(sharing: Sharing) -> tuple[Step, float]:
+def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
     """The balance of the steady state, and then the same on the grid of the run."""
-    setting = sharing.setting
-    scene = sharing.scene
-    c = sharing.setting.contact
-    viscosity = changes(scene).viscosity
+    setting = model.setting
+    scene = model.scene
+    c = model.setting.contact
+    viscosity = transient_of(scene).viscosity
     cold = scene.lubricant.viscosity if viscosity is None else viscosity.before(0.0)
     values = scene.with_(
         bodies={"load": c.load.before(0.0), "radius": c.radius.before(0.0)},
         lubricant=replace(scene.lubricant, viscosity=cold),
         numerics={"film_deflection": "hydrodynamic", "accept": True},  # judged with the other moments
     )
-    balance = solve_balance(values, c.speed.before(0.0), sharing.patch, sharing.prepared.surface.sq)
+    balance = solve_balance(values, c.speed.before(0.0), model.patch, model.prepared.surface.sq)
     film, error = steady_start(setting, balance.film_load)
     if film.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")
     if balance.contact_load == 0.0:
-        return _untouched(sharing, film), error
+        return _untouched(model, film), error
     state = balance.contact
-    found = sharing.solve(0.0, None, film.z, Contact(balance.contact_load, state, SOFT * state.mean_gap))
+    found = model.solve(0.0, None, film.z, Contact(balance.contact_load, state, SOFT * state.mean_gap))
     if found.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
     return found, error
 
 
-def strip_for(prepared: Prepared) -> tuple[Prepared, float, float, float]:
+def strip_of_run(prepared: Prepared) -> tuple[Prepared, float, float, float]:
     """The strip of rough surface of a run, its correlation length along y [m], and the factors of its contact area and
-    plastic area (`Sharing`).
+    plastic area (`TransientLoadSharing`).
 
     Strips as many as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of four speeds of the
     run, or as memory and map allow. Their cells change f by no more than ``numerics.tolerance`` at any of these speeds,
@@ -182,7 +191,7 @@ def _made(prepared: Prepared, strips: Strips, count: int) -> Prepared:
 
 def speeds_of_run(scene: Scene) -> list[float]:
     """Some speeds [m/s] of a run, at which its strip is judged; none where nothing is entrained."""
-    plan = changes(scene)
+    plan = transient_of(scene)
     low, high = (plan.speed or Constant(scene.motion.entrainment_speed)).range(plan.duration)
     fastest = max(abs(low), abs(high))
     if fastest == 0.0:
@@ -193,7 +202,7 @@ def speeds_of_run(scene: Scene) -> list[float]:
 
 def _needs(prepared: Prepared, strips: Strips, speeds: list[float]) -> np.ndarray:
     """What each steady speed needs, in rows: the number of strips, the relative change of f by their cells (infinite if
-    finer ones were needed), and the factors of `Sharing`. A speed without a steady solution needs the first strips."""
+    finer ones were needed), and the factors of `TransientLoadSharing`. A speed without a steady solution needs the first strips."""
     found = []
     for speed in speeds:
         try:

@@ -41,7 +41,7 @@ from ..quantities import OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET
 from .march import Memory, Progress, Step
-from .sharing import changes, looks, scene_at, sliding_at
+from .transient_load_sharing import sampled_times, scene_at, sliding_at, transient_of
 
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
 EXACT = 1e-3  # residuals of a step
@@ -51,13 +51,13 @@ LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what res
 FIRST = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
 START = 20  # steps after the start, about
 MOST_CELLS = 100_000  # by which the roughness may move in a run
-LOOKS = 20_001  # times at which the speeds are looked up to find the steps
+SAMPLED_TIMES = 20_001  # times at which the speeds are looked up to find the steps
 LEFT_OUT = "a run with one gap is isothermal: in truth the film is thinner and shears more easily"
 SIDES = {"surface": -0.5, "counterface": 0.5}  # of a body's section: its speed is U plus that times u2 - u1
 
 
 @dataclass(frozen=True)
-class OneGap:
+class TransientDeterministic:
     """The solver: ``prepared``, with the strip of the run as its surface; ``base``, its cells; of each rough body, by
     its section, the ``heights`` [m] on these cells, of the distance [m] that it has moved. ``correlation_length``: of
     the heights along y [m]."""
@@ -87,19 +87,21 @@ class OneGap:
     @cached_property
     def fastest(self) -> float:
         """The largest speed of a surface [m/s]."""
-        return max(map(max, _speeds(self.scene, np.array(looks(self.scene)))))
+        return max(map(max, _speeds(self.scene, np.array(sampled_times(self.scene)))))
 
     @property
     def first_step(self) -> float:
         """After a start or a jump [s]."""
-        return FIRST * self.base.spacing[0] / self.fastest if self.fastest else FIRST * changes(self.scene).duration
+        return (
+            FIRST * self.base.spacing[0] / self.fastest if self.fastest else FIRST * transient_of(self.scene).duration
+        )
 
     @cached_property
     def stops(self) -> tuple[float, ...]:
         """Times [s] at which the fastest rough body has moved by one more cell, about."""
-        duration = changes(self.scene).duration
+        duration = transient_of(self.scene).duration
         dx = self.base.spacing[0]
-        times = np.linspace(0.0, duration, LOOKS)
+        times = np.linspace(0.0, duration, SAMPLED_TIMES)
         speed = np.max([_speeds(self.scene, times)[list(SIDES).index(name)] for name in self.heights] or [0 * times], 0)
         way = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(times)))
         if way[-1] > MOST_CELLS * dx:
@@ -113,7 +115,7 @@ class OneGap:
         now = scene_at(self.scene, time)
         sliding = sliding_at(self.scene, time)
         speed = now.motion.entrainment_speed
-        plan = changes(self.scene)
+        plan = transient_of(self.scene)
         motion = self.scene.motion
         along = (plan.speed or Constant(motion.entrainment_speed)).integral(time)
         apart = motion.slide_roll_ratio * along if plan.sliding is None else plan.sliding.integral(time)
@@ -154,7 +156,7 @@ class OneGap:
     def start(self) -> Step:
         """The state at t = 0: steady, as if the roughness rested; at rest, with all load on the dry contact; or without
         pressure at a flying height. In the last two the gap is full."""
-        plan = changes(self.scene)
+        plan = transient_of(self.scene)
         problem = self.problem_at(0.0)
         back = self.back(0.0)
         still = (plan.speed or Constant(self.scene.motion.entrainment_speed)).before(0.0) == 0.0
@@ -194,31 +196,31 @@ def _turned(state: State, back: int) -> State:
 
 def _speeds(scene: Scene, times: np.ndarray) -> list[np.ndarray]:
     """|u| [m/s] of both surfaces at ``times`` [s]."""
-    speed = changes(scene).speed or Constant(scene.motion.entrainment_speed)
+    speed = transient_of(scene).speed or Constant(scene.motion.entrainment_speed)
     both = np.array([(speed.before(t), sliding_at(scene, t)) for t in times.tolist()]).T
     return [np.abs(both[0] + side * both[1]) for side in SIDES.values()]
 
 
-def begin_one_gap(scene: Scene | Prepared) -> tuple[OneGap, Step, float]:
+def start_deterministic(scene: Scene | Prepared) -> tuple[TransientDeterministic, Step, float]:
     """The solver of a scene; its state at t = 0; NaN: the error of the cells is not known. Raises `InputError` and
     `ConvergenceError`."""
-    solver = one_gap(scene)
+    solver = make_deterministic(scene)
     return solver, solver.start(), math.nan
 
 
 def work_of_run(scene: Scene) -> tuple[int, float]:
     """About how many steps a run takes, and its counted work [s of a usual core]."""
-    solver = one_gap(scene)
-    plan = changes(scene)
+    solver = make_deterministic(scene)
+    plan = transient_of(scene)
     steps = max(len(solver.stops), plan.outputs) + START
     return steps, steps * work_of_steps(solver.base.heights.size, STEPS, KRYLOV)
 
 
-def one_gap(scene: Scene | Prepared) -> OneGap:
+def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     """The solver, on the first strip that a steady point takes, and on the same cells. Raises `InputError`."""
     prepared = scene if isinstance(scene, Prepared) else prepare(scene)
     scene = prepared.scene
-    plan = changes(prepared.scene)
+    plan = transient_of(prepared.scene)
     strips = prepared.strips
     if strips is None:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
@@ -247,10 +249,12 @@ def one_gap(scene: Scene | Prepared) -> OneGap:
     base = replace(base, least_flow=LEAST_FLOW * line.entrainment_speed * line.moes_film)
     of_strip = replace(prepared, surface=surface)
     heights = {name: shifted(base, one) for name, one in maps.items()}
-    return OneGap(of_strip, base, heights, strips.lengths[1])
+    return TransientDeterministic(of_strip, base, heights, strips.lengths[1])
 
 
-def moment_of_gap(solver: OneGap, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
+def deterministic_moment(
+    solver: TransientDeterministic, now: Progress
+) -> tuple[dict[str, float], tuple[Validity, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then. As of `OF_MOMENT`, of the
     rough gap; NaN where this model has no such number."""
     at = now.solution.terms
