@@ -8,11 +8,11 @@ SHARES = {
     "grid of the film": f"{budget.FILM_GRID:g}, without contact {budget.FILM_ALONE:g}",
     "sum of the film's shear stress": f"{budget.SHEAR_SUM:g}",
     "cells of the rough contact": f"{budget.CONTACT_GRID:g}",
-    "closing of load and volume": f"{budget.BALANCE:g}",
-    "closing on coarse cells": f"{budget.CORRECTED:g}",
+    "load and volume balance": f"{budget.BALANCE:g}",
+    "balance on coarse cells": f"{budget.CORRECTED:g}",
     "solver of the rough contact": f"{budget.CONTACT:g}",
-    "heat of film and surfaces that is left out": f"{budget.HEAT:g}",
-    "heat of the inlet that is left out": f"{budget.INLET:g}",
+    "heat of film and surfaces that is neglected": f"{budget.HEAT:g}",
+    "heat of the inlet that is neglected": f"{budget.INLET:g}",
     "interpolation of the curve of a flat contact": f"{budget.CURVE:g}",
 }
 
