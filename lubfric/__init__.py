@@ -1,94 +1,26 @@
 """Friction of mixed-lubricated rough line contacts.
 
-The public names load on first use, so that ``import lubfric`` stays light.
+The public names load on first use (SPEC 1 of Scientific Python), so that ``import lubfric`` stays light. They stand in
+`__init__.pyi` alone, one import a line, from which type checkers and this module read them. (The package lazy_loader
+does the same; it would be one more requirement, and load `ast`, which takes longer than all of this.)
 """
 
 from importlib import import_module
 
-TYPE_CHECKING = False  # as `typing` has it, which takes longer to import than all of this
-if TYPE_CHECKING:
-    from . import oil as oil
-    from ._base import __version__ as __version__
-    from .contact import AsperityResult as AsperityResult
-    from .contact import ContactResult as ContactResult
-    from .contact import asperity_contact as asperity_contact
-    from .contact import run_in as run_in
-    from .contact import separation_for_load as separation_for_load
-    from .contact import solve_contact as solve_contact
-    from .errors import ConvergenceError as ConvergenceError
-    from .errors import InputError as InputError
-    from .errors import LubfricError as LubfricError
-    from .errors import OutputError as OutputError
-    from .errors import Report as Report
-    from .errors import ValidityError as ValidityError
-    from .estimate import FrictionResult as FrictionResult
-    from .estimate import friction as friction
-    from .film import EHLResult as EHLResult
-    from .film import solve_ehl as solve_ehl
-    from .models.load_sharing import Prepared as Prepared
-    from .models.load_sharing import Validity as Validity
-    from .models.load_sharing import prepare as prepare
-    from .oil import Lubricant as Lubricant
-    from .paper import solve_differential_deflection as solve_differential_deflection
-    from .scene import Bodies as Bodies
-    from .scene import ContactDomain as ContactDomain
-    from .scene import Motion as Motion
-    from .scene import Numerics as Numerics
-    from .scene import Roughness as Roughness
-    from .scene import Scene as Scene
-    from .scene import Transient as Transient
-    from .scene import load_scene as load_scene
-    from .studies import Between as Between
-    from .studies import FitResult as FitResult
-    from .studies import Measured as Measured
-    from .studies import StribeckResult as StribeckResult
-    from .studies import StudyPlan as StudyPlan
-    from .studies import StudyResult as StudyResult
-    from .studies import TractionResult as TractionResult
-    from .studies import explain_fit as explain_fit
-    from .studies import fit as fit
-    from .studies import open_study as open_study
-    from .studies import plan_study as plan_study
-    from .studies import read_measured as read_measured
-    from .studies import sample as sample
-    from .studies import stribeck as stribeck
-    from .studies import study as study
-    from .studies import traction as traction
-    from .surface import Surface as Surface
-    from .surface import generate_surface as generate_surface
-    from .surface import read_surface as read_surface
-    from .time import TransientResult as TransientResult
-    from .time import transient as transient
-
-_NAMES = {  # by the room that they come from
-    "_base": "__version__",
-    "errors": "LubfricError InputError OutputError ConvergenceError ValidityError Report",
-    "scene": "load_scene Scene Bodies ContactDomain Roughness Motion Numerics Transient",
-    "oil": "Lubricant",
-    "surface": "Surface generate_surface read_surface",
-    "contact": "solve_contact ContactResult run_in asperity_contact separation_for_load AsperityResult",
-    "film": "solve_ehl EHLResult",
-    "models.load_sharing": "prepare Prepared Validity",
-    "estimate": "friction FrictionResult",
-    "time": "transient TransientResult",
-    "studies": "stribeck StribeckResult traction TractionResult study plan_study open_study sample Between StudyPlan "
-    "StudyResult fit explain_fit read_measured Measured FitResult",
-    "paper": "solve_differential_deflection",
-}
-_HOME = {name: home for home, names in _NAMES.items() for name in names.split()}
-_PACKAGES = ("oil",)
-__all__ = sorted(name for name in _HOME if name != "__version__")
+_STUB = __loader__.get_data(f"{__file__.removesuffix('c')}i").decode()  # type: ignore[name-defined]  # by import itself
+_LINES = [line.split() for line in _STUB.splitlines() if line.startswith("from .")]
+_HOME = {words[3]: words[1] for words in _LINES}  # "from .room import name as name"
+__all__ = sorted(name for name, home in _HOME.items() if name != "__version__" and home != ".")
 
 
 def __getattr__(name: str) -> object:
-    if name in _PACKAGES:
-        return import_module(f"lubfric.{name}")
     if name not in _HOME:
         raise AttributeError(f"module 'lubfric' has no attribute {name!r}")
-    value = getattr(import_module(f"lubfric.{_HOME[name]}"), name)
+    home = _HOME[name].lstrip(".")
+    value = getattr(import_module(f"lubfric.{home}"), name) if home else import_module(f"lubfric.{name}")
     globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__, *_PACKAGES})
+    return sorted({*globals(), *_HOME})

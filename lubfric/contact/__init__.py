@@ -5,14 +5,9 @@ from .asperity import AsperityResult, asperity_contact, find_asperities, separat
 from .asperity_find import ridges
 from .flat import ContactCurve, FlatContact, asperity_curve, contact_curve, flat_contact
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
-from .height_map import check_grid, contact_maps, measured, together, whole_maps
 from .kernels import semiperiodic_coefficients
 from .operator import HalfSpace, even_transform, half_space
 from .problem import Problem, make_problem, on_grid
-from .rough_contract import ContactState, RoughContact, weighted_mean
+from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 from .rounds import ContactResult, Found, State, concluded, contact_residuals, length_scale, look, refine, state_of
-from .run_in import RunIn, run_in
-from .sample import sample_of, takes_strips
 from .solve import solve_contact
-from .strip_cells import length_or_half
-from .strips import MeasuredStrips, Strips, alone

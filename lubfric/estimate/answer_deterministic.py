@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ..contact import measured
 from ..models.deterministic import DeterministicResult
 from ..models.load_sharing import (
     Heat,
@@ -21,6 +20,7 @@ from ..models.load_sharing import (
     of_thickness,
 )
 from ..quantities import depending_on
+from ..samples import measured
 from ..scene import Scene, moves
 from .decision import Decision
 from .errors_of import TOO_SHORT

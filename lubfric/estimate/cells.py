@@ -12,8 +12,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact import ContactState, HalfSpaceContact, Strips
+from ..contact import (
+    ContactState,
+    HalfSpaceContact,
+)
 from ..models.load_sharing import Balance, Point, Prepared, on_piece, touched_length
+from ..samples import Strips
 from ..scene import budget
 from .scatter import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
 

@@ -16,9 +16,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact import Strips
 from ..models.deterministic import MovingStrip, Strip, change_by_flow, thinned_less
 from ..models.load_sharing import Prepared
+from ..samples import Strips
 from ..scene import Numerics
 from .line import Line, line_of
 from .pair import Pair, numbers_of, solve_pair

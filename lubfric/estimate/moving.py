@@ -2,9 +2,13 @@
 
 from dataclasses import replace
 
-from ..contact import HalfSpaceContact, Strips, alone
+from ..contact import HalfSpaceContact
 from ..models.deterministic import RoughBody, Strip, moving_work, reach, solve_moving_strip, solve_strip
 from ..models.load_sharing import Prepared, on_strip
+from ..samples import (
+    Strips,
+    alone,
+)
 from ..scene import Scene, moves, moving_bodies
 from ..surface import Surface
 

@@ -4,10 +4,10 @@ how long that takes. Nothing is solved."""
 import math
 from dataclasses import dataclass
 
-from ..contact import Strips
 from ..film import LineContact, flooded_inlet
 from ..models.deterministic import reach, work_of_steps
 from ..oil import shear_stress
+from ..samples import Strips
 from ..scene import FRICTION, Scene, gap_not_resolved, moves
 from ..surface import Surface
 from .levels import DIFFERENCE

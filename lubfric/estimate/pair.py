@@ -3,10 +3,10 @@
 import math
 from dataclasses import dataclass, replace
 
-from ..contact import Strips
 from ..models.deterministic import DeterministicResult, Strip
 from ..models.load_sharing import Prepared
 from ..quantities import NUMBERS
+from ..samples import Strips
 from ..scene import moves
 from ..surface import Surface
 from .moving import solved_strip, strip_surface

@@ -6,7 +6,10 @@ from dataclasses import dataclass, replace
 
 from scipy import fft
 
-from ..contact import RoughContact, Strips, weighted_mean
+from ..contact import (
+    RoughContact,
+    weighted_mean,
+)
 from ..errors import LubfricError
 from ..models.load_sharing import (
     Balance,
@@ -21,6 +24,7 @@ from ..models.load_sharing import (
     on_stack,
     solve_balance,
 )
+from ..samples import Strips
 from ..scene import budget
 from .cells import CellEffect, effect_of_cells, lost_summits
 from .missed import hidden_share, missed_share

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..contact import HalfSpaceContact, Strips
+from ..contact import HalfSpaceContact
 from ..film import EHLResult
 from ..models.load_sharing import Balance
 from ..oil import shear_stress
+from ..samples import Strips
 from ..scene import Scene
 
 FEWEST_WINDOWS = 3

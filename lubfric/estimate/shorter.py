@@ -10,10 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..contact import Strips
 from ..errors import LubfricError
 from ..models.deterministic import Strip, changes_of, estimate, solve_strip
 from ..models.load_sharing import Prepared, on_piece
+from ..samples import Strips
 from ..scene import moves
 from .moving import MOST_WORK, map_of
 from .pair import Pair, cells_of, longer_than, numbers_of, strip_of

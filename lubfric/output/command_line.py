@@ -63,7 +63,7 @@ def scene_of(arguments):
 
 def run(arguments) -> None:
     """Compute a curve or a run in time, and write it to a folder."""
-    from ..contact import takes_strips
+    from ..samples import takes_strips
     from . import run_curve, run_history
 
     scene = scene_of(arguments)

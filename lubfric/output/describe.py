@@ -7,11 +7,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact import MeasuredStrips, Strips, check_grid, sample_of, takes_strips
 from ..errors import InputError
 from ..estimate import MOST_WORK, forecast
 from ..models.load_sharing import expected, gathered, lack_in_words, lacking
 from ..quantities import counted
+from ..samples import (
+    MeasuredStrips,
+    Strips,
+    check_grid,
+    sample_of,
+    takes_strips,
+)
 from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, moves, told_doubts
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope

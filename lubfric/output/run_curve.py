@@ -10,10 +10,10 @@ import numpy as np
 
 from .. import studies
 from .._base import FolderLock, OwnFiles, figures, read_table, validate
-from ..contact import takes_strips
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..models.load_sharing import Prepared, Validity, lack_in_words
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
+from ..samples import takes_strips
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
 from ..units import number_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say

@@ -7,10 +7,13 @@ from functools import partial
 
 import numpy as np
 
-from ..contact import Strips, length_or_half
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError
 from ..estimate import sampled
 from ..models.load_sharing import Prepared, on_stack, prepare, scene_of, solve_balance
+from ..samples import (
+    Strips,
+    length_or_half,
+)
 from ..scene import Constant, Scene
 from .film_setting import FINER, ContactHistory, make_setting, steady_start
 from .march import Step

@@ -17,7 +17,7 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.contact import contact_maps
+from lubfric.samples import contact_maps
 from lubfric.scene import SECTIONS
 
 NOT_NOTHING = 1e-3  # the same for keys of a map, which every way of asking takes from one place (`contact_maps`)

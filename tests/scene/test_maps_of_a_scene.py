@@ -6,8 +6,11 @@ from instrument_files import write_sdf, write_sur
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
-from lubfric.contact import contact_maps, whole_maps
 from lubfric.output import main
+from lubfric.samples import (
+    contact_maps,
+    whole_maps,
+)
 from lubfric.scene import ContactDomain, Roughness
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n"

@@ -133,7 +133,7 @@ def test_another_surface_keeps_its_own_grid(tmp_path):
     ],
 )
 def test_a_grid_that_cannot_hold_the_contact_is_an_error(changes, words):
-    from lubfric.contact import check_grid
+    from lubfric.samples import check_grid
 
     patch = {"shape": (200, 200), "spacing": 0.45e-6} | changes
     rng = np.random.default_rng(1)

@@ -14,16 +14,18 @@ from ...contact import (
     FlatContact,
     HalfSpaceContact,
     RoughContact,
-    Strips,
     asperities_under_cylinder,
     flat_contact,
     half_space,
     half_space_contact,
+)
+from ...errors import InputError
+from ...samples import (
+    Strips,
     sample_of,
     together,
 )
-from ...contact import check_grid as check_map
-from ...errors import InputError
+from ...samples import check_grid as check_map
 from ...scene import Bodies, Scene, check_resolved_gap, told_doubts
 from ...surface import Surface
 from .checks_before import beforehand

@@ -2,9 +2,20 @@
 
 from ..scene import Scene
 from ..surface import Surface
-from .height_map import contact_maps, measured, rough_bodies
-from .strip_cells import correlation_lengths, length_or_half
-from .strips import Strips, one_patch, strips_of
+from .cells import (
+    correlation_lengths,
+    length_or_half,
+)
+from .maps import (
+    contact_maps,
+    measured,
+    rough_bodies,
+)
+from .strips import (
+    Strips,
+    one_patch,
+    strips_of,
+)
 
 
 def takes_strips(scene: Scene) -> bool:

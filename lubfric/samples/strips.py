@@ -16,13 +16,12 @@ from typing import Any
 import numpy as np
 
 from .._base import FieldsOnly, validate
+from ..contact.rough_contract import centred_axis
 from ..errors import InputError
 from ..quantities import counted
 from ..scene import ROUGH, Roughness, Scene, moves
 from ..surface import Surface, surface_generator
-from .height_map import extended, measured, rough_bodies, statistics, whole_maps
-from .rough_contract import centred_axis
-from .strip_cells import (
+from .cells import (
     EVEN,
     Cells,
     blend_of,
@@ -34,6 +33,13 @@ from .strip_cells import (
     spread,
     stacked,
     starts_of,
+)
+from .maps import (
+    extended,
+    measured,
+    rough_bodies,
+    statistics,
+    whole_maps,
 )
 
 # correlation lengths: of a strip, of a piece on the scene's own cells

@@ -13,13 +13,20 @@ from typing import Any
 import numpy as np
 
 from .._base import FrozenArrays, Shown, figures, validate
+from ..contact.half_space import BOUNDARY
+from ..contact.operator import (
+    HalfSpace,
+    half_space,
+)
+from ..contact.solve import solve_contact
 from ..errors import InputError
+from ..samples.maps import (
+    contact_maps,
+    measured,
+    whole_maps,
+)
 from ..scene import Scene
 from ..surface import Surface
-from .half_space import BOUNDARY
-from .height_map import contact_maps, measured, whole_maps
-from .operator import HalfSpace, half_space
-from .solve import solve_contact
 
 STEPS = 2.0  # of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure
 SHARP = 1e-5  # tolerance of the dry contact, at most: its overlaps become heights

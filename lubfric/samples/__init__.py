@@ -1,0 +1,6 @@
+"""The sample of rough surface that stands for the endless line: strips of it, one patch, or a contact without cells."""
+
+from .cells import length_or_half
+from .maps import check_grid, contact_maps, measured, together, whole_maps
+from .sample import sample_of, takes_strips
+from .strips import MeasuredStrips, Strips, alone
