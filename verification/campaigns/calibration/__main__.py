@@ -1,0 +1,28 @@
+"""``python -m verification.campaigns.calibration MOTION COUNT [--budget S]``: extend a table of solved cases."""
+
+import argparse
+import os
+import sys
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+# isort: split
+from .table import extend
+
+
+def main() -> int:
+    """Run the command and return its exit code."""
+    p = argparse.ArgumentParser("python -m verification.campaigns.calibration", description=__doc__)
+    p.add_argument("motion", choices=("rest", "rolling"))
+    p.add_argument("count", type=int, help="number of cases that the table shall have")
+    p.add_argument("--budget", type=float, default=7200.0, help="processor time [s] (default: %(default)s)")
+    options = p.parse_args()
+    for row in extend(options.motion, options.count, options.budget):
+        end = row["failure"] or f"{row['ls_f']:.4f} {row['det_f']:.4f}"
+        print(f"{row['motion']} {row['seed']} {row['fluid']} {row['lay']} {row['seconds']:.1f} s: {end}", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

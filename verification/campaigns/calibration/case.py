@@ -1,0 +1,159 @@
+"""Random mixed-lubricated line contacts, drawn by kind: a fluid, a lay of the roughness, a load, a film, a motion."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import lubfric
+from lubfric.contact.strip_cells import reach_of
+from lubfric.models.deterministic import RoughBody, reach
+from lubfric.surface import Surface
+
+from ...parts import halved
+
+MOTIONS = ("rest", "rolling")
+FLUIDS = ("newtonian", "eyring", "limit", "low-limit")
+LAYS = ("isotropic", "across", "along", "plateau")
+LIGHTEST = 5e3  # N/m
+HEAVIEST = 1.2e9  # Pa, Hertz pressure
+LAMBDA = (0.2, 3.0)  # Moes' film of the whole load over Sq
+RIDGE = 5.0  # length of ridges over their width
+CUT = 0.3  # Sq: height at which the summits of a plateau are cut off
+FINE = 0.1  # Sq of the fine roughness on a plateau
+# cells in a correlation length, along x and y, at rest and where the roughness moves
+PER_LENGTH = {"rest": (5.0, 4.0), "rolling": (5.0, 3.0)}
+PER_HALF_WIDTH = 4.0  # cells in the Hertz half-width, at least
+# cells of a deterministic grid, at most, and cells along y, at least and at most
+CELLS = {"rest": 30_000, "rolling": 8_000}
+ROWS = {"rest": (72, 320), "rolling": (24, 64)}
+MOST_COLUMNS = {"rest": 400, "rolling": 300}
+PERIOD = 9.0  # correlation lengths of a map that moves, at least
+DRAWS = 200  # of the numbers of a case, until its grid is small enough
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """One contact: its scene without a map, the maps of its rough bodies, and the speed [m/s].
+
+    facts : what was drawn, by name: plain numbers and words, columns of the table
+    """
+
+    scene: lubfric.Scene
+    bodies: tuple[RoughBody, ...]
+    speed: float
+    facts: dict
+
+    @property
+    def surface(self) -> Surface:
+        """The sum of the maps, periodic along x and y."""
+        heights = np.sum([body.surface.heights for body in self.bodies], axis=0)
+        return Surface(heights, self.bodies[0].surface.spacing, periodic_axes=(True, True))
+
+    def widened(self, shift: int = 0) -> Surface:
+        """The sum of the maps, moved by ``shift`` cells along x and repeated until it covers the contact."""
+        surface = self.surface
+        wanted = reach_of(self.scene, surface.sq) / surface.spacing[0]
+        times = max(1, math.ceil(wanted / surface.shape[0]))
+        heights = np.tile(np.roll(surface.heights, shift, axis=0), (times, 1))
+        return Surface(heights, surface.spacing, periodic_axes=(True, True))
+
+
+def drawn(motion: str, seed: int) -> Case:
+    """Return the random case number ``seed`` of a ``motion`` ("rest" or "rolling").
+
+    Fluid and lay follow from the number, so that any run of 16 numbers has every pair once.
+    """
+    rng = np.random.default_rng([46, MOTIONS.index(motion), seed])
+    fluid = FLUIDS[seed % 4]
+    lay = LAYS[(seed // 4) % 4]
+    for _ in range(DRAWS):
+        case = _drawn(rng, motion, fluid, lay)
+        if case is not None:
+            return replace(case, facts={"motion": motion, "seed": seed} | case.facts)
+    raise RuntimeError(f"no case of {motion}, {fluid}, {lay} is small enough")
+
+
+def _drawn(rng: np.random.Generator, motion: str, fluid: str, lay: str) -> Case | None:
+    """One draw; None where its grid has too many columns."""
+
+    def between(low: float, high: float) -> float:
+        return float(math.exp(rng.uniform(math.log(low), math.log(high))))
+
+    radius = between(2e-3, 3e-2)
+    e_prime = between(1.1e11, 2.4e11)
+    lightest = math.sqrt(LIGHTEST * e_prime / (2 * math.pi * radius))
+    pressure = between(lightest, HEAVIEST)
+    sq = between(50e-9, 400e-9)
+    length = between(5e-6, 25e-6)
+    friction = rng.uniform(0.08, 0.15)
+    oil = _oil(rng, fluid, friction)
+    ratio = between(*LAMBDA)
+    slip = rng.uniform(-2, 2) if motion == "rolling" else 2.0
+    rough = ("lower", "upper", "both")[int(rng.integers(3))] if motion == "rolling" else "lower"
+    hardness = None if rng.random() < 0.5 else between(3e9, 9e9)
+    acf = "exponential" if lay == "isotropic" and rng.random() < 0.4 else "gaussian"
+    map_seed = int(rng.integers(2**31))
+    scene = lubfric.load_scene("paper").with_(
+        bodies={
+            "radius": radius, "e_prime": e_prime, "hertz_pressure": pressure, "hardness": hardness,
+            "boundary_friction_coefficient": friction,
+        },
+        lubricant={
+            "viscosity": between(0.01, 0.2), "pressure_viscosity_coefficient": rng.uniform(12e-9, 26e-9),
+            "density_law": "dowson-higginson",
+        } | oil,
+        motion={"slide_roll_ratio": slip},
+        numerics={"accept": True, "film_deflection": "scaled"},
+    )  # fmt: skip
+    lengths = {"across": (length, RIDGE * length), "along": (RIDGE * length, length)}.get(lay, (length, length))
+    speed = halved(1e-7, 1e3, lambda u: scene.line_contact(u).moes_film < ratio * sq)
+    line = scene.line_contact(speed)
+    (px, py) = PER_LENGTH[motion]
+    dx = min(lengths[0] / px, scene.bodies.half_width / PER_HALF_WIDTH)
+    dy = lengths[1] / py
+    columns = sum(reach(line, sq)) / dx
+    if columns > MOST_COLUMNS[motion]:
+        return None
+    (least, most) = ROWS[motion]
+    ny = 4 * round(min(max(CELLS[motion] / columns, least), most) / 4)
+    wanted = PERIOD * lengths[0] if motion == "rolling" else max(reach_of(scene, sq), PERIOD * lengths[0])
+    nx = 4 * math.ceil(wanted / dx / 4)
+    count = 2 if rough == "both" else 1
+    maps = [_map((nx, ny), (dx, dy), sq / math.sqrt(count), lengths, lay, acf, map_seed + k) for k in range(count)]
+    signs = {"lower": (-1,), "upper": (1,), "both": (-1, 1)}[rough]
+    bodies = tuple(RoughBody(m, speed * (1 + s * slip / 2), s > 0) for m, s in zip(maps, signs))
+    facts = {
+        "fluid": fluid, "lay": lay, "acf": acf, "radius": radius, "e_prime": e_prime, "pressure": pressure, "sq": sq,
+        "length_x": lengths[0], "length_y": lengths[1], "friction": friction, "ratio": ratio, "slip": slip,
+        "rough": rough, "hardness": hardness, "viscosity": scene.lubricant.viscosity,
+        "alpha": scene.lubricant.pressure_viscosity_coefficient, "eyring": scene.lubricant.eyring_stress,
+        "limit": scene.lubricant.limiting_stress_coefficient, "speed": speed, "dx": dx, "dy": dy, "nx": nx, "ny": ny,
+        "map_seed": map_seed,
+    }  # fmt: skip
+    return Case(scene=scene, bodies=bodies, speed=speed, facts=facts)
+
+
+def _oil(rng: np.random.Generator, fluid: str, friction: float) -> dict:
+    """Keys of a lubricant of that kind: Newtonian up to f_b p; Eyring; a limit near f_b; Eyring with a limit below."""
+    eyring = math.exp(rng.uniform(math.log(3e6), math.log(15e6)))
+    near = friction * rng.uniform(0.8, 1.25)
+    low = friction * rng.uniform(0.3, 0.8)
+    keys: dict[str, dict] = {
+        "newtonian": {},
+        "eyring": {"eyring_stress": eyring},
+        "limit": {"limiting_stress_coefficient": near},
+        "low-limit": {"eyring_stress": eyring, "limiting_stress_coefficient": low},
+    }
+    return keys[fluid]
+
+
+def _map(shape, spacing, sq: float, lengths, lay: str, acf: str, seed: int) -> Surface:
+    """A periodic map of that lay with exactly this ``sq`` [m]."""
+    keys = {"sq": 1.0, "correlation_length": lengths, "acf": acf}
+    made = lubfric.generate_surface(shape, spacing, seed=seed, **keys)
+    if lay == "plateau":
+        fine = lubfric.generate_surface(shape, spacing, seed=seed + 1_000_003, **keys)
+        made = replace(made, heights=np.minimum(made.heights, CUT) + FINE * fine.heights, mask=None)
+    heights = made.heights - made.heights.mean()
+    return Surface(sq * heights / heights.std(), spacing, periodic_axes=(True, True))
