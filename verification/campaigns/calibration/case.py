@@ -6,11 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import lubfric
-from lubfric.contact.strip_cells import reach_of
 from lubfric.models.deterministic import RoughBody, reach
 from lubfric.surface import Surface
 
-from ...parts import halved
+from ...fem.parts import halved
 
 MOTIONS = ("rest", "rolling")
 FLUIDS = ("newtonian", "eyring", "limit", "low-limit")
@@ -29,6 +28,7 @@ CELLS = {"rest": 30_000, "rolling": 8_000}
 ROWS = {"rest": (72, 320), "rolling": (24, 64)}
 MOST_COLUMNS = {"rest": 400, "rolling": 300}
 PERIOD = 9.0  # correlation lengths of a map that moves, at least
+SUMMITS = 4.5  # Sq: height that no summit exceeds by much
 DRAWS = 200  # of the numbers of a case, until its grid is small enough
 
 
@@ -53,10 +53,17 @@ class Case:
     def widened(self, shift: int = 0) -> Surface:
         """The sum of the maps, moved by ``shift`` cells along x and repeated until it covers the contact."""
         surface = self.surface
-        wanted = reach_of(self.scene, surface.sq) / surface.spacing[0]
+        wanted = contact_reach(self.scene, surface.sq) / surface.spacing[0]
         times = max(1, math.ceil(wanted / surface.shape[0]))
         heights = np.tile(np.roll(surface.heights, shift, axis=0), (times, 1))
         return Surface(heights, surface.spacing, periodic_axes=(True, True))
+
+
+def contact_reach(scene: lubfric.Scene, sq: float) -> float:
+    """Return the length [m] along x that contains the contact: where an undeformed cylinder, resting on the ends of the
+    Hertz strip, has risen by `SUMMITS` times ``sq`` [m]."""
+    bodies = scene.bodies
+    return 2 * math.sqrt(bodies.half_width**2 + 2 * bodies.radius * SUMMITS * sq)
 
 
 def drawn(motion: str, seed: int) -> Case:
@@ -117,7 +124,7 @@ def _drawn(rng: np.random.Generator, motion: str, fluid: str, lay: str) -> Case 
         return None
     (least, most) = ROWS[motion]
     ny = 4 * round(min(max(CELLS[motion] / columns, least), most) / 4)
-    wanted = PERIOD * lengths[0] if motion == "rolling" else max(reach_of(scene, sq), PERIOD * lengths[0])
+    wanted = PERIOD * lengths[0] if motion == "rolling" else max(contact_reach(scene, sq), PERIOD * lengths[0])
     nx = 4 * math.ceil(wanted / dx / 4)
     count = 2 if rough == "both" else 1
     maps = [_map((nx, ny), (dx, dy), sq / math.sqrt(count), lengths, lay, acf, map_seed + k) for k in range(count)]
