@@ -3,6 +3,8 @@
 from .asperities import AsperityContact, asperities_under_cylinder
 from .asperity import AsperityResult, asperity_contact, find_asperities, separation_for_load
 from .asperity_find import ridges
+from .cylinder import LoadedCylinder
+from .dents import dent_by_pass, operator_under
 from .flat import ContactCurve, FlatContact, asperity_curve, contact_curve, flat_contact
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .kernels import semiperiodic_coefficients

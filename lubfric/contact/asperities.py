@@ -20,23 +20,35 @@ import numpy as np
 
 from .._base import FieldsOnly
 from ..errors import ConvergenceError
-from ..scene import Scene
 from .asperity import AsperityResult, find_asperities
+from .cylinder import LoadedCylinder
 from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class AsperityContact(FieldsOnly, RoughContact):
-    """The contact of ``scene`` by independent asperities under a cylinder, free along x, periodic along y.
+    """The contact of a rough surface by independent asperities under a cylinder, free along x, periodic along y.
 
-    heights [m] (nx, ny) around their mean; x [m] (nx,); weight (nx,): area A.
+    Attributes
+    ----------
+    cylinder : the `LoadedCylinder`
+    heights : (nx, ny) [m] around their mean
+    spacing : (dx, dy) [m]
+    x : cell centres [m] (nx,)
+    weight : (nx,), the part of each column inside the area A of Eq. (8)
+    definition : "summits" or "patches"
+    asperity_separation : "volume" or "mean-plane" (see the module)
+    tolerance : of the offset, relative to a tenth of the mean film
     """
 
-    scene: Scene
+    cylinder: LoadedCylinder
     heights: np.ndarray
     spacing: tuple[float, float]
     x: np.ndarray
     weight: np.ndarray
+    definition: str
+    asperity_separation: str
+    tolerance: float
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
         """Offset at which the asperities carry ``load`` [N] on the whole width; ``start`` is not needed.
@@ -54,14 +66,12 @@ class AsperityContact(FieldsOnly, RoughContact):
     @cached_property
     def _at(self) -> Callable[..., AsperityResult]:
         """What touches at a separation [m], (nx, ny)."""
-        bodies = self.scene.bodies
-        definition = self.scene.contact.model
         return find_asperities(
             self.heights,
             self.spacing,
-            bodies.e_prime,
-            definition=definition,
-            hardness=bodies.hardness,
+            self.cylinder.e_prime,
+            definition=self.definition,
+            hardness=self.cylinder.hardness,
             periodic=(False, True),
         )
 
@@ -69,7 +79,7 @@ class AsperityContact(FieldsOnly, RoughContact):
         """The approach [m] from first touch at which ``carried(approach)`` [N] of the map is ``load`` of the width."""
         from scipy.optimize import brentq
 
-        width = self.scene.bodies.width
+        width = self.cylinder.width
         target = load * self.heights.shape[1] * self.spacing[1] / width
         span = float(np.ptp(self.heights))
         last = 0.0
@@ -78,15 +88,15 @@ class AsperityContact(FieldsOnly, RoughContact):
             last, approach = approach, 1.5 * approach
             if approach > 20 * span:
                 raise ConvergenceError(
-                    f"{self.scene.contact.model} cannot carry {load:.4g} N on a width of {width:.3g} m: below the "
+                    f"{self.definition} cannot carry {load:.4g} N on a width of {width:.3g} m: below the "
                     "deepest valley at the end of the search"
                 )
-        nearest = 0.1 * self.scene.numerics.tolerance_of("contact") * max(weighted_mean(film, self.weight), 1e-3 * span)
+        nearest = 0.1 * self.tolerance * max(weighted_mean(film, self.weight), 1e-3 * span)
         return brentq(lambda a: carried(a) / target - 1, last, approach, xtol=nearest, rtol=1e-12)
 
     @property
     def name(self) -> str:
-        return f"independent {self.scene.contact.model}"
+        return f"independent {self.definition}"
 
     @property
     def grid(self) -> tuple[int, int]:
@@ -94,7 +104,7 @@ class AsperityContact(FieldsOnly, RoughContact):
 
     def _state(self, film, separation, found: AsperityResult | None) -> ContactState:
         gap = separation - self.heights
-        if self.scene.contact.asperity_separation == "volume":
+        if self.asperity_separation == "volume":
             gap = np.maximum(gap, 0.0)
         fraction = np.zeros(self.x.size)
         plastic = 0.0
@@ -123,7 +133,29 @@ class AsperityContact(FieldsOnly, RoughContact):
         return np.minimum(column, 1.0)
 
 
-def asperities_under_cylinder(scene: Scene, heights, spacing) -> AsperityContact:
-    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean."""
+def asperities_under_cylinder(
+    heights: np.ndarray,
+    spacing: tuple[float, float],
+    cylinder: LoadedCylinder,
+    *,
+    region: str = "hertz",
+    definition: str = "summits",
+    asperity_separation: str = "volume",
+    tolerance: float = 1e-3,
+) -> AsperityContact:
+    """Return the contact by independent asperities on ``heights`` [m] (nx, ny) about their mean.
+
+    region : area A of Eq. (8): "hertz", the Hertz strip of the ``cylinder``, or "box", the whole patch; the others as
+    in `AsperityContact`.
+    """
     x = centred_axis(heights.shape[0], spacing[0])
-    return AsperityContact(scene, heights, spacing, x, area_weight(scene, x, spacing[0]))
+    return AsperityContact(
+        cylinder=cylinder,
+        heights=heights,
+        spacing=spacing,
+        x=x,
+        weight=area_weight(region, cylinder.half_width, x, spacing[0]),
+        definition=definition,
+        asperity_separation=asperity_separation,
+        tolerance=tolerance,
+    )

@@ -9,8 +9,8 @@ import numpy as np
 
 from .._base import FieldsOnly, validate
 from ..errors import ConvergenceError, InputError
-from ..scene import Scene, budget
 from .asperity import find_asperities
+from .cylinder import LoadedCylinder
 from .operator import half_space
 from .rough_contract import ContactState, RoughContact, centred_axis, weighted_mean
 from .rounds import ContactResult
@@ -262,27 +262,57 @@ class FlatContact(RoughContact):
         return float(self.curve.mean_pressure[0] * self.area)
 
 
-def flat_contact(scene: Scene, heights, spacing) -> FlatContact:
-    """The contact of ``scene``, with a curve for periodic ``heights`` [m] (nx, ny) about their mean."""
-    bodies = scene.bodies
-    numerics = scene.numerics
-    contact = scene.contact
-    half_width = bodies.half_width
-    area = 2 * half_width * bodies.width
-    given = (heights, spacing, bodies.e_prime)
-    limits = {"heaviest": bodies.load / area, "hardness": bodies.hardness}
-    if contact.model == "half-space":
+def flat_contact(
+    heights: np.ndarray,
+    spacing: tuple[float, float],
+    cylinder: LoadedCylinder,
+    *,
+    model: str = "half-space",
+    asperity_separation: str = "volume",
+    tolerance: float = 1e-4,
+    accuracy: float = 3e-3,
+    workers: int = 1,
+) -> FlatContact:
+    """Return the flat contact of a periodic rough surface that spreads over the Hertz strip of a loaded cylinder.
+
+    Parameters
+    ----------
+    heights : (nx, ny) [m] about their mean, periodic along both axes
+    spacing : (dx, dy) [m] of the cells
+    cylinder : the `LoadedCylinder`, whose Hertz strip bears the load
+    model : "half-space", or "summits" or "patches" (`asperity_contact`)
+    asperity_separation : how independent asperities read the gap: "volume" or "mean-plane" (`asperity_curve`)
+    tolerance, accuracy : of the curve of the half-space (`contact_curve`)
+    workers : threads of the Fourier transforms
+    """
+    half_width = cylinder.half_width
+    area = cylinder.hertz_area
+    e_prime = cylinder.e_prime
+    hardness = cylinder.hardness
+    heaviest = cylinder.load / area
+    if model == "half-space":
         curve = contact_curve(
-            *given,
-            **limits,
-            tolerance=numerics.tolerance_of("contact"),
-            accuracy=budget.CURVE * numerics.tolerance,
-            operator=half_space(heights.shape, spacing, bodies.e_prime, workers=numerics.workers),
+            heights,
+            spacing,
+            e_prime,
+            heaviest=heaviest,
+            hardness=hardness,
+            tolerance=tolerance,
+            accuracy=accuracy,
+            operator=half_space(heights.shape, spacing, e_prime, workers=workers),
         )
     else:
-        curve = asperity_curve(*given, **limits, definition=contact.model, reading=contact.asperity_separation)
+        curve = asperity_curve(
+            heights,
+            spacing,
+            e_prime,
+            heaviest=heaviest,
+            hardness=hardness,
+            definition=model,
+            reading=asperity_separation,
+        )
     # The film is averaged over points that are even in the angle t, x = -b cos(t): a thin film opens over less than a
     # hundredth of the strip, at its ends.
     angle = (np.arange(POINTS) + 0.5) * (np.pi / POINTS)
     columns = centred_axis(COLUMNS, 2 * half_width / COLUMNS)
-    return FlatContact(curve, -half_width * np.cos(angle), np.sin(angle), area, columns)
+    return FlatContact(curve=curve, x=-half_width * np.cos(angle), weight=np.sin(angle), area=area, columns=columns)

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from .._base import FieldsOnly
-from ..scene import Scene
+from .cylinder import LoadedCylinder
 from .operator import HalfSpace, half_space
 from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 from .solve import solve_contact
@@ -128,22 +128,39 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
 
 
 def half_space_contact(
-    scene: Scene, heights, spacing, operator: HalfSpace | None = None, x: np.ndarray | None = None
+    heights: np.ndarray,
+    spacing: tuple[float, float],
+    cylinder: LoadedCylinder,
+    *,
+    region: str = "hertz",
+    tolerance: float = 1e-3,
+    workers: int = 1,
+    operator: HalfSpace | None = None,
+    x: np.ndarray | None = None,
 ) -> HalfSpaceContact:
-    """The contact of ``scene`` on ``heights`` [m] (nx, ny) about their mean; ``operator``: made before for this grid;
-    ``x`` [m] (nx,): cell centres (None: evenly about the line of contact)."""
-    bodies = scene.bodies
-    numerics = scene.numerics
+    """Return the half-space contact of a rough surface under a loaded cylinder.
+
+    Parameters
+    ----------
+    heights : (nx, ny) [m] about their mean, x along axis 0
+    spacing : (dx, dy) [m] of the cells
+    cylinder : the `LoadedCylinder`
+    region : area A of Eq. (8): "hertz", the Hertz strip, or "box", the whole patch
+    tolerance : of `lubfric.solve_contact`
+    workers : threads of the Fourier transforms, for an operator that is made here
+    operator : a `HalfSpace` made before for this grid, or None
+    x : cell centres [m] (nx,); None: evenly about the line of contact
+    """
     x = centred_axis(heights.shape[0], spacing[0]) if x is None else x
     if operator is None:
-        operator = half_space(heights.shape, spacing, bodies.e_prime, BOUNDARY, workers=numerics.workers)
+        operator = half_space(heights.shape, spacing, cylinder.e_prime, BOUNDARY, workers=workers)
     return HalfSpaceContact(
         heights=heights,
-        spacing=tuple(spacing),
+        spacing=(spacing[0], spacing[1]),
         x=x,
-        weight=area_weight(scene, x, spacing[0]),
+        weight=area_weight(region, cylinder.half_width, x, spacing[0]),
         operator=operator,
-        width=bodies.width,
-        hardness=bodies.hardness,
-        tolerance=numerics.tolerance_of("contact"),
+        width=cylinder.width,
+        hardness=cylinder.hardness,
+        tolerance=tolerance,
     )

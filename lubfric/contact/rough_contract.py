@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import InputError
-from ..scene import Scene
 from .rounds import ContactResult
 
 
@@ -107,11 +106,14 @@ def centred_axis(count: int, step: float) -> np.ndarray:
     return (np.arange(count) - 0.5 * (count - 1)) * step
 
 
-def area_weight(scene: Scene, x: np.ndarray, step: float) -> np.ndarray:
-    """Part of each cell inside the area A of Eq. (8) that the scene asks for: the whole patch, or the Hertz strip."""
-    if scene.contact.region == "box":
+def area_weight(region: str, half_width: float, x: np.ndarray, step: float) -> np.ndarray:
+    """Return the part of each cell, ``step`` [m] long around ``x`` [m] (nx,), that lies in the area A of Eq. (8).
+
+    ``region``: "box", the whole patch, or "hertz", the strip of ``half_width`` [m]. Cells that the edge of the strip
+    cuts count by the part inside. Raises `InputError` if the strip contains no part of any cell.
+    """
+    if region == "box":
         return np.ones(x.size)
-    half_width = scene.bodies.half_width  # cells that its edge cuts count by their share
     inside = np.minimum(x + step / 2, half_width) - np.maximum(x - step / 2, -half_width)
     weight = np.clip(inside / step, 0.0, 1.0)
     if not weight.any():

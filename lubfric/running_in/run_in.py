@@ -1,30 +1,19 @@
 """The surface after the contact has passed over it: the dents that its summits keep, `run_in`.
 
-The dry contact limits the pressure at the hardness, and cells at that limit overlap the other body. Here the overlap
-becomes a dent: those cells are lowered by it. After that the same contact has the same pressure and no overlap, so that
-it is elastic. The cylinder moves along the map, step by step, and pass by pass, until no cell sinks any more.
+The cylinder moves along the map, step by step, and pass by pass, until no cell sinks any more
+(`lubfric.contact.dent_by_pass`).
 """
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from .._base import FrozenArrays, Shown, figures, validate
-from ..contact.half_space import BOUNDARY
-from ..contact.operator import (
-    HalfSpace,
-    half_space,
-)
-from ..contact.solve import solve_contact
+from ..contact import dent_by_pass, operator_under
 from ..errors import InputError
-from ..samples.maps import (
-    contact_maps,
-    measured,
-    whole_maps,
-)
+from ..samples import contact_maps, cylinder_of, measured, whole_maps
 from ..scene import Scene
 from ..surface import Surface
 
@@ -131,12 +120,16 @@ def run_in(
     before = _whole(scene, surface)
     centres = _way(scene, before, step)
     heights = before.heights
-    operator = _operator(scene, before)
+    cylinder = cylinder_of(scene)
+    operator = operator_under(heights, before.spacing, cylinder, scene.numerics.workers)
+    sharp = min(SHARP, scene.numerics.tolerance_of("contact"))
     shaken = False
     deepest: list[float] = []
     sinking: list[float] = []
     while len(deepest) < passes and not shaken:
-        lowered, depth = _passed(scene, before, heights, centres, operator)
+        lowered, depth = dent_by_pass(
+            heights, cylinder, centres, operator, periodic=before.periodic_axes[0], tolerance=sharp
+        )
         deepest.append(depth)
         sinking.append(np.count_nonzero(lowered < heights - tolerance) / heights.size)
         shaken = depth <= tolerance
@@ -187,57 +180,3 @@ def _way(scene: Scene, surface: Surface, step: float | None) -> np.ndarray:
     columns = round(validate.number("step", step, "m", minimum=dx * (1 - 1e-9), maximum=half_width) / dx)
     centres = np.linspace(0, last, 1 + math.ceil(last / columns)).round().astype(int)
     return centres[:: -1 if scene.motion.entrainment_speed > 0 else 1]
-
-
-def _operator(scene: Scene, surface: Surface) -> HalfSpace:
-    """The half-space under the cylinder, long enough that it touches no summit at its ends."""
-    bodies = scene.bodies
-    dx = surface.spacing[0]
-    rise = float(surface.heights.max() - surface.heights.mean()) + surface.sq
-    reach = math.sqrt(bodies.half_width**2 + 2 * bodies.radius * rise)
-    shape = 2 * math.ceil(reach / dx) + 1, surface.shape[1]
-    return half_space(shape, surface.spacing, bodies.e_prime, BOUNDARY, workers=scene.numerics.workers)
-
-
-def _passed(scene: Scene, surface: Surface, heights, centres: Iterable[int], operator) -> tuple[np.ndarray, float]:
-    """What the cylinder leaves of ``heights`` [m] once it has been above every column of ``centres``, one after the
-    other, and the depth of the deepest new dent [m]."""
-    bodies = scene.bodies
-    count = operator.shape[0]
-    nx = surface.shape[0]
-    around = np.arange(count) - count // 2
-    cylinder = (around * surface.spacing[0])[:, None] ** 2 / (2 * bodies.radius)
-    options: dict[str, Any] = {
-        "mean_pressure": bodies.load / (bodies.width * count * surface.spacing[0]),
-        "hardness": bodies.hardness,
-        "boundary": BOUNDARY,
-        "tolerance": min(SHARP, scene.numerics.tolerance_of("contact")),
-        "operator": operator,
-    }
-    left = heights.copy()
-    deepest = 0.0
-    pressure = None
-    last = 0
-    for centre in centres:
-        columns = (centre + around) % (nx if surface.periodic_axes[0] else 2 * nx)
-        columns = np.where(columns < nx, columns, 2 * nx - 1 - columns)  # of the mirror image
-        here = left[columns]
-        problem = cylinder - here, surface.spacing, bodies.e_prime
-        start = None if pressure is None else _moved(pressure, centre - last)
-        found = solve_contact(*problem, **options, start=start, raise_on_failure=start is None)
-        if not found.report.converged:
-            found = solve_contact(*problem, **options)
-        pressure = found.pressure
-        last = centre
-        dent = np.where(pressure >= bodies.hardness, np.maximum(-found.gap, 0.0), 0.0)
-        np.minimum.at(left, columns, here - dent)  # a column may be under the cylinder twice
-        deepest = max(deepest, float(dent.max()))
-    return left, deepest
-
-
-def _moved(pressure: np.ndarray, columns: int) -> np.ndarray:
-    """``pressure`` [Pa] as it lies on the map, seen from a cylinder that has moved on by ``columns``."""
-    moved = np.zeros_like(pressure)
-    count = len(pressure)
-    moved[max(0, -columns) : count - max(0, columns)] = pressure[max(0, columns) : count - max(0, -columns)]
-    return moved

@@ -14,14 +14,14 @@ from ...contact import (
     FlatContact,
     HalfSpaceContact,
     RoughContact,
-    asperities_under_cylinder,
-    flat_contact,
     half_space,
-    half_space_contact,
 )
 from ...errors import InputError
 from ...samples import (
     Strips,
+    flat_contact_of,
+    half_space_contact_of,
+    independent_asperities_of,
     sample_of,
     together,
 )
@@ -143,7 +143,7 @@ def prepare(
             return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
         heights = surface.heights - surface.heights.mean()
         flat = scene.contact.geometry == "flat"
-        contact = (flat_contact if flat else asperities_under_cylinder)(scene, heights, surface.spacing)
+        contact = (flat_contact_of if flat else independent_asperities_of)(scene, heights, surface.spacing)
         return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
 
 
@@ -198,13 +198,14 @@ def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) ->
         ("operator", heights.shape, tuple(spacing)),
         lambda: half_space(heights.shape, spacing, scene.bodies.e_prime, BOUNDARY, workers=scene.numerics.workers),
     )
-    return half_space_contact(scene, heights - heights.mean(), spacing, operator, x)
+    return half_space_contact_of(scene, heights - heights.mean(), spacing, operator=operator, x=x)
 
 
 def _on_strips(scene: Scene, surface: Surface, strips: Strips, given: bool) -> Prepared:
     check_map(scene, surface)
     first = strips.stack(strips.first) if strips.whole else surface
-    contact = half_space_contact(scene, first.heights - first.heights.mean(), first.spacing, x=strips.cells.axis())
+    heights = first.heights - first.heights.mean()
+    contact = half_space_contact_of(scene, heights, first.spacing, x=strips.cells.axis())
     made = Prepared(scene, surface, contact, beforehand(scene, surface), strips, given)
     made.memo[("stack", strips.cells.factors, strips.first)] = contact, contact.heights.size
     made.memo[("operator", first.heights.shape, tuple(first.spacing))] = contact.operator, contact.operator.symbol.size
