@@ -5,8 +5,18 @@ import time
 from dataclasses import replace
 from typing import Any
 
-from ..models.load_sharing import Prepared, Response, Validity, judged, of_error, quantities, touched_length
+from ..models.load_sharing import (
+    Response,
+    judged,
+    quantities,
+    touched_length,
+)
 from ..models.load_sharing import exponents as film_exponents
+from ..models.shared import (
+    Prepared,
+    Validity,
+    of_error,
+)
 from ..oil import estimate_in_words
 from .decision import decided
 from .errors_of import errors_of

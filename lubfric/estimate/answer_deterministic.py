@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..models.deterministic import DeterministicResult
-from ..models.load_sharing import (
+from ..models.shared import (
     Heat,
     Prepared,
     Validity,

@@ -16,7 +16,15 @@ from ..contact import (
     ContactState,
     HalfSpaceContact,
 )
-from ..models.load_sharing import Balance, Point, Prepared, on_piece, touched_length
+from ..models.load_sharing import (
+    Balance,
+    Point,
+    touched_length,
+)
+from ..models.shared import (
+    Prepared,
+    on_piece,
+)
 from ..samples import Strips
 from ..scene import budget
 from .scatter import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap

@@ -8,7 +8,13 @@ import numpy as np
 
 from .._base import validate
 from ..errors import ConvergenceError, InputError
-from ..models.load_sharing import Prepared, at_speed, at_tolerance, lacking, refused
+from ..models.shared import (
+    Prepared,
+    at_speed,
+    at_tolerance,
+    lacking,
+    refused,
+)
 from ..scene import FASTEST, Scene, gap_not_resolved, told_doubts
 from .answer import load_sharing_answer, passed
 from .answer_deterministic import strips_answer

@@ -1,6 +1,6 @@
 """Heat of a strip by the deterministic model, and the error of f by it.
 
-The heat of the inlet is in its film (`lubfric.models.load_sharing.film_lubricant`). That of film and surfaces lowers the shear
+The heat of the inlet is in its film (`lubfric.models.shared.film_lubricant`). That of film and surfaces lowers the shear
 stress: the walls are as hot as the means over its columns make them, and every cell has the stress between such walls.
 """
 
@@ -10,7 +10,12 @@ import numpy as np
 
 from ..film import heated_film, heated_stress
 from ..models.deterministic import DeterministicResult
-from ..models.load_sharing import Heat, inlet_at, peclet_at, surroundings
+from ..models.shared import (
+    Heat,
+    inlet_at,
+    peclet_at,
+    surroundings,
+)
 from ..scene import Scene
 
 DOUBT = 0.5  # of what heat does to f: how far that may be off

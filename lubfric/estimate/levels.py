@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..models.deterministic import MovingStrip, Strip, change_by_flow, thinned_less
-from ..models.load_sharing import Prepared
+from ..models.shared import Prepared
 from ..samples import Strips
 from ..scene import Numerics
 from .line import Line, line_of

@@ -12,7 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from ..models.load_sharing import Prepared, on_strip
+from ..models.shared import (
+    Prepared,
+    on_strip,
+)
 from .sample import Found
 from .scatter import BlockError, friction_influence, gap_influence, line_load, strip_gap
 from .uncertainty import ORDER

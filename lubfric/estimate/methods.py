@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from ..models.load_sharing import Prepared
+from ..models.shared import Prepared
 from .result import FrictionResult
 
 LAWS = {"roelands": "Roelands", "barus": "Barus"}

@@ -4,7 +4,10 @@ from dataclasses import replace
 
 from ..contact import HalfSpaceContact
 from ..models.deterministic import RoughBody, Strip, moving_work, reach, solve_moving_strip, solve_strip
-from ..models.load_sharing import Prepared, on_strip
+from ..models.shared import (
+    Prepared,
+    on_strip,
+)
 from ..samples import (
     Strips,
     alone,

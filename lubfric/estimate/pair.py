@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 from ..models.deterministic import DeterministicResult, Strip
-from ..models.load_sharing import Prepared
+from ..models.shared import Prepared
 from ..quantities import NUMBERS
 from ..samples import Strips
 from ..scene import moves

@@ -7,7 +7,12 @@ from dataclasses import replace
 from ..contact import RoughContact
 from ..errors import ConvergenceError
 from ..models.deterministic import Strip, solve_strip
-from ..models.load_sharing import Prepared, on_stack, prepare, solve_balance
+from ..models.load_sharing import solve_balance
+from ..models.shared import (
+    Prepared,
+    on_stack,
+    prepare,
+)
 from ..scene import FRICTION, Scene, moves, value_of
 from .heated import strip_heat
 from .moving import solved_strip

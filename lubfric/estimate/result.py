@@ -11,7 +11,11 @@ import numpy as np
 from .._base import Shown, figures, packaged
 from ..errors import InputError, Report
 from ..models.deterministic import DeterministicResult
-from ..models.load_sharing import Balance, Lack, Validity
+from ..models.load_sharing import Balance
+from ..models.shared import (
+    Lack,
+    Validity,
+)
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .decision import Decision
 from .uncertainty import FieldErrors, Uncertainty
@@ -35,7 +39,7 @@ class FrictionResult(PointQuantities[float], Shown):
     decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
     validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
     lacks : what the scene leaves out, the likely change of f by it (relative; NaN: not known), and what to do, the
-        largest first; nothing that would change f by less than the tolerance (`lubfric.models.load_sharing.lacking`)
+        largest first; nothing that would change f by less than the tolerance (`lubfric.models.shared.lacking`)
     methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
     heights : of the cells of the contact that was solved [m], (nx, ny), about their mean; None if there are none
     """

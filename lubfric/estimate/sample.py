@@ -14,15 +14,17 @@ from ..errors import LubfricError
 from ..models.load_sharing import (
     Balance,
     Point,
-    Prepared,
     Response,
     divided,
     exponents,
     forces,
     grown,
+    solve_balance,
+)
+from ..models.shared import (
+    Prepared,
     on_piece,
     on_stack,
-    solve_balance,
 )
 from ..samples import Strips
 from ..scene import budget

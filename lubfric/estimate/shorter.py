@@ -12,7 +12,10 @@ import numpy as np
 
 from ..errors import LubfricError
 from ..models.deterministic import Strip, changes_of, estimate, solve_strip
-from ..models.load_sharing import Prepared, on_piece
+from ..models.shared import (
+    Prepared,
+    on_piece,
+)
 from ..samples import Strips
 from ..scene import moves
 from .moving import MOST_WORK, map_of

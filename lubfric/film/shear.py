@@ -60,7 +60,7 @@ def shear_force(
     as the first node: at any h that is the same factor), to the rupture. cavitated="striated" adds the streamers behind
     it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the
     Couette term. ``warm``: the viscosity [Pa s] that the film was solved with, and ``heated``: the stress of the
-    heated film, both of `lubfric.models.load_sharing.heat.point_heat`; None: isothermal. ∫ (h/2) dp is ``film.rolling`` less what
+    heated film, both of `lubfric.models.shared.heat.point_heat`; None: isothermal. ∫ (h/2) dp is ``film.rolling`` less what
     the spots take; it is summed over the nodes if the film does not know it (None).
     """
     entrainment_speed = film.entrainment_speed

@@ -20,7 +20,11 @@ import numpy as np
 
 from .._base import FolderLock, OwnFiles, __version__, clear_checked, clear_parts, figures, plain, read_json, validate
 from ..errors import InputError, OutputError
-from ..models.load_sharing import Prepared, Validity, prepare
+from ..models.shared import (
+    Prepared,
+    Validity,
+    prepare,
+)
 from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
 from ..studies import Law, Store, fingerprint, fits

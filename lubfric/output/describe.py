@@ -9,7 +9,12 @@ import numpy as np
 
 from ..errors import InputError
 from ..estimate import MOST_WORK, forecast
-from ..models.load_sharing import expected, gathered, lack_in_words, lacking
+from ..models.shared import (
+    expected,
+    gathered,
+    lack_in_words,
+    lacking,
+)
 from ..quantities import counted
 from ..samples import (
     MeasuredStrips,

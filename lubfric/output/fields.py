@@ -10,7 +10,7 @@ import numpy as np
 from .._base import validate, write_whole
 from ..estimate import FrictionResult
 from ..models.deterministic import Moment
-from ..models.load_sharing import Prepared
+from ..models.shared import Prepared
 
 OF_ONE_GAP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a DeterministicResult
 

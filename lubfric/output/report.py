@@ -11,7 +11,10 @@ import numpy as np
 
 from ..errors import InputError
 from ..estimate import FrictionResult, percent
-from ..models.load_sharing import Prepared, lack_in_words
+from ..models.shared import (
+    Prepared,
+    lack_in_words,
+)
 from ..quantities import COLUMNS, counted
 from ..scene import Scene
 from ..studies import KNOWN, CurveResult, Law, StribeckResult

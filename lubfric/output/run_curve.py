@@ -11,7 +11,11 @@ import numpy as np
 from .. import studies
 from .._base import FolderLock, OwnFiles, figures, read_table, validate
 from ..errors import ConvergenceError, InputError, ValidityError
-from ..models.load_sharing import Prepared, Validity, lack_in_words
+from ..models.shared import (
+    Prepared,
+    Validity,
+    lack_in_words,
+)
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene

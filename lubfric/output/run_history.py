@@ -2,7 +2,7 @@
 
 from .._base import figures, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
-from ..models.load_sharing import in_a_cell
+from ..models.shared import in_a_cell
 from ..quantities import OF_MOMENT, heading
 from ..scene import Scene
 from ..time import TransientResult, transient

@@ -9,7 +9,7 @@ import numpy as np
 from .._base import validate
 from ..errors import InputError
 from ..estimate import FrictionResult
-from ..models.load_sharing import Prepared
+from ..models.shared import Prepared
 from ..scene import FASTEST as LARGEST_SPEED
 from ..scene import Scene
 from ..units import without_unit

@@ -9,7 +9,12 @@ import numpy as np
 from .._base import Shown, table_bytes, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError, Report, ValidityError, returned
 from ..estimate import FrictionResult, UncertaintyCurve, curve_of, together
-from ..models.load_sharing import Validity, entries_of, gathered, in_a_cell
+from ..models.shared import (
+    Validity,
+    entries_of,
+    gathered,
+    in_a_cell,
+)
 from ..quantities import NUMBERS, OF_UNCERTAINTY, counted, heading
 
 

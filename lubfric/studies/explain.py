@@ -8,7 +8,10 @@ from textwrap import shorten
 
 from ..errors import InputError
 from ..estimate import forecast
-from ..models.load_sharing import Prepared, prepare
+from ..models.shared import (
+    Prepared,
+    prepare,
+)
 from ..quantities import counted, worded_value
 from .choose import CHOSEN, first_speeds
 from .points import stored_rows

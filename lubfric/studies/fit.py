@@ -10,7 +10,10 @@ import numpy as np
 from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, LubfricError, Report, returned
 from ..estimate import FrictionResult
-from ..models.load_sharing import Prepared, prepare
+from ..models.shared import (
+    Prepared,
+    prepare,
+)
 from ..quantities import counted, worded_value
 from ..scene import Scene
 from .curve import without_rolling

@@ -8,7 +8,10 @@ import numpy as np
 from .._base import Shown, figures
 from ..errors import Report
 from ..estimate import percent
-from ..models.load_sharing import Validity, gathered
+from ..models.shared import (
+    Validity,
+    gathered,
+)
 from ..quantities import counted, worded_value
 from ..scene import Scene
 from .fit_input import SPEED, Measured, values_at

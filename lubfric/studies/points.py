@@ -8,7 +8,11 @@ from typing import Any
 
 from ..errors import LubfricError, ValidityError
 from ..estimate import FrictionResult, friction
-from ..models.load_sharing import Prepared, in_a_cell, prepare
+from ..models.shared import (
+    Prepared,
+    in_a_cell,
+    prepare,
+)
 from ..quantities import NUMBERS
 from ..scene import Scene
 from .choose import chosen, first_speeds

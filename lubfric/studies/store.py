@@ -16,7 +16,7 @@ from .._base import FolderLock, __version__, clear_checked, clear_parts, files, 
 from ..errors import ConvergenceError, InputError, LubfricError, OutputError, Report, ValidityError
 from ..estimate import FrictionResult
 from ..film import EHLResult
-from ..models.load_sharing import Validity
+from ..models.shared import Validity
 from ..scene import Scene
 from .codec import classes_of, decode, encode
 from .vary import Axis

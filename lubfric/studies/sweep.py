@@ -8,7 +8,11 @@ import numpy as np
 from .._base import validate, write_whole
 from ..errors import ITERATION_LIMIT, InputError, Report
 from ..estimate import FrictionResult
-from ..models.load_sharing import Prepared, at_tolerance, scene_of
+from ..models.shared import (
+    Prepared,
+    at_tolerance,
+    scene_of,
+)
 from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from .choose import GRID, asked_speeds, between, span, tolerance_between

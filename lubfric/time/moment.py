@@ -9,7 +9,7 @@ import numpy as np
 
 from ..estimate import moment_error
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
-from ..models.load_sharing import (
+from ..models.shared import (
     Heat,
     Validity,
     inlet_at,

@@ -8,7 +8,10 @@ import numpy as np
 from .._base import Shown, figures, validate
 from ..errors import Report
 from ..estimate import UncertaintyCurve, percent, student
-from ..models.load_sharing import Validity, gathered
+from ..models.shared import (
+    Validity,
+    gathered,
+)
 from ..quantities import OF_MOMENT, axis_label
 from ..scene import FRICTION as FRICTION_KEY
 from ..scene import moving_bodies, value_of

@@ -6,7 +6,12 @@ import numpy as np
 
 from ..errors import InputError
 from ..models.deterministic import State
-from ..models.load_sharing import Prepared, Validity, refused, scene_of
+from ..models.shared import (
+    Prepared,
+    Validity,
+    refused,
+    scene_of,
+)
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint, opened
 from .march import Plan, Progress, Step, checked_times, initial_progress, plan_of, steps

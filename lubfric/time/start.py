@@ -9,7 +9,13 @@ import numpy as np
 
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError
 from ..estimate import sampled
-from ..models.load_sharing import Prepared, on_stack, prepare, scene_of, solve_balance
+from ..models.load_sharing import solve_balance
+from ..models.shared import (
+    Prepared,
+    on_stack,
+    prepare,
+    scene_of,
+)
 from ..samples import (
     Strips,
     length_or_half,

@@ -36,7 +36,13 @@ from ..models.deterministic import (
     solve_point,
     work_of_steps,
 )
-from ..models.load_sharing import Prepared, Validity, of_motion, of_thickness, prepare
+from ..models.shared import (
+    Prepared,
+    Validity,
+    of_motion,
+    of_thickness,
+    prepare,
+)
 from ..quantities import OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET

@@ -10,7 +10,11 @@ import numpy as np
 from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
 from ..film import cubic
-from ..models.load_sharing import Prepared, film_lubricant, inlet_at
+from ..models.shared import (
+    Prepared,
+    film_lubricant,
+    inlet_at,
+)
 from ..scene import Constant, History, Scene, Transient
 from .film_equations import Spring
 from .film_setting import TIME_SHARE, Setting

@@ -15,7 +15,7 @@ from pictures import stand_in
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
-from lubfric.models.load_sharing import lack_in_words
+from lubfric.models.shared import lack_in_words
 from lubfric.output import main
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.01, 0.3]\n"

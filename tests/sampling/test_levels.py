@@ -15,7 +15,8 @@ from lubfric.estimate.line import Line, line_of
 from lubfric.estimate.pair import Pair, solve_pair, strip_of
 from lubfric.estimate.scatter import BlockError
 from lubfric.models.deterministic import change_by_flow, solve_strip
-from lubfric.models.load_sharing import on_strip, solve_balance
+from lubfric.models.load_sharing import solve_balance
+from lubfric.models.shared import on_strip
 
 FINE = lubfric.load_scene("paper").with_(numerics={"film_deflection": "scaled"})
 SCENE = FINE.with_(contact={"shape": (40, 40), "spacing": 3.6e-6})  # whose cells are those of the second level

@@ -7,7 +7,10 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.models.load_sharing import lack_in_words, lacking
+from lubfric.models.shared import (
+    lack_in_words,
+    lacking,
+)
 from lubfric.output.describe import describe_scene
 
 ROLLER = lubfric.load_scene(

@@ -9,9 +9,17 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.film import ShearForce
-from lubfric.models.load_sharing import of_deflection, of_motion, of_pressure, of_thickness
-from lubfric.models.load_sharing.checks import of_shear
-from lubfric.models.load_sharing.checks_before import of_bodies, of_map
+from lubfric.models.shared import (
+    of_deflection,
+    of_motion,
+    of_pressure,
+    of_thickness,
+)
+from lubfric.models.shared.checks import of_shear
+from lubfric.models.shared.checks_before import (
+    of_bodies,
+    of_map,
+)
 
 PAPER = paper_scene(contact={"shape": (96, 96), "spacing": 0.9e-6}, numerics={"sampling": "patch"})
 FRICTION = 0.09 * PAPER.bodies.load

@@ -19,7 +19,10 @@ from scene_text import paper_scene
 import lubfric
 from lubfric._base import FolderLock, read_checked, write_checked, write_whole
 from lubfric.errors import Report
-from lubfric.models.load_sharing import Validity, prepare
+from lubfric.models.shared import (
+    Validity,
+    prepare,
+)
 from lubfric.output import command_line as cli
 from lubfric.studies import classes_of, fingerprint
 from lubfric.studies.codec import decode, encode

@@ -10,7 +10,7 @@ import numpy as np
 from lubfric.contact import ContactResult, ContactState, HalfSpaceContact, solve_contact
 from lubfric.estimate import FrictionResult
 from lubfric.film import EHLResult, LineContact
-from lubfric.models.load_sharing import Prepared
+from lubfric.models.shared import Prepared
 from lubfric.oil import Lubricant
 
 from . import exact_contact

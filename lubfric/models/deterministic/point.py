@@ -12,7 +12,7 @@ from ...errors import ConvergenceError
 from ...oil import Lubricant
 from ...scene import Scene, check_resolved_gap, moving_bodies
 from ...surface import Surface
-from ..load_sharing import film_lubricant
+from ..shared import film_lubricant
 from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble
 from .solve import refined_start, solve_point

@@ -8,7 +8,7 @@ from ...contact import ContactState, RoughContact
 from ...errors import CONVERGED, ConvergenceError, Report
 from ...film import EHLResult
 from ...scene import Scene, budget
-from .checks import meaningless
+from ..shared import meaningless
 from .forces import Forces, forces
 from .point import Point, Settings, Trial, exponents
 from .response import Response, divided, respond

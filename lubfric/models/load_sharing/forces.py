@@ -7,7 +7,10 @@ import numpy as np
 from ...contact import ContactState
 from ...film import EHLResult, ShearForce, shear_force
 from ...scene import Scene
-from .heat import Heat, point_heat
+from ..shared import (
+    Heat,
+    point_heat,
+)
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ from ...contact import ContactState, RoughContact
 from ...film import Effort, EHLResult, LineContact, solve_line_contact
 from ...oil import Lubricant
 from ...scene import Scene
-from .heat import film_lubricant
+from ..shared import film_lubricant
 
 NUDGE = 1e-3  # of a load or a speed, for exponents of Moes' film
 

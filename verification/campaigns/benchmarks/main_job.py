@@ -11,7 +11,7 @@ import time
 import numpy as np
 
 import lubfric
-from lubfric.models.load_sharing import prepare
+from lubfric.models.shared import prepare
 
 PAPER = dict(
     load_per_width=5.5 / 6e-3, radius=2e-3, e_prime=231e9, viscosity=0.36, pressure_viscosity_coefficient=25e-9

@@ -9,7 +9,10 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.models.load_sharing import Prepared, prepare
+from lubfric.models.shared import (
+    Prepared,
+    prepare,
+)
 
 from ...check import AT_LEAST, Check, Item, Table, bound
 from ...kept import Run

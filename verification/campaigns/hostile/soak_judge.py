@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
-from lubfric.models.load_sharing import Prepared
+from lubfric.models.shared import Prepared
 from lubfric.samples import Strips
 
 from ...fem.parts import case_of_scene

@@ -6,7 +6,7 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import ContactState
-from lubfric.models.load_sharing import prepare
+from lubfric.models.shared import prepare
 
 from ...check import AT_LEAST, Check, compared
 from ...fem import parts

@@ -6,7 +6,10 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.models.load_sharing import Prepared, prepare
+from lubfric.models.shared import (
+    Prepared,
+    prepare,
+)
 
 from ... import plotting
 from ...check import AT_LEAST, AT_MOST, Check, Table, bound, compared

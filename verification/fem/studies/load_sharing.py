@@ -8,7 +8,10 @@ import numpy as np
 
 import lubfric
 from lubfric.contact import HalfSpace
-from lubfric.models.load_sharing import Prepared, prepare
+from lubfric.models.shared import (
+    Prepared,
+    prepare,
+)
 
 from ... import plotting
 from ...check import AT_LEAST, Field, Table, compared

@@ -8,7 +8,10 @@ from pathlib import Path
 import numpy as np
 
 import lubfric
-from lubfric.models.load_sharing import Prepared, prepare
+from lubfric.models.shared import (
+    Prepared,
+    prepare,
+)
 from lubfric.scene.roughness import Roughness
 
 from ...campaigns.wiring.maps import planed

@@ -6,7 +6,9 @@ from collections.abc import Iterator
 from ...contact import ridges
 from ...film import FAST, LARGEST, SLIDING
 from ...oil import CELSIUS, NO_LIQUID
-from .heat import TYPICAL, typical_heat
+from .heat import (
+    TYPICAL,
+)
 from .validity import Validity
 
 # rho U h/eta
@@ -175,7 +177,7 @@ def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[
 
 
 def of_heat(scene, heat) -> Iterator[Validity]:
-    """``heat``: `lubfric.models.load_sharing.Heat` of a point."""
+    """``heat``: `lubfric.models.shared.Heat` of a point."""
     tolerance = scene.numerics.tolerance
     if heat.used:
         spread = abs(heat.inlet.other / max(heat.inlet.factor, 1e-12) - 1)
@@ -224,24 +226,3 @@ def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Val
     if error is not None and error > tolerance:
         why = "the solve leaves more than the tolerance asked"
         yield Validity("estimated numerical error of f", 100 * error, 100 * tolerance, "%", why, remedy)
-
-
-def judged(prepared, speed: float, balance, ends: float) -> tuple[Validity, ...]:
-    """Entries for every assumption that ``balance`` violates. Those about bodies and map (`Prepared.known`) come
-    first. ``ends``: the share of the contact's load on the edge columns of its patch."""
-    scene = prepared.scene
-    film = balance.film
-    thickness = film.central_film if film is not None else math.nan
-    entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
-    entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
-    if film is not None:
-        peak = float(film.pressure.max())
-        found = balance.forces
-        force = abs(found.coefficient) * scene.bodies.load
-        entries += of_inlet(scene, film.contact, film.flow_film, force)
-        entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)
-        typical = typical_heat(scene, film, balance.contact, balance.contact_load, force, found.shear)
-        entries += of_typical_heat(scene, typical)
-        if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
-            entries += of_deflection(scene, balance.contact.mean_gap)
-    return tuple(entries)

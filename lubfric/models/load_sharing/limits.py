@@ -1,0 +1,37 @@
+"""Which limits of the load-sharing model a balance is beyond."""
+
+import math
+
+from ..shared import (
+    Validity,
+    of_deflection,
+    of_ends,
+    of_film,
+    of_inlet,
+    of_motion,
+    of_patches,
+    of_typical_heat,
+    typical_heat,
+)
+from .balance import Balance
+
+
+def judged(prepared, speed: float, balance: Balance, ends: float) -> tuple[Validity, ...]:
+    """Entries for every assumption that ``balance`` violates. Those about bodies and map (`Prepared.known`) come
+    first. ``ends``: the share of the contact's load on the edge columns of its patch."""
+    scene = prepared.scene
+    film = balance.film
+    thickness = film.central_film if film is not None else math.nan
+    entries = [*prepared.known, *of_motion(scene, speed, thickness), *of_ends(ends, prepared.surface.size[0])]
+    entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
+    if film is not None:
+        peak = float(film.pressure.max())
+        found = balance.forces
+        force = abs(found.coefficient) * scene.bodies.load
+        entries += of_inlet(scene, film.contact, film.flow_film, force)
+        entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)
+        typical = typical_heat(scene, film, balance.contact, balance.contact_load, force, found.shear)
+        entries += of_typical_heat(scene, typical)
+        if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
+            entries += of_deflection(scene, balance.contact.mean_gap)
+    return tuple(entries)

@@ -1,0 +1,24 @@
+"""What both models take: the scene made ready, heat, the limits of validity, and the effects that are not modelled.
+
+Neither model imports the other; both import this room.
+"""
+
+from .checks import (
+    meaningless,
+    of_deflection,
+    of_ends,
+    of_error,
+    of_film,
+    of_heat,
+    of_inlet,
+    of_motion,
+    of_patches,
+    of_pressure,
+    of_thickness,
+    of_typical_heat,
+)
+from .checks_before import expected
+from .heat import Heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
+from .prepared import Prepared, at_speed, at_tolerance, on_piece, on_stack, on_strip, prepare, scene_of
+from .unmodelled import Lack, lack_in_words, lacking
+from .validity import Validity, entries_of, gathered, in_a_cell, refused
