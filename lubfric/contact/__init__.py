@@ -9,7 +9,17 @@ from .flat import ContactCurve, FlatContact, asperity_curve, contact_curve, flat
 from .half_space import BOUNDARY, HalfSpaceContact, half_space_contact
 from .kernels import semiperiodic_coefficients
 from .operator import HalfSpace, even_transform, half_space
-from .problem import Problem, make_problem, on_grid
+from .problem import ContactProblem, contact_problem, on_grid
+from .refinement import (
+    ContactResult,
+    SearchResult,
+    TrialContact,
+    contact_residuals,
+    contact_result,
+    evaluate,
+    length_scale,
+    refine,
+    trial_contact,
+)
 from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
-from .rounds import ContactResult, Found, State, concluded, contact_residuals, length_scale, look, refine, state_of
 from .solve import solve_contact

@@ -12,8 +12,8 @@ from ..errors import ConvergenceError, InputError
 from .asperity import find_asperities
 from .cylinder import LoadedCylinder
 from .operator import half_space
+from .refinement import ContactResult
 from .rough_contract import ContactState, RoughContact, centred_axis, weighted_mean
-from .rounds import ContactResult
 from .solve import solve_contact
 
 LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used,

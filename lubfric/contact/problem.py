@@ -19,7 +19,7 @@ ABSURD = 1e6  # times E': no start has such a pressure
 
 
 @dataclass(frozen=True)
-class Problem:
+class ContactProblem:
     """One contact problem: gap0 [m] (nx, ny) with its minimum at zero and its rms ``roughness`` [m], deflection
     operator, hardness [Pa] (inf: elastic), and when to stop.
 
@@ -34,7 +34,7 @@ class Problem:
     tolerance: float
     max_iterations: int
 
-    def coarsened(self) -> Problem | None:
+    def coarsened(self) -> ContactProblem | None:
         """The same problem on cells twice as long (mean gap0) along every axis that can be halved; None if there is
         none."""
         operator = self.operator
@@ -54,7 +54,7 @@ class Problem:
         )
 
 
-def make_problem(
+def contact_problem(
     gap0,
     spacing,
     e_prime,
@@ -63,7 +63,7 @@ def make_problem(
     tolerance=1e-6,
     operator=None,
     max_iterations=2000,
-) -> Problem:
+) -> ContactProblem:
     """Check a problem; builds the operator if none is given, else checks that it fits."""
     if hasattr(gap0, "heights"):
         raise InputError(
@@ -89,7 +89,7 @@ def make_problem(
                 raise InputError(said, way_out="they must be the same")
     offset = float(gap0.min())
     gap0 = gap0 - offset if offset else gap0
-    return Problem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
+    return ContactProblem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
 
 
 def on_grid(name: str, value, shape, unit: str) -> np.ndarray:
@@ -102,7 +102,7 @@ def on_grid(name: str, value, shape, unit: str) -> np.ndarray:
     return validate.array(name, field, unit, ndim=2)
 
 
-def starting_pressure(problem: Problem, start) -> np.ndarray | None:
+def starting_pressure(problem: ContactProblem, start) -> np.ndarray | None:
     """Pressure field [Pa] of an earlier result (or the field itself), limited to the hardness."""
     if start is None:
         return None

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..errors import InputError
-from .rounds import ContactResult
+from .refinement import ContactResult
 
 
 @dataclass(frozen=True)

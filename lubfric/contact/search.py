@@ -20,7 +20,7 @@ import math
 
 import numpy as np
 
-from .cells import stencil
+from .candidate_cells import stencil
 from .operator import filtered, wavenumber
 from .problem import dot, with_load, zero_level
 
@@ -33,8 +33,8 @@ PATIENCE = 8  # iterations without a tenth off the best residual
 CAPACITY = 0.999  # of the hardness times the free cells, beyond which the exact search frees more
 
 
-class Search:
-    """The search on ``cells`` (`lubfric.contact.cells.Cells`), from the state ``state`` of a whole patch.
+class CandidateSearch:
+    """The search on ``cells`` (`lubfric.contact.candidate_cells.CandidateCells`), from the state ``state`` of a whole patch.
 
     ``load`` [Pa cells]: what the pressure has to carry, or None if the approach is prescribed; ``pace``: that of an
     earlier search, or `FIRST_PACE`; ``exact``: whether steps are exact.

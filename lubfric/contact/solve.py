@@ -7,8 +7,8 @@ import numpy as np
 
 from .._base import increasing_root, validate
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, returned
-from .problem import Problem, make_problem, rescaled, shifted, starting_pressure
-from .rounds import ContactResult, Found, State, concluded, refine, state_of
+from .problem import ContactProblem, contact_problem, rescaled, shifted, starting_pressure
+from .refinement import ContactResult, SearchResult, TrialContact, contact_result, refine, trial_contact
 from .search import FIRST_PACE
 
 HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than what the old ones bear
@@ -59,7 +59,7 @@ def solve_contact(
     InputError : a value out of range, before any work
     ConvergenceError : the tolerance was not met; carries report and result
     """
-    problem = make_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
+    problem = contact_problem(gap0, spacing, e_prime, hardness, boundary, tolerance, operator, max_iterations)
     mean_pressure, mean_gap = _checked_control(problem, mean_pressure, mean_gap)
     start = starting_pressure(problem, start)
     touching = float(problem.gap0.mean())
@@ -69,18 +69,18 @@ def solve_contact(
         found = _solved(problem, start, mean_pressure, mean_pressure=mean_pressure)
     else:
         found = _gap_controlled(problem, mean_gap, start)
-    result = concluded(problem, found, _control(found.state, mean_pressure, mean_gap), ITERATION_LIMIT)
+    result = contact_result(problem, found, _control(found.state, mean_pressure, mean_gap), ITERATION_LIMIT)
     return returned(result, raise_on_failure)
 
 
-def _control(state: State, mean_pressure, mean_gap) -> dict[str, float]:
+def _control(state: TrialContact, mean_pressure, mean_gap) -> dict[str, float]:
     """The residual of what was prescribed."""
     if mean_gap is None:
         return {"load": float(abs(state.pressure.mean() - mean_pressure) / (mean_pressure or 1.0))}
     return {"volume": abs(state.mean_gap - mean_gap) / min(state.scale, mean_gap)}
 
 
-def _checked_control(problem: Problem, mean_pressure, mean_gap) -> tuple[float | None, float | None]:
+def _checked_control(problem: ContactProblem, mean_pressure, mean_gap) -> tuple[float | None, float | None]:
     """Load and mean gap, of which exactly one has to be given, in a range that has a solution."""
     if (mean_pressure is None) == (mean_gap is None):
         given = "both are given" if mean_gap is not None else "neither is given"
@@ -96,7 +96,7 @@ def _checked_control(problem: Problem, mean_pressure, mean_gap) -> tuple[float |
     return mean_pressure, None
 
 
-def _solved(problem: Problem, start, uniform: float, *, mean_pressure=None, approach=None) -> Found:
+def _solved(problem: ContactProblem, start, uniform: float, *, mean_pressure=None, approach=None) -> SearchResult:
     """Solve for a mean pressure [Pa] or an approach [m] from ``start``, made to carry the load. Without one, from
     coarser grids, the coarsest of which starts from a ``uniform`` pressure [Pa]."""
     load = None if mean_pressure is None else mean_pressure * problem.gap0.size
@@ -109,7 +109,7 @@ def _solved(problem: Problem, start, uniform: float, *, mean_pressure=None, appr
     return refine(problem, start, load=load, level=approach)
 
 
-def _coarse_start(problem: Problem, uniform, mean_pressure, approach) -> tuple[np.ndarray, float, float]:
+def _coarse_start(problem: ContactProblem, uniform, mean_pressure, approach) -> tuple[np.ndarray, float, float]:
     """A loose solution on cells twice as long, which is made in the same way: its pressure, its pace, and the number of
     convolutions in units of this grid. A grid that cannot be halved starts from the ``uniform`` pressure."""
     coarse = problem.coarsened()
@@ -121,7 +121,7 @@ def _coarse_start(problem: Problem, uniform, mean_pressure, approach) -> tuple[n
     return pressure, found.pace, found.convolutions * coarse.gap0.size / problem.gap0.size
 
 
-def _gap_controlled(problem: Problem, mean_gap: float, start) -> Found:
+def _gap_controlled(problem: ContactProblem, mean_gap: float, start) -> SearchResult:
     """Contact whose mean gap is ``mean_gap`` [m].
 
     In an elastic periodic contact the mean deflection is zero. So the approach is known, and one solve is enough.
@@ -144,7 +144,7 @@ def _gap_controlled(problem: Problem, mean_gap: float, start) -> Found:
     return replace(again, notes=(note,), convolutions=again.convolutions + found.convolutions)
 
 
-def _load_searched(problem: Problem, mean_gap: float, guess: float, start) -> Found:
+def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start) -> SearchResult:
     """Find the load with that mean gap, by one bracketed root in the logarithm of the pressure.
 
     The mean gap falls with the load, so there is one root. Each solve starts from the last. No load exceeds the one
@@ -154,7 +154,7 @@ def _load_searched(problem: Problem, mean_gap: float, guess: float, start) -> Fo
     spent = 0.0
     iterations = 0
 
-    def surplus(log_pressure, last: Found | None):
+    def surplus(log_pressure, last: SearchResult | None):
         nonlocal spent, iterations
         mean = math.exp(log_pressure)
         found = _solved(exact, last.state.pressure if last else start, mean, mean_pressure=mean)
@@ -177,8 +177,8 @@ def _load_searched(problem: Problem, mean_gap: float, guess: float, start) -> Fo
     )
 
 
-def _separated(problem: Problem, mean_gap: float) -> Found:
+def _separated(problem: ContactProblem, mean_gap: float) -> SearchResult:
     """Bodies that carry no load."""
     zero = np.zeros_like(problem.gap0)
-    state = state_of(problem, zero, zero.copy(), float(problem.gap0.mean()) - mean_gap)
-    return Found(state, CONVERGED, 0, 0.0, solver="none", notes=("the bodies carry no load",))
+    state = trial_contact(problem, zero, zero.copy(), float(problem.gap0.mean()) - mean_gap)
+    return SearchResult(state, CONVERGED, 0, 0.0, solver="none", notes=("the bodies carry no load",))

@@ -23,10 +23,10 @@ from .heat import (
     inlet_heat,
     isothermal_heat,
 )
-from .hertz import LineContact, OfLineContact, composite_modulus
+from .hertz import HasLineContact, LineContact, composite_modulus
 from .nested import Effort
-from .problem import Problem, make_problem
+from .problem import FilmProblem, film_problem
 from .reduced import true_pressure
 from .reynolds import log_mean_fluidity, step_length
 from .shear import ShearForce, above_carried, rolling_error, shear_force, spike_error
-from .start import State, rupture_guess
+from .start import FilmState, rupture_guess

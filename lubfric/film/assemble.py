@@ -7,12 +7,12 @@ import numpy as np
 from ..errors import CONVERGED, ITERATION_LIMIT, Report, worst
 from .ehl_result import EHLResult, central_film, smallest
 from .grid import hat_kernel
-from .problem import Problem
-from .reynolds import Solution
+from .problem import FilmProblem
+from .reynolds import FilmSolution
 from .start import solution_state
 
 
-def grid_error(levels: list[Solution]) -> float:
+def grid_error(levels: list[FilmSolution]) -> float:
     """Relative discretisation error of the last solution; the formula is in `solve_ehl`.
 
     Second order would allow c1/3. At random M, L and laws the formula bounds the error in nine cases of ten, and in the
@@ -26,7 +26,7 @@ def grid_error(levels: list[Solution]) -> float:
     return float(changes[0] / 1.5 if changes.size == 1 else max(changes[1], changes[0] / 3.0) / 2.0)
 
 
-def domain_error(problem: Problem, solution: Solution) -> float:
+def domain_error(problem: FilmProblem, solution: FilmSolution) -> float:
     """Effect of the next order of the inlet condition: the tail's share of the load times 4 (q + |H - X²/2|)/(X²/2). It
     was tested against longer domains."""
     if problem.inlet is not None:
@@ -37,14 +37,14 @@ def domain_error(problem: Problem, solution: Solution) -> float:
     return float(4.0 * departure * 0.5 * a * t.P[0] / problem.M)
 
 
-def complementarity(solution: Solution, outlet_film: np.ndarray) -> float:
+def complementarity(solution: FilmSolution, outlet_film: np.ndarray) -> float:
     """Largest tension before rupture (over the largest pressure), or largest film deficit behind it (over h)."""
     P = solution.terms.P
     H = solution.terms.H
     return max(0.0, -float(P.min()) / float(P.max()), 1.0 - float(outlet_film.min() / H[-1]))
 
 
-def _outlet(problem: Problem, solution: Solution) -> tuple[np.ndarray, np.ndarray]:
+def _outlet(problem: FilmProblem, solution: FilmSolution) -> tuple[np.ndarray, np.ndarray]:
     """Nodes behind the rupture point, graded like those before it, and the film there."""
     xi = solution.grid.xi
     reach = 2.0 * problem.half_width + 3.0 * math.sqrt(2.0 * solution.terms.q)
@@ -54,7 +54,7 @@ def _outlet(problem: Problem, solution: Solution) -> tuple[np.ndarray, np.ndarra
     return X, solution.z[-3] + 0.5 * X * X + hat_kernel(behind, xi) @ solution.terms.P
 
 
-def rolling_resistance(problem: Problem, levels: list[Solution]) -> tuple[float, float]:
+def rolling_resistance(problem: FilmProblem, levels: list[FilmSolution]) -> tuple[float, float]:
     """Half of ∫ h dp, the resistance to rolling [N/m], from the gap of the undeformed bodies, and its estimated error.
 
     The kernel of the half-space is even, so a pressure does no work when it is shifted together with the deflection
@@ -74,7 +74,7 @@ def rolling_resistance(problem: Problem, levels: list[Solution]) -> tuple[float,
     return float(found[-1] + steps[-1]), float(max(abs(steps[-1]), before))
 
 
-def _half_work(solution: Solution) -> float:
+def _half_work(solution: FilmSolution) -> float:
     """∫ h dp/2 of a pressure that is linear between the nodes and zero upstream of the first."""
     t = solution.terms
     square = (t.X[1:] ** 2 + t.X[1:] * t.X[:-1] + t.X[:-1] ** 2) / 6.0
@@ -105,7 +105,11 @@ def _report(problem, levels, first, tolerance, residuals, notes) -> Report:
 
 
 def assemble(
-    problem: Problem, levels: list[Solution], first: list[Solution], notes: tuple[str, ...], tolerance: float
+    problem: FilmProblem,
+    levels: list[FilmSolution],
+    first: list[FilmSolution],
+    notes: tuple[str, ...],
+    tolerance: float,
 ) -> EHLResult:
     """The result in SI units from solutions on nested grids, seen along +x."""
     last = levels[-1]
@@ -140,7 +144,7 @@ def assemble(
     )
 
 
-def in_si(problem: Problem, at, *, load, films, flow, rupture, constant, **known) -> EHLResult:
+def in_si(problem: FilmProblem, at, *, load, films, flow, rupture, constant, **known) -> EHLResult:
     """The result in SI units, seen along +x. ``at``: (X, P, H) at the nodes; ``load``: ∫ P dX between them;
     ``films``: the smallest, and that at X = 0; ``constant``: H00; ``known``: what has no unit to change."""
     (X, P, H) = at

@@ -13,10 +13,10 @@ from ..oil import Lubricant
 from .assemble import assemble
 from .ehl_result import EHLResult
 from .hertz import LineContact
-from .nested import Effort, Solved, coarsest, first_state, solved, sound, warm
-from .problem import Problem, make_problem
-from .reynolds import Solution
-from .start import State, solution_state
+from .nested import Effort, NestedSolutions, coarsest, first_state, solved, sound, warm
+from .problem import FilmProblem, film_problem
+from .reynolds import FilmSolution
+from .start import FilmState, solution_state
 
 # of the flooded flow, from where the flow falls by steps; and these steps
 HALF = 0.5
@@ -88,7 +88,7 @@ def solve_line_contact(
     """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
     if start is not None:
         validate.instance("start", start, EHLResult, "an EHLResult or None")
-    problem = make_problem(contact)
+    problem = film_problem(contact)
     state = None if start is None else start.state
     arriving = contact.lubricant.inlet_film
     if arriving is None:
@@ -98,13 +98,13 @@ def solve_line_contact(
     return returned(assemble(*found, effort.tolerance), raise_on_failure)
 
 
-def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Solved:
+def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None) -> NestedSolutions:
     """The film of a ``flow`` that arrives, or that of the ``full`` inlet where it takes no more. Nothing flows to the
     sides, so what arrives passes, and the lubricant begins where the flow is as much."""
     b = full.half_width
     furthest = full.inlet or 3.0 * b + FURTHEST * full.rise
 
-    def fed_from(near: State, aim: float, known: float = 1.0) -> tuple[Problem, list[Solution]]:
+    def fed_from(near: FilmState, aim: float, known: float = 1.0) -> tuple[FilmProblem, list[FilmSolution]]:
         there = near.problem
         assert near.inlet is not None
         law = full.inlet_of(aim / known) - b, there.inlet_of(near.flux / known) - there.half_width
@@ -135,7 +135,9 @@ def _fed(full: Problem, flow: float, effort: Effort, state: State | None) -> Sol
     return _found_inlet(problem, effort, solution_state(full, levels[-1], 0.0), furthest, spent + fed, notes)
 
 
-def _found_inlet(problem: Problem, effort: Effort, state: State, furthest: float, spent, notes) -> Solved:
+def _found_inlet(
+    problem: FilmProblem, effort: Effort, state: FilmState, furthest: float, spent, notes
+) -> NestedSolutions:
     """The same by a search for the inlet. Where nearly as much arrives as the full inlet takes, the flow hardly depends
     on where the lubricant begins, and Newton's method for that place fails."""
     flow = problem.fed
@@ -143,7 +145,7 @@ def _found_inlet(problem: Problem, effort: Effort, state: State, furthest: float
     b = problem.half_width
     assert flow is not None and guess is not None
 
-    def surplus(log_distance: float, last) -> tuple[float, Solved]:
+    def surplus(log_distance: float, last) -> tuple[float, NestedSolutions]:
         closer = replace(effort, least_cells=max(effort.least_cells, last[1][-1].grid.n)) if last else effort
         there = replace(problem, fed=None, inlet=b + math.exp(log_distance))
         near = solution_state(there, last[1][-1], 0.0) if last else state

@@ -7,14 +7,14 @@ import numpy as np
 
 from .._base import Shown
 from ..errors import Report
-from .hertz import LineContact, OfLineContact
-from .start import State
+from .hertz import HasLineContact, LineContact
+from .start import FilmState
 
 LUMP = 6  # neighbouring nodes that act as one line force far away
 
 
 @dataclass(frozen=True, repr=False)
-class EHLResult(Shown, OfLineContact):
+class EHLResult(Shown, HasLineContact):
     """Steady film of a smooth line contact. Arrays are (n,), x ascending.
 
     Attributes
@@ -65,7 +65,7 @@ class EHLResult(Shown, OfLineContact):
     hertz_pressure: float
     contact: LineContact
     report: Report
-    state: State = field(repr=False)
+    state: FilmState = field(repr=False)
     rolling: tuple[float, float] | None = None
 
     @property

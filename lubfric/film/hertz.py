@@ -157,7 +157,7 @@ class LineContact:
         return RIGID * self.lubricant.viscosity * abs(self.entrainment_speed) * self.radius / self.load_per_width
 
 
-class OfLineContact:
+class HasLineContact:
     """Base of what is solved or found for a ``contact``, a `LineContact`: its numbers, by the names of a film."""
 
     contact: LineContact

@@ -10,9 +10,9 @@ from ..errors import CONVERGED
 from .assemble import grid_error
 from .formulas import flooded_inlet
 from .grid import make_grid, node_positions
-from .problem import Problem
-from .reynolds import Solution, newton
-from .start import State, cold_start, refined_start, rupture_guess, solution_state, warm_start
+from .problem import FilmProblem
+from .reynolds import FilmSolution, newton
+from .start import FilmState, cold_start, refined_start, rupture_guess, solution_state, warm_start
 
 # cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
 COARSEST = 48
@@ -28,7 +28,9 @@ STIFFER = (625.0, 125.0, 25.0, 5.0, 1.0)  # times the critical stress, from a Ne
 EASY = 4.0
 STAGE = 1.4
 
-Solved = tuple[Problem, list[Solution], list[Solution], tuple[str, ...]]  # problem, its grids, what led there, notes
+NestedSolutions = tuple[
+    FilmProblem, list[FilmSolution], list[FilmSolution], tuple[str, ...]
+]  # problem, its grids, what led there, notes
 
 
 @dataclass(frozen=True)
@@ -46,7 +48,7 @@ class Effort:
         validate.integer("max_iterations", self.max_iterations, minimum=1)
 
 
-def solved(problem: Problem, effort: Effort, state: State | None) -> Solved:
+def solved(problem: FilmProblem, effort: Effort, state: FilmState | None) -> NestedSolutions:
     """``problem`` from the warm start ``state``; where there is none, or it fails, from a cold start."""
     notes: tuple[str, ...] = ()
     if state is not None:
@@ -58,7 +60,7 @@ def solved(problem: Problem, effort: Effort, state: State | None) -> Solved:
     return problem, levels, first, notes + retries
 
 
-def warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
+def warm(problem: FilmProblem, effort: Effort, state: FilmState) -> list[FilmSolution]:
     """Two grids; the finer one is at least as fine as the error of ``state`` demands."""
     n = coarsest(problem)
     needed = max(effort.least_cells, state.pressure.size * min(4.0, math.sqrt(state.grid_error / effort.tolerance)))
@@ -67,12 +69,12 @@ def warm(problem: Problem, effort: Effort, state: State) -> list[Solution]:
     return _ascend(problem, effort, state, n, 2)
 
 
-def _cold(problem: Problem, effort: Effort) -> tuple[list[Solution], list[Solution], tuple[str, ...]]:
+def _cold(problem: FilmProblem, effort: Effort) -> tuple[list[FilmSolution], list[FilmSolution], tuple[str, ...]]:
     """A solution from a cold start on grids from the coarsest up; if that fails, from a finer grid.
 
     Returns its solutions, those that led there, and notes.
     """
-    spent: list[Solution] = []
+    spent: list[FilmSolution] = []
     notes: tuple[str, ...] = ()
     usual = coarsest(problem)
     for n in sorted((COARSEST * 2**k for k in range(STARTS)), key=lambda n: n != usual):
@@ -88,15 +90,15 @@ def _cold(problem: Problem, effort: Effort) -> tuple[list[Solution], list[Soluti
     return levels, spent[: -len(levels)], notes
 
 
-def coarsest(problem: Problem) -> int:
+def coarsest(problem: FilmProblem) -> int:
     """Cells of the coarsest grid: more if the inlet is far narrower than the contact."""
     return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), STARTS - 1)
 
 
-def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int) -> list[Solution]:
+def _ascend(problem: FilmProblem, effort: Effort, state: FilmState, n: int, fewest: int) -> list[FilmSolution]:
     """Solutions on grids of n, 2n, ... cells, at least ``fewest`` of them, until they are as accurate as asked."""
     rupture = rupture_guess(problem)
-    levels: list[Solution] = []
+    levels: list[FilmSolution] = []
     while True:
         if levels and problem.fed is not None:
             problem = replace(problem, inlet=-levels[-1].terms.X[0])
@@ -111,7 +113,7 @@ def _ascend(problem: Problem, effort: Effort, state: State, n: int, fewest: int)
         n *= 2
 
 
-def first_state(problem: Problem, n: int, max_steps: int) -> tuple[State, list[Solution]]:
+def first_state(problem: FilmProblem, n: int, max_steps: int) -> tuple[FilmState, list[FilmSolution]]:
     """The first state, and the chain of rough solutions on n cells that leads there, each started from the one before.
 
     alpha rises from the value at which L = EASY, then shear begins to thin the oil, and the inlet moves inwards.
@@ -125,8 +127,8 @@ def first_state(problem: Problem, n: int, max_steps: int) -> tuple[State, list[S
     if problem.thins_by is not None:
         stages = [replace(s, times=math.inf) for s in stages] + [replace(widest, times=times) for times in STIFFER]
     stages += [replace(problem, inlet=inlet) for inlet in inlets[1:]]
-    states: list[State] = []
-    solutions: list[Solution] = []
+    states: list[FilmState] = []
+    solutions: list[FilmSolution] = []
     for stage in stages:
         grid = make_grid(problem_nodes(stage, n, rupture_guess(stage)))
         z, H = warm_start(grid, stage, states[-1]) if states else cold_start(grid, stage)
@@ -137,7 +139,7 @@ def first_state(problem: Problem, n: int, max_steps: int) -> tuple[State, list[S
     return states[-1], solutions
 
 
-def _inwards(problem: Problem) -> list[float | None]:
+def _inwards(problem: FilmProblem) -> list[float | None]:
     """Where the lubricant of ``problem`` begins, and before that places further upstream from which to come nearer."""
     if problem.inlet is None:
         return [None]
@@ -149,13 +151,13 @@ def _inwards(problem: Problem) -> list[float | None]:
     return [b + distance for distance in found]
 
 
-def problem_nodes(problem: Problem, n: int, rupture: float) -> np.ndarray:
+def problem_nodes(problem: FilmProblem, n: int, rupture: float) -> np.ndarray:
     """Nodes (n + 1) relative to the rupture point, which is expected at ``rupture``."""
     distance = None if problem.inlet is None else problem.inlet + rupture
     return node_positions(problem.half_width, problem.film_guess, n, distance)
 
 
-def sound(levels: list[Solution]) -> bool:
+def sound(levels: list[FilmSolution]) -> bool:
     """Whether a solution has converged, and is not a root with tension in the film or with the inlet on the wrong
     side."""
     if not levels or levels[-1].status != CONVERGED:

@@ -26,10 +26,10 @@ from .thinning import thinned
 MOST_STARVED = 0.995  # of Moes' film, from where on a guess of the inlet makes no sense
 
 
-def make_problem(contact: LineContact) -> Problem:
+def film_problem(contact: LineContact) -> FilmProblem:
     """The contact in Moes' units, along its motion, with all the lubricant that its inlet takes. Raises `InputError` if
     the lubricant begins inside the dry contact."""
-    problem = Problem(contact)
+    problem = FilmProblem(contact)
     length = contact.lubricant.inlet_length
     half_width = problem.half_width * problem.length_unit
     if length is None:
@@ -41,7 +41,7 @@ def make_problem(contact: LineContact) -> Problem:
 
 
 @dataclass(frozen=True)
-class Problem:
+class FilmProblem:
     """A line contact in Moes' units, seen along its motion: X points downstream.
 
     The lubricant begins at ``inlet``, None: nowhere, it is fully flooded. fed: None, or the flow q that arrives, with
@@ -90,7 +90,7 @@ class Problem:
         share = min(flow / self.flooded_film, MOST_STARVED)
         return starved_inlet(share, self.rise, self.half_width)
 
-    def softened(self, share: float) -> Problem:
+    def softened(self, share: float) -> FilmProblem:
         """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
         if share == 1.0:
             return self

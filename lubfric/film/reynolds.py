@@ -25,14 +25,14 @@ import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
-from .problem import Problem
+from .problem import FilmProblem
 
 VISCOSITY_STEP = 3.0  # largest change of ln(eta) in one step
 FILM_STEP = 0.7  # largest share of the film (or the flux) that one step may remove
 
 
 @dataclass(frozen=True)
-class Terms:
+class ReynoldsTerms:
     """The part of an evaluation of the residual that the Jacobian needs."""
 
     P: np.ndarray
@@ -72,8 +72,8 @@ def elastic_film(grid: Grid, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     return own + (z[-3] + 0.5 * X * X), X, by_stretch
 
 
-def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, Terms]:
-    """Residual (n + 3) at the film H and the `Terms` that the Jacobian needs."""
+def residual(grid: Grid, problem: FilmProblem, z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, ReynoldsTerms]:
+    """Residual (n + 3) at the film H and the `ReynoldsTerms` that the Jacobian needs."""
     n = grid.n
     P = np.append(z[:n], 0.0)
     q, e = z[n + 1 :]
@@ -98,10 +98,12 @@ def residual(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray) -> tupl
     R[n + 2] = rho[-1] * H[-1] / q - 1.0
     film, by_rupture, by_stretch = elastic_film(grid, z)
     moved = film - H, by_rupture, by_stretch
-    return R, Terms(P, H, X, *moved, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, thin, flux)
+    return R, ReynoldsTerms(
+        P, H, X, *moved, q, slope, (rho, rho_slope), face_rho, face_H, fluidity, gradient, thin, flux
+    )
 
 
-def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, np.ndarray]:
+def linearise(grid: Grid, problem: FilmProblem, terms: ReynoldsTerms) -> tuple[np.ndarray, np.ndarray]:
     """Jacobian (n + 3, n + 3) with the film eliminated, and the change of the residual (n + 3) when the film's defect
     is removed. Fortran order lets LAPACK factorise in place."""
     n = grid.n
@@ -117,7 +119,9 @@ def linearise(grid: Grid, problem: Problem, terms: Terms) -> tuple[np.ndarray, n
     return J, shift
 
 
-def _stretch_columns(grid: Grid, problem: Problem, t: Terms, J: np.ndarray, by_H: np.ndarray, at_rupture: float):
+def _stretch_columns(
+    grid: Grid, problem: FilmProblem, t: ReynoldsTerms, J: np.ndarray, by_H: np.ndarray, at_rupture: float
+):
     """Add what the stretch s of the grid changes, of which e + a is the length: to the column of e, and in place of
     that of q if q is known."""
     n = grid.n
@@ -132,7 +136,7 @@ def _stretch_columns(grid: Grid, problem: Problem, t: Terms, J: np.ndarray, by_H
         J[:, n + 1] = by_s
 
 
-def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
+def _face_rows(grid: Grid, t: ReynoldsTerms, J: np.ndarray) -> np.ndarray:
     n = grid.n
     q = t.q
     mean, by_left, by_right = t.fluidity
@@ -157,7 +161,7 @@ def _face_rows(grid: Grid, t: Terms, J: np.ndarray) -> np.ndarray:
     return by_H
 
 
-def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> tuple[float, float]:
+def _closing_rows(grid: Grid, problem: FilmProblem, t: ReynoldsTerms, J: np.ndarray) -> tuple[float, float]:
     n = grid.n
     q = t.q
     M = problem.M
@@ -186,12 +190,12 @@ def _closing_rows(grid: Grid, problem: Problem, t: Terms, J: np.ndarray) -> tupl
 
 
 @dataclass(frozen=True)
-class Solution:
-    """Unknowns ``z`` on ``grid`` with their `Terms`; ``error``: largest residual or film defect."""
+class FilmSolution:
+    """Unknowns ``z`` on ``grid`` with their `ReynoldsTerms`; ``error``: largest residual or film defect."""
 
     grid: Grid
     z: np.ndarray
-    terms: Terms
+    terms: ReynoldsTerms
     status: str
     error: float
     history: tuple[float, ...]
@@ -206,7 +210,9 @@ def step_length(log_viscosity_change: np.ndarray, film_loss: float) -> float:
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
-def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int) -> Solution:
+def newton(
+    grid: Grid, problem: FilmProblem, z: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int
+) -> FilmSolution:
     """Solve the equations from unknowns z and film H > 0 to max(|residual|, |defect|/H) <= ``tolerance``.
 
     A step that overflows ends the iteration as "diverged".
@@ -250,4 +256,4 @@ def newton(grid: Grid, problem: Problem, z: np.ndarray, H: np.ndarray, tolerance
         H = H + length * dH
     if status != CONVERGED and step < max_steps:
         status = DIVERGED
-    return Solution(grid, z, terms, status, error, tuple(history))
+    return FilmSolution(grid, z, terms, status, error, tuple(history))

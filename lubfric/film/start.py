@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from .grid import Grid
-from .problem import Problem
-from .reynolds import Solution, elastic_film
+from .problem import FilmProblem
+from .reynolds import FilmSolution, elastic_film
 
 
 @dataclass(frozen=True)
-class State:
+class FilmState:
     """Solution in Moes' variables, kept with a result so that it can start another solve.
 
     problem: of which it is a solution; pressure: at the n nodes before rupture; film: at all n + 1 nodes; flux: q;
@@ -20,7 +20,7 @@ class State:
     inlet: where the lubricant begins, if it does (of ``problem`` it may be a guess); nodes (n + 1,) from the rupture.
     """
 
-    problem: Problem
+    problem: FilmProblem
     pressure: np.ndarray
     film: np.ndarray
     flux: float
@@ -30,14 +30,14 @@ class State:
     nodes: np.ndarray | None = None
 
 
-def _expected_rupture(problem: Problem) -> float:
+def _expected_rupture(problem: FilmProblem) -> float:
     """Rupture point of the guess, in units of x, of a flooded film."""
     film = problem.flooded_film
     b = problem.half_width
     return b + 0.8 * film / (np.sqrt(2.0 * film) + b)
 
 
-def rupture_guess(problem: Problem) -> float:
+def rupture_guess(problem: FilmProblem) -> float:
     """Rupture point of the guess, in units of x: nearer to the centre if a starved film is thin."""
     expected = _expected_rupture(problem)
     if problem.inlet is None:
@@ -45,7 +45,7 @@ def rupture_guess(problem: Problem) -> float:
     return min(expected, problem.half_width + np.sqrt(2.0 * problem.film_guess))
 
 
-def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+def cold_start(grid: Grid, problem: FilmProblem) -> tuple[np.ndarray, np.ndarray]:
     """(z, H): a semi-ellipse of the right load that ends at the rupture point, and the expected film."""
     film = problem.film_guess
     e = rupture_guess(problem)
@@ -59,25 +59,25 @@ def cold_start(grid: Grid, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     return z, gap + z[-3]
 
 
-def solution_state(problem: Problem, solution: Solution, error: float) -> State:
-    """The `State` of a solution, ``error`` its estimated discretisation error."""
+def solution_state(problem: FilmProblem, solution: FilmSolution, error: float) -> FilmState:
+    """The `FilmState` of a solution, ``error`` its estimated discretisation error."""
     t = solution.terms
     rupture = float(solution.z[-1])
     inlet = None if problem.inlet is None else -float(t.X[0])
-    return State(problem, t.P[:-1], t.H, float(t.q), rupture, error, inlet, solution.grid.xi)
+    return FilmState(problem, t.P[:-1], t.H, float(t.q), rupture, error, inlet, solution.grid.xi)
 
 
-def refined_start(solution: Solution) -> tuple[np.ndarray, np.ndarray]:
+def refined_start(solution: FilmSolution) -> tuple[np.ndarray, np.ndarray]:
     """(z, H) on a grid of twice the cells. The pressure is interpolated linearly, so that a sharp spike does not
     oscillate."""
     P = solution.terms.P
     fine = np.empty(2 * P.size - 2)
     fine[::2] = P[:-1]
     fine[1::2] = 0.5 * (P[:-1] + P[1:])
-    return np.append(fine, solution.z[-3:]), refine(solution.terms.H)
+    return np.append(fine, solution.z[-3:]), with_midpoints(solution.terms.H)
 
 
-def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, np.ndarray]:
+def warm_start(grid: Grid, problem: FilmProblem, state: FilmState) -> tuple[np.ndarray, np.ndarray]:
     """(z, H): pressure and film of ``state``, which may be of another problem, node by node, scaled to the load and by
     Moes' formula; where the lubricant begins somewhere, place by place."""
     P = np.append(state.pressure, 0.0)
@@ -90,7 +90,7 @@ def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, 
     while H.size > grid.n + 1:
         P, H = P[::2], H[::2]
     while H.size < grid.n + 1:
-        P, H = refine(P), refine(H)
+        P, H = with_midpoints(P), with_midpoints(H)
     e = state.rupture * (_expected_rupture(problem) / _expected_rupture(state.problem))
     P = P * (problem.M / (grid.weights @ P))
     z = np.append(P[:-1], [0.0, state.flux * ratio, e])
@@ -99,7 +99,7 @@ def warm_start(grid: Grid, problem: Problem, state: State) -> tuple[np.ndarray, 
     return z, H * ratio
 
 
-def refine(values: np.ndarray) -> np.ndarray:
+def with_midpoints(values: np.ndarray) -> np.ndarray:
     """Nonnegative nodal values with midpoints between them, cubic in the index where that is positive."""
     mean = 0.5 * (values[:-1] + values[1:])
     bend = np.diff(values, 2)

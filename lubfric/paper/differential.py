@@ -9,13 +9,13 @@ from ..errors import CONVERGED, STAGNATED, InputError, Report, returned
 from ..film import (
     Effort,
     EHLResult,
+    FilmProblem,
+    FilmState,
     LineContact,
-    Problem,
-    State,
     central_film,
     cubic,
+    film_problem,
     in_si,
-    make_problem,
     moes_film,
     node_positions,
     reported,
@@ -24,7 +24,7 @@ from ..film import (
 )
 from ..oil import Lubricant
 from .differential_equations import Mesh, convolve, load_row, make_mesh
-from .differential_newton import Solution, newton
+from .differential_newton import DifferentialSolution, newton
 
 # cells
 COARSEST = 64
@@ -83,7 +83,7 @@ def solve_differential_deflection(
     if nodes is not None:
         validate.integer("nodes", nodes, minimum=COARSEST + 1)
     validate.integer("most_nodes", most_nodes, minimum=COARSEST + 1)
-    problem = make_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, oil))
+    problem = film_problem(LineContact(load_per_width, radius, e_prime, entrainment_speed, oil))
     ends = domain_ends(problem, domain)
     cells = _cells(problem, ends, nodes, most_nodes)
     levels = _ascend(problem, ends, cells, tolerance, max_iterations, doubled=nodes is None)
@@ -91,7 +91,7 @@ def solve_differential_deflection(
     return returned(result, raise_on_failure)
 
 
-def domain_ends(problem: Problem, domain) -> tuple[float, float]:
+def domain_ends(problem: FilmProblem, domain) -> tuple[float, float]:
     """First and last node, in units of X."""
     b = problem.half_width
     unit = problem.length_unit
@@ -107,7 +107,7 @@ def domain_ends(problem: Problem, domain) -> tuple[float, float]:
     return first, rupture_guess(problem) + 0.2 * b + rise
 
 
-def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None, most_nodes: int) -> list[int]:
+def _cells(problem: FilmProblem, ends: tuple[float, float], nodes: int | None, most_nodes: int) -> list[int]:
     """Numbers of cells of the nested grids. If the finest resolves the rise of the pressure, the coarsest does too."""
     film = math.sqrt(2.0 * problem.film_guess)
     b = problem.half_width
@@ -123,9 +123,11 @@ def _cells(problem: Problem, ends: tuple[float, float], nodes: int | None, most_
     return cells
 
 
-def _ascend(problem, ends: tuple[float, float], cells, tolerance, max_iterations, doubled) -> list[Solution]:
+def _ascend(
+    problem, ends: tuple[float, float], cells, tolerance, max_iterations, doubled
+) -> list[DifferentialSolution]:
     """Solutions on grids of as many ``cells``; if these are ``doubled``, until two grids agree to the tolerance."""
-    levels: list[Solution] = []
+    levels: list[DifferentialSolution] = []
     for n in cells:
         mesh = make_mesh(*ends, n + 1, problem.inlet is None)
         P, H = cold_start(mesh, problem)
@@ -144,7 +146,7 @@ def _ascend(problem, ends: tuple[float, float], cells, tolerance, max_iterations
     return levels
 
 
-def cold_start(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
+def cold_start(mesh: Mesh, problem: FilmProblem) -> tuple[np.ndarray, np.ndarray]:
     """A first guess: a semi-ellipse of the right load that ends at the expected rupture, and the expected film."""
     film = problem.film_guess
     width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
@@ -155,7 +157,7 @@ def cold_start(mesh: Mesh, problem: Problem) -> tuple[np.ndarray, np.ndarray]:
     return P, gap - gap.min() + film
 
 
-def grid_error(levels: list[Solution]) -> float:
+def grid_error(levels: list[DifferentialSolution]) -> float:
     """Largest relative change of minimum, central and flow film between the last two grids, or a quarter of the change
     before that. This is some three times the error, because the rupture point is always at a node, which makes the
     error uneven."""
@@ -166,7 +168,7 @@ def grid_error(levels: list[Solution]) -> float:
     return float(max(changes[-1], changes[0] / 4 ** (changes.size - 1)))
 
 
-def _report(problem: Problem, levels: list[Solution], tolerance: float) -> Report:
+def _report(problem: FilmProblem, levels: list[DifferentialSolution], tolerance: float) -> Report:
     last = levels[-1]
     a = -last.mesh.X[0]  # of a finite inlet: the tail's share of the load times its departure from a parabola
     tail = float(0.5 * a * last.P[0] / problem.M * abs(2.0 * last.H[0] / a**2 - 1.0))
@@ -181,7 +183,7 @@ def _report(problem: Problem, levels: list[Solution], tolerance: float) -> Repor
     return reported(solver, levels, residuals, tolerance, notes, STAGNATED, solves)
 
 
-def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
+def _with_rupture(solution: DifferentialSolution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
     """The rupture point, where the film is that of the flow, and X, P, H with a node added there."""
     X = solution.mesh.X
     P = solution.P
@@ -201,16 +203,16 @@ def _with_rupture(solution: Solution) -> tuple[float, np.ndarray, np.ndarray, np
     return e, np.insert(X, i, e), np.insert(P, i, 0.0), np.insert(H, i, film)
 
 
-def _state(problem: Problem, solution: Solution, rupture: float, error: float) -> State:
-    """The `State` from which `solve_ehl` can start: the solution on the graded grid of `solve_ehl`."""
+def _state(problem: FilmProblem, solution: DifferentialSolution, rupture: float, error: float) -> FilmState:
+    """The `FilmState` from which `solve_ehl` can start: the solution on the graded grid of `solve_ehl`."""
     xi = node_positions(problem.half_width, moes_film(problem.M, problem.L), STATE_CELLS)
     X = xi + rupture
     P = np.interp(X, solution.mesh.X, solution.P, left=0.0)
     H = np.interp(X, solution.mesh.X, solution.H - 0.5 * solution.mesh.X**2) + 0.5 * X**2
-    return State(problem, P[:-1], H, solution.terms.q, rupture, error)
+    return FilmState(problem, P[:-1], H, solution.terms.q, rupture, error)
 
 
-def assemble(problem: Problem, levels: list[Solution], tolerance: float) -> EHLResult:
+def assemble(problem: FilmProblem, levels: list[DifferentialSolution], tolerance: float) -> EHLResult:
     """The result in SI units, seen along +x."""
     last = levels[-1]
     rupture, *nodes = _with_rupture(last)

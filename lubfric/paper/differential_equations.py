@@ -29,7 +29,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..film import Problem, log_mean_fluidity, moes_film
+from ..film import FilmProblem, log_mean_fluidity, moes_film
 
 BANDWIDTH = 8  # largest distance in nodes whose pressures are implicit: it changes only the time
 NEAR = 20  # distance in nodes from which the second difference of the kernel is a series
@@ -113,7 +113,7 @@ def _transform(kernel: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True)
-class Terms:
+class DifferentialTerms:
     """One evaluation of the equations.
 
     Attributes
@@ -141,7 +141,7 @@ class Terms:
     slope: np.ndarray
 
 
-def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Terms:
+def evaluate(mesh: Mesh, problem: FilmProblem, P: np.ndarray, H: np.ndarray) -> DifferentialTerms:
     """Fluxes, balances and defects at pressures P and films H."""
     log_eta, slope = problem.log_viscosity(P)
     rho, rho_slope = problem.density(P)
@@ -166,10 +166,12 @@ def evaluate(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray) -> Term
     ends = np.array([defect[0] - defect[-1], load_row(mesh, problem) @ P - 1.0])
     by_H = face_rho * (1.0 - 3.0 * h**2 * fluidity * gradient)
     by_P = np.stack([left, right])
-    return Terms(through, last, float(through[last]), balance, defect - defect[0], ends, scale, by_H, by_P, slope)
+    return DifferentialTerms(
+        through, last, float(through[last]), balance, defect - defect[0], ends, scale, by_H, by_P, slope
+    )
 
 
-def load_row(mesh: Mesh, problem: Problem) -> np.ndarray:
+def load_row(mesh: Mesh, problem: FilmProblem) -> np.ndarray:
     """The row by which ∫ P dX/M = load_row @ P, with the tail |X|^-3 upstream of a flooded inlet."""
     row = np.full(mesh.size, mesh.step / problem.M)
     if mesh.flooded:
@@ -197,7 +199,7 @@ def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:
     return max(last, 1)
 
 
-def measure(t: Terms, P: np.ndarray, H: np.ndarray) -> dict[str, float]:
+def measure(t: DifferentialTerms, P: np.ndarray, H: np.ndarray) -> dict[str, float]:
     """Relative residuals of mass, film (against the full integral), load and complementarity."""
     behind = t.through[t.last + 1 :]
     return {

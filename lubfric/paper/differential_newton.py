@@ -10,29 +10,29 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, worst
-from ..film import Problem, step_length
+from ..film import FilmProblem, step_length
 from . import differential_equations as equations
-from .differential_equations import Mesh, Terms
+from .differential_equations import DifferentialTerms, Mesh
 
 KRYLOV_LIMIT = 40  # GMRES vectors in one Newton step
 FORCING = 1e-2  # share of the far deflection that a Newton step may leave to the next one
 
 
 @dataclass(frozen=True)
-class Solution:
-    """Pressures and films on ``mesh`` with their `Terms`, residuals of `measure`, and the number of banded solves."""
+class DifferentialSolution:
+    """Pressures and films on ``mesh`` with their `DifferentialTerms`, residuals of `measure`, and the number of banded solves."""
 
     mesh: Mesh
     P: np.ndarray
     H: np.ndarray
-    terms: Terms
+    terms: DifferentialTerms
     status: str
     residuals: dict
     history: tuple[float, ...]
     solves: int
 
 
-def near_solver(mesh: Mesh, problem: Problem, t: Terms):
+def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms):
     """The equations with near weights, factorised; None if the matrix is singular.
 
     The function returned takes the right sides: (N,) of the balances and of the second differences, (2,) of the closing
@@ -69,7 +69,7 @@ def near_solver(mesh: Mesh, problem: Problem, t: Terms):
     return solve
 
 
-def _put_reynolds(mesh: Mesh, t: Terms, put) -> None:
+def _put_reynolds(mesh: Mesh, t: DifferentialTerms, put) -> None:
     put(0, 0, 1.0)
     put(0, 2, -equations.inlet_ratio(mesh))
     dry = np.arange(t.last + 1, mesh.size)
@@ -97,7 +97,7 @@ def _put_film(mesh: Mesh, put) -> None:
     put(2 * n - 1, 2 * n - 1, 1.0)
 
 
-def newton_step(mesh: Mesh, t: Terms, near) -> tuple[np.ndarray, int]:
+def newton_step(mesh: Mesh, t: DifferentialTerms, near) -> tuple[np.ndarray, int]:
     """The change (2N,) of P and H in turn, and the number of banded solves.
 
     With A the near equations, which ``near`` solves, the change z solves A z = b + f, where f = far(z) is the effect of
@@ -129,7 +129,9 @@ def newton_step(mesh: Mesh, t: Terms, near) -> tuple[np.ndarray, int]:
 
 
 @np.errstate(over="ignore", divide="ignore", invalid="ignore")  # history tests for it
-def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int) -> Solution:
+def newton(
+    mesh: Mesh, problem: FilmProblem, P: np.ndarray, H: np.ndarray, tolerance: float, max_steps: int
+) -> DifferentialSolution:
     """Solve from P >= 0 and H > 0 until the residuals of `measure` are <= ``tolerance`` and the film ruptures inside
     the grid."""
     history = []
@@ -156,4 +158,4 @@ def newton(mesh: Mesh, problem: Problem, P: np.ndarray, H: np.ndarray, tolerance
         P[peak:] = np.maximum(P[peak:], 0.0)
     if status != CONVERGED and step < max_steps:
         status = DIVERGED
-    return Solution(mesh, P, H, t, status, residuals, tuple(history), solves)
+    return DifferentialSolution(mesh, P, H, t, status, residuals, tuple(history), solves)

@@ -12,7 +12,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from .._base import increasing_root, validate
-from ..contact import ContactResult, Found, Problem, State, concluded, look, make_problem, on_grid, refine, state_of
+from ..contact import (
+    ContactProblem,
+    ContactResult,
+    SearchResult,
+    TrialContact,
+    contact_problem,
+    contact_result,
+    evaluate,
+    on_grid,
+    refine,
+    trial_contact,
+)
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED, InputError, returned
 
 UPDATES = ("root", "repeat")
@@ -27,7 +38,7 @@ class ImposedFilm:
     gap0.
     """
 
-    problem: Problem
+    problem: ContactProblem
     weight: np.ndarray
     mean_film: float
 
@@ -57,23 +68,27 @@ class ImposedFilm:
         """
         return self.mean(self.problem.gap0 + displacement + overlap) - self.mean_film
 
-    def surplus(self, state: State) -> float:
+    def surplus(self, state: TrialContact) -> float:
         """By how much the film exceeds the volume between the surfaces: their difference over A, in the smaller of the
         mean film and the length in which `lubfric.solve_contact` measures residuals."""
         return (self.mean_film - self.mean(np.maximum(state.gap, 0.0))) / min(state.scale, self.mean_film)
 
     def residual(self, pressure, displacement, offset) -> float:
         """The worst of complementarity, penetration and volume, as in `lubfric.paper.single_loop`."""
-        state = state_of(self.problem, pressure, displacement, offset)
+        state = trial_contact(self.problem, pressure, displacement, offset)
         return max(state.residual, abs(self.surplus(state)))
 
-    def ended(self, pressure, offset, status: str, convolutions: float, history, notes=(), iterations=None) -> Found:
+    def ended(
+        self, pressure, offset, status: str, convolutions: float, history, notes=(), iterations=None
+    ) -> SearchResult:
         """The end of an iteration: its state is computed anew from the pressure and epsilon alone."""
-        state = look(self.problem, self.problem.operator, pressure, offset)
+        state = evaluate(self.problem, self.problem.operator, pressure, offset)
         steps = len(history) if iterations is None else iterations
-        return Found(state, status, steps, convolutions + 1, tuple(history), notes=tuple(notes))
+        return SearchResult(state, status, steps, convolutions + 1, tuple(history), notes=tuple(notes))
 
-    def solved(self, iterate: Callable[[np.ndarray], Found], solver: str, raise_on_failure: bool) -> ContactResult:
+    def solved(
+        self, iterate: Callable[[np.ndarray], SearchResult], solver: str, raise_on_failure: bool
+    ) -> ContactResult:
         """The contact by ``iterate`` from a first pressure."""
         if self.separated:
             zero = np.zeros_like(self.problem.gap0)
@@ -86,7 +101,7 @@ class ImposedFilm:
             first = np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
             found = iterate(first)
         control = {"volume": abs(self.surplus(found.state))}
-        result = concluded(self.problem, replace(found, solver=solver), control, STAGNATED)
+        result = contact_result(self.problem, replace(found, solver=solver), control, STAGNATED)
         return returned(result, raise_on_failure)
 
 
@@ -99,7 +114,7 @@ def impose(heights, film, spacing, e_prime, *, weight=None, **problem) -> Impose
         raise InputError("weight must be >= 0 (-) everywhere and > 0 somewhere: it marks the area A of Eq. (8)")
     weight = weight / weight.sum()
     mean_film = validate.positive("mean of film over the area A", float(np.vdot(weight, film)), "m")
-    return ImposedFilm(make_problem(film - heights, spacing, e_prime, **problem), weight, mean_film)
+    return ImposedFilm(contact_problem(film - heights, spacing, e_prime, **problem), weight, mean_film)
 
 
 def alternating(
@@ -127,10 +142,10 @@ def alternating(
     return contact.solved(lambda first: _alternated(contact, first, update), f"alternating, {update}", raise_on_failure)
 
 
-def _alternated(contact: ImposedFilm, pressure, update: str) -> Found:
+def _alternated(contact: ImposedFilm, pressure, update: str) -> SearchResult:
     """Each solve of system (3) starts from the last one."""
     problem = contact.problem
-    state = look(contact.problem, contact.problem.operator, pressure)
+    state = evaluate(contact.problem, contact.problem.operator, pressure)
     spent = 1.0
     tight = replace(problem, tolerance=0.3 * problem.tolerance, max_iterations=2000)
     offset = contact.offset(state.displacement)

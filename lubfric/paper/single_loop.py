@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from .._base import validate
-from ..contact import ContactResult, Found
+from ..contact import ContactResult, SearchResult
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
 from .imposed_film import ImposedFilm, impose
 
@@ -69,7 +69,7 @@ def single_loop(
     validate.choice("stop", stop, STOPS)
     validate.positive("separation_tolerance", separation_tolerance, "(-)")
 
-    def iterate(pressure) -> Found:
+    def iterate(pressure) -> SearchResult:
         with np.errstate(all="ignore"):  # a printed loop may overflow; it then ends as diverged
             return _ended(contact, FORMS[form](contact, pressure), stop, separation_tolerance)
 
@@ -159,7 +159,7 @@ FORMS: dict[str, Callable[[ImposedFilm, np.ndarray], Iterator[Iterate]]] = {
 }
 
 
-def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separation_tolerance: float) -> Found:
+def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separation_tolerance: float) -> SearchResult:
     """The end of the loop; both stopping tests are made after every iteration."""
     # where an iterate has no successor
     problem = contact.problem

@@ -3,7 +3,7 @@
     d(rho H)/dT + u d(rho H)/dX = d/dX( Φ rho H³/(6 nu eta) dP/dX )   where P > 0,
     the film no thinner than the gap where P = 0 (Swift-Stieber)
 
-The units are those of `lubfric.film.Problem` for a reference speed, and T = t U_ref/(unit of x). The time derivative is
+The units are those of `lubfric.film.FilmProblem` for a reference speed, and T = t U_ref/(unit of x). The time derivative is
 ``rate (rho H - memory)``. Any implicit formula has that form (BDF2: `lubfric.time.march`), and rate = 0 gives the
 steady state. Shear makes the flow Φ times the Newtonian one (`lubfric.film.thinning`). The unknowns z are the pressures
 at all nodes, and H00 in H = H00 + c X²/2 + K P.
@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..film import Problem, log_mean_fluidity
+from ..film import FilmProblem, log_mean_fluidity
 from .film_grid import FixedGrid
 from .march import Memory
 
@@ -58,7 +58,7 @@ def outside(
 
     The film is parabolic and isoviscous. At the distance s > a from the line of centres it is h = h_a + c (s² - a²)/2.
     The flow towards the contact is f + v (s - a), with f the flow at a and v = dh/dt. Reynolds' equation in the units
-    of `lubfric.film.Problem` is dp/ds = 6 nu (f + v (s - a) - U h)/h³, with U the speed towards the contact. So the
+    of `lubfric.film.FilmProblem` is dp/ds = 6 nu (f + v (s - a) - U h)/h³, with U the speed towards the contact. So the
     pressure at a and the load beyond it are linear in U, f and v. The integrals are taken by Gauss quadrature in a/s.
     """
     s, h, weight = _nodes(a, film, curvature)
@@ -120,7 +120,7 @@ class StepEquations:
     R_ref/R and an ambient viscosity nu, relative to the reference. ``spring``: carries load beside the film."""
 
     grid: FixedGrid
-    problem: Problem
+    problem: FilmProblem
     memory: Memory
     speed: float
     load: float

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
-from ..film import Effort, LineContact, Problem, hertz, solve_line_contact, step_length
+from ..film import Effort, FilmProblem, LineContact, hertz, solve_line_contact, step_length
 from ..oil import Lubricant
 from ..scene import History
 from .film_equations import Spring, StepEquations, StepTerms
@@ -54,7 +54,7 @@ class Setting:
     """The contact in the units of a reference ``problem``, on ``grid``."""
 
     contact: ContactHistory
-    problem: Problem
+    problem: FilmProblem
     grid: FixedGrid
 
     @property
@@ -126,7 +126,7 @@ def make_setting(
     return Setting(contact, problem, make_fixed_grid(x))
 
 
-def _reference(contact: ContactHistory, sq: float) -> tuple[Problem, tuple[float, float]]:
+def _reference(contact: ContactHistory, sq: float) -> tuple[FilmProblem, tuple[float, float]]:
     """The problem that gives the units, and the smallest and the largest film in them."""
     c = contact
     T = contact.duration
@@ -152,7 +152,7 @@ def _reference(contact: ContactHistory, sq: float) -> tuple[Problem, tuple[float
         reference = replace(reference, entrainment_speed=speed)
         time = math.sqrt(films[0]) * load[1] * T / (6.0 * math.sqrt(2.0) * math.pi * eta[0] * radius[0] ** 1.5)
         films.append(films[0] / (1.0 + min(time, 10.0)) ** 2)
-    return Problem(reference), (min(films) / reference.film_unit, max(films) / reference.film_unit)
+    return FilmProblem(reference), (min(films) / reference.film_unit, max(films) / reference.film_unit)
 
 
 def steady_start(setting: Setting, load: float | None = None) -> tuple[Step, float]:

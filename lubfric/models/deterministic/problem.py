@@ -23,7 +23,7 @@ import numpy as np
 
 from ...contact import HalfSpace, half_space
 from ...errors import InputError
-from ...film import LineContact, OfLineContact
+from ...film import HasLineContact, LineContact
 from ...oil import Lubricant
 from ...surface import Surface
 
@@ -42,7 +42,7 @@ LARGEST = 2**20  # cells
 
 
 @dataclass(frozen=True)
-class Problem(OfLineContact):
+class Problem(HasLineContact):
     """One operating point, plain values in SI units.
 
     contact: load, bodies, lubricant and the speed U > 0 along +x; sliding Δu >= 0 [m/s], the difference of the surface

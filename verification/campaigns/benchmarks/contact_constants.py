@@ -19,13 +19,13 @@ for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 import numpy as np
 
 from lubfric import solve_contact
-from lubfric.contact import cells, half_space, problem, rounds, search, solve
+from lubfric.contact import candidate_cells, half_space, problem, refinement, search, solve
 
 from . import page
 from .rough import E_PRIME, surface
 
 SPACING = 2e-6
-MODULES = (cells, problem, rounds, search, solve)
+MODULES = (candidate_cells, problem, refinement, search, solve)
 KINDS = ("exponential", "gaussian", "self-affine")
 CONSTANTS = (
     (search, "FIRST_PACE"),
@@ -33,21 +33,21 @@ CONSTANTS = (
     (search, "STEPS"),
     (search, "LOAD_ERROR"),
     (search, "SHIFTS"),
-    (rounds, "REACH"),
+    (refinement, "REACH"),
     (search, "PATIENCE"),
     (search, "CAPACITY"),
-    (rounds, "MARGIN"),
-    (rounds, "FALL"),
-    (rounds, "RIGID"),
-    (rounds, "WASTED"),
+    (refinement, "MARGIN"),
+    (refinement, "FALL"),
+    (refinement, "RIGID"),
+    (refinement, "WASTED"),
     (problem, "COARSEST"),
     (problem, "COARSE_TOLERANCE"),
     (problem, "COARSE_ITERATIONS"),
-    (cells, "DENSE"),
-    (cells, "FACTOR"),
-    (cells, "LEAST"),
+    (candidate_cells, "DENSE"),
+    (candidate_cells, "FACTOR"),
+    (candidate_cells, "LEAST"),
     (solve, "HEAVIER"),
-    (cells, "BLOCK"),
+    (candidate_cells, "BLOCK"),
 )
 
 COLUMNS = ("constant", "value", "halved: convolutions, mean and worst", "doubled")

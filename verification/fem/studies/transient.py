@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from lubfric import ConvergenceError
-from lubfric.film import Problem, solve_ehl
+from lubfric.film import FilmProblem, solve_ehl
 from lubfric.oil import Lubricant
 from lubfric.scene import Constant, Harmonic, Ramp
 from lubfric.scene import Table as History
@@ -74,9 +74,9 @@ def transient(level: str):
 
 
 def contact(M: float, L: float, density: str = "constant"):
-    """Keywords, `Problem` and time b/U (at least 3 film lengths) of a contact with these Moes numbers."""
+    """Keywords, `FilmProblem` and time b/U (at least 3 film lengths) of a contact with these Moes numbers."""
     keywords = case_of(M, L, density=density)
-    problem = Problem(line_contact(keywords))
+    problem = FilmProblem(line_contact(keywords))
     return keywords, problem, max(problem.half_width, 3.0) * problem.length_unit / keywords["entrainment_speed"]
 
 

@@ -1,7 +1,7 @@
 """What a dry contact solve returns, and the rounds that find it: a search in single precision on the cells that may
 touch, then a check in double precision everywhere.
 
-Only the check ends the loop: a `look` at the whole patch in double precision, whatever the search found. There is no
+Only the check ends the loop: `evaluate` looks at the whole patch in double precision, whatever the search found. There is no
 proof that conjugate directions converge when they are kept while the set changes. So rounds that gain nothing end the
 solve as stagnated.
 """
@@ -14,9 +14,9 @@ import numpy as np
 
 from .._base import Shown
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, Report, worst
-from .cells import Cells
+from .candidate_cells import CandidateCells
 from .problem import dot, rescaled, zero_level
-from .search import FIRST_PACE, Search
+from .search import FIRST_PACE, CandidateSearch
 
 REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into touch
 MARGIN = 0.8  # of the tolerance, aimed at by the search
@@ -75,7 +75,7 @@ class ContactResult(Shown):
 
 
 @dataclass(frozen=True)
-class State:
+class TrialContact:
     """A pressure [Pa] with its displacement and gap [m] (nx, ny) and its approach [m].
 
     ``scale`` [m]: the length in which residuals are measured; complementarity and penetration: the residuals. All have
@@ -101,11 +101,11 @@ class State:
 
 
 @dataclass(frozen=True)
-class Found:
+class SearchResult:
     """The end of the rounds (``state``): how they ended, their cost, and the pace with which a next search should
     begin."""
 
-    state: State
+    state: TrialContact
     status: str
     iterations: int
     convolutions: float
@@ -153,13 +153,13 @@ def contact_residuals(pressure, gap, scale: float, hardness: float) -> dict[str,
     return {"complementarity": dot(carried, apart) / (carried.sum() * scale), "penetration": max(0.0, -lowest) / scale}
 
 
-def look(problem, operator, pressure, level=None) -> State:
-    """The `State` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed approach."""
-    return state_of(problem, pressure, operator.apply(pressure), level)
+def evaluate(problem, operator, pressure, level=None) -> TrialContact:
+    """The `TrialContact` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed approach."""
+    return trial_contact(problem, pressure, operator.apply(pressure), level)
 
 
-def state_of(problem, pressure, displacement, level=None) -> State:
-    """The `State` of ``pressure``, the ``displacement`` [m] of which is known."""
+def trial_contact(problem, pressure, displacement, level=None) -> TrialContact:
+    """The `TrialContact` of ``pressure``, the ``displacement`` [m] of which is known."""
     gap = np.add(problem.gap0, displacement, out=np.empty_like(displacement), casting="same_kind")
     if level is None:
         loaded = np.flatnonzero(pressure > 0)
@@ -169,12 +169,12 @@ def state_of(problem, pressure, displacement, level=None) -> State:
     gap -= level
     scale = length_scale(pressure, displacement, problem.gap0, problem.operator, problem.roughness)
     residuals = contact_residuals(pressure, gap, scale, problem.hardness)
-    return State(pressure, displacement, gap, level, scale, residuals)
+    return TrialContact(pressure, displacement, gap, level, scale, residuals)
 
 
-def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Found:
+def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> SearchResult:
     """Solve from ``pressure`` [Pa] for a total ``load`` [Pa cells] or an approach ``level`` [m]."""
-    state = look(problem, problem.operator.single, pressure, level)
+    state = evaluate(problem, problem.operator.single, pressure, level)
     status = None
     best = np.inf
     wasted = 0
@@ -195,7 +195,7 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
             del search
             pressure = _carrying(found, pressure, load, problem.hardness)
             del found
-        state = look(problem, problem.operator, pressure, level)
+        state = evaluate(problem, problem.operator, pressure, level)
         convolutions += 1
         best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
         if state.residual <= problem.tolerance:
@@ -204,10 +204,10 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Foun
             status = ITERATION_LIMIT
         elif wasted > WASTED:
             status = STAGNATED
-    return Found(state, status, iterations, convolutions, (*history, state.residual), pace)
+    return SearchResult(state, status, iterations, convolutions, (*history, state.residual), pace)
 
 
-def concluded(problem, found: Found, control: dict[str, float], failed: str) -> ContactResult:
+def contact_result(problem, found: SearchResult, control: dict[str, float], failed: str) -> ContactResult:
     """The result of a solve, judged by the residuals of its state and of its ``control``, that of what was prescribed.
     If it ended for another reason than a limit with one of them above the tolerance, its status is ``failed``."""
     state = found.state
@@ -232,7 +232,7 @@ def concluded(problem, found: Found, control: dict[str, float], failed: str) -> 
     )
 
 
-def _begun(problem, state: State, load, pace: float, exact: bool) -> Search:
+def _begun(problem, state: TrialContact, load, pace: float, exact: bool) -> CandidateSearch:
     """A search from ``state`` on the cells that are loaded, or may come into touch."""
     operator = problem.operator.single
     if np.isfinite(state.scale):
@@ -242,7 +242,7 @@ def _begun(problem, state: State, load, pace: float, exact: bool) -> Search:
     flags = state.gap < REACH * overlap
     flags |= state.pressure > 0
     rigid = problem.hardness * min(operator.spacing) / operator.e_prime < RIGID * problem.roughness
-    return Search(problem, Cells.flagged(operator, flags), state, load, pace, exact or rigid)
+    return CandidateSearch(problem, CandidateCells.flagged(operator, flags), state, load, pace, exact or rigid)
 
 
 def _carrying(found, begun, load, hardness) -> np.ndarray:

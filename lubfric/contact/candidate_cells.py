@@ -26,7 +26,7 @@ FACTOR = 4  # cells, each way, that are one for long waves
 LEAST = 64  # cells along an axis: on shorter ones long waves cost more than they save
 
 
-class Cells:
+class CandidateCells:
     """Cells ``index`` (flat; None: all) of the ``rows`` of a patch (``whole``: its shape).
 
     ``deflection``: of the rows under pressure on them, both (n, ny) in single precision.
@@ -41,7 +41,7 @@ class Cells:
         self._field = np.zeros(self.shape if index is not None else (0, 0), np.float32)
 
     @staticmethod
-    def flagged(operator, flags) -> Cells:
+    def flagged(operator, flags) -> CandidateCells:
         """Cells whose ``flags`` are set, or all if that is most of them. With a free axis x beside a periodic y, only
         the rows that contain some."""
         whole = flags.shape
@@ -55,7 +55,7 @@ class Cells:
             rows = slice(first, first + count)
         flags = flags[rows]
         many = np.count_nonzero(flags) > DENSE * flags.size
-        return Cells(deflection, None if many else np.flatnonzero(flags), rows, whole)
+        return CandidateCells(deflection, None if many else np.flatnonzero(flags), rows, whole)
 
     def gather(self, field) -> np.ndarray:
         """Values of a field of the rows, one axis."""
@@ -93,7 +93,7 @@ def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
     return own, x_part, y_part, both
 
 
-def stencil(cells: Cells, spacing, boundary, factor: float) -> Callable[[np.ndarray], np.ndarray]:
+def stencil(cells: CandidateCells, spacing, boundary, factor: float) -> Callable[[np.ndarray], np.ndarray]:
     """The function that gives, from single-precision values on the ``cells``, the sums there of the nine points, less
     long waves, times ``factor``. The values of the other cells are zero; periodic axes wrap around."""
     shape = cells.shape
