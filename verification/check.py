@@ -15,8 +15,8 @@ RELATIVE = "relative"
 ABSOLUTE = "absolute"
 AT_MOST = "at_most"
 AT_LEAST = "at_least"
-TOLD = "told"
-KINDS = (RELATIVE, ABSOLUTE, AT_MOST, AT_LEAST, TOLD)
+REPORTED = "reported"
+KINDS = (RELATIVE, ABSOLUTE, AT_MOST, AT_LEAST, REPORTED)
 GRADES = {
     "A": "a number or law from outside",
     "B": "structure: conservation, symmetry, limits, order of convergence",
@@ -34,7 +34,7 @@ class Check:
     - "absolute": ``|measured - expected| <= tolerance``, tolerance in ``unit``
     - "at_most":  ``measured <= expected + tolerance``, for bounds on errors
     - "at_least": ``measured >= expected - tolerance``, for bounds on convergence orders
-    - "told":     any finite number: a time, or an error that a chart shows
+    - "reported": any finite number: a time, or an error that a chart shows
 
     A measured value that is NaN or infinite never passes.
 
@@ -87,7 +87,7 @@ class Check:
     @property
     def deviation(self) -> float:
         """The number compared with ``tolerance``: an error, or how far a bound is exceeded."""
-        if self.kind == TOLD:
+        if self.kind == REPORTED:
             return 0.0
         difference = self.measured - self.expected
         if self.kind == RELATIVE:

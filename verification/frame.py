@@ -137,8 +137,8 @@ def choose(command: Command, p: argparse.ArgumentParser, options: argparse.Names
 
 def did_you_mean(word: str, options) -> str:
     """' (did you mean ...?)' or an empty string."""
-    found = difflib.get_close_matches(word, list(options), n=1, cutoff=0.4)
-    return f" (did you mean {found[0]!r}?)" if found else ""
+    matches = difflib.get_close_matches(word, list(options), n=1, cutoff=0.4)
+    return f" (did you mean {matches[0]!r}?)" if matches else ""
 
 
 def run_all(command: Command, studies: tuple[Study, ...], options: argparse.Namespace) -> int:

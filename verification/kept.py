@@ -59,11 +59,11 @@ def code() -> str:
     """lubfric's version, and a hash of its source files."""
     import lubfric  # only now: the studies can be listed without it
 
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     home = Path(lubfric.__path__[0])
     for path in sorted(home.rglob("*.py")):
-        found.update(path.relative_to(home).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
-    return f"lubfric-{lubfric.__version__}-{found.hexdigest()[:16]}"
+        digest.update(path.relative_to(home).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    return f"lubfric-{lubfric.__version__}-{digest.hexdigest()[:16]}"
 
 
 def rows_of(file: Path) -> dict[str, Any]:

@@ -20,9 +20,9 @@ def paced(work: Callable[[], Any]) -> tuple[Any, float]:
     """What ``work()`` returns, and its processor seconds on the stated core. The core is timed before and after it."""
     before = _pair()
     begun = time.process_time()
-    found = work()
+    result = work()
     seconds = time.process_time() - begun
-    return found, seconds * PAIR / (0.5 * (before + _pair()))
+    return result, seconds * PAIR / (0.5 * (before + _pair()))
 
 
 def _pair() -> float:

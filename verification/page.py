@@ -41,13 +41,13 @@ def overview(report) -> str:
             rows.append((escape(name), "not run", "", "", ""))
             continue
         o = done[name]
-        judged = [c for c in o.checks if c.decisive]
-        ok = sum(c.passed for c in judged)
+        decisive = [c for c in o.checks if c.decisive]
+        ok = sum(c.passed for c in decisive)
         rows.append(
             (
                 f'<a href="#{escape(name)}">{escape(o.study.title)}</a>',
                 mark(o.passed),
-                f"{ok} of {len(judged)}",
+                f"{ok} of {len(decisive)}",
                 by_grade(o.checks),
                 seconds(o.seconds),
             )

@@ -52,13 +52,13 @@ class Report:
     @property
     def verdict(self) -> str:
         """PASSED, FAILED or UNFINISHED, and the count."""
-        judged = [c for c in self.checks if c.decisive]
-        failed = sum(c.failed for c in judged)
+        decisive = [c for c in self.checks if c.decisive]
+        failed = sum(c.failed for c in decisive)
         word = "PASSED" if self.passed else "FAILED" if failed or self.complete else "UNFINISHED"
-        text = f"{word}: {len(judged) - failed} of {len(judged)} checks passed"
+        text = f"{word}: {len(decisive) - failed} of {len(decisive)} checks passed"
         if not self.complete:
             text += f"; only {len(self.outcomes)} of {len(self.selected)} studies finished"
-        return f"{text}; by grade: {by_grade(self.checks)}" if judged else text
+        return f"{text}; by grade: {by_grade(self.checks)}" if decisive else text
 
     def as_dict(self) -> dict:
         """Plain types for report.json; a number that is not finite becomes null."""
@@ -97,13 +97,13 @@ def finite(value):
 
 def environment() -> dict[str, str]:
     """Versions and machine, for a reader who wants to repeat the numbers."""
-    found = {"python": platform.python_version()}
+    results = {"python": platform.python_version()}
     for package in PACKAGES:
         try:
-            found[package] = importlib.metadata.version(package)
+            results[package] = importlib.metadata.version(package)
         except importlib.metadata.PackageNotFoundError:
-            found[package] = "not installed"
-    return found | {"machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores"}
+            results[package] = "not installed"
+    return results | {"machine": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores"}
 
 
 def save_files(outcome: Outcome, out: Path) -> Outcome:

@@ -52,22 +52,22 @@ class Outcome:
         return not self.error and bool(self.checks) and not any(c.failed for c in self.checks)
 
 
-def collected(items: Iterable[Item], timed: bool, found: dict[type, list], progress: Progress) -> None:
-    """Put every item of a study with its kind in ``found``; a check has the time since the item before it."""
+def collected(items: Iterable[Item], timed: bool, results: dict[type, list], progress: Progress) -> None:
+    """Put every item of a study with its kind in ``results``; a check has the time since the item before it."""
     last = time.perf_counter()
     for item in items:
         now = time.perf_counter()
         kind = type(item)
-        if kind not in found:
+        if kind not in results:
             raise TypeError(f"a study hands over Check, Table, Figure or Field, not {kind.__name__}")
         # two of one name would hide each other, or their files; checks may also differ by where they were measured
         placed = isinstance(item, Check) and item.at
-        if not placed and any(other.name == item.name for other in found[kind]):
+        if not placed and any(other.name == item.name for other in results[kind]):
             raise ValueError(f"two {kind.__name__.lower()}s are named {item.name!r}")
         if isinstance(item, Check):
             item = replace(item, seconds=now - last) if timed and item.seconds is None else item
             progress(item)
-        found[kind].append(item)
+        results[kind].append(item)
         last = now
 
 
@@ -102,23 +102,23 @@ def run_one(
 ) -> Outcome:
     """Import and run one study. Only an interrupt from the keyboard goes past here."""
     announce(study)
-    found: dict[type, list] = {kind: [] for kind in (Check, Table, Figure, Field)}
+    results: dict[type, list] = {kind: [] for kind in (Check, Table, Figure, Field)}
     start = time.perf_counter()
     description = error = trace = ""
     try:
         function = load(study)
         description = inspect.getdoc(function) or ""
         produced = function(level, **study.options)
-        collected(produced, inspect.isgenerator(produced), found, progress)
-        found[Check] = [c if c.grade else replace(c, grade=study.grade) for c in found[Check]]
-        if not found[Check]:
+        collected(produced, inspect.isgenerator(produced), results, progress)
+        results[Check] = [c if c.grade else replace(c, grade=study.grade) for c in results[Check]]
+        if not results[Check]:
             raise RuntimeError("the study ended without a single check")
     except (Exception, SystemExit) as exc:  # noqa: BLE001  a study may fail in any way; all are reported
         error = explain(exc)
         trace = traceback.format_exc()
         progress(raised(study, error))
-        found[Check].append(raised(study, error))
-    checks, tables, figures, fields = (tuple(items) for items in found.values())
+        results[Check].append(raised(study, error))
+    checks, tables, figures, fields = (tuple(items) for items in results.values())
     seconds = time.perf_counter() - start
     return Outcome(study, level, description, checks, tables, figures, fields, seconds, error, trace)
 

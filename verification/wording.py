@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 
-from .check import ABSOLUTE, AT_LEAST, AT_MOST, GRADES, RELATIVE, TOLD, Check
+from .check import ABSOLUTE, AT_LEAST, AT_MOST, GRADES, RELATIVE, REPORTED, Check
 
 MANY = 100
 
@@ -19,7 +19,7 @@ def mark(check: Check) -> str:
     """The verdict in four letters: what decides nothing, or has nothing to be, is neither right nor wrong."""
     if check.failed:
         return "FAIL"
-    return "ok  " if check.decisive and check.kind != TOLD else "-   "
+    return "ok  " if check.decisive and check.kind != REPORTED else "-   "
 
 
 def listed(checks: tuple[Check, ...]) -> tuple[Check, ...]:
@@ -29,8 +29,8 @@ def listed(checks: tuple[Check, ...]) -> tuple[Check, ...]:
 
 def allowed(check: Check) -> str:
     """What the measured value may be, in words."""
-    if check.kind == TOLD:
-        return "told"
+    if check.kind == REPORTED:
+        return "reported"
     tolerance = f"{check.tolerance:.2g}"
     if check.kind == AT_MOST and check.expected == 0:
         return f"≤ {tolerance}"
@@ -43,8 +43,8 @@ def allowed(check: Check) -> str:
 
 def by_grade(checks: Iterable[Check]) -> str:
     """Of each grade, how many of the checks that decide passed: "A 3 of 4, C 2 of 2"."""
-    judged = [c for c in checks if c.decisive]
-    counts = {g: [c.passed for c in judged if c.grade == g] for g in GRADES}
+    decisive = [c for c in checks if c.decisive]
+    counts = {g: [c.passed for c in decisive if c.grade == g] for g in GRADES}
     return ", ".join(f"{grade} {sum(passed)} of {len(passed)}" for grade, passed in counts.items() if passed)
 
 

@@ -7,19 +7,19 @@ import pytest
 
 from lubfric.models.deterministic import solve_point
 from verification.fem.studies.deterministic import LOAD, contact
-from verification.fem.studies.given_fluid import Case, elements, judged, laid
+from verification.fem.studies.given_fluid import GivenFluidCase, contact_by_elements, elements, laid
 
 
 def test_the_contact_is_that_of_finite_elements_given_the_fluid():
-    case = Case(32, 8, 0.003, 40e-9, 2.5e9, 1)
+    case = GivenFluidCase(32, 8, 0.003, 40e-9, 2.5e9, 1)
     problem = laid(case, replace(contact(0.1), load_per_width=5 * LOAD))
     found = solve_point(problem)
     body = elements(problem, case.fineness)
     mine = np.where(found.touching, found.pressure, 0.0)
-    judge, load = judged(problem, found, body)
+    judge, load = contact_by_elements(problem, found, body)
     assert np.count_nonzero(mine) > 5 and ((judge.pressure > 0) == (mine > 0)).all()
     assert np.linalg.norm(judge.pressure - mine) < 0.015 * np.linalg.norm(mine)
     assert load == pytest.approx(1, abs=0.01)
     half = replace(found, pressure=np.where(found.touching, found.pressure, 0.5 * found.pressure))
-    wrong, _ = judged(problem, half, body)
+    wrong, _ = contact_by_elements(problem, half, body)
     assert np.linalg.norm(wrong.pressure - mine) > 0.05 * np.linalg.norm(mine)

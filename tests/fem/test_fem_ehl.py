@@ -9,9 +9,9 @@ pytest.importorskip("skfem")
 
 import lubfric
 from verification.fem.parts import ALPHA, VISCOSITY, case_of
-from verification.fem.solvers.ehl import LineContact, Solution, solve_ehl
+from verification.fem.solvers.ehl import EHLSolution, LineContact, solve_ehl
 from verification.fem.solvers.ehl_body import Layout, graded_mesh, make_body
-from verification.fem.solvers.ehl_film import Film, assemble
+from verification.fem.solvers.ehl_film import FilmEquations, assemble
 from verification.fem.solvers.fluid import Fluid
 from verification.fem.solvers.thinned_film import Law, solve_thinned
 
@@ -23,7 +23,7 @@ def contact(M: float, L: float) -> LineContact:
     return LineContact(c["load_per_width"], c["radius"], c["e_prime"], c["entrainment_speed"], fluid)
 
 
-def films(solution: Solution) -> tuple[float, float]:
+def films(solution: EHLSolution) -> tuple[float, float]:
     """Smallest film and flow film in Moes' units."""
     return (solution.min_film / solution.contact.moes_film, solution.flow_film / solution.contact.moes_film)
 
@@ -34,7 +34,7 @@ def test_tangent_is_the_derivative(seed, upwind, density):
     mesh, layout = graded_mesh(Layout(60.0, -4.0, 3.0, (-1.0, 1.0), 0.5, 0.8))
     line = make_body(mesh, layout).line
     rng = np.random.default_rng(seed)
-    film = Film(line, Fluid(VISCOSITY, "roelands", ALPHA, density_law=density), 3e8, 0.01, upwind=upwind)
+    film = FilmEquations(line, Fluid(VISCOSITY, "roelands", ALPHA, density_law=density), 3e8, 0.01, upwind=upwind)
     P, H, dP, dH = rng.uniform(0.01, 1, (4, line.N)) * [[1], [1], [0.1], [0.1]]
     step = 3e-5
     ahead, behind = (assemble(film, P + s * dP, H + s * dH).residual for s in (step, -step))

@@ -10,7 +10,7 @@ from verification.fem.parts import case_of
 from verification.fem.solvers import contact, ehl, layer3d, reynolds, sharing
 from verification.fem.solvers.compliance import Elastic
 from verification.fem.solvers.fluid import Fluid
-from verification.fem.solvers.harmonic import Strip, compliance, press
+from verification.fem.solvers.harmonic import HarmonicStrip, compliance, press
 from verification.fem.solvers.report import InputError, SolveError
 from verification.fem.studies.reynolds import PARABOLA, parabola_mesh
 
@@ -18,7 +18,7 @@ UNIT = Elastic(1.0, 0.3)
 STEEL = Elastic.from_e_prime(231e9, 0.3)
 OIL = Fluid(0.1)
 BRICKS = layer3d.Layer3D(UNIT, (1.0, 1.0), layer3d.graded_levels(1.0, 2, 4.0), (8, 8), 1)
-STRIP = Strip((24, 12), (1e-6, 1e-6), STEEL)
+STRIP = HarmonicStrip((24, 12), (1e-6, 1e-6), STEEL)
 LINE = ehl.LineContact.of(case_of(20, 5))
 FLAT = sharing.FlatBodies(LINE, 6e-3, lambda p: (3e-7 * math.exp(-p / 5e7), p / 5e9), 0.09, 0.04)
 
@@ -39,7 +39,7 @@ def test_an_impossible_load_on_the_strip_is_refused(strip, shape, load, limit):
 def cut_short(name, strip):
     """A solver with too few steps, and where its result is."""
     heights = np.random.default_rng(5).standard_normal((24, 12)) * 1e-7
-    parabola = reynolds.Problem(parabola_mesh(200), PARABOLA.film, OIL, 1.0, cavitation=True)
+    parabola = reynolds.ReynoldsProblem(parabola_mesh(200), PARABOLA.film, OIL, 1.0, cavitation=True)
     return {
         "film": lambda: reynolds.solve_reynolds(parabola, max_iterations=2),
         "contact": lambda: contact.solve_contact(lambda f: f, np.ones(9), np.arange(9.0), 1.0, max_iterations=1),

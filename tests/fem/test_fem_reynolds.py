@@ -6,7 +6,7 @@ import pytest
 from verification.fem import exact
 from verification.fem.solvers.fluid import STEP, Fluid, slope
 from verification.fem.solvers.report import SolveError
-from verification.fem.solvers.reynolds import Problem, solve_refined, solve_reynolds
+from verification.fem.solvers.reynolds import ReynoldsProblem, solve_refined, solve_reynolds
 from verification.fem.studies.reynolds import parabola_mesh
 
 OIL = Fluid(0.1)
@@ -45,7 +45,9 @@ def test_the_exact_pad_solves_the_equation():
 
 @pytest.mark.parametrize("degree", [1, 2])
 def test_rupture_under_a_parabola(degree):
-    s = solve_refined(Problem(parabola_mesh(50, -10.0), PARABOLA.film, OIL, 1.0, degree, cavitation=True), 4)[-1]
+    s = solve_refined(ReynoldsProblem(parabola_mesh(50, -10.0), PARABOLA.film, OIL, 1.0, degree, cavitation=True), 4)[
+        -1
+    ]
     assert np.isclose(s.inflow(s.problem.mesh.p.min()), PARABOLA.flow, rtol=1e-4)
     # complementarity of what comes back: pressure, lost flow, and never both
     inside = (s.basis.doflocs[0] > s.problem.mesh.p.min()) & (s.basis.doflocs[0] < s.problem.mesh.p.max())
@@ -69,7 +71,9 @@ def test_slopes_are_derivatives():
 def test_a_runaway_oil_is_not_solved():
     """Barus above the speed where the pressure becomes infinite: no solution exists, none is returned."""
     q = PARABOLA.pressure(np.linspace(-2, 1, 4001)[None] * PARABOLA.scale).max()
-    problem = Problem(parabola_mesh(100, -10.0), PARABOLA.film, Fluid(0.1, "barus", 1.2 / q), 1.0, cavitation=True)
+    problem = ReynoldsProblem(
+        parabola_mesh(100, -10.0), PARABOLA.film, Fluid(0.1, "barus", 1.2 / q), 1.0, cavitation=True
+    )
     with pytest.raises(SolveError, match="iteration_limit|diverged"):
         solve_reynolds(problem)
 

@@ -10,7 +10,7 @@ from verification.fem.exact_contact import Line, Sphere, Wave
 from verification.fem.solvers import ehl
 from verification.fem.solvers.compliance import Elastic
 from verification.fem.solvers.fluid import Fluid
-from verification.fem.solvers.harmonic import Strip, compliance, press
+from verification.fem.solvers.harmonic import HarmonicStrip, compliance, press
 from verification.fem.solvers.sharing import FlatBodies, rupture, share_load, shear
 
 E_PRIME = 231e9
@@ -20,7 +20,7 @@ BODY = Elastic.from_e_prime(E_PRIME, 0.3)
 
 @pytest.fixture(scope="module")
 def strip():
-    return compliance(Strip((24, 12), (CELL, CELL), BODY))
+    return compliance(HarmonicStrip((24, 12), (CELL, CELL), BODY))
 
 
 def test_compliance_is_symmetric_and_positive(strip):
@@ -31,7 +31,7 @@ def test_compliance_is_symmetric_and_positive(strip):
 
 def test_wave_along_the_line_under_a_wide_band_is_that_of_the_half_space():
     """cos(k y) over |x| < L with k L >> 1 moves its middle by 4/(E' k) cos(k y)."""
-    wide = compliance(Strip((32, 4), (CELL, 2 * CELL), BODY, fineness=2))
+    wide = compliance(HarmonicStrip((32, 4), (CELL, 2 * CELL), BODY, fineness=2))
     k = 2 * math.pi / (4 * 2 * CELL)
     wave = np.cos(k * np.arange(4) * 2 * CELL)
     u = wide.apply(np.tile(wave, (32, 1)))

@@ -8,7 +8,7 @@ import pytest
 import lubfric
 from verification.campaigns import hostile
 from verification.campaigns.hostile import scenes, soak
-from verification.campaigns.hostile.case import ACCEPTED, GOOD, RAW, REFUSED, Case, judge
+from verification.campaigns.hostile.case import ACCEPTED, GOOD, RAW, REFUSED, HostileCase, judge
 from verification.campaigns.hostile.soak_judge import verdict
 from verification.campaigns.hostile.soak_scenes import random_scene
 
@@ -36,7 +36,7 @@ def test_a_sample_of_bad_inputs_is_refused(group):
     ],
 )
 def test_the_judge_tells_them_apart(tmp_path, run, verdict):
-    assert judge(Case("call", "a call", run), tmp_path)[0] == verdict
+    assert judge(HostileCase("call", "a call", run), tmp_path)[0] == verdict
 
 
 def validated(name):
@@ -46,7 +46,7 @@ def validated(name):
 def test_a_sample_of_the_soak_is_answered_right():
     """Random scenes, each closed again by the independent judge."""
     row = soak.chunk(7, range(5))
-    assert all(c.passed for c in soak.judged([row]) if hasattr(c, "passed"))
+    assert all(c.passed for c in soak.summarized([row]) if hasattr(c, "passed"))
     ended = [one["ended"] for one in row["scenes"]]
     assert ended.count(soak.ANSWERED) >= 4 and sum(one["ratio"] is not None for one in row["scenes"]) >= 3
 

@@ -69,10 +69,10 @@ def mutants(level: str) -> Iterator[Check]:
     everyone = dict.fromkeys(each for mutant in known for each in mutant.noticed_by)
     for what, chosen in (("tests", True), ("studies", False)):
         names = tuple(each for each in everyone if is_test(each) == chosen)
-        yield judged(f"the library as it is: {what}", trial(None, names), PASSED)
+        yield verdict(f"the library as it is: {what}", trial(None, names), PASSED)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for mutant, found in zip(known, pool.map(lambda m: trial(m, m.noticed_by), known)):
-            yield judged(mutant.name, found, FAILED)
+        for mutant, result in zip(known, pool.map(lambda m: trial(m, m.noticed_by), known)):
+            yield verdict(mutant.name, result, FAILED)
 
 
 def is_test(name: str) -> bool:
@@ -118,9 +118,9 @@ def trial(mutant: Mutant | None, names: tuple[str, ...]) -> int:
         return code if code in (PASSED, FAILED) else BROKEN
 
 
-def judged(name: str, found: int, wanted: int) -> Check:
-    """Whether what was ``found`` is what was ``wanted``."""
-    refused = "it did not come to an end" if found == BROKEN else ""
+def verdict(name: str, code: int, wanted: int) -> Check:
+    """Return the check that the exit ``code`` of a trial is the ``wanted`` one."""
+    refused = "it did not come to an end" if code == BROKEN else ""
     kind = AT_LEAST if wanted == FAILED else AT_MOST
-    value = float("nan") if refused else found
+    value = float("nan") if refused else code
     return Check(f"{name}: something fails", value, wanted, 0.0, "tests and studies", kind, refused=refused)

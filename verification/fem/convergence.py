@@ -44,19 +44,19 @@ class Series:
     note: str = ""
     finest: int = 0
 
-    def judged(self) -> Check:
+    def check_order(self) -> Check:
         """The observed order beside the expected one."""
         if self.order is None:
             raise ValueError(f"series {self.label!r} has no expected order to be checked")
-        found = fitted_order(self.sizes[-self.finest :], self.errors[-self.finest :])
-        return Check(self.check, found, self.order, self.tolerance, self.source, self.kind, note=self.note, grade="B")
+        order = fitted_order(self.sizes[-self.finest :], self.errors[-self.finest :])
+        return Check(self.check, order, self.order, self.tolerance, self.source, self.kind, note=self.note, grade="B")
 
 
 def convergence(name: str, caption: str, series: Sequence[Series], size: str, error: str) -> Iterator[Item]:
     """The checks on the orders, and the picture of all series against ``size``."""
     for one in series:
         if one.check:
-            yield one.judged()
+            yield one.check_order()
     yield picture(name, caption, series, size, error)
 
 

@@ -258,6 +258,6 @@ def gas_slider(slider: Slider, ambient: float, points: np.ndarray) -> np.ndarray
     top = ambient * slider.speed * slider.inlet
     q = brentq(lambda q: upstream(q).y[0, -1] - ambient, start * (1 + 1e-9), top, xtol=1e-13 * top)
     order = np.argsort(-points)
-    found = np.empty_like(points)
-    found[order] = upstream(q, points[order]).y[0] - ambient
-    return found
+    values = np.empty_like(points)
+    values[order] = upstream(q, points[order]).y[0] - ambient
+    return values

@@ -74,8 +74,8 @@ def history(smooth: Smooth, k: float, height: float) -> tuple[np.ndarray, np.nda
         return replace(smooth.problem, heights=height * np.cos(k * (x - pace * time))[:, None])
 
     moving = moments(problem, period / count, start=smooth.film.state, tolerance=STEP_PRECISION)
-    found = [(m.time, m.at.gap[:, 0], m.at.state.pressure[:, 0]) for m in islice(moving, first, first + count)]
-    times, gaps, pressures = (np.array(part) for part in zip(*found))
+    values = [(m.time, m.at.gap[:, 0], m.at.state.pressure[:, 0]) for m in islice(moving, first, first + count)]
+    times, gaps, pressures = (np.array(part) for part in zip(*values))
     return times, gaps, pressures
 
 

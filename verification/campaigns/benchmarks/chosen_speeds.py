@@ -83,8 +83,8 @@ def main() -> None:
             speeds = np.append(speeds, near[near < auto.speed[-1]])
         true = lubfric.stribeck(prepared, np.sort(speeds), tolerance=2e-3, raise_on_failure=False)
         good = np.isfinite(true.coefficient)
-        missed = [np.abs(c.at(true.speed[good]) / true.coefficient[good] - 1).max() for c in (auto, even)]
-        errors = [f"{error:.2%}" for error in (auto.report.residual, *missed)]
+        curve_errors = [np.abs(c.at(true.speed[good]) / true.coefficient[good] - 1).max() for c in (auto, even)]
+        errors = [f"{error:.2%}" for error in (auto.report.residual, *curve_errors)]
         rows.append([str(number), str(auto.speed.size), *errors, f"{spent / usual:.2f}"])
         print(" | ".join(rows[-1]), flush=True)
     page.write("chosen-speeds", ("of all scenes", "least", "median", "most"), summary(rows), (parser, arguments))

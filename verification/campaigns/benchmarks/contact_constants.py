@@ -55,9 +55,9 @@ COLUMNS = ("constant", "value", "halved: convolutions, mean and worst", "doubled
 
 def solvers(n: int) -> list:
     """Functions that solve one case each and return (convolutions, converged)."""
-    cases = [(kind, load, "periodic", None) for kind in KINDS for load in (50e6, 200e6, 1e9)]
+    cases: list[tuple] = [(kind, load, "periodic", None) for kind in KINDS for load in (50e6, 200e6, 1e9)]
     cases += [("exponential", 200e6, "periodic", 3e9), ("exponential", 200e6, ("free", "periodic"), None)]
-    warm = [("gaussian", 200e6, "periodic", None, share) for share in (1 / 3, 2 / 3)]
+    warm: list[tuple] = [("gaussian", 200e6, "periodic", None, share) for share in (1 / 3, 2 / 3)]
     return [_solver(n, *case) for case in (*cases, *warm)]
 
 
@@ -113,8 +113,8 @@ def main() -> None:
     rows = []
     for module, name in CONSTANTS:
         usual = solved_with(module, name, 1.0, solves)
-        found = [words(solved_with(module, name, factor, solves), usual) for factor in (0.5, 2.0)]
-        rows.append([f"`{module.__name__.rpartition('.')[2]}.{name}`", str(getattr(module, name)), *found])
+        values = [words(solved_with(module, name, factor, solves), usual) for factor in (0.5, 2.0)]
+        rows.append([f"`{module.__name__.rpartition('.')[2]}.{name}`", str(getattr(module, name)), *values])
         print(" | ".join(rows[-1]), flush=True)
     page.write("contact-constants", COLUMNS, rows, (parser, options))
 

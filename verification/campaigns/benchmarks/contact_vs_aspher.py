@@ -20,6 +20,7 @@ import argparse
 import json
 import os
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
@@ -66,13 +67,13 @@ def measured(solve, load, tolerance, reference):
 def compare(solvers, load, reference, target, repeats, first):
     """Rows (name, tolerance, error, median and quartiles of seconds), repeats interleaved; ``first``: the tolerances
     that the search begins with."""
-    found = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
-    seconds = {name: [f[2]] for name, f in found.items()}
+    results = {name: loosest(solve, load, reference, target, first[name]) for name, solve in solvers.items()}
+    seconds = {name: [f[2]] for name, f in results.items()}
     for _ in range(repeats):
         for name, solve in solvers.items():
-            if found[name][2] < LONG:
-                seconds[name].append(measured(solve, load, found[name][0], reference)[1])
-    return [(name, *found[name][:2], *np.quantile(seconds[name][-repeats:], (0.5, 0.25, 0.75))) for name in solvers]
+            if results[name][2] < LONG:
+                seconds[name].append(measured(solve, load, results[name][0], reference)[1])
+    return [(name, *results[name][:2], *np.quantile(seconds[name][-repeats:], (0.5, 0.25, 0.75))) for name in solvers]
 
 
 def stopped(heights, load, reference, seconds):
@@ -148,7 +149,7 @@ def run(parser, options) -> None:
     for cells in options.cells:
         for kind in options.surfaces:
             heights = surface(kind, (cells, cells), SPACING, LENGTH, SIGMA)
-            made = {"lubfric": lubfric_solver, "aspher": aspher_solver}
+            made: dict[str, Callable] = {"lubfric": lubfric_solver, "aspher": aspher_solver}
             solvers = {k: f(heights, SPACING, E_PRIME, 1) for k, f in made.items()}
             solvers = {k: s for k, s in solvers.items() if s is not None}
             for load in options.loads:

@@ -83,7 +83,7 @@ def timed(solve, load, tolerance):
 
 def compare(solvers: dict, load: float, tolerances: dict, repeats: int, reference) -> dict:
     """Median seconds and relative pressure error of each solver, repeats interleaved."""
-    seconds = {name: [] for name in solvers}
+    seconds: dict[str, list[float]] = {name: [] for name in solvers}
     error = {}
     for _ in range(repeats):
         for name, solve in solvers.items():
@@ -118,7 +118,7 @@ def main() -> None:
         reference = solvers["lubfric"](load, 1e-10)
         tolerances = {"lubfric": 1e-6, "tamaas": 1e-6}
         if opponent is not None:  # tamaas at 1e-6 sets the error that lubfric has to reach
-            theirs_error = np.linalg.norm(opponent(load, 1e-6) - reference) / np.linalg.norm(reference)
+            theirs_error = float(np.linalg.norm(opponent(load, 1e-6) - reference) / np.linalg.norm(reference))
             tolerances["lubfric"] = matched(solvers["lubfric"], load, reference, theirs_error, 1e-6)
         table = compare(solvers, load, tolerances, options.repeats, reference)
         for name, (seconds, error) in table.items():

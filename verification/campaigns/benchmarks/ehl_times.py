@@ -92,8 +92,9 @@ def main() -> None:
     for M, L in CASES:
         rows.append(row(M, L, options.repeats))
         print(" | ".join(rows[-1]), flush=True)
-    *shown, told = ([line[column] for column in OF_PAGE] for line in (*rows, COLUMNS))
-    page.write("film-times", told, shown, (parser, options))
+    shown = [[line[column] for column in OF_PAGE] for line in rows]
+    columns = [COLUMNS[column] for column in OF_PAGE]
+    page.write("film-times", columns, shown, (parser, options))
 
 
 if __name__ == "__main__":

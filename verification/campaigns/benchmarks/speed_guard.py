@@ -85,14 +85,14 @@ def seconds(checkout: Path, name: str) -> float:
 
 def ratios(earlier: Path, name: str, pairs: int) -> tuple[list[float], float]:
     """Time now over time before of each pair, and the median time now [s]."""
-    found = []
+    values = []
     now = []
     for pair in range(pairs):
         order = (ROOT, earlier) if pair % 2 else (earlier, ROOT)
         times = {checkout: seconds(checkout, name) for checkout in order}
-        found.append(times[ROOT] / times[earlier])
+        values.append(times[ROOT] / times[earlier])
         now.append(times[ROOT])
-    return found, statistics.median(now)
+    return values, statistics.median(now)
 
 
 def main() -> int:
@@ -112,15 +112,15 @@ def main() -> int:
             for name in options.only:
                 seconds(ROOT, name)  # fails where it has to be said
                 try:
-                    found, now = ratios(earlier, name, options.pairs)
+                    result, now = ratios(earlier, name, options.pairs)
                 except Failed:
                     print(f"{name:<18}new: {options.commit} cannot do it", flush=True)
                     continue
-                median = statistics.median(found)
+                median = statistics.median(result)
                 slow += median > options.limit
-                told = "SLOWER" if median > options.limit else "ok"
-                spread = f"{min(found):.2f} to {max(found):.2f}"
-                print(f"{name:<18}{now:8.3f} s  x {median:5.2f}  ({spread})  {told}", flush=True)
+                word = "SLOWER" if median > options.limit else "ok"
+                spread = f"{min(result):.2f} to {max(result):.2f}"
+                print(f"{name:<18}{now:8.3f} s  x {median:5.2f}  ({spread})  {word}", flush=True)
         finally:
             subprocess.run([*git, "remove", "--force", str(earlier)], check=True)
     return 1 if slow else 0

@@ -42,15 +42,15 @@ def cases(quick: bool) -> dict[str, tuple]:
     n, loads = (64, (200e6,)) if quick else (256, (50e6, 200e6, 1000e6))
     tolerances = (1e-2, 1e-4, 1e-6) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-8, 1e-10)
     surfaces, repeats = (("gaussian",), 1) if quick else (("exponential", "gaussian"), 3)
-    found: dict[str, tuple] = {}
+    results: dict[str, tuple] = {}
     for acf in surfaces:
         for load in loads:
-            found[f"{acf}, {load / 1e6:g} MPa, {n}²"] = (acf, n, load, "periodic", tolerances, repeats)
+            results[f"{acf}, {load / 1e6:g} MPa, {n}²"] = (acf, n, load, "periodic", tolerances, repeats)
     for name in list(BOUNDARIES)[1:]:
-        found[f"{name}, exponential, 200 MPa, {n}²"] = ("exponential", n, 200e6, name, tolerances[:5], repeats)
+        results[f"{name}, exponential, 200 MPa, {n}²"] = ("exponential", n, 200e6, name, tolerances[:5], repeats)
     sizes = (32, 64, 128) if quick else (128, 256, 512, 1024, 2048)
-    found |= {f"grids, {acf}": (acf, sizes) for acf in reversed(surfaces)}
-    return {name: (name, *case) for name, case in found.items()}
+    results |= {f"grids, {acf}": (acf, sizes) for acf in reversed(surfaces)}
+    return {name: (name, *case) for name, case in results.items()}
 
 
 def measured(case: tuple) -> list[dict]:
@@ -79,19 +79,19 @@ def methods(z, pressure: float, boundary: str, mean_gap: float) -> dict:
     def in_turns(tolerance):
         return alternating(z, mean_gap, spacing, E_PRIME, tolerance=tolerance, **by_gap).pressure
 
-    found = {"lubfric": default, "paper, single loop": in_one_loop, "paper, alternating": in_turns}
+    results = {"lubfric": default, "paper, single loop": in_one_loop, "paper, alternating": in_turns}
     if boundary == "periodic":
         for name in ("plain Polonsky-Keer", "aspher", "tamaas"):
             solver = CONTACT[name](z, spacing, E_PRIME)
             if solver is not None:
-                found[name] = partial(solver, pressure)
-    return found
+                results[name] = partial(solver, pressure)
+    return results
 
 
 def panel(label: str, acf: str, n: int, load: float, boundary: str, tolerances, repeats: int) -> list[dict]:
     """Every method at every tolerance against one tight solution."""
     z = heights(n, acf)
-    found = []
+    values = []
     asked = {"mean_pressure": load, "boundary": BOUNDARIES[boundary]}
     tight = solve_contact(z.max() - z, 512 * SPACING / n, E_PRIME, tolerance=1e-11, raise_on_failure=False, **asked)
     solvers = methods(z, load, boundary, tight.mean_gap)
@@ -104,8 +104,8 @@ def panel(label: str, acf: str, n: int, load: float, boundary: str, tolerances, 
                 error = float(np.linalg.norm(p - tight.pressure) / np.linalg.norm(tight.pressure))
                 default = name == "lubfric" and tolerance == DEFAULT
                 setting = f"tolerance {tolerance:g}"
-                found.append(point(label, name, setting, error, seconds, size=z.size, default=default))
-    return found
+                values.append(point(label, name, setting, error, seconds, size=z.size, default=default))
+    return values
 
 
 def attempt(solve, tolerance: float):
@@ -119,7 +119,7 @@ def attempt(solve, tolerance: float):
 def grids(acf: str, sizes) -> list[dict]:
     """Contact area and mean gap of one surface on coarser grids against the finest, with a solver error of 1e-6."""
     solved = {}
-    found = []
+    values = []
     for n in sizes:
         z = heights(n, acf)
         call = partial(solve_contact, z.max() - z, 512 * SPACING / n, E_PRIME, mean_pressure=200e6)
@@ -130,5 +130,5 @@ def grids(acf: str, sizes) -> list[dict]:
         for what, name in (("contact_area_fraction", "contact area"), ("mean_gap", "mean gap")):
             off = abs(getattr(result, what) / getattr(finest, what) - 1)
             method = f"{acf}, {name}"
-            found.append(point("discretisation, 200 MPa", method, f"{n}²", off, seconds, apart=True, size=n * n))
-    return found
+            values.append(point("discretisation, 200 MPa", method, f"{n}²", off, seconds, apart=True, size=n * n))
+    return values

@@ -38,8 +38,8 @@ def work_precision(name: str, points: list[Check], machine: str) -> Figure:
 
 def palette(points: list[Check]) -> dict[str, str]:
     """A colour for each method, our default first."""
-    found = dict.fromkeys(p.at["method"] for p in points)
-    methods = [m for m in ORDER if m in found] + [m for m in found if m not in ORDER]
+    results = dict.fromkeys(p.at["method"] for p in points)
+    methods = [m for m in ORDER if m in results] + [m for m in results if m not in ORDER]
     return {m: COLOURS[i % len(COLOURS)] for i, m in enumerate(methods)}
 
 

@@ -29,15 +29,15 @@ def measured(case: tuple) -> list[dict]:
     M, L, quick = case
     arguments = case_of(M, L)
     panel = f"M = {M:g}, L = {L:g}"
-    found = []
+    values = []
     exact = quantities(solve_ehl(**arguments, tolerance=2e-5, raise_on_failure=False))
     for name, setting, films, seconds, size in runs(arguments, M, L, quick):
         off = np.abs(np.array(films) / exact[: len(films)] - 1)
         at = {"default": name.startswith("default") and setting == f"tolerance {DEFAULT:g}", "size": size}
-        found.append(point(panel, name, setting, float(np.nanmax(off[:2])), seconds, **at))
+        values.append(point(panel, name, setting, float(np.nanmax(off[:2])), seconds, **at))
         if len(films) == 3 and (M, L) == SHEARED:
-            found.append(point(f"{panel}: shear force", name, setting, float(off[2]), seconds, **at))
-    return found
+            values.append(point(f"{panel}: shear force", name, setting, float(off[2]), seconds, **at))
+    return values
 
 
 def quantities(film) -> np.ndarray:

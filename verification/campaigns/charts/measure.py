@@ -9,7 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ...check import TOLD, Check
+from ...check import REPORTED, Check
 from ...report import environment
 from ..opponents import version
 
@@ -30,7 +30,7 @@ def point(
     median, low, high = (float(s) for s in seconds)
     where = at | {"panel": panel, "method": method, "setting": setting, "seconds": median, "low": low, "high": high}
     name = f"{panel}; {method}; {setting}"
-    return Check(name, error, 0.0, 0.0, "a tighter solution", TOLD, seconds=median, at=where).as_dict()
+    return Check(name, error, 0.0, 0.0, "a tighter solution", REPORTED, seconds=median, at=where).as_dict()
 
 
 def interleaved(calls: Mapping[K, Callable[[], V]], repeats: int) -> dict[K, tuple[V, Quartiles]]:
@@ -53,8 +53,8 @@ def quartiles(seconds: list[float]) -> Quartiles:
 
 def machine(_: None = None) -> str:
     """One line for the head of a chart: processor, threads, how busy the machine is, versions, date."""
-    found = environment()
-    parts = [f"{name} {found[name]}" for name in ("python", "numpy", "scipy", "lubfric")]
+    values = environment()
+    parts = [f"{name} {values[name]}" for name in ("python", "numpy", "scipy", "lubfric")]
     parts += [f"{name} {version(name)}" for name in ("tamaas", "aspher") if version(name)]
     try:
         lines = Path("/proc/cpuinfo").read_text().splitlines()

@@ -7,7 +7,7 @@ errors as small as the last setting asks for: it is left out there.
 
 import numpy as np
 
-from ..model.answers import MEASURED, Case, reference, solved
+from ..model.answers import MEASURED, AnswerCase, reference, solved
 from .measure import point, quartiles
 
 SURFACES = "Gaussian", "exponential", "ridges along", "plateau"
@@ -21,16 +21,16 @@ WAYS: dict[str, dict] = {
 ASKED = {True: ((0.02, 0.05),), False: ((0.05, 0.1), (0.02, 0.05), (0.01, 0.03))}  # of surface and model
 
 
-def cases(quick: bool) -> dict[str, tuple[Case, str, bool]]:
+def cases(quick: bool) -> dict[str, tuple[AnswerCase, str, bool]]:
     """A panel for each surface, under the light load at a smooth film of 0.8 Sq, with a curve for each way."""
-    surfaces = [Case(name, "5.5 N", 2.0, 0.8) for name in SURFACES[: 1 if quick else None]]
+    surfaces = [AnswerCase(name, "5.5 N", 2.0, 0.8) for name in SURFACES[: 1 if quick else None]]
     return {f"{case.surface}, {way}": (case, way, quick) for case in surfaces for way in WAYS}
 
 
-def measured(chosen: tuple[Case, str, bool]) -> list[dict]:
+def measured(chosen: tuple[AnswerCase, str, bool]) -> list[dict]:
     """One way at every setting, against the deterministic model on another surface, or on all of the map."""
     (case, way, quick) = chosen
-    found = []
+    values = []
     truth = reference(case)["f"]
     one_map = case.surface in MEASURED
     seeds, settings = ((1,), ASKED[quick][:2]) if one_map else (SEEDS[quick], ASKED[quick])
@@ -41,5 +41,5 @@ def measured(chosen: tuple[Case, str, bool]) -> list[dict]:
             off = float(np.sqrt(np.mean([(row["f"] / truth - 1) ** 2 for row in rows])))
             at = {"default": way == "default" and sampling == 0.02, "apart": True}
             seconds = quartiles([row["seconds"] for row in rows])
-            found.append(point(case.surface, way, f"surface {sampling:g}, model {model:g}", off, seconds, **at))
-    return found
+            values.append(point(case.surface, way, f"surface {sampling:g}, model {model:g}", off, seconds, **at))
+    return values

@@ -45,8 +45,8 @@ def scene_of(acf="gaussian", length=8e-6, seed=1):
 def real_surface() -> Path | None:
     """The measured ground surface, from LUBFRIC_SURFACES or ../shared/surfaces; None where it is not there."""
     folders = [os.environ.get("LUBFRIC_SURFACES"), Path(__file__).resolve().parents[4] / "shared" / "surfaces"]
-    found = [Path(f) / REAL for f in folders if f and (Path(f) / REAL).is_file()]
-    return found[0] if found else None
+    values = [Path(f) / REAL for f in folders if f and (Path(f) / REAL).is_file()]
+    return values[0] if values else None
 
 
 def friction_by_model(case: tuple) -> list[list[float]]:
@@ -74,9 +74,9 @@ def stribeck_curves(level: str, run: Run = Run()) -> Iterator[Item]:
     cases = {f"{kind}, {seed}": ((*kind, seed), speeds, "") for kind in KINDS for seed in seeds}
     if real_surface() and not quick:
         cases |= {f"ground along {axis}": ((*KINDS[0], 1), speeds, axis) for axis in "xy"}
-    found = {key: np.array(row) for key, (_, row) in zip(cases, run.solved(cases, friction_by_model))}
-    curves = {kind: np.array([found[f"{kind}, {seed}"] for seed in seeds]) for kind in KINDS}
-    real = {key[-1]: row for key, row in found.items() if key.startswith("ground")}
+    results = {key: np.array(row) for key, (_, row) in zip(cases, run.solved(cases, friction_by_model))}
+    curves = {kind: np.array([results[f"{kind}, {seed}"] for seed in seeds]) for kind in KINDS}
+    real = {key[-1]: row for key, row in results.items() if key.startswith("ground")}
     lengths = LENGTHS[2:4] if quick else LENGTHS
     counted = range(1, 3 if quick else 13)
     wanted = {f"F_H, {length} m, {seed}": ("gaussian", length, seed) for length in lengths for seed in counted}
@@ -144,12 +144,12 @@ def _agrees(speeds, most: float, real, table) -> str:
         where = "(LUBFRIC_SURFACES, ../shared/surfaces)"
         return f"{text}The real ground surface was not found {where} or left out of a quick run, and is skipped."
     i = int(np.argmin(np.abs(speeds - 0.01)))
-    found = ", ".join(
+    result = ", ".join(
         f"f = {c[1][i]:.4f} (asperities {c[2][i]:.4f}) with the motion along its {axis}" for axis, c in real.items()
     )
     above = " and ".join(f"{100 * np.max(c[2] / c[0] - 1):.0f} %" for c in real.values())
     return (
-        f"{text}On the real ground surface, scaled to 100 nm: {found} at {speeds[i]:.2g} m/s; the asperity model is up "
+        f"{text}On the real ground surface, scaled to 100 nm: {result} at {speeds[i]:.2g} m/s; the asperity model is up "
         f"to {above} above the half-space, as in the paper."
     )
 

@@ -127,9 +127,9 @@ def deviation_map(level: str, run: Run = Run()) -> Iterator[Item]:
     d: dict[tuple[str, float, int], list[float]] = {}
     rows = []
     for (label, length, seed, *_), row in run.solved(cases, both_models):
-        found = [signed_deviation(*np.array(pair, dtype=float)) for pair in row]
-        d[label, length, seed] = [100 * one for one, _ in found]
-        for load, (one, worst) in zip(loads, found):
+        values = [signed_deviation(*np.array(pair, dtype=float)) for pair in row]
+        d[label, length, seed] = [100 * one for one, _ in values]
+        for load, (one, worst) in zip(loads, values):
             at = float(speeds[worst]) if worst >= 0 else math.nan
             rows.append((label, seed, length, load, load * 4 / math.pi, 100 * one, at))
     most = max(max(d[BASE_LABEL, length, 1]) for length in LENGTHS)

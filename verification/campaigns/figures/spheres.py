@@ -70,8 +70,8 @@ def sphere_array(level: str, run: Run = Run()) -> Iterator[Item]:
     worst = 0.0
     for distance in SPACINGS:
         free, held = approaches(distance, loads, cell)
-        found = find_asperities(*unit_cell(distance, cell), E_PRIME, definition="summits")
-        alone = np.array([found(HEIGHT - a).load for a in free])
+        result = find_asperities(*unit_cell(distance, cell), E_PRIME, definition="summits")
+        alone = np.array([result(HEIGHT - a).load for a in free])
         for ax, approach, load in ((asperities, free, alone), (left_out, free, loads), (kept, held, loads)):
             ax.plot(approach * 1e9, load * 1e3, "o-", label=f"{distance * 1e6:g} µm")
         rows += [(distance, *row) for row in zip(loads.tolist(), free.tolist(), held.tolist(), alone.tolist())]

@@ -33,8 +33,8 @@ def generated_surfaces(level: str, run: Run = Run()) -> Iterator[Item]:
     for row, acf in zip(grid, ("exponential", "gaussian")):
         for ax, length in zip(row, LENGTHS):
             surface = rough(length, acf, count=count)
-            found = [correlation_length(surface, axis) for axis in (0, 1)]
-            rows.append((acf, length, surface.sq, *found, rms_slope(surface)[2]))
+            values = [correlation_length(surface, axis) for axis in (0, 1)]
+            rows.append((acf, length, surface.sq, *values, rms_slope(surface)[2]))
             colours = {"vmin": -720, "vmax": 720, "cmap": "cividis"}
             image(canvas, ax, surface.heights[:shown, :shown] * 1e9, (0, side, 0, side), "z (nm)", **colours)
             ax.set(title=f"{acf}, L = {length * 1e6:g} µm (1/e)", xlabel="x (µm)", ylabel="y (µm)")

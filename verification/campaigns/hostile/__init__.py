@@ -36,11 +36,11 @@ def outcomes(group_and_share: tuple[str, float]) -> list[tuple[str, str]]:
     """(verdict, words) of each case of a group, run in a folder of its own."""
     from .case import judge
 
-    found = []
+    values = []
     for case in cases(group_and_share[0], SEED, group_and_share[1]):
         with tempfile.TemporaryDirectory() as folder:
-            found.append(judge(case, Path(folder)))
-    return found
+            values.append(judge(case, Path(folder)))
+    return values
 
 
 def bad_inputs(level: str, run: Run = Run()) -> Iterator[Item]:
@@ -49,10 +49,10 @@ def bad_inputs(level: str, run: Run = Run()) -> Iterator[Item]:
 
     share = 0.1 if level == "quick" else 1.0
     rows = []
-    for (group, _), found in run.solved({group: (group, share) for group in COUNTS}, outcomes):
-        counted = Counter(verdict for verdict, _ in found)
+    for (group, _), result in run.solved({group: (group, share) for group in COUNTS}, outcomes):
+        counted = Counter(verdict for verdict, _ in result)
         for verdict in BAD:
-            first = next((words for ended, words in found if ended == verdict), "")
+            first = next((words for ended, words in result if ended == verdict), "")
             name = f"{group}: {verdict}"
             yield Check(name, counted[verdict], 0, 0, "bad by construction", AT_MOST, note=first[:200])
         rows.append((group, *(counted[verdict] for verdict in (*GOOD, *BAD))))

@@ -11,7 +11,7 @@ import numpy as np
 import lubfric
 from lubfric.scene import Constant, Harmonic, Ramp, Table
 
-from .case import Case
+from .case import HostileCase
 
 HEIGHTS = 1e-8 * np.random.default_rng(0).standard_normal((16, 12))
 ANY = ("x", b"1", 1j, float("nan"), float("inf"), object(), [[1]], datetime.date(2020, 1, 1), np.ma.masked, 10**400)
@@ -132,7 +132,7 @@ def singles() -> list[tuple[Target, str, object]]:
     ]
 
 
-def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
+def cases(rng: np.random.Generator, count: int) -> Iterator[HostileCase]:
     """At least ``count`` calls: every bad argument alone, and then random pairs of one function."""
     single = singles()
     for target, name, value in single:
@@ -144,11 +144,11 @@ def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
         yield _case(target, {other: second, name: value})
 
 
-def _case(target: Target, bad: dict[str, object]) -> Case:
+def _case(target: Target, bad: dict[str, object]) -> HostileCase:
     def run(folder: Path) -> object:
         return target.call(**{**target.good, **bad})
 
-    return Case("call", f"{target.name}({', '.join(f'{k} = {_short(v)}' for k, v in bad.items())})", run)
+    return HostileCase("call", f"{target.name}({', '.join(f'{k} = {_short(v)}' for k, v in bad.items())})", run)
 
 
 def _short(value: object) -> str:

@@ -24,7 +24,7 @@ BAD = (RAW, ACCEPTED, SLOW, LARGE, WORDLESS)
 
 
 @dataclass(frozen=True)
-class Case:
+class HostileCase:
     """``run(folder)`` hands the bad input to the library. ``folder`` is empty and belongs to the case.
 
     may_pass : the damage was done at random and can leave a good file. Then an answer is right too, but never another
@@ -52,16 +52,16 @@ def resident_memory() -> int:
     return pages * resource.getpagesize()
 
 
-def judge(case: Case, folder: Path) -> tuple[str, str]:
+def judge(case: HostileCase, folder: Path) -> tuple[str, str]:
     """(verdict, words) of one case. Only `lubfric.LubfricError` is a refusal, and its words must be one paragraph."""
     before = peak_memory()
     begun = time.process_time()
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            found = case.run(folder)
+            result = case.run(folder)
         verdict = PASSED if case.may_pass else ACCEPTED
-        words = repr(found)[:200]
+        words = repr(result)[:200]
     except lubfric.LubfricError as error:
         words = str(error)
         verdict = REFUSED if 10 <= len(words) <= 1200 else WORDLESS

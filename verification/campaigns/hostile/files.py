@@ -11,7 +11,7 @@ import lubfric
 from lubfric.scene import read_history
 
 from . import HAND
-from .case import Case
+from .case import HostileCase
 
 MAP = 1e-7 * np.random.default_rng(0).standard_normal((24, 16))
 HISTORY = "time [s],speed [m/s]\n0,1\n0.5,2\n1,0\n"
@@ -64,7 +64,7 @@ def damaged(rng: np.random.Generator, content: bytes) -> tuple[bytes, str]:
     return content[:first] + content[last:], f"{first} to {last} taken out"
 
 
-def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
+def cases(rng: np.random.Generator, count: int) -> Iterator[HostileCase]:
     """At least ``count`` files: those made by hand, then damaged ones of each kind in turn."""
     by_hand = list(_by_hand())
     yield from by_hand
@@ -82,7 +82,7 @@ def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
         yield _case(name, what, content, may_pass=True)
 
 
-def _by_hand() -> Iterator[Case]:
+def _by_hand() -> Iterator[HostileCase]:
     for text in (*HAND["files"]["grid"], LONG):
         for name in ("map.txt", "map.csv", "map.asc"):
             yield _case(name, repr(text[:30]), text.encode("utf-8"))
@@ -112,7 +112,7 @@ def _by_hand() -> Iterator[Case]:
         yield _case("map.x3p", what, content)
 
 
-def _case(name: str, what: str, content: bytes | None, may_pass: bool = False) -> Case:
+def _case(name: str, what: str, content: bytes | None, may_pass: bool = False) -> HostileCase:
     def run(folder: Path) -> object:
         path = folder / name
         if content is not None:
@@ -122,4 +122,4 @@ def _case(name: str, what: str, content: bytes | None, may_pass: bool = False) -
         carries_its_own = name.endswith((".xyz", ".x3p", ".sur"))
         return lubfric.read_surface(path, **({} if carries_its_own else {"spacing": 1e-6})).describe()
 
-    return Case("file", f"{name}, {what}", run, may_pass)
+    return HostileCase("file", f"{name}, {what}", run, may_pass)

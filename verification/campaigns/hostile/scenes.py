@@ -10,7 +10,7 @@ import numpy as np
 import lubfric
 
 from . import HAND
-from .case import Case
+from .case import HostileCase
 
 Tables = dict[str, dict[str, str]]
 OWN = HAND["scenes"]
@@ -45,13 +45,13 @@ def changed(tables: Tables, section: str, key: str, value: str | None) -> Tables
 def keys_of_scene() -> list[tuple[str, str, str]]:
     """(section, key, "word", "whole", "number" or "truth") of every key of a scene, from the annotations of its
     classes."""
-    found = []
+    values = []
     for section, hint in typing.get_type_hints(lubfric.Scene).items():
         kinds = [k for k in (hint, *typing.get_args(hint)) if dataclasses.is_dataclass(k)]
         for kind in kinds[:1]:
             for field in dataclasses.fields(kind):
-                found.append((section, field.name, _kind(str(field.type))))
-    return found + [(section, key, "number") for section, keys in SHORT.items() for key in keys]
+                values.append((section, field.name, _kind(str(field.type))))
+    return values + [(section, key, "number") for section, keys in SHORT.items() for key in keys]
 
 
 def _kind(annotation: str) -> str:
@@ -72,14 +72,14 @@ def bad_values(key: str, kind: str) -> Iterator[str]:
 
 def mutations() -> list[tuple[str, str, str | None]]:
     """Every (section, key, value) that makes the good scene a bad one."""
-    found: list[tuple[str, str, str | None]] = [
+    values: list[tuple[str, str, str | None]] = [
         (section, key, value)
         for section, key, kind in keys_of_scene()
         for value in bad_values(key, kind)
         if (key, value) not in RIGHT
     ]
-    found += [(section, key, None) for section, keys in GOOD.items() for key in keys if _needed(section, key)]
-    return found + [tuple(row) for row in OWN["wrong"]]
+    values += [(section, key, None) for section, keys in GOOD.items() for key in keys if _needed(section, key)]
+    return values + [tuple(row) for row in OWN["wrong"]]
 
 
 def _needed(section: str, key: str) -> bool:
@@ -95,7 +95,7 @@ def misspelt(rng: np.random.Generator, word: str, known: set[str]) -> str:
             return new
 
 
-def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
+def cases(rng: np.random.Generator, count: int) -> Iterator[HostileCase]:
     """At least ``count`` scenes: every single mutation, misspelt keys and tables, broken TOML, then random pairs."""
     single = mutations()
     keys = keys_of_scene()
@@ -119,7 +119,7 @@ def cases(rng: np.random.Generator, count: int) -> Iterator[Case]:
         yield case(f"[{s1}] {k1} = {str(v1)[:30]} and [{s2}] {k2} = {str(v2)[:30]}", text_of(tables))
 
 
-def case(name: str, text: str) -> Case:
+def case(name: str, text: str) -> HostileCase:
     """Load the scene ``text`` and solve it."""
 
     def run(folder: Path) -> object:
@@ -128,4 +128,4 @@ def case(name: str, text: str) -> Case:
         scene = lubfric.load_scene(path)
         return lubfric.transient(scene) if scene.transient is not None else lubfric.friction(scene)
 
-    return Case("scene", name, run)
+    return HostileCase("scene", name, run)

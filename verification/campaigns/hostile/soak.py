@@ -34,10 +34,10 @@ def soak(level: str, run: Run = Run()) -> Iterator[Item]:
     root finder nor sums. The memory does not grow.
     """
     chunks = {f"scenes from {k}": range(k, k + CHUNK) for k in range(0, 100 if level == "quick" else 10_000, CHUNK)}
-    yield from judged([row for _, row in run.solved(chunks, partial(chunk, SEED))])
+    yield from summarized([row for _, row in run.solved(chunks, partial(chunk, SEED))])
 
 
-def judged(chunks: list[dict]) -> Iterator[Item]:
+def summarized(chunks: list[dict]) -> Iterator[Item]:
     """Checks and tables of the chunks."""
     scenes = [one for row in chunks for one in row["scenes"]]
     ended = Counter(one["ended"] for one in scenes)

@@ -35,7 +35,7 @@ NEAR = 0.4
 
 
 @dataclass(frozen=True)
-class Strip:
+class MappedStrip:
     """Heights [m] of a piece of the surface, less their mean, with its spacing and x [m]."""
 
     heights: np.ndarray
@@ -65,8 +65,8 @@ class Judge:
     prepared: Prepared
     speed: float
     scaled: bool
-    strip: Strip
-    pairs: tuple[tuple[Strip, Strip], ...] = ()
+    strip: MappedStrip
+    pairs: tuple[tuple[MappedStrip, MappedStrip], ...] = ()
     film_tolerance: float = LOOSE
 
     def sides(self, split: float) -> Sides:
@@ -98,7 +98,7 @@ class Judge:
             pass
         return solve_ehl(**case, sliding=sliding, eyring_stress=stress, tolerance=1e-4)
 
-    def pressed(self, strip: Strip, film, load: float) -> tuple[float, float, np.ndarray]:
+    def pressed(self, strip: MappedStrip, film, load: float) -> tuple[float, float, np.ndarray]:
         """Mean gap and mean film over A [m], and share in contact at each x, of a dry contact at ``load`` [N]."""
         scene = self.prepared.scene
         x = strip.x
@@ -129,7 +129,7 @@ class Judge:
         columns = np.full(x.size, touching.mean()) if flat else touching.mean(axis=1)
         return float(gap.mean(axis=1) @ weight / weight.sum()), mean_film, columns
 
-    def _weight(self, strip: Strip) -> np.ndarray:
+    def _weight(self, strip: MappedStrip) -> np.ndarray:
         half = self.prepared.scene.bodies.half_width
         dx = strip.spacing[0]
         if self.prepared.scene.contact.region == "box":
@@ -155,7 +155,7 @@ def judge_of(prepared: Prepared, result) -> Judge:
     tolerance = TIGHT if cancels or newtonian or scene.motion.slide_roll_ratio == 0 else LOOSE
     scaled = scene.numerics.film_deflection == "scaled"
     strips = prepared.strips
-    pairs: tuple[tuple[Strip, Strip], ...] = ()
+    pairs: tuple[tuple[MappedStrip, MappedStrip], ...] = ()
     if strips is None or strips.whole:
         n = prepared.surface.shape[0]
         dx = prepared.surface.spacing[0]
@@ -169,11 +169,11 @@ def judge_of(prepared: Prepared, result) -> Judge:
     return Judge(prepared, result.speed, scaled, strip, pairs, tolerance)
 
 
-def _strip(surface, x) -> Strip:
-    return Strip(surface.heights - surface.heights.mean(), surface.spacing, x)
+def _strip(surface, x) -> MappedStrip:
+    return MappedStrip(surface.heights - surface.heights.mean(), surface.spacing, x)
 
 
-def _pair(strips: Strips, index: int) -> tuple[Strip, Strip]:
+def _pair(strips: Strips, index: int) -> tuple[MappedStrip, MappedStrip]:
     """A piece on its own cells and on those of the strips."""
     cells = strips.cells
     piece = strips.piece(index)
@@ -187,15 +187,15 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
     load = prepared.scene.bodies.load
     share = result.contact_load / load
     forces = result.boundary_force + result.shear_force
-    found = {
+    results = {
         "load": abs((result.contact_load + result.film_load) / load - 1),
         "friction sum": abs(result.coefficient * load - forces) / max(abs(forces), 1e-300),
         "bounds": 0.0 if -1e-12 <= share <= 1 + 1e-12 and 0 <= result.real_contact_area_fraction <= 1 else 1.0,
     }
     if result.speed == 0:
-        found["contact share"] = abs(share - 1) / scene.numerics.tolerance
+        results["contact share"] = abs(share - 1) / scene.numerics.tolerance
         expected = scene.bodies.boundary_friction_coefficient
-        found["friction"] = abs(result.coefficient / expected - 1) / scene.numerics.tolerance
+        results["friction"] = abs(result.coefficient / expected - 1) / scene.numerics.tolerance
     elif scene.contact.model == "half-space" and scene.surface.sq:
         stated = max(scene.numerics.tolerance, result.uncertainty.numerical)
         of_share = scene.numerics.tolerance
@@ -206,11 +206,11 @@ def verdict(prepared: Prepared, result) -> dict[str, float]:
         for closely in (False, True):  # cells that touch one by one: a secant of two balances may miss
             (coefficient, open_), split = closed_again(judge, share, closely)
             allowed = stated * abs(result.coefficient) + open_ / ALLOWED["friction"]
-            found["friction"] = abs(result.coefficient - coefficient) / allowed
-            found["contact share"] = abs(share - split) / of_share
-            if max(found[name] / ALLOWED[name] for name in ("friction", "contact share")) <= 1:
+            results["friction"] = abs(result.coefficient - coefficient) / allowed
+            results["contact share"] = abs(share - split) / of_share
+            if max(results[name] / ALLOWED[name] for name in ("friction", "contact share")) <= 1:
                 break
-    return {name: value / ALLOWED[name] for name, value in found.items()}
+    return {name: value / ALLOWED[name] for name, value in results.items()}
 
 
 def closed_again(judge: Judge, share: float, closely: bool = False) -> tuple[tuple[float, float], float]:

@@ -19,7 +19,7 @@ import numpy as np
 import lubfric
 from lubfric.scene import Roughness
 
-from ...check import ABSOLUTE, TOLD, Check, Figure, Item, Table
+from ...check import ABSOLUTE, REPORTED, Check, Figure, Item, Table
 from ...fem.parts import halved
 from ...kept import Run
 from ...plotting import chart
@@ -60,7 +60,7 @@ WAYS = {"default": {}, "load sharing": {"model": "load-sharing"}}
 
 
 @dataclass(frozen=True)
-class Case:
+class AnswerCase:
     """A kind of surface under a contact with ``over`` = f_b over the limit of the oil, at a film/Sq and a slide-roll
     ratio (2: the roughness rests); ``longer``: times the lengths of the surface."""
 
@@ -121,72 +121,74 @@ def heights(kind: str, seed: int) -> np.ndarray:
     return z if kind == "plateau" else -z
 
 
-def cases(level: str, rollers: bool) -> dict[str, Case]:
+def cases(level: str, rollers: bool) -> dict[str, AnswerCase]:
     """The combinations of ``level`` by name, the same first ones at every level: the lighter contacts, or rollers."""
     contacts = [name for name in CONTACTS if (name == ROLLER) == rollers]
     kinds = list(itertools.product((*GENERATED, *MEASURED), contacts, (1.0, 2.0)))
     order = np.random.default_rng(SEED).permutation(len(kinds))[: max(1, DRAWN[level] // (3 if rollers else 1))]
-    every = [Case(*kinds[int(index)], ratio) for index in order for ratio in RATIOS.get(level, RATIOS["default"])]
+    every = [AnswerCase(*kinds[int(index)], ratio) for index in order for ratio in RATIOS.get(level, RATIOS["default"])]
     return {f"{c.surface}; {c.contact}; {c.over:g}; {c.ratio:g}": c for c in every}
 
 
-def reference(case: Case) -> dict:
+def reference(case: AnswerCase) -> dict:
     """f of the endless line, and its error."""
     return solved(case, 1 if case.surface in MEASURED else REFERENCE, {"model": "deterministic"} | ASKED)
 
 
-def answer(case_and_seed: tuple[Case, int]) -> dict[str, dict]:
+def answer(case_and_seed: tuple[AnswerCase, int]) -> dict[str, dict]:
     """f and its interval on one surface, both ways."""
     case, seed = case_and_seed
     return {way: solved(case, seed, numerics) for way, numerics in WAYS.items()}
 
 
-def solved(case: Case, seed: int, numerics: dict) -> dict:
+def solved(case: AnswerCase, seed: int, numerics: dict) -> dict:
     """One point: f, half of its interval and its standard error, all relative; or why there is none."""
     begun = time.process_time()
     with tempfile.TemporaryDirectory() as folder:
         scene = case.scene(seed, folder, **numerics)
         try:
-            found = lubfric.friction(scene, case.speed(scene))
+            point = lubfric.friction(scene, case.speed(scene))
         except lubfric.LubfricError as error:
             return {"failure": f"{type(error).__name__}: {error}"[:200]}
-    known = found.uncertainty
-    f = found.coefficient
-    row = {"f": f, "low": known.interval[0], "high": known.interval[1], "by": found.decision.model}
+    known = point.uncertainty
+    f = point.coefficient
+    row = {"f": f, "low": known.interval[0], "high": known.interval[1], "by": point.decision.model}
     return row | {"error": math.hypot(known.numerical, known.sampling), "seconds": time.process_time() - begun}
 
 
 def answers(level: str, run: Run = Run(), rollers: bool = False) -> Iterator[Item]:
     """Every case by default, by load sharing alone, and by the reference: errors, intervals and coverage."""
-    found = []
+    values = []
     failed = 0
     for case, truth in run.solved(cases(level, rollers), reference, "references"):
         seeds = range(1, 2 if case.surface in MEASURED else 1 + SEEDS[level])
         for _, row in run.solved({f"{case}, {seed}": (case, seed) for seed in seeds}, answer, "answers"):
             failed += "failure" in row["default"]
             if truth.get("error") and all(row[way].get("low") is not None for way in WAYS):
-                found.append(((case.surface, case.contact), [judged(row[way], truth) for way in WAYS]))
-    yield from compared("answers-rollers" if rollers else "answers", found, failed, "finer strips")
+                values.append(((case.surface, case.contact), [interval_error(row[way], truth) for way in WAYS]))
+    yield from compared("answers-rollers" if rollers else "answers", values, failed, "finer strips")
 
 
-def compared(name: str, found: list[tuple], failed: int, source: str) -> Iterator[Item]:
-    """Table, checks and picture of answers ``found``: the groups of each, and by both ways what is `judged`."""
-    every = {way: np.array([both[k] for _, both in found]).reshape(-1, 3) for k, way in enumerate(WAYS)}
-    names = [name for name in dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in found)))) if name != ROLLER]
+def compared(name: str, result: list[tuple], failed: int, source: str) -> Iterator[Item]:
+    """Table, checks and picture of answers ``result``: the groups of each, and by both ways what is `interval_error`."""
+    every = {way: np.array([both[k] for _, both in result]).reshape(-1, 3) for k, way in enumerate(WAYS)}
+    names = [name for name in dict.fromkeys(itertools.chain(*zip(*(groups for groups, _ in result)))) if name != ROLLER]
     rows = [
-        [group, str(sum(here)), *told(every["default"][here]), *told(every["load sharing"][here])]
+        [group, str(sum(here)), *summary(every["default"][here]), *summary(every["load sharing"][here])]
         for group in (*names, "all")
-        if any(here := [group in (*groups, "all") for groups, _ in found])
+        if any(here := [group in (*groups, "all") for groups, _ in result])
     ]
     yield Table(name, f"The default answer, and load sharing alone, beside {source}", COLUMNS, rows)
     for way, said in (("default", "default answer"), ("load sharing", "load sharing alone")):
-        inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if found else math.nan
-        yield Check(f"{said}: share of {len(found)} intervals with f", inside, 1.0, 0.1, source, ABSOLUTE)
-    yield Check("default answers that failed, or left moving roughness to Eq. (8)", failed, 0, 0.0, "the answers", TOLD)
+        inside = float(np.mean(every[way][:, 1] <= every[way][:, 2])) if result else math.nan
+        yield Check(f"{said}: share of {len(result)} intervals with f", inside, 1.0, 0.1, source, ABSOLUTE)
+    yield Check(
+        "default answers that failed, or left moving roughness to Eq. (8)", failed, 0, 0.0, "the answers", REPORTED
+    )
     yield drawn(name, every)
 
 
-def judged(row: dict, truth: dict) -> tuple[float, float, float]:
+def interval_error(row: dict, truth: dict) -> tuple[float, float, float]:
     """Half of the interval; by how much f is off; and how much of that its interval on this side and twice the error of
     the reference allow; all relative to the reference."""
     f = row["f"]
@@ -195,9 +197,9 @@ def judged(row: dict, truth: dict) -> tuple[float, float, float]:
     return (row["high"] - row["low"]) / (2 * t), abs(f / t - 1), math.hypot(side / t, 2 * truth["error"])
 
 
-def told(found: np.ndarray) -> list[str]:
+def summary(values: np.ndarray) -> list[str]:
     """The root mean square error, the mean half of the interval, and the share of intervals that hold f."""
-    half, off, allowed = found.T
+    half, off, allowed = values.T
     errors = math.sqrt(np.mean(off**2)), half.mean()
     return [*(f"{100 * error:.1f} %" for error in errors), f"{100 * (off <= allowed).mean():.0f} %"]
 

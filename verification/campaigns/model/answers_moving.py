@@ -15,7 +15,7 @@ from lubfric.models.deterministic import RoughBody, solve_moving_strip
 
 from ...check import Item
 from ...kept import Run
-from .answers import LENGTH, WAYS, Case, answer, compared, judged
+from .answers import LENGTH, WAYS, AnswerCase, answer, compared, interval_error
 
 CONTACTS = {"5.5 N": 2.0, "110 N": 3.0}  # how many times as long their surface is, so that a strip takes seconds
 # Moes' film over Sq; slide-roll ratios: surface 1 is rough
@@ -28,14 +28,14 @@ SHAPE = (108, 96)
 FINE = 160 / 18, 40 / 18  # of these in a correlation length: along x twice those of an answer
 
 
-def cases(level: str) -> list[Case]:
+def cases(level: str) -> list[AnswerCase]:
     """The cases of ``level``."""
     every = itertools.product(CONTACTS.items(), RATIOS, SLIPS)
-    found = [Case("Gaussian", contact, 1.0, ratio, slip, times) for (contact, times), ratio, slip in every]
-    return found[-1:] if level == "quick" else found
+    values = [AnswerCase("Gaussian", contact, 1.0, ratio, slip, times) for (contact, times), ratio, slip in every]
+    return values[-1:] if level == "quick" else values
 
 
-def change(case_and_seed: tuple[Case, int]) -> float:
+def change(case_and_seed: tuple[AnswerCase, int]) -> float:
     """Relative change of f from the cells of an answer to endlessly short ones, on one surface."""
     case, seed = case_and_seed
     scene = case.scene(seed, "")
@@ -52,7 +52,7 @@ def change(case_and_seed: tuple[Case, int]) -> float:
 def answers_moving(level: str, run: Run = Run()) -> Iterator[Item]:
     """Every answer by the moving model, and by load sharing alone, beside the mean of the others of its case on
     endlessly short cells."""
-    found = []
+    values = []
     left = 0
     for case in cases(level):
         changes = [row for _, row in run.solved({f"{case}, {k}": (case, k) for k in CHANGES}, change, "changes")]
@@ -65,5 +65,5 @@ def answers_moving(level: str, run: Run = Run()) -> Iterator[Item]:
             error = math.hypot(*(np.std(v) / math.sqrt(max(len(v) - 1, 1)) for v in (f / f.mean(), changes)))
             truth = {"f": f.mean() * (1 + np.mean(changes)), "error": error}
             groups = case.contact, f"film of {case.ratio:g} Sq", f"slide-roll ratio {case.slip:g}"
-            found.append((groups, [judged(row[way], truth) for way in WAYS]))
-    yield from compared("answers-moving", found, left, "the other answers on shorter cells")
+            values.append((groups, [interval_error(row[way], truth) for way in WAYS]))
+    yield from compared("answers-moving", values, left, "the other answers on shorter cells")

@@ -10,7 +10,7 @@ import lubfric
 from lubfric.models.deterministic import BOUNDARY_FILM, solve_strip
 
 from ... import plotting
-from ...check import TOLD, Check, Figure, Item, Table
+from ...check import REPORTED, Check, Figure, Item, Table
 from ...fem.parts import case_of_scene
 from ...fem.references import load_share_band
 from ...kept import Run
@@ -33,12 +33,12 @@ def boundary_film(level: str, run: Run = Run()) -> Iterator[Item]:
     pressures = PRESSURES[:1] if level == "quick" else PRESSURES
     cases = {f"{kind}; {pressure:g} Pa": (kind, pressure) for kind in kinds for pressure in pressures}
     solved = list(run.solved(cases, shares))
-    found = np.array([row for _, row in solved], float)  # cases, ratios, films
+    values = np.array([row for _, row in solved], float)  # cases, ratios, films
     low, high = load_share_band(RATIOS)
-    off = np.maximum(np.maximum(found - high[:, None], low[:, None] - found), 0.0)
+    off = np.maximum(np.maximum(values - high[:, None], low[:, None] - values), 0.0)
     worst = np.nanmax(off, axis=(0, 1))
     for film, distance in zip(FILMS, worst):
-        yield Check(f"{film * 1e9:g} nm: largest distance from the band", distance, 0.0, 1.0, "four laws", TOLD)
+        yield Check(f"{film * 1e9:g} nm: largest distance from the band", distance, 0.0, 1.0, "four laws", REPORTED)
     chosen = FILMS[int(np.argmin(worst))]
     yield Check(
         "best boundary film", chosen, BOUNDARY_FILM, 0.0, "lubfric's default", unit="m", decisive=level != "quick"
@@ -46,21 +46,21 @@ def boundary_film(level: str, run: Run = Run()) -> Iterator[Item]:
     columns = ("film/Sq", "four laws", *(f"h < {film * 1e9:g} nm" for film in FILMS))
     rows = [
         (f"{ratio:g}", f"{lo:.2f}–{hi:.2f}", *(f"{np.nanmin(s):.2f}–{np.nanmax(s):.2f}" for s in at.T))
-        for ratio, lo, hi, at in zip(RATIOS, low, high, found.swapaxes(0, 1))
+        for ratio, lo, hi, at in zip(RATIOS, low, high, values.swapaxes(0, 1))
     ]
     rows.append(("largest distance", "", *(f"{distance:.2f}" for distance in worst)))
     yield Table("boundary-film", "Share of the load on thin gaps, lowest and highest of all cases", columns, rows)
-    yield drawn([f"{kind}, {pressure / 1e9:g} GPa" for (kind, pressure), _ in solved], found)
+    yield drawn([f"{kind}, {pressure / 1e9:g} GPa" for (kind, pressure), _ in solved], values)
 
 
-def drawn(names: list[str], found: np.ndarray) -> Figure:
+def drawn(names: list[str], values: np.ndarray) -> Figure:
     """The shares (cases, ratios, films) of three films over the ratio, in the band of the laws."""
     chosen = (10e-9, 20e-9, 40e-9)
     canvas, grid = plotting.axes(1, len(chosen), 9.5, 3.6, sharey=True)
     dense = np.geomspace(min(RATIOS), max(RATIOS), 100)
     for ax, film in zip(grid, chosen):
         ax.fill_between(dense, *load_share_band(dense), color="0.8", label="four published laws")
-        for k, (name, one) in enumerate(zip(names, found[:, :, FILMS.index(film)])):
+        for k, (name, one) in enumerate(zip(names, values[:, :, FILMS.index(film)])):
             ax.plot(RATIOS, one, "osD"[k // len(PRESSURES)] + ("-", "--", ":")[k % len(PRESSURES)], label=name)
         ax.set(xscale="log", xlabel="film/Sq", title=f"h < {film * 1e9:g} nm")
     grid[0].set_ylabel("share of the load")
@@ -78,14 +78,14 @@ def shares(case: tuple[str, float]) -> list[list[float]]:
     start = None
     for ratio in RATIOS:
         try:
-            found = solve_strip(scene, surface, speed_of(scene, ratio * SURFACES[kind]), start=start)
+            solution = solve_strip(scene, surface, speed_of(scene, ratio * SURFACES[kind]), start=start)
         except lubfric.ConvergenceError:
             rows.append([math.nan] * len(FILMS))
             continue
-        p = found.result.pressure
-        h = found.result.gap
+        p = solution.result.pressure
+        h = solution.result.gap
         rows.append([float(p[h < film].sum() / p.sum()) for film in FILMS])
-        start = found
+        start = solution
     return rows
 
 

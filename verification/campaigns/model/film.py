@@ -35,8 +35,8 @@ def grids(level: str, run: Run = Run()) -> Iterator[Item]:
     for speed, change, slopes, times in zip((0.03, 0.01, 0.003), last, order, seconds[..., 2]):
         name = f"{speed:g} m/s, {count} surfaces: largest change of f from {cells[1]} to {cells[2]} cells"
         yield Check(name, change.max(), ALLOWED[level], 0.0, "the finer grid", AT_MOST)
-        found = f"{100 * change.max():.2f} %", f"{slopes.min():.1f} to {slopes.max():.1f}", f"{np.median(times):.0f} s"
-        table.append((f"{speed:g}", str(count), *found, f"{memory:.1f} GB"))
+        result = f"{100 * change.max():.2f} %", f"{slopes.min():.1f} to {slopes.max():.1f}", f"{np.median(times):.0f} s"
+        table.append((f"{speed:g}", str(count), *result, f"{memory:.1f} GB"))
     columns: tuple[str, ...] = ("U (m/s)", "surfaces", f"largest change of f, {cells[1]} to {cells[2]}", "order")
     columns += (f"processor time at {cells[2]}, median", "memory")
     yield Table("refinement", "The coefficient on three grids", columns, table)

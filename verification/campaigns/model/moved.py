@@ -50,13 +50,13 @@ def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
         tolerance=EXACT * problem.x.size,
         carried=int(line.half_width > 8 * dx),
     )
-    found, sources = zip(*((moment.result, given(moment.at)) for moment in islice(moving, start, start + count + 1)))
-    rows = [row(problem, *both) for both in zip(found[1:], sources[1:])]
+    result, sources = zip(*((moment.result, given(moment.at)) for moment in islice(moving, start, start + count + 1)))
+    rows = [row(problem, *both) for both in zip(result[1:], sources[1:])]
     mean: dict[str, Any] = {name: np.mean([one[name] for one in rows], axis=0).tolist() for name in rows[0]}
     mean["drawn"] = share(mean["given"], mean["enters"])
     at = travelling(problem, bodies)((start + count) * step)
     out = float(np.mean(sources[2:]))
-    return mean | {"rest": first, "off": balances(at, found[-1], found, step, out), "steps": start + count}
+    return mean | {"rest": first, "off": balances(at, result[-1], result, step, out), "steps": start + count}
 
 
 def row(problem, result, out: float) -> dict[str, Any]:

@@ -14,7 +14,7 @@ import numpy as np
 import lubfric
 from lubfric.models.deterministic import RoughBody
 
-from ...check import TOLD, Check, Item, Table
+from ...check import REPORTED, Check, Item, Table
 from ...kept import Run
 from .boundary_film import speed_of
 from .moved import BALANCES, passed
@@ -66,20 +66,28 @@ def drawn(seed: int) -> tuple[Any, list[RoughBody], float, dict]:
     speed = speed_of(scene, ratio * sq)
     bodies = [RoughBody(m, speed * (1 + s * slip / 2), s > 0) for m, s in zip(maps, (-1, 1))]
     chosen = {"lower": bodies[:1], "upper": bodies[1:], "both": bodies}[rough]
-    told = {"pressure": pressure, "sq": sq, "ratio": ratio, "slip": slip, "radius": radius, "rough": rough, "oil": kind}
-    return scene, chosen, speed, told
+    inputs = {
+        "pressure": pressure,
+        "sq": sq,
+        "ratio": ratio,
+        "slip": slip,
+        "radius": radius,
+        "rough": rough,
+        "oil": kind,
+    }
+    return scene, chosen, speed, inputs
 
 
 def solved(seed: int) -> dict[str, Any]:
     """One point: f and its balances; or how it was said not to be solved."""
     begun = time.process_time()
-    told: dict[str, Any] = {}
+    inputs: dict[str, Any] = {}
     try:
-        scene, bodies, speed, told = drawn(seed)
-        found = passed(scene, bodies, speed)
+        scene, bodies, speed, inputs = drawn(seed)
+        solution = passed(scene, bodies, speed)
     except lubfric.LubfricError as error:
-        return told | {"failure": f"{type(error).__name__}: {error}"[:200], "seconds": time.process_time() - begun}
-    return told | found | {"seconds": time.process_time() - begun}
+        return inputs | {"failure": f"{type(error).__name__}: {error}"[:200], "seconds": time.process_time() - begun}
+    return inputs | solution | {"seconds": time.process_time() - begun}
 
 
 def random_moving(level: str, run: Run = Run()) -> Iterator[Item]:
@@ -92,8 +100,8 @@ def random_moving(level: str, run: Run = Run()) -> Iterator[Item]:
     name = f"{len(rows)} random points of moving roughness"
     yield Check(f"{name}: silently wrong", int(wrong.sum()), 0, 0.0, "balances of the fields", "absolute")
     what = f"{name}: said to rest on the lubricant of touching cells"
-    yield Check(what, int((given > DRAWN).sum()), 0, 0.0, "the caution of a result", TOLD)
-    yield Check(f"{name}: said not to be solved", len(rows) - len(fine), 0, 0.0, "the solver's report", TOLD)
+    yield Check(what, int((given > DRAWN).sum()), 0, 0.0, "the caution of a result", REPORTED)
+    yield Check(f"{name}: said not to be solved", len(rows) - len(fine), 0, 0.0, "the solver's report", REPORTED)
     table = [
         (name, f"{np.median(off[name]):.1e}", f"{np.quantile(off[name], 0.95):.1e}", f"{off[name].max():.1e}",
          f"{ALLOWED[name]:g}") for name in BALANCES

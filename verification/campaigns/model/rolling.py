@@ -16,7 +16,7 @@ from lubfric.estimate import load_sharing_error
 from lubfric.models.deterministic import BOUNDARY_FILM, RoughBody
 
 from ... import plotting
-from ...check import AT_LEAST, TOLD, Check, Figure, Item, Table
+from ...check import AT_LEAST, REPORTED, Check, Figure, Item, Table
 from ...fem.references import load_share_band
 from ...kept import Run
 from .boundary_film import roller, speed_of
@@ -46,14 +46,14 @@ def cases(level: str) -> dict[str, tuple]:
     """The cases of ``level`` by name: (contact, kind of surface, film/Sq, slide-roll ratio). Two are mapped."""
     mapped = list(CONTACTS)[:2]
     others = list(CONTACTS)[2:]
-    found = [(name, "gaussian", ratio, slip) for name in mapped for ratio in RATIOS for slip in SLIPS]
+    values = [(name, "gaussian", ratio, slip) for name in mapped for ratio in RATIOS for slip in SLIPS]
     if level == "quick":
-        found = [one for one in found[: len(found) // 2] if one[2] >= 1 and abs(one[3]) == 0.1]
+        values = [one for one in values[: len(values) // 2] if one[2] >= 1 and abs(one[3]) == 0.1]
     else:
         more = [(name, "exponential") for name in (mapped[0], others[-1])] + [(name, "gaussian") for name in others]
         more += [(mapped[0], kind) for kind in KINDS[2:]]
-        found = [(*one, ratio, slip) for one in more for ratio in RATIOS[1::2] for slip in (-0.1, 0.5)] + found
-    return {"; ".join(map(str, one)): one for one in found}
+        values = [(*one, ratio, slip) for one in more for ratio in RATIOS[1::2] for slip in (-0.1, 0.5)] + values
+    return {"; ".join(map(str, one)): one for one in values}
 
 
 def solved(case: tuple) -> dict[str, Any]:
@@ -80,28 +80,31 @@ def rough(kind: str, sq: float, length: float) -> lubfric.Surface:
     acf = "exponential" if kind == "exponential" else "gaussian"
     (along, across) = (length / n for n in PER_LENGTH)
     cells = along, across * (RIDGE if kind == "ridges across" else 1.0)
-    found = lubfric.generate_surface(SHAPE, cells, sq=sq, correlation_length=lengths, acf=acf, seed=11)
-    return replace(found, heights=np.minimum(found.heights, CUT * sq)).scaled(sq=sq) if kind == "plateau" else found
+    surface = lubfric.generate_surface(SHAPE, cells, sq=sq, correlation_length=lengths, acf=acf, seed=11)
+    return (
+        replace(surface, heights=np.minimum(surface.heights, CUT * sq)).scaled(sq=sq) if kind == "plateau" else surface
+    )
 
 
 def rolling(level: str, run: Run = Run()) -> Iterator[Item]:
     """Eq. (8) beside moving roughness, its stated error beside the one found, and the share of the load on thin gaps
     beside four published laws."""
     rows = list(run.solved(cases(level), solved))
-    found = [(case, row) for case, row in rows if "failure" not in row]
-    off = np.array([row["f"] / row["fast"]["f"] - 1 for _, row in found])
-    sides = np.array([stated(row["fast"]) for _, row in found])
-    off, told = np.abs(off), np.where(off < 0, *sides.T)
-    yield Check("moving points that were not solved", len(rows) - len(found), 0, 0.0, "the solver's report", TOLD)
-    name = f"Eq. (8) in rolling: share of {len(found)} points within its stated error"
-    yield Check(name, float(np.mean(off <= told)), HOLDS, 0.0, "moving roughness", AT_LEAST)
-    quantile = float(np.quantile(off / told, SURE))
-    yield Check("Eq. (8) in rolling: error over the stated one, 99 % quantile", quantile, 1.0, 0.0, "moving", TOLD)
+    values = [(case, row) for case, row in rows if "failure" not in row]
+    off = np.array([row["f"] / row["fast"]["f"] - 1 for _, row in values])
+    sides = np.array([stated(row["fast"]) for _, row in values])
+    stated_error = np.where(off < 0, *sides.T)
+    off = np.abs(off)
+    yield Check("moving points that were not solved", len(rows) - len(values), 0, 0.0, "the solver's report", REPORTED)
+    name = f"Eq. (8) in rolling: share of {len(values)} points within its stated error"
+    yield Check(name, float(np.mean(off <= stated_error)), HOLDS, 0.0, "moving roughness", AT_LEAST)
+    quantile = float(np.quantile(off / stated_error, SURE))
+    yield Check("Eq. (8) in rolling: error over the stated one, 99 % quantile", quantile, 1.0, 0.0, "moving", REPORTED)
     columns = ("film/Sq", "f over Eq. (8)", "f over rest", "share: Eq. (8)", "at rest", "moving")
     caption = "f of moving roughness, and the share of the load at 20 nm, lowest and highest of all that slide"
-    yield Table("rolling", caption, columns, list(summary(found)))
-    yield from shares(found)
-    yield drawn(found)
+    yield Table("rolling", caption, columns, list(summary(values)))
+    yield from shares(values)
+    yield drawn(values)
 
 
 def stated(fast: dict) -> tuple[float, float]:
@@ -109,7 +112,7 @@ def stated(fast: dict) -> tuple[float, float]:
     return load_sharing_error(*(fast[name] for name in ("ratio", "share", "boundary", "shear", "rolling")))
 
 
-def summary(found: list) -> Iterator[list[str]]:
+def summary(result: list) -> Iterator[list[str]]:
     """A row for every film."""
     film = FILMS.index(BOUNDARY_FILM)
     for ratio in RATIOS:
@@ -117,7 +120,7 @@ def summary(found: list) -> Iterator[list[str]]:
             [
                 (at["f"] / at["fast"]["f"], at["f"] / at["rest"]["f"])
                 + (at["fast"]["share"], at["rest"]["shares"][film], at["shares"][film])
-                for case, at in found
+                for case, at in result
                 if case[2] == ratio and case[3] != 0
             ]
         )
@@ -125,26 +128,26 @@ def summary(found: list) -> Iterator[list[str]]:
             yield [f"{ratio:g}", *(f"{low:.2f}–{high:.2f}" for low, high in zip(rows.min(axis=0), rows.max(axis=0)))]
 
 
-def shares(found: list) -> Iterator[Check]:
+def shares(result: list) -> Iterator[Check]:
     """How far the share of the load on gaps below each of `FILMS` is from the band of four laws, at most."""
-    ratios = np.array([case[2] for case, _ in found])
+    ratios = np.array([case[2] for case, _ in result])
     low, high = (side[:, None] for side in load_share_band(ratios))
-    for name, rows in (("moving", [row for _, row in found]), ("rest", [row["rest"] for _, row in found])):
+    for name, rows in (("moving", [row for _, row in result]), ("rest", [row["rest"] for _, row in result])):
         at = np.array([row["shares"] for row in rows])
         off = np.maximum(np.maximum(at - high, low - at), 0).max(axis=0)
         for film, distance in zip(FILMS, off):
             what = f"{name}, h < {film * 1e9:g} nm: largest distance of the share from the band"
-            yield Check(what, distance, 0.0, 1.0, "four laws", TOLD)
+            yield Check(what, distance, 0.0, 1.0, "four laws", REPORTED)
 
 
-def drawn(found: list) -> Figure:
+def drawn(rows: list) -> Figure:
     """f and the share of the load over film/Sq at every slide-roll ratio, of the first two contacts."""
     names = list(CONTACTS)[:2]
     film = FILMS.index(BOUNDARY_FILM)
     canvas, grid = plotting.axes(2, 2, 8.5, 6.0, sharex=True)
     for column, name in zip(grid.T, names):
         for k, slip in enumerate(SLIPS):
-            at = [(c[2], r) for c, r in found if c[0] == name and c[1] == "gaussian" and c[3] == slip]
+            at = [(c[2], r) for c, r in rows if c[0] == name and c[1] == "gaussian" and c[3] == slip]
             ratios = [ratio for ratio, _ in at]
             for ax, moving, fast in (
                 (column[0], [r["f"] for _, r in at], [r["fast"]["f"] for _, r in at]),

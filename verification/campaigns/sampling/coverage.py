@@ -42,7 +42,7 @@ COLUMNS = ("case", "trials", "coverage", "bias")
 
 
 @dataclass(frozen=True)
-class Case:
+class CoverageCase:
     """A scene, its speed [m/s], the relative standard error asked, and the bounds of the coverage."""
 
     name: str
@@ -57,11 +57,16 @@ class Case:
         return SHARED.with_(**self.changes | {"surface": rough})
 
 
-def _other(name: str, **changes) -> Case:
-    return Case(name, bounds=(0.88, 0.99), changes=changes)
+def _other(name: str, **changes) -> CoverageCase:
+    return CoverageCase(name, bounds=(0.88, 0.99), changes=changes)
 
 
-SPEEDS = (Case("0.003 m/s", 0.003), Case("0.01 m/s", 0.01, 0.01), Case("0.03 m/s", 0.03), Case("0.046 m/s", 0.046))
+SPEEDS = (
+    CoverageCase("0.003 m/s", 0.003),
+    CoverageCase("0.01 m/s", 0.01, 0.01),
+    CoverageCase("0.03 m/s", 0.03),
+    CoverageCase("0.046 m/s", 0.046),
+)
 CASES = (
     *SPEEDS,
     _other("exponential ACF", surface={"acf": "exponential"}),
@@ -77,7 +82,7 @@ CASES = (
 class Result:
     """The rows of the trials of a case, and the truth with its relative standard error."""
 
-    case: Case
+    case: CoverageCase
     rows: list[dict]
     truth: float
     error: float
@@ -128,7 +133,7 @@ def truths(cases, seed: int, run: Run) -> dict[str, tuple[float, float]]:
     return {case.name: (f, error) for (case, _), (f, error) in run.solved(wanted, endless, "truths")}
 
 
-def trial(case_and_seed: tuple[Case, int]) -> dict:
+def trial(case_and_seed: tuple[CoverageCase, int]) -> dict:
     """One trial of a case."""
     case, seed = case_and_seed
     return solve(case.scene(seed), case.speed, case.asked)
@@ -137,9 +142,9 @@ def trial(case_and_seed: tuple[Case, int]) -> dict:
 def solve(scene, speed: float, asked: float) -> dict:
     """One point with its interval and its processor seconds."""
     begun = time.process_time()
-    found = lubfric.friction(scene.with_(numerics={"sampling_tolerance": asked}), speed)
-    u = found.uncertainty
-    f = found.coefficient
+    point = lubfric.friction(scene.with_(numerics={"sampling_tolerance": asked}), speed)
+    u = point.uncertainty
+    f = point.coefficient
     half = f * math.hypot(u.numerical, stdtrit(max(u.freedom, 1.0), 0.975) * u.sampling)  # the truth, too, is Eq. (8)
     return {
         "f": f,
@@ -152,7 +157,7 @@ def solve(scene, speed: float, asked: float) -> dict:
     }
 
 
-def endless(case_and_seed: tuple[Case, int]) -> tuple[float, float]:
+def endless(case_and_seed: tuple[CoverageCase, int]) -> tuple[float, float]:
     """f of an endless line by the mean of patches with seeds from ``seed`` on, and its relative standard error."""
     case, seed = case_and_seed
     scene = case.scene(seed)
@@ -161,11 +166,11 @@ def endless(case_and_seed: tuple[Case, int]) -> tuple[float, float]:
     across = 4 * math.ceil(scene.contact.shape[0] / (4 * factors[0]))
     change, own = _change(scene, case.speed, seed + 500, across)
     columns = 64 * round(LENGTHS * along / coarse[1] / 64)
-    found: list[float] = []
-    while len(found) < FEWEST or (len(found) < PATCHES and _error(found) > CLOSE * case.asked):
-        surface = _surface(scene, (across, columns), coarse, seed + len(found))
-        found.append(_plain(scene, surface, case.speed))
-    return float(np.mean(found)) * (1 + change), math.hypot(_error(found), own)
+    values: list[float] = []
+    while len(values) < FEWEST or (len(values) < PATCHES and _error(values) > CLOSE * case.asked):
+        surface = _surface(scene, (across, columns), coarse, seed + len(values))
+        values.append(_plain(scene, surface, case.speed))
+    return float(np.mean(values)) * (1 + change), math.hypot(_error(values), own)
 
 
 def cells_of(scene) -> tuple[tuple[float, float], tuple[int, int], float]:
@@ -226,10 +231,12 @@ def checks(result: Result) -> Iterator[Check]:
     yield Check(f"{case.name}: bias of f", result.bias, 0.0, slack, ENDLESS, ABSOLUTE)
 
 
-def within(name: str, found: float, trials: int, bounds: tuple[float, float], source: str, decides=True) -> Check:
+def within(name: str, measured: float, trials: int, bounds: tuple[float, float], source: str, decides=True) -> Check:
     """A check of a share of trials between two bounds, with what chance does to it."""
     low, high = bounds
-    return Check(name, found, (high + low) / 2, (high - low) / 2 + chance(trials), source, ABSOLUTE, decisive=decides)
+    return Check(
+        name, measured, (high + low) / 2, (high - low) / 2 + chance(trials), source, ABSOLUTE, decisive=decides
+    )
 
 
 def chance(trials: int) -> float:
@@ -240,7 +247,8 @@ def chance(trials: int) -> float:
 def row(result: Result) -> tuple[str, ...]:
     """The numbers of a case as cells of a table (`COLUMNS`)."""
     return (
-        result.case.name + (f", asked {100 * result.case.asked:g} %" if result.case.asked != Case.asked else ""),
+        result.case.name
+        + (f", asked {100 * result.case.asked:g} %" if result.case.asked != CoverageCase.asked else ""),
         str(len(result.rows)),
         f"{100 * result.covered.mean():.1f} %",
         f"{100 * result.bias:+.2f} ± {100 * result.bias_error:.2f} %",

@@ -62,14 +62,16 @@ def piece(case: tuple[int, tuple[int, int] | None]) -> dict:
 
 def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
     """Every reported number of random scenes beside the same at 0.01 %: is it within its stated error?"""
-    found = [row for _, row in run.solved({str(k): k for k in range(SCENES[level])}, beside)]
+    values = [row for _, row in run.solved({str(k): k for k in range(SCENES[level])}, beside)]
     rows = []
     for name in ESTIMATED:
-        stated = [row[name] for row in found if row and row[name] is not None]
+        stated = [row[name] for row in values if row and row[name] is not None]
         if stated:
             held = float(np.mean([off <= max(error, FLOOR) for off, error in stated]))
             median = float(np.median([error for _, error in stated]))
-            rows.append((f"`{name}`", f"{len(stated)} of {len(found)}", f"{100 * held:.0f} %", f"{100 * median:.2g} %"))
+            rows.append(
+                (f"`{name}`", f"{len(stated)} of {len(values)}", f"{100 * held:.0f} %", f"{100 * median:.2g} %")
+            )
             words = f"{name}: within its stated error in {len(stated)} scenes"
             yield Check(words, held, WITHIN, chance(len(stated)), "the same scene at 0.01 %", AT_LEAST)
     columns = ("quantity", "scenes that state an error", "within it", "median of it")
@@ -82,15 +84,15 @@ def beside(number: int) -> dict:
         numerics={"model": "load-sharing", "sampling": "patch", "tolerance": 0.01}
     )
     try:
-        found = lubfric.friction(scene)
+        point = lubfric.friction(scene)
         tight = lubfric.friction(scene.with_(numerics={"tolerance": TIGHT}))
     except lubfric.LubfricError:
         return {}
     row: dict = {}
     for name in ESTIMATED:
-        value = getattr(found, name)
+        value = getattr(point, name)
         reference = getattr(tight, name)
-        error = getattr(found.errors, name)
+        error = getattr(point.errors, name)
         largest = max(abs(value), abs(reference), 1e-300)
         stated = error is not None and np.isfinite(error)
         row[name] = (abs(value - reference) / largest, error) if stated else None

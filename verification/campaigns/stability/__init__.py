@@ -26,19 +26,19 @@ def stability_map(level: str, name: str, run: Run = Run()) -> Iterator[Item]:
     from .draw import draw, table
 
     cells = _map(name).cells(level == "quick")
-    found = []
-    for _, row in run.solved({cell.name: cell for cell in cells}, partial(judged, name)):
-        found.append(Check.from_dict(row))
-        yield found[-1]
-    yield table(name, found)
-    yield draw(name, found)
+    values = []
+    for _, row in run.solved({cell.name: cell for cell in cells}, partial(check_cell, name)):
+        values.append(Check.from_dict(row))
+        yield values[-1]
+    yield table(name, values)
+    yield draw(name, values)
 
 
-def judged(name: str, cell) -> dict:
+def check_cell(name: str, cell) -> dict:
     """The check of one cell of the map ``name``, in plain types."""
     from . import cell as cells
 
-    return cells.judged(cell, _map(name).solve, _map(name).deviations).as_dict()
+    return cells.check_cell(cell, _map(name).solve, _map(name).deviations).as_dict()
 
 
 def _map(name: str):

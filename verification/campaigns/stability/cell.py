@@ -43,7 +43,7 @@ def verdict(check: Check) -> str:
     return RIGHT if check.passed else FAILED if check.refused else WRONG
 
 
-def judged(cell: Cell, solve: Callable[[Cell], Any], deviations: Callable[[Cell, Any], dict[str, float]]) -> Check:
+def check_cell(cell: Cell, solve: Callable[[Cell], Any], deviations: Callable[[Cell, Any], dict[str, float]]) -> Check:
     """Solve the cell, and set the worst of the ``deviations`` of its result against 1: each is over what is allowed.
 
     A `lubfric.LubfricError` is a reported failure, and so is the analogue of the finite elements (an exception of that

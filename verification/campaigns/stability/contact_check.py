@@ -78,14 +78,14 @@ def contact_deviations(
     length = (p * (u - u[touching].min())).sum() / total + np.maximum(gap, 0).mean()
     length = max(length, 4 * p.mean() * min(spacing) / e_prime)
     misfit = np.where(yielded, np.maximum(gap, 0), np.abs(gap))
-    found = {
+    results = {
         "complementarity": float((p * misfit).sum() / total / length),
         "penetration": float(max(0.0, -(np.where(yielded, 0, gap)).min()) / length),
         "sign": float(max(-p.min(), p.max() - limit if hardness else 0.0) / p.max()),
         "fields": float(np.abs(gap - result.gap).max() / (length + np.abs(gap0).max() * 1e-6)),
     }
     if mean_pressure is not None:
-        found["load"] = abs(p.mean() / mean_pressure - 1)
+        results["load"] = abs(p.mean() / mean_pressure - 1)
     if mean_gap is not None:
-        found["volume"] = abs(np.maximum(gap, 0).mean() / mean_gap - 1)
-    return found
+        results["volume"] = abs(np.maximum(gap, 0).mean() / mean_gap - 1)
+    return results

@@ -109,9 +109,9 @@ def deviations(cell: Cell, result: ContactResult) -> dict[str, float]:
     """Complementarity, signs, fields and load of the result, and the second opinion, over what is allowed."""
     p: Pressed = cell.problem
     physical = {"hardness": p.hardness, "mean_pressure": p.mean_pressure, "mean_gap": p.mean_gap}
-    found = contact_deviations(result, p.gap0, p.spacing, E_PRIME, p.boundary, **physical)
+    solved = contact_deviations(result, p.gap0, p.spacing, E_PRIME, p.boundary, **physical)
     ease = max(1.0, p.tolerance / 1e-6)
-    ratios = {name: value / OWN[name] / ease for name, value in found.items()}
+    ratios = {name: value / OWN[name] / ease for name, value in solved.items()}
     return ratios | (_second(result, p, p.mean_pressure) if p.second and p.mean_pressure else {})
 
 

@@ -35,19 +35,19 @@ COUNTED = ("case", "start from case", "surface", "grid", "input", "scene", "")  
 
 def counts(cells: list[Check]) -> dict[tuple[str, str, bool], Counter]:
     """Verdicts by (map, method, default)."""
-    found: dict[tuple[str, str, bool], Counter] = {}
+    results: dict[tuple[str, str, bool], Counter] = {}
     for cell in cells:
         key = (cell.at["map"], cell.at["method"], bool(cell.at["default"]))
-        found.setdefault(key, Counter())[verdict_of(cell)] += 1
-    return found
+        results.setdefault(key, Counter())[verdict_of(cell)] += 1
+    return results
 
 
 def table(kind: str, cells: list[Check]) -> Table:
     """Verdicts of the methods that users get unasked: of every map in which not all is right, and of all together."""
     rows = [
-        (name, sum(found.values()), *(found[v] for v in VERDICTS))
-        for (name, _, default), found in counts(cells).items()
-        if default and found[RIGHT] < sum(found.values())
+        (name, sum(result.values()), *(result[v] for v in VERDICTS))
+        for (name, _, default), result in counts(cells).items()
+        if default and result[RIGHT] < sum(result.values())
     ]
     chosen = [verdict_of(c) for c in cells if c.at["default"]]
     maps = len({c.at["map"] for c in cells})
@@ -75,7 +75,7 @@ def panel(ax, cells: list[Check]) -> None:
     name = cells[0].at["map"]
     method = cells[0].at["method"]
     *labels, linear = AXES.get(name, WHOLE)
-    found = Counter(verdict_of(c) for c in cells)
+    count = Counter(verdict_of(c) for c in cells)
     for order, verdict in enumerate(VERDICTS):
         places = np.array([(c.at["x"], c.at["y"]) for c in cells if verdict_of(c) == verdict]).reshape(-1, 2)
         ax.plot(*places.T, MARKS[verdict], color=COLOURS[verdict], markersize=4, zorder=1 + order)
@@ -92,4 +92,4 @@ def panel(ax, cells: list[Check]) -> None:
     if name.startswith("sharing: speed"):
         ax.set_xscale("symlog", linthresh=1e-10)
         ax.set_xticks([-1, -1e-4, -1e-8, 1e-8, 1e-4, 1])
-    ax.set_title(f"{name}\n{method}: {found[RIGHT]} right, {found[FAILED]} failed, {found[WRONG]} wrong", fontsize=9)
+    ax.set_title(f"{name}\n{method}: {count[RIGHT]} right, {count[FAILED]} failed, {count[WRONG]} wrong", fontsize=9)

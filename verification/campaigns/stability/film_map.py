@@ -27,7 +27,7 @@ PAPER = {"radius": 2e-3, "e_prime": 231e9, "viscosity": 0.36, "pressure_viscosit
 
 
 @dataclass(frozen=True)
-class Film:
+class FilmCell:
     """Arguments ``case`` of the film solvers in SI units, the tolerance, and M and L of a film to start from."""
 
     case: dict = field(hash=False)
@@ -37,7 +37,7 @@ class Film:
 
 def solve(cell: Cell):
     """The film of the cell by its method; of the formula, the flow film [m] alone."""
-    film: Film = cell.problem
+    film: FilmCell = cell.problem
     if cell.method == DIFFERENTIAL:
         return solve_differential_deflection(**film.case, most_nodes=NODES)
     if cell.method == MOES:
@@ -101,7 +101,7 @@ def load_and_material(quick: bool) -> Iterator[Cell]:
             for L in (0.0, 5.0, 20.0) if quick else (0.0, 1.0, 2.5, 5.0, 10.0, 15.0, 20.0, 25.0):
                 for method in ("solve_ehl", DIFFERENTIAL, MOES) if (law, density) == LAWS[0] else ("solve_ehl",):
                     where = ("film: load and material", f"{law}, density {density}", M, L)
-                    film = Film(case_of(M, L, law, density))
+                    film = FilmCell(case_of(M, L, law, density))
                     yield Cell(*where, film, method, method == "solve_ehl", promised(M, L))
 
 
@@ -113,7 +113,7 @@ def speeds(quick: bool) -> Iterator[Cell]:
             u1 = 2 * 0.36 * speed / (231e9 * 2e-3)
             M = load / (231e9 * 2e-3) / math.sqrt(u1)
             L = 25e-9 * 231e9 * u1**0.25
-            film = Film(PAPER | {"load_per_width": load, "entrainment_speed": sign * speed})
+            film = FilmCell(PAPER | {"load_per_width": load, "entrainment_speed": sign * speed})
             where = ("film: speed and load", "steel cylinder, R = 2 mm", speed, load)
             yield Cell(*where, film, "solve_ehl", inside=promised(M, L))
 
@@ -125,7 +125,7 @@ def tolerances(quick: bool) -> Iterator[Cell]:
     many += ((20, 5), (50, 10), (100, 5), (100, 15), (100, 20), (1000, 2.5), (1000, 10), (1000, 20))
     for row, (M, L) in enumerate(few if quick else many):
         for tolerance in (0.1, 1e-2, 1e-3) if quick else (0.1, 0.05, 0.03, 0.01, 3e-3, 1e-3, 3e-4):
-            film = Film(case_of(M, L), tolerance)
+            film = FilmCell(case_of(M, L), tolerance)
             yield Cell("film: tolerance", "cases by M, L", row, tolerance, film, "solve_ehl")
 
 
@@ -135,7 +135,7 @@ def starts(quick: bool) -> Iterator[Cell]:
     many = ((1e-3, 0.5), (1e-2, 5), (0.1, 20), (1, 5), (5, 15), (20, 5), (100, 1), (100, 20), (1000, 5), (1000, 20))
     for column, start in enumerate(few if quick else many):
         for row, (M, L) in enumerate(few if quick else many):
-            film = Film(case_of(M, L), start=start)
+            film = FilmCell(case_of(M, L), start=start)
             yield Cell("film: poor start", "cases by M, L", column, row, film, "solve_ehl")
 
 
@@ -148,4 +148,4 @@ def starved(quick: bool) -> Iterator[Cell]:
             case["inlet_length"] = half_width + share * math.sqrt(
                 2 * RADIUS * moes_film(M, 10) * moes_unit(case["entrainment_speed"])
             )
-            yield Cell("film: starved inlet", "L = 10", M, share, Film(case), "solve_ehl")
+            yield Cell("film: starved inlet", "L = 10", M, share, FilmCell(case), "solve_ehl")

@@ -19,7 +19,7 @@ from .cell import Cell
 
 
 @dataclass(frozen=True)
-class Shared:
+class SharingCell:
     """A built-in scene with roughness [m] on a small grid, at one speed [m/s]: the given one, that of a smooth film
     [m], or that at which the contact carries a share of the load (by so many halvings)."""
 
@@ -47,7 +47,7 @@ def model_of(name: str, sq: float, shape: int):
 
 def solve(cell: Cell) -> tuple:
     """The prepared scene, and the result of `lubfric.friction` at the speed of the cell."""
-    p: Shared = cell.problem
+    p: SharingCell = cell.problem
     model = model_of(p.scene, p.sq, p.shape)
     speed = p.speed
     if p.film:
@@ -75,7 +75,7 @@ def cells(quick: bool) -> Iterator[Cell]:
         shape = 32 if quick else 64 if name == "flat" else 48
         for sq in [1e-7] if quick else np.geomspace(1e-9, 2e-6, 5).tolist():
             for ratio in np.geomspace(0.01, 10, 3 if quick else 10).tolist():
-                problem = Shared(name, sq, shape, film=ratio * sq)
+                problem = SharingCell(name, sq, shape, film=ratio * sq)
                 yield Cell(f"sharing: {name}", "lambda by roughness", ratio, sq, problem)
     some = np.geomspace(1e-10, 30, 12).tolist()
     tiny = (1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
@@ -83,7 +83,7 @@ def cells(quick: bool) -> Iterator[Cell]:
     for column, name in enumerate(("flat", "paper")):
         shape = 32 if quick else 64
         for speed in (0.0, -0.01, 0.01) if quick else (0.0, *some, *(-u for u in some)):
-            yield Cell("sharing: speed, either sign", name, speed, column, Shared(name, 1e-7, shape, speed))
+            yield Cell("sharing: speed, either sign", name, speed, column, SharingCell(name, 1e-7, shape, speed))
         for share in shares:
-            problem = Shared(name, 1e-7, shape, share=share, halvings=16 if quick else 40)
+            problem = SharingCell(name, 1e-7, shape, share=share, halvings=16 if quick else 40)
             yield Cell("sharing: share of the contact", name, share, 0.0, problem)

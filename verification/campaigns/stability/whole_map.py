@@ -51,9 +51,9 @@ def solve(cell: Cell):
     return solve_point(bearing(*cell.problem))
 
 
-def deviations(cell: Cell, found) -> dict[str, float]:
+def deviations(cell: Cell, result) -> dict[str, float]:
     """`check` of the bearing of the cell."""
-    return check(bearing(*cell.problem), found)
+    return check(bearing(*cell.problem), result)
 
 
 def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = ACROSS) -> Problem:
@@ -65,39 +65,39 @@ def bearing(sq: float, load: float, speed: float, seed: int = 1, across: int = A
     return lay_out(surface, contact, sliding=2 * speed, boundary_friction=FRICTION, hardness=HARDNESS)
 
 
-def check(problem, found) -> dict[str, float]:
+def check(problem, result) -> dict[str, float]:
     """Deviations over what is allowed, from the fields."""
-    dx, _ = found.spacing
-    p = found.pressure
-    h = found.gap
-    load = p.sum() * dx / p.shape[1] + found.inlet_load
-    operator = half_space(p.shape, found.spacing, E_PRIME, ("free", "periodic"))
-    elastic = (found.x**2 / (2 * RADIUS))[:, None] - problem.heights + operator.apply(p) + found.dent
-    open_ = (h > 2e-9) & (found.dent == 0)
+    dx, _ = result.spacing
+    p = result.pressure
+    h = result.gap
+    load = p.sum() * dx / p.shape[1] + result.inlet_load
+    operator = half_space(p.shape, result.spacing, E_PRIME, ("free", "periodic"))
+    elastic = (result.x**2 / (2 * RADIUS))[:, None] - problem.heights + operator.apply(p) + result.dent
+    open_ = (h > 2e-9) & (result.dent == 0)
     offset = (h - elastic)[open_]
     signs = max(-float(p.min()), float(p.max()) - HARDNESS, 0.0) / float(p.max())
     gap = float(np.ptp(offset)) / float(h[open_].mean())
     errors = {"load": abs(load / problem.load - 1), "gap": gap, "signs": signs}
-    return {name: error / ALLOWED[name] for name, error in errors.items()} | {"flow": flow_error(found)}
+    return {name: error / ALLOWED[name] for name, error in errors.items()} | {"flow": flow_error(result)}
 
 
-def flow_error(found) -> float:
+def flow_error(result) -> float:
     """Largest relative difference of the flow through sections before the first touching cell, as a part of what is
     allowed there: 3 %, and what the judge's own quadrature leaves open (`_pressure_flow`)."""
-    speed = found.speed
-    dx = found.spacing[0]
-    broken = np.flatnonzero(found.touching.any(axis=1))
-    last = (broken[0] if broken.size else found.pressure.shape[0]) - 2
+    speed = result.speed
+    dx = result.spacing[0]
+    broken = np.flatnonzero(result.touching.any(axis=1))
+    last = (broken[0] if broken.size else result.pressure.shape[0]) - 2
     if last < 3:
         return 0.0
-    p = found.pressure[: last + 1]
-    h = found.gap[: last + 1]
-    fill = found.fill[: last + 1]
+    p = result.pressure[: last + 1]
+    h = result.gap[: last + 1]
+    fill = result.fill[: last + 1]
     flow, open_ = _pressure_flow(p, h, speed, dx)
     mass = FLUID.rho(p) * h
     step = np.clip(mass[1:last] - mass[: last - 1], -mass[1:last], mass[1:last])  # a film that is never negative
     carried = speed * fill[1:last] * (mass[1:last] + 0.5 * step)  # second-order upwind
-    through = speed * found.flow_film
+    through = speed * result.flow_film
     difference = np.abs((carried - flow[1:]).mean(axis=1) / through - 1)
     allowed = ALLOWED["flow"] + open_[1:].mean(axis=1) / abs(through)
     return float((difference / allowed).max())

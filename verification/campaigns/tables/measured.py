@@ -61,19 +61,21 @@ def times() -> Cells:
 
 
 def _seconds(job: Callable[[], object]) -> float:
-    found: list[float] = []
-    while len(found) < 3 and sum(found) < 1:
+    values: list[float] = []
+    while len(values) < 3 and sum(values) < 1:
         begun = time.process_time()
         job()
-        found.append(time.process_time() - begun)
-    return min(found)
+        values.append(time.process_time() - begun)
+    return min(values)
 
 
 def shear_laws() -> Cells:
     """The keys of the shear laws."""
     keys = [key for law in (*FLOW_LAWS, *LIMITS) for key in (law.key, *law.others)]
     rows = [(key, KEYS[f"lubricant.{key}"]) for key in keys]
-    return ["key, unit", "meaning"], [[f"`{key}`, {told.unit}".removesuffix(", -"), told.note] for key, told in rows]
+    return ["key, unit", "meaning"], [
+        [f"`{key}`, {quantity.unit}".removesuffix(", -"), quantity.note] for key, quantity in rows
+    ]
 
 
 TABLES: dict[str, Callable[[], Cells]]

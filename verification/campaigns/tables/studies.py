@@ -29,17 +29,17 @@ def ran(name: str) -> Outcome:
 
 def waviness() -> Cells:
     """Small waves by both programs."""
-    found = next(t for t in ran("deterministic").tables if t.name == "waviness")
-    return found.columns, [[*row[:2], f"{row[2]:g}", *(f"{value:.3f}" for value in row[3:])] for row in found.rows]
+    table = next(t for t in ran("deterministic").tables if t.name == "waviness")
+    return table.columns, [[*row[:2], f"{row[2]:g}", *(f"{value:.3f}" for value in row[3:])] for row in table.rows]
 
 
 def load_sharing() -> Cells:
     """Both programs at the paper's speeds, on the finest cells."""
-    found = next(t for t in ran("load_sharing").tables if t.name == "load_sharing")
-    finest = max(row[1] for row in found.rows)
+    table = next(t for t in ran("load_sharing").tables if t.name == "load_sharing")
+    finest = max(row[1] for row in table.rows)
     rows = [
         [f"{u:g}", who, f"{f:.5f}", f"{contact:.4f}", f"{film:.4f}", f"{gap:.2f}", f"{couette:.5f}"]
-        for u, cells, who, f, contact, film, gap, _, couette, _ in found.rows
+        for u, cells, who, f, contact, film, gap, _, couette, _ in table.rows
         if cells == finest
     ]
     columns = ["U (m/s)", f"{finest} x {finest} cells", "f", "F_C (N)", "F_H (N)", "mean gap (nm)", "Couette force (N)"]
@@ -62,10 +62,10 @@ def transient() -> Cells:
 
 def formulations() -> Cells:
     """Convolutions and iterations of the paper's formulations beside the default."""
-    found = next(t for t in ran("formulations").tables if t.name == "formulations")
+    table = next(t for t in ran("formulations").tables if t.name == "formulations")
     rows: dict[str, list[str]] = {}
-    columns = dict.fromkeys(row[1] for row in found.rows)
-    for case, _, status, iterations, convolutions, residual, *_ in found.rows:
+    columns = dict.fromkeys(row[1] for row in table.rows)
+    for case, _, status, iterations, convolutions, residual, *_ in table.rows:
         solved = f"{convolutions} ({iterations})" if status == "converged" else f"stalls at {residual:.2g}"
         rows.setdefault(case, [case]).append(solved)
     return ["contact", *columns], list(rows.values())

@@ -42,15 +42,15 @@ def flat() -> Iterator[Check]:
     z = heights(64, 64)
     for words, hardness in (("elastic", None), ("hardness 1 GPa", 1e9)):
         s = lubfric.load_scene("flat").with_(bodies={"hardness": hardness}, numerics=DRY)
-        found = lubfric.friction(prepare(s, lubfric.Surface(z, (CELL, CELL))), 0.0)
+        point = lubfric.friction(prepare(s, lubfric.Surface(z, (CELL, CELL))), 0.0)
         b = np.sqrt(8 * 5.5 / 6e-3 * 2e-3 / (np.pi * 231e9))
         pressure = 5.5 / (2 * b * 6e-3)
         one = lubfric.solve_contact(z.max() - z, CELL, 231e9, mean_pressure=pressure, hardness=hardness, tolerance=1e-8)
         gap = float(np.maximum(one.gap, 0).mean())
         area = float(np.mean(one.pressure > 0))
         rows = [
-            ("mean gap", "m", found.mean_gap, gap, 2e-3),
-            ("area", "1", found.real_contact_area_fraction, area, 0.02),
+            ("mean gap", "m", point.mean_gap, gap, 2e-3),
+            ("area", "1", point.real_contact_area_fraction, area, 0.02),
         ]
         yield from compared(f"flat, {words}", rows, "lubfric.solve_contact")
 
@@ -76,8 +76,8 @@ def cylinder() -> Iterator[Check]:
         s = lubfric.load_scene("paper").with_(
             bodies={"hardness": 1.2e9}, contact={"shape": (64, 32), "spacing": 1e-6, "region": region}, numerics=DRY
         )
-        found = lubfric.friction(prepare(s, lubfric.Surface(z, (1e-6, 1e-6))), 0.0, fields=True)
-        fields = parts.contact_fields(found)
+        point = lubfric.friction(prepare(s, lubfric.Surface(z, (1e-6, 1e-6))), 0.0, fields=True)
+        fields = parts.contact_fields(point)
         rows = [
             ("highest pressure", "Pa", float(fields.pressure.max()), 1.2e9, 1e-9),
             ("load of the pressures", "N", float(fields.pressure.mean() * 64e-6 * 6e-3), 5.5, 1e-6),
@@ -89,8 +89,8 @@ def cylinder() -> Iterator[Check]:
         gap = float(weight @ np.maximum(fields.gap, 0).mean(axis=1) / weight.sum())
         area = float(weight @ (fields.pressure > 0).mean(axis=1) / weight.sum())
         rows = [
-            ("mean gap", "m", found.mean_gap, gap, 2e-3),
-            ("area", "1", found.real_contact_area_fraction, area, 2e-3),
+            ("mean gap", "m", point.mean_gap, gap, 2e-3),
+            ("area", "1", point.real_contact_area_fraction, area, 2e-3),
         ]
         yield from compared(f"cylinder, {region}", rows, STRIP)
 
@@ -112,8 +112,8 @@ def columns() -> Iterator[Check]:
     share = np.array([0, 0, 1, 0.5, 0, 0, 0, 0.2, 0, 0, 0.0])
     state = ContactState(1.0, 1.0, x, share, 0.0, 0.0)
     edges = np.linspace(-6.0, 6.0, 481)
-    found = state.touching(edges) * np.diff(edges)
+    result = state.touching(edges) * np.diff(edges)
     middle = 0.5 * (edges[1:] + edges[:-1])
-    yield Check("columns in contact: sum", float(found.sum()), 1.7, 1e-9, "the sum of the columns")
+    yield Check("columns in contact: sum", float(result.sum()), 1.7, 1e-9, "the sum of the columns")
     centre = float(share @ x / share.sum())
-    yield Check("columns in contact: centre", float(found @ middle / found.sum()), centre, 1e-9, "their first moment")
+    yield Check("columns in contact: centre", float(result @ middle / result.sum()), centre, 1e-9, "their first moment")

@@ -65,12 +65,12 @@ def film(name: str, oil: dict) -> Iterator[Check]:
     """Smallest film at 0.3 m/s."""
     s = smooth(oil)
     b = s.bodies
-    found = lubfric.friction(s, 0.3)
+    point = lubfric.friction(s, 0.3)
     body: dict[str, Any] = {"load_per_width": 300.0 / b.width, "radius": b.radius, "e_prime": b.e_prime}
     other = lubfric.solve_differential_deflection(**body, entrainment_speed=0.3, **PAPER | oil, tolerance=3e-3)
     rows = [
-        ("flow film", "m", parts.film(found).flow_film, other.flow_film, 5e-3),
-        ("smallest film", "m", found.min_film, other.min_film, 6e-3),
+        ("flow film", "m", parts.film(point).flow_film, other.flow_film, 5e-3),
+        ("smallest film", "m", point.min_film, other.min_film, 6e-3),
     ]
     yield from compared(name, rows, OTHER)
 
@@ -92,10 +92,10 @@ def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
     s = mixed(oil, motion)
     speed = 0.1
     pieces = 40
-    found = lubfric.friction(s, speed, fields=True)
-    line = parts.film(found)
-    contact = parts.contact(found)
-    fields = parts.contact_fields(found)
+    point = lubfric.friction(s, speed, fields=True)
+    line = parts.film(point)
+    contact = parts.contact(point)
+    fields = parts.contact_fields(point)
     x = np.sort(np.concatenate([np.linspace(a, b, pieces, endpoint=False) for a, b in zip(line.x[:-1], line.x[1:])]))
     x = x[x < line.rupture]
     middle = 0.5 * (x[1:] + x[:-1])
@@ -110,10 +110,10 @@ def shear(name: str, oil: dict, motion: dict) -> Iterator[Check]:
     couette = s.bodies.width * float(np.sum(Fluid.of(PAPER | oil).stress(p, rate) * wet * dx))
     couette += s.bodies.width * 0.36 * s.motion.slide_roll_ratio * speed * upstream(line, s.bodies.radius)
     boundary = 0.09 * fields.pressure.mean() * fields.pressure.shape[0] * 1.4e-6 * s.bodies.width
-    f = (boundary + couette + found.rolling_force) / 20.0
+    f = (boundary + couette + point.rolling_force) / 20.0
     rows = [
-        ("Couette force", "N", found.couette_force, couette, 4e-3),
-        ("coefficient", "1", found.coefficient, f, 2e-3),
+        ("Couette force", "N", point.couette_force, couette, 4e-3),
+        ("coefficient", "1", point.coefficient, f, 2e-3),
     ]
     yield from compared(name, rows, OWN)
 

@@ -73,12 +73,14 @@ def measured(folder: Path) -> Iterator[Check]:
     }
     for name, (surface, contact, expected, cells) in cases.items():
         keys = {"file": "z.npy", "spacing": (DX, DY)} | surface
-        found = made(Roughness(**keys | {"file": str(folder / keys["file"])}), contact)
+        result = made(Roughness(**keys | {"file": str(folder / keys["file"])}), contact)
         heights = expected - expected.mean()
-        off = np.inf if found.heights.shape != heights.shape else np.abs(found.heights - heights).max() / heights.std()
+        off = (
+            np.inf if result.heights.shape != heights.shape else np.abs(result.heights - heights).max() / heights.std()
+        )
         yield Check(f"map, {name}: largest error over Sq", min(off, 1e9), 0.0, 1e-6, OWN, ABSOLUTE)
         for axis in range(2):
-            yield Check(f"map, {name}: cell along {'xy'[axis]}", found.spacing[axis], cells[axis], 1e-9, OWN, unit="m")
+            yield Check(f"map, {name}: cell along {'xy'[axis]}", result.spacing[axis], cells[axis], 1e-9, OWN, unit="m")
 
 
 def made(rough: Roughness, contact: dict) -> HalfSpaceContact:

@@ -63,9 +63,9 @@ class Pad:
         p = np.where(on, load / self.pocket.length, 0.0)
         kind = np.where(on, FLUID, RUPTURED).astype(np.int8)
         start = State(p, np.ones_like(p), np.zeros_like(p), kind, np.zeros(p.shape, bool), self.pocket.end)
-        found = solve_point(problem, start=start, tolerance=1e-6)
-        middle = found.pressure[:-1, self.cells[1] // 2]
-        return found.state.approach, (problem.x[:-1] / self.pocket.length, middle / 1e6)
+        solution = solve_point(problem, start=start, tolerance=1e-6)
+        middle = solution.pressure[:-1, self.cells[1] // 2]
+        return solution.state.approach, (problem.x[:-1] / self.pocket.length, middle / 1e6)
 
     def at_its_gap(self, load: float) -> Profile:
         """The pressure at the given gap; ``load`` is a guess."""
@@ -85,15 +85,15 @@ def cavitation(level: str) -> Iterator[Item]:
         yield from band(pocket)
     for name, pocket in references.BERTOCCHI.items():
         cells = GRIDS[name]
-        found = {(law, n): Pad(pocket, cells[n], law).at_its_gap(pocket.load) for law in LAWS for n in (0, 1)}
-        at = {key: np.interp(PLACES, *profile) for key, profile in found.items()}
+        results = {(law, n): Pad(pocket, cells[n], law).at_its_gap(pocket.load) for law in LAWS for n in (0, 1)}
+        at = {key: np.interp(PLACES, *profile) for key, profile in results.items()}
         fine, coarse = (np.mean([at[law, n] for law in LAWS], axis=0) for n in (1, 0))
         laws = np.abs(at["constant", 1] - at["dowson-higginson", 1]) / 2
         own = np.hypot(laws, np.abs(fine - coarse) / 2) + AMBIENT
         for place, ours, error, theirs in zip(PLACES, 2 * fine - coarse, own, pocket.pressures):
             label = f"{name} pocket, pressure at {place:g} of the length"
             yield against("bertocchi", label, ours, theirs, error / ours, "MPa", error=0.02 + AMBIENT / theirs)
-        yield drawn(name, pocket, found)
+        yield drawn(name, pocket, results)
 
 
 def band(pocket: references.Pocket) -> Iterator[Check]:
@@ -110,9 +110,9 @@ def band(pocket: references.Pocket) -> Iterator[Check]:
         yield against("fowell", name, ours, theirs, error / ours, unit)
 
 
-def drawn(name: str, pocket: references.Pocket, found: dict[tuple[str, int], Profile]) -> Figure:
+def drawn(name: str, pocket: references.Pocket, results: dict[tuple[str, int], Profile]) -> Figure:
     """Pressures on the middle line."""
-    curves: list[tuple] = [(*found[law, 1], "-", f"lubfric, density: {law}") for law in LAWS]
+    curves: list[tuple] = [(*results[law, 1], "-", f"lubfric, density: {law}") for law in LAWS]
     curves.append((PLACES, pocket.pressures, "ko", "Bertocchi", [0.02 * p + AMBIENT for p in pocket.pressures]))
     caption = f"Pressure over a pad with a pocket in which the film ruptures ({name})"
     return plotting.chart(name, caption, curves, xlabel="x over the length of the pad", ylabel="pressure (MPa)")

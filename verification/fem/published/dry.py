@@ -43,8 +43,8 @@ def dry(level: str) -> Iterator[Item]:
     """
     yield from cylinder()
     areas = [line_wave(share, WAVE) for share in SHARES]
-    found = [(area, 2 / WAVE / area) for area in areas]
-    for share, (area, error) in zip(SHARES, found):
+    values = [(area, 2 / WAVE / area) for area in areas]
+    for share, (area, error) in zip(SHARES, values):
         name = f"wave, contact at p/p* = {share:g}"
         yield against("westergaard", name, area, references.westergaard_area(share), error)
     for share in (0.002, 0.01, 0.9, 0.97):
@@ -57,7 +57,7 @@ def dry(level: str) -> Iterator[Item]:
     yield summits()
     if level != "quick":
         yield from self_affine()
-    yield drawn(found)
+    yield drawn(values)
 
 
 def halved(solve, cells: int) -> tuple[float, float]:
@@ -74,8 +74,8 @@ def cylinder() -> Iterator[Check]:
     line = Line(E_PRIME, RADIUS, half_width)
 
     def solved(across: int) -> tuple[float, float]:
-        x, found = pressed_cylinder(line, across)
-        p = found.pressure[:, 0]
+        x, result = pressed_cylinder(line, across)
+        p = result.pressure[:, 0]
         return 2 * math.sqrt(p @ x**2 / p.sum()), float(p.max())
 
     fine = solved(64)
@@ -114,8 +114,8 @@ def summits() -> Check:
 def self_affine() -> Iterator[Check]:
     """Self-affine surfaces: gap, area and pressure beside other programs."""
     for load, (gap, area, square) in references.SELF_AFFINE.items():
-        found = [pressed(waves(seed, (4, 4, 400), 1024), load) for seed in SEEDS[:3]]
-        gaps, areas, edges, squares = np.transpose(found)
+        result = [pressed(waves(seed, (4, 4, 400), 1024), load) for seed in SEEDS[:3]]
+        gaps, areas, edges, squares = np.transpose(result)
         at = f"self-affine surface, load {load:.3f} of E* slope"
         if gap:
             yield against("xu", f"{at}: mean gap over Sq", *mean(gaps, gap))
@@ -148,11 +148,11 @@ def waves(seed: int, numbers: tuple[int, int, int], cells: int) -> np.ndarray:
 
 def pressed(heights: np.ndarray, load: float) -> tuple[float, float, float, float]:
     """Mean gap over Sq, area on the cells, what its edges make it too large, and mean square pressure; E* = 1."""
-    found = lubfric.solve_contact(-heights, 2 * math.pi / len(heights), 2.0, mean_pressure=load, tolerance=1e-5)
-    on = found.pressure > 0
+    solution = lubfric.solve_contact(-heights, 2 * math.pi / len(heights), 2.0, mean_pressure=load, tolerance=1e-5)
+    on = solution.pressure > 0
     edges = sum(float((on != np.roll(on, 1, axis)).mean()) for axis in (0, 1))
-    square = float((found.pressure**2).mean())
-    return float(found.gap.mean() / heights.std()), found.contact_area_fraction, references.EDGE * edges, square
+    square = float((solution.pressure**2).mean())
+    return float(solution.gap.mean() / heights.std()), solution.contact_area_fraction, references.EDGE * edges, square
 
 
 def mean(values: Sequence[float], theirs: float) -> tuple[float, float, float]:
@@ -161,10 +161,10 @@ def mean(values: Sequence[float], theirs: float) -> tuple[float, float, float]:
     return one, theirs, 2 * float(np.std(values, ddof=1)) / math.sqrt(len(values)) / one
 
 
-def drawn(found: list[tuple[float, float]]) -> Figure:
+def drawn(rows: list[tuple[float, float]]) -> Figure:
     """Contact of the wave over the load."""
     dense = np.linspace(0, 1, 200)
-    (ours, errors) = np.array(found).T
+    (ours, errors) = np.array(rows).T
     theirs = (dense, [references.westergaard_area(s) for s in dense], "-", "Westergaard 1939")
     curves = [theirs, (SHARES, ours, "o", "lubfric", ours * errors)]
     caption = "Contact of a wave with a flat, ours with its error beside the closed form"

@@ -36,15 +36,15 @@ def films(level: str) -> Iterator[Item]:
     yield from rigid()
     yield from limits()
     for m, l in MOES:
-        found = film(m, l)
-        ours = found.flow_film / unit(found)
+        solution = film(m, l)
+        ours = solution.flow_film / unit(solution)
         name = f"flow film, M = {m}, L = {l}"
-        yield against("moes", name, ours, references.moes(m, l), own(found))
+        yield against("moes", name, ours, references.moes(m, l), own(solution))
     for m, l in GRUBIN:
-        found = film(m, l, law="barus")
-        theirs = references.grubin(*numbers(found)) * RADIUS / unit(found)
+        solution = film(m, l, law="barus")
+        theirs = references.grubin(*numbers(solution)) * RADIUS / unit(solution)
         name = f"flow film, M = {m}, L = {l}, Grubin"
-        yield against("grubin", name, found.flow_film / unit(found), theirs, own(found), note=DRY_INLET)
+        yield against("grubin", name, solution.flow_film / unit(solution), theirs, own(solution), note=DRY_INLET)
     for m, l in DOWSON:
         for key, name, density, law in (
             ("dowson66", "smallest film", "dowson-higginson", references.dowson_higginson),
@@ -67,36 +67,36 @@ def film(m: float, l: float, density: str = "constant", law: str = "roelands", *
     return lubfric.solve_ehl(**case, **({"tolerance": TOLERANCE} | options))
 
 
-def own(found: lubfric.EHLResult) -> float:
+def own(solution: lubfric.EHLResult) -> float:
     """What the solver leaves open."""
-    return found.report.residuals["discretisation"] + found.report.residuals["domain"]
+    return solution.report.residuals["discretisation"] + solution.report.residuals["domain"]
 
 
-def unit(found: lubfric.EHLResult) -> float:
+def unit(solution: lubfric.EHLResult) -> float:
     """The film that is 1 in Moes' units, m."""
-    return moes_unit(found.entrainment_speed)
+    return moes_unit(solution.entrainment_speed)
 
 
-def numbers(found: lubfric.EHLResult) -> tuple[float, float, float]:
+def numbers(solution: lubfric.EHLResult) -> tuple[float, float, float]:
     """eta U/(E' R), alpha E' and w/(E' R)."""
     scale = E_PRIME * RADIUS
-    return VISCOSITY * found.entrainment_speed / scale, ALPHA * E_PRIME, found.contact.load_per_width / scale
+    return VISCOSITY * solution.entrainment_speed / scale, ALPHA * E_PRIME, solution.contact.load_per_width / scale
 
 
 def rigid() -> Iterator[Check]:
     """A load so light that nothing deflects: M = 0.001."""
-    found = film(1e-3, 5.0, law="constant", tolerance=1e-4)
-    scale = 1e-3 / unit(found)
-    h0 = found.min_film
+    solution = film(1e-3, 5.0, law="constant", tolerance=1e-4)
+    scale = 1e-3 / unit(solution)
+    h0 = solution.min_film
     r = references.RIGID
-    yield against("martin", "rigid cylinder, smallest film", found.min_film * scale, r["smallest"], own(found))
-    yield against("martin", "rigid cylinder, flow film", found.flow_film * scale, r["flow"], own(found))
-    where = found.rupture / math.sqrt(2 * RADIUS * h0)
-    yield against("swift", "rigid cylinder, rupture of the film", where, r["rupture"], own(found))
+    yield against("martin", "rigid cylinder, smallest film", solution.min_film * scale, r["smallest"], own(solution))
+    yield against("martin", "rigid cylinder, flow film", solution.flow_film * scale, r["flow"], own(solution))
+    where = solution.rupture / math.sqrt(2 * RADIUS * h0)
+    yield against("swift", "rigid cylinder, rupture of the film", where, r["rupture"], own(solution))
 
-    closed = Parabola(VISCOSITY, found.entrainment_speed, RADIUS, h0)
+    closed = Parabola(VISCOSITY, solution.entrainment_speed, RADIUS, h0)
     yield against("swift", "rupture, closed form of the verification", closed.exit, r["rupture"], 1e-9)
-    rolled = closed.rolling / (2 * VISCOSITY * found.entrainment_speed * math.sqrt(RADIUS / h0))
+    rolled = closed.rolling / (2 * VISCOSITY * solution.entrainment_speed * math.sqrt(RADIUS / h0))
     yield against("martin", "rolling force, closed form of the verification", rolled, r["rolling"], 1e-9)
     name = "the fit as lubfric has it, M = 20, L = 5"
     yield against("moes", name, moes_film(20, 5), references.moes(20, 5), 0, error=1e-6)
@@ -105,14 +105,14 @@ def rigid() -> Iterator[Check]:
 def limits() -> Iterator[Check]:
     """Near two of the four corners of Moes."""
     for m in (10, 50, 200):
-        found = film(m, 5.0, law="constant")
+        solution = film(m, 5.0, law="constant")
         theirs = references.ISOVISCOUS_ELASTIC * m**-0.2
         name = f"flow film, M = {m}, constant viscosity"
-        yield against("moes", name, found.flow_film / unit(found), theirs, own(found))
-    found = film(0.5, 60.0, law="barus")
-    for name, ours in (("smallest", found.min_film), ("flow", found.flow_film)):
+        yield against("moes", name, solution.flow_film / unit(solution), theirs, own(solution))
+    solution = film(0.5, 60.0, law="barus")
+    for name, ours in (("smallest", solution.min_film), ("flow", solution.flow_film)):
         theirs = references.BLOK[name] * 60 ** (2 / 3)
-        yield against("blok", f"{name} film, M = 0.5, L = 60, Barus", ours / unit(found), theirs, own(found))
+        yield against("blok", f"{name} film, M = 0.5, L = 60, Barus", ours / unit(solution), theirs, own(solution))
 
 
 def one_gap() -> Check:

@@ -45,19 +45,21 @@ def friction(level: str) -> Iterator[Item]:
     yield drawn(rolled)
 
 
-def force(found: lubfric.EHLResult, oil: Lubricant, ratio: float) -> ShearForce:
+def force(solution: lubfric.EHLResult, oil: Lubricant, ratio: float) -> ShearForce:
     """Forces per width without contact spots."""
-    return shear_force(found, oil, slide_roll_ratio=ratio, width=1.0, contact_fraction=lambda x: np.zeros(x.size - 1))
+    return shear_force(
+        solution, oil, slide_roll_ratio=ratio, width=1.0, contact_fraction=lambda x: np.zeros(x.size - 1)
+    )
 
 
 def rolling(m: float, l: float, inlet: float | None = None) -> tuple[float, float]:
     """Torque on a roller over p_h b²/M^1.5, and its relative error. ``inlet``: where it begins, in half-widths."""
     flooded = film(m, l, "dowson-higginson", "barus")
     b = flooded.half_width
-    found = film(m, l, "dowson-higginson", "barus", inlet_length=inlet * b) if inlet else flooded
-    size, error = found.rolling or (math.nan, math.nan)
-    unit = found.hertz_pressure * b**2 / (RADIUS * m**1.5)
-    return force(found, found.contact.lubricant, 1e-9).rolling / unit, own(found) + error / size
+    solution = film(m, l, "dowson-higginson", "barus", inlet_length=inlet * b) if inlet else flooded
+    size, error = solution.rolling or (math.nan, math.nan)
+    unit = solution.hertz_pressure * b**2 / (RADIUS * m**1.5)
+    return force(solution, solution.contact.lubricant, 1e-9).rolling / unit, own(solution) + error / size
 
 
 def starved(m: float, l: float, inlet: float) -> tuple[float, float, float]:
@@ -70,30 +72,30 @@ def starved(m: float, l: float, inlet: float) -> tuple[float, float, float]:
 
 def rigid() -> Iterator[Check]:
     """Forces on the rigid cylinder."""
-    found = film(1e-3, 5.0, law="constant", tolerance=1e-4)
-    forces = force(found, found.contact.lubricant, 1.0)
-    h0 = found.min_film
-    scale = VISCOSITY * found.entrainment_speed * math.sqrt(RADIUS / h0)
+    solution = film(1e-3, 5.0, law="constant", tolerance=1e-4)
+    forces = force(solution, solution.contact.lubricant, 1.0)
+    h0 = solution.min_film
+    scale = VISCOSITY * solution.entrainment_speed * math.sqrt(RADIUS / h0)
     for name, ours in (("couette", forces.couette / scale), ("rolling", forces.rolling / (2 * scale))):
-        error = own(found) + forces.quadrature / forces.couette
+        error = own(solution) + forces.quadrature / forces.couette
         yield against("martin", f"rigid cylinder, {name} force", ours, references.RIGID[name], error)
     m = 0.05
     l = 5.0
-    found = film(m, l, law="constant", tolerance=1e-4)
-    torque = force(found, found.contact.lubricant, 1e-9).rolling * RADIUS
-    ours = torque * m / (found.hertz_pressure * found.half_width**2)
-    yield against("biboulet-rigid", f"torque on a roller, M = {m}", ours, references.RIGID_TORQUE, own(found))
+    solution = film(m, l, law="constant", tolerance=1e-4)
+    torque = force(solution, solution.contact.lubricant, 1e-9).rolling * RADIUS
+    ours = torque * m / (solution.hertz_pressure * solution.half_width**2)
+    yield against("biboulet-rigid", f"torque on a roller, M = {m}", ours, references.RIGID_TORQUE, own(solution))
 
 
 def eyring(m: float, l: float, stress: float, ratio: float) -> Check:
     """Traction of a heavy contact, Barus and Eyring; theirs with our central film."""
-    found = film(m, l, law="barus")
-    ours = force(found, Lubricant(VISCOSITY, ALPHA, "barus", eyring_stress=stress), ratio).couette
-    rate = ratio * found.entrainment_speed / found.central_film
-    half_width, peak = references.hertz_line(found.contact.load_per_width, RADIUS, E_PRIME)
+    solution = film(m, l, law="barus")
+    ours = force(solution, Lubricant(VISCOSITY, ALPHA, "barus", eyring_stress=stress), ratio).couette
+    rate = ratio * solution.entrainment_speed / solution.central_film
+    half_width, peak = references.hertz_line(solution.contact.load_per_width, RADIUS, E_PRIME)
     theirs = references.eyring_force(stress, VISCOSITY, ALPHA, rate, half_width, peak)
     name = f"Eyring traction, M = {m}, L = {l}, {stress / 1e6:g} MPa, slide-roll {ratio:g}"
-    return against("johnson", name, ours, theirs, own(found), "N/m")
+    return against("johnson", name, ours, theirs, own(solution), "N/m")
 
 
 def drawn(rolled: dict[tuple[float, float], tuple[float, float]]) -> Figure:

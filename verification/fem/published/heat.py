@@ -24,8 +24,8 @@ PEAK = 1e7
 
 def heat(level: str) -> Iterator[Item]:
     """Shear of a film that heats itself, the flash temperature under a band of heat, and the factor of the inlet."""
-    found = [nahme(number) for number in NUMBERS]
-    for number, ours in zip(NUMBERS, found):
+    values = [nahme(number) for number in NUMBERS]
+    for number, ours in zip(NUMBERS, values):
         yield against("nahme", f"shear stress at a Nahme number of {number:g}", ours, references.nahme(number), 1e-9)
     for key, name, shape, theirs in (
         ("blok-flash", "Hertz", lambda t: np.sqrt(np.maximum(1 - t**2, 0)), references.FLASH_HERTZ),
@@ -46,7 +46,7 @@ def heat(level: str) -> Iterator[Item]:
         at = f"L = {number:g}, slide-roll {ratio:g}"
         yield against("gupta", f"inlet factor, {at}", made.factor, references.gupta(number, ratio, pressed), 1e-9)
         yield against("wilson", f"other inlet factor, {at}", made.other, references.olver_spikes(number, ratio), 1e-9)
-    yield drawn(found)
+    yield drawn(values)
 
 
 def nahme(number: float) -> float:
@@ -62,15 +62,15 @@ def flash(shape, step: float) -> float:
     t = np.arange(-1.0, 1.2, step)
     heat = PEAK * shape(t)
     still = Surroundings(CARRIED, 0.0, np.zeros(t.size), heat)
-    found = heated_film(OIL, HALF * t, np.zeros(t.size), np.full(t.size, 1e-6), still)
+    solution = heated_film(OIL, HALF * t, np.zeros(t.size), np.full(t.size, 1e-6), still)
     mean = PEAK * (math.pi / 4 if shape(np.array([0.9]))[0] < 1 else 1.0)
-    return found.flash * CARRIED / (mean * math.sqrt(2 * HALF))
+    return solution.flash * CARRIED / (mean * math.sqrt(2 * HALF))
 
 
-def drawn(found: list[float]) -> Figure:
+def drawn(rows: list[float]) -> Figure:
     """Stress over the Nahme number."""
     dense = np.geomspace(0.03, 300, 100)
-    curves = [(dense, [references.nahme(n) for n in dense], "-", "Nahme 1940"), (NUMBERS, found, "o", "lubfric")]
+    curves = [(dense, [references.nahme(n) for n in dense], "-", "Nahme 1940"), (NUMBERS, rows, "o", "lubfric")]
     scales: dict[str, Any] = {
         "xscale": "log",
         "yscale": "log",

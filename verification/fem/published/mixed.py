@@ -22,9 +22,9 @@ def mixed(level: str) -> Iterator[Item]:
     Theirs is the band that four published laws span. Ours is the mean of three kinds of roughness on a roller, each a
     patch; the error is twice its standard error.
     """
-    found = np.array([shares((kind, PRESSURE)) for kind in SURFACES])[:, :, FILMS.index(BOUNDARY_FILM)]
-    ours = found.mean(axis=0)
-    own = 2 * found.std(axis=0, ddof=1) / np.sqrt(len(found))
+    values = np.array([shares((kind, PRESSURE)) for kind in SURFACES])[:, :, FILMS.index(BOUNDARY_FILM)]
+    ours = values.mean(axis=0)
+    own = 2 * values.std(axis=0, ddof=1) / np.sqrt(len(values))
     low, high = references.load_share_band(RATIOS)
     for ratio, one, error, a, b in zip(RATIOS, ours, own, low, high):
         name = f"load share of the asperities, film/Sq = {ratio:g}"

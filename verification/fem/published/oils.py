@@ -68,8 +68,8 @@ def rig_oils() -> Iterator[Pair]:
         for method in ("gold", "so-klaus") if base == "mineral" else ("gold",):
             made = oil.from_viscosities(at40 * MM2, at100 * MM2, base=base, density=density, estimate=method)
             for celsius, alpha in alphas.items():
-                found = made.pressure_viscosity_coefficient(celsius + CELSIUS)
-                yield f"{name}, {celsius} °C, {method}", "arana", found, alpha
+                result = made.pressure_viscosity_coefficient(celsius + CELSIUS)
+                yield f"{name}, {celsius} °C, {method}", "arana", result, alpha
 
 
 def machine_oils() -> Iterator[Pair]:
@@ -79,10 +79,10 @@ def machine_oils() -> Iterator[Pair]:
             yield f"{name}, {celsius} °C, gold", "stachowiak", oil.gold(mpas / 880 * 1e-3, "mineral"), alpha
 
 
-def estimated(key: str, name: str, found: Estimate, theirs: float) -> Check:
+def estimated(key: str, name: str, estimate: Estimate, theirs: float) -> Check:
     """The estimate beside the measured oil."""
-    ours = found.value * 1e9
-    end = (found.high if theirs > ours else found.low) / found.value
+    ours = estimate.value * 1e9
+    end = (estimate.high if theirs > ours else estimate.low) / estimate.value
     note = f"ours over theirs {ours / theirs:.2f}"
     return against(key, f"alpha of {name}", ours, theirs, abs(end - 1), "1/GPa", note)
 
@@ -92,8 +92,8 @@ def drawn(pairs: list[Pair]) -> Figure:
     canvas, ax = plotting.axes(width=5.4, height=4.6)
     for method, mark in (("gold", "o"), ("so-klaus", "s")):
         rows = [
-            (theirs, found.value * 1e9, found.low * 1e9, found.high * 1e9)
-            for name, _, found, theirs in pairs
+            (theirs, result.value * 1e9, result.low * 1e9, result.high * 1e9)
+            for name, _, result, theirs in pairs
             if name.endswith(method)
         ]
         theirs, ours, low, high = np.array(rows).T

@@ -107,11 +107,11 @@ def ripples(alpha: float, film: float, lengths: float) -> tuple[float, float]:
     for _ in range(4):
         case["entrainment_speed"] *= (film / lubfric.solve_ehl(**case, tolerance=1e-3).central_film) ** (1 / 0.7)
     at = laid_out(line_contact(case), 0.0, 40 * lengths / 2)
-    found = at_rest(at, k, height)
+    solution = at_rest(at, k, height)
     near = np.abs(at.film.x) < 2.5 * w["wavelength"]
     x = at.film.x[near]
     columns = np.stack([x**0, x / b, (x / b) ** 2, np.cos(k * x), np.sin(k * x)], axis=1)
-    both = np.stack([(found.gap - at.film.gap)[near, 0], (found.pressure - at.film.pressure)[near, 0]], axis=1)
+    both = np.stack([(solution.gap - at.film.gap)[near, 0], (solution.pressure - at.film.pressure)[near, 0]], axis=1)
     film_wave, pressure_wave = np.hypot(*np.linalg.lstsq(columns, both, rcond=None)[0][3:])
     return film_wave / height * w["height"], pressure_wave / height * w["height"]
 

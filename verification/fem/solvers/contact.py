@@ -41,7 +41,7 @@ class Contact:
 
 
 @dataclass(frozen=True)
-class Problem:
+class ContactProblem:
     """Checked input of `solve_contact`. ``limit`` is the limit of the nodal forces (inf without a cap)."""
 
     displacement: Callable[[np.ndarray], np.ndarray]
@@ -103,11 +103,11 @@ def solve_contact(
         touching = enough(problem, gap, (force > 0) & ~saturated, saturated)
         force, more = active_set(problem, force, touching, saturated, max_iterations)
         steps = (steps[0] + more[0], [*steps[1], *more[1]], more[2])
-    found = finish(problem, force, steps)
-    return found.report.checked(found)
+    solution = finish(problem, force, steps)
+    return solution.report.checked(solution)
 
 
-def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
+def checked(displacement, weights, gap0, load, limit, tolerance) -> ContactProblem:
     """The problem, or `InputError`."""
     weights, gap0 = np.array(weights, dtype=float), np.array(gap0, dtype=float)
     fits = gap0.ndim == 1 and gap0.size > 0 and bool(np.all(np.isfinite(gap0)))
@@ -118,10 +118,10 @@ def checked(displacement, weights, gap0, load, limit, tolerance) -> Problem:
     most = np.inf if limit is None else limit
     carried = f"> 0, < what limit = {most:g} Pa carries on {weights.sum():g} m or m^2"
     require(most > 0 and 0 < load < most * weights.sum(), f"load = {load:g} N or N/m", carried)
-    return Problem(displacement, weights, gap0, float(load), most * weights, tolerance)
+    return ContactProblem(displacement, weights, gap0, float(load), most * weights, tolerance)
 
 
-def active_set(problem: Problem, force, touching, saturated, max_iterations: int):
+def active_set(problem: ContactProblem, force, touching, saturated, max_iterations: int):
     """(force, (iterations, history, status)). Forces may pull or exceed the limit slightly."""
     history = []
     fewest = force.size + 1
@@ -154,7 +154,7 @@ def active_set(problem: Problem, force, touching, saturated, max_iterations: int
     return force, (max_iterations, history, ITERATION_LIMIT)
 
 
-def limited(problem: Problem, force, saturated):
+def limited(problem: ContactProblem, force, saturated):
     """``saturated``, and the nodes above the limit, hardest pressed first, while others have load enough left."""
     over = np.flatnonzero((force > problem.limit) & ~saturated)
     over = over[np.argsort(-force[over] / problem.limit[over])]
@@ -168,7 +168,7 @@ def limited(problem: Problem, force, saturated):
     return out
 
 
-def enough(problem: Problem, gap, touching, saturated):
+def enough(problem: ContactProblem, gap, touching, saturated):
     """``touching``, and nodes that are off, nearest first, until these can carry what the saturated ones do not."""
     spare = problem.load - problem.limit[saturated].sum() - problem.limit[touching].sum()
     if spare <= 0 and touching.any():
@@ -181,7 +181,7 @@ def enough(problem: Problem, gap, touching, saturated):
     return out
 
 
-def equilibrium(problem: Problem, force, touching, saturated):
+def equilibrium(problem: ContactProblem, force, touching, saturated):
     """Forces with gap zero at the touching nodes, and the gap everywhere.
 
     The unknown is y = f/sqrt(w), so that nodes of unequal weight are alike. Steps stay orthogonal to sqrt(w), which
@@ -219,7 +219,7 @@ def shift(vector, root, root2):
     return vector - root * ((root @ vector) / root2)
 
 
-def finish(problem: Problem, force, steps) -> Contact:
+def finish(problem: ContactProblem, force, steps) -> Contact:
     """Fields and residuals from the forces alone."""
     iterations, history, status = steps
     force = np.clip(force, 0, problem.limit)

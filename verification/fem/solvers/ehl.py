@@ -16,7 +16,7 @@ import numpy as np
 from skfem import Basis
 
 from .ehl_body import Body, Layout, graded_mesh, make_body, refined_displacement
-from .ehl_film import PENALTY, Film
+from .ehl_film import PENALTY, FilmEquations
 from .ehl_newton import Iterate, film_thickness, newton
 from .fluid import Fluid
 from .report import SolveReport, require
@@ -101,7 +101,7 @@ class LineContact:
 
 
 @dataclass(frozen=True)
-class Solution:
+class EHLSolution:
     """A film and how it was found. Arrays on the line stand at its degrees of freedom ``body.x``, not in ascending
     order.
 
@@ -115,7 +115,7 @@ class Solution:
     contact: LineContact
     layout: Layout
     body: Body
-    film: Film
+    film: FilmEquations
     displacement: np.ndarray
     P: np.ndarray
     H: np.ndarray
@@ -164,7 +164,7 @@ def solve_ehl(
     penalty: float = PENALTY,
     tolerance: float = 1e-8,
     max_iterations: int = 40,
-) -> list[Solution]:
+) -> list[EHLSolution]:
     """Solve on a graded mesh and on its uniform refinements; the solutions, coarsest first.
 
     Parameters
@@ -187,7 +187,7 @@ def solve_ehl(
     require(min(fineness, between, tolerance) > 0, f"{fineness = }, {between = }, {tolerance = }", "> 0")
     require(penalty >= 0 and max_iterations >= 1, f"{penalty = }, {max_iterations = }", ">= 0, >= 1")
     mesh, layout = graded_mesh(replace(make_layout(contact, fineness, side), between=between))
-    solutions: list[Solution] = []
+    solutions: list[EHLSolution] = []
     for level in range(refinements + 1):
         mesh = mesh.refined() if level else mesh
         body = make_body(mesh, layout)
@@ -198,15 +198,15 @@ def solve_ehl(
             start, _, _ = newton(body, replace(film, upwind=1.0), start, ROUGH, max_iterations)
             end, flow, report = newton(body, film, start, tolerance, max_iterations)
         fields = (end.u, end.P, film_thickness(body, end), end.H0)
-        found = Solution(contact, layout, body, film, *fields, flow * contact.film_unit, report)
-        solutions.append(report.checked(found))
+        solution = EHLSolution(contact, layout, body, film, *fields, flow * contact.film_unit, report)
+        solutions.append(report.checked(solution))
     return solutions
 
 
-def film_of(contact: LineContact, line: Basis, penalty: float = PENALTY) -> Film:
+def film_of(contact: LineContact, line: Basis, penalty: float = PENALTY) -> FilmEquations:
     """The flow of a contact on a line."""
     scales = contact.hertz_pressure, contact.speed_parameter
-    return Film(line, contact.fluid, *scales, penalty, shear=contact.shear)
+    return FilmEquations(line, contact.fluid, *scales, penalty, shear=contact.shear)
 
 
 def make_layout(contact: LineContact, fineness: float, side: float) -> Layout:
@@ -243,7 +243,7 @@ def film_estimate(M: float, L: float) -> float:
     return larger * (1 + (smaller / larger) ** s) ** (1 / s)
 
 
-def first_guess(contact: LineContact, body: Body, film: Film, max_iterations: int) -> Iterate:
+def first_guess(contact: LineContact, body: Body, film: FilmEquations, max_iterations: int) -> Iterate:
     """A first-order upwind solution. Where Newton's method does not find it from a Hertz pressure, the viscosity is
     raised in steps.
 
@@ -268,7 +268,7 @@ def hertz_start(contact: LineContact, body: Body, piezo: float) -> Iterate:
     return Iterate(u, P, film + float((body.trace @ u)[centre]), P <= 0)
 
 
-def refined(coarse: Solution, body: Body) -> Iterate:
+def refined(coarse: EHLSolution, body: Body) -> Iterate:
     """A solution taken to the next finer mesh, film included (that of the interpolated pressure is rougher)."""
     P = coarse.body.line.probes(body.x[None]) @ coarse.P
     return Iterate(refined_displacement(coarse.body, body, coarse.displacement), P, coarse.approach, P <= 0)

@@ -144,10 +144,10 @@ def trace_matrix(basis: Basis, line: Basis) -> sp.csr_matrix:
     vertical = basis.get_dofs(lambda x: np.abs(x[1]) < near).all("u^2")
     at = basis.doflocs[0, vertical]
     ascending = np.argsort(at)
-    found = ascending[np.searchsorted(at[ascending], line.doflocs[0] - near)]
-    if np.abs(at[found] - line.doflocs[0]).max() > near:
+    result = ascending[np.searchsorted(at[ascending], line.doflocs[0] - near)]
+    if np.abs(at[result] - line.doflocs[0]).max() > near:
         raise AssertionError("the line is not made of the facets of the body")
-    return sp.csr_matrix((np.ones(line.N), (np.arange(line.N), vertical[found])), shape=(line.N, basis.N))
+    return sp.csr_matrix((np.ones(line.N), (np.arange(line.N), vertical[result])), shape=(line.N, basis.N))
 
 
 def refined_displacement(coarse: Body, fine: Body, displacement: np.ndarray) -> np.ndarray:

@@ -28,7 +28,7 @@ PENALTY = 0.03
 
 
 @dataclass(frozen=True)
-class Film:
+class FilmEquations:
     """The flow on a line.
 
     line : P2
@@ -149,7 +149,7 @@ class Flow:
     inflow: float
 
 
-def assemble(film: Film, P: np.ndarray, H: np.ndarray) -> Flow:
+def assemble(film: FilmEquations, P: np.ndarray, H: np.ndarray) -> Flow:
     """The flow for pressure and film at the degrees of freedom of the line."""
     parts = [inside(film, P, H)] + ([penalty(film, P, H)] if film.penalty else [])
     r, by_P, by_H = (sum(terms[1:], terms[0]) for terms in zip(*parts, strict=True))
@@ -160,7 +160,7 @@ def assemble(film: Film, P: np.ndarray, H: np.ndarray) -> Flow:
     return Flow(r, by_P - slopes[0] * there, by_H - slopes[1] * there, float(inflow))
 
 
-def inside(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
+def inside(film: FilmEquations, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
     """``-(q, v')`` and its derivatives by P and H."""
     line = film.line
     p = line.interpolate(P)
@@ -176,7 +176,7 @@ def inside(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
     )
 
 
-def penalty(film: Film, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
+def penalty(film: FilmEquations, P, H) -> tuple[np.ndarray, sp.csr_matrix, sp.csr_matrix]:
     """``sum gamma size^2 [(rho H)'][v']`` and its derivatives by P and H."""
     at, size, jump = slope_jumps(film.line)
     c, (p0, p1, h0, h1) = partials(

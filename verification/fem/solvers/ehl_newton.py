@@ -17,7 +17,7 @@ from scipy.sparse.linalg import splu
 from skfem import LinearForm
 
 from .ehl_body import Body
-from .ehl_film import Film, Flow, assemble
+from .ehl_film import FilmEquations, Flow, assemble
 from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, SolveReport
 
 HERTZ_LOAD = math.pi / 2
@@ -59,7 +59,7 @@ def load_weights(body: Body) -> np.ndarray:
 
 
 def newton(
-    body: Body, film: Film, start: Iterate, tolerance: float, max_iterations: int
+    body: Body, film: FilmEquations, start: Iterate, tolerance: float, max_iterations: int
 ) -> tuple[Iterate, float, SolveReport]:
     """The last iterate, the flow q and a report whose residuals are those of `measure`."""
     weights = load_weights(body)
@@ -82,7 +82,7 @@ def newton(
     return it, at.flow.inflow, SolveReport(solver, status, steps, tolerance, residuals, tuple(history))
 
 
-def imbalance(body: Body, film: Film, it: Iterate, weights: np.ndarray) -> Imbalance:
+def imbalance(body: Body, film: FilmEquations, it: Iterate, weights: np.ndarray) -> Imbalance:
     """Residuals of all equations."""
     H = film_thickness(body, it)
     force = body.stiffness @ it.u + body.traction @ it.P
@@ -112,7 +112,7 @@ def measure(body: Body, it: Iterate, at: Imbalance) -> dict[str, float]:
     }
 
 
-def step(body: Body, film: Film, it: Iterate, at: Imbalance, weights: np.ndarray) -> Iterate:
+def step(body: Body, film: FilmEquations, it: Iterate, at: Imbalance, weights: np.ndarray) -> Iterate:
     """One step of the whole system, shortened where viscosity or film would change too much."""
     held = np.where(it.held, at.flow.residual > 0, it.P < 0)
     held[np.argmax(body.x)] = True
@@ -153,7 +153,7 @@ def solve(matrix: sp.csc_matrix, rhs: np.ndarray, order: np.ndarray) -> np.ndarr
     return change
 
 
-def step_length(film: Film, P, dP, H, dH) -> float:
+def step_length(film: FilmEquations, P, dP, H, dH) -> float:
     """The share of a step after which no viscosity has changed, and no film has shrunk, by more than the limits say."""
     growth = np.abs(film.log_viscosity(np.maximum(P + dP, 0)) - film.log_viscosity(np.maximum(P, 0))).max()
     shrinking = float(np.max(-dH[H > 0] / H[H > 0], initial=0.0))

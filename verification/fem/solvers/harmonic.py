@@ -28,7 +28,7 @@ GROWTH = 0.5  # of the cells, per distance from the patch
 
 
 @dataclass(frozen=True)
-class Strip:
+class HarmonicStrip:
     """A patch of ``shape`` (nx, ny) cells of ``spacing`` (dx, dy) m, centred on x = 0 and repeated along y. nx is even.
 
     fineness : each cell along x is 2^fineness facets
@@ -59,7 +59,7 @@ class Compliance:
     solved.
     """
 
-    strip: Strip
+    strip: HarmonicStrip
     harmonics: np.ndarray
     unknowns: int
 
@@ -89,12 +89,12 @@ def press(
 
     limit = hardness if math.isfinite(hardness) else None
     cells = np.full(gap0.size, dx * dy)
-    found = solve_contact(displacement, cells, gap0.ravel(), load_per_width * ny * dy, limit=limit, **options)
+    solution = solve_contact(displacement, cells, gap0.ravel(), load_per_width * ny * dy, limit=limit, **options)
     fields = ("pressure", "gap", "displacement", "touching", "saturated")
-    return replace(found, **{name: getattr(found, name).reshape(nx, ny) for name in fields})
+    return replace(solution, **{name: getattr(solution, name).reshape(nx, ny) for name in fields})
 
 
-def compliance(strip: Strip) -> Compliance:
+def compliance(strip: HarmonicStrip) -> Compliance:
     """Factorise and solve once for every wave along y."""
     mesh = graded_mesh(strip)
     basis = Basis(mesh, ElementVector(ElementTriP2(), 3), intorder=4)
@@ -109,7 +109,7 @@ def compliance(strip: Strip) -> Compliance:
     return Compliance(strip, np.array(harmonics), free.size)
 
 
-def graded_mesh(strip: Strip) -> MeshTri:
+def graded_mesh(strip: HarmonicStrip) -> MeshTri:
     """Triangles, none longer than ``hypot(diagonal of the finest, growth * distance from the patch)``."""
     dx = strip.spacing[0]
     side = dx * 2**SIDE
@@ -145,7 +145,7 @@ def strains(u, k):
     return g[0, 0], g[1, 1], k * u[2], g[0, 1] + g[1, 0], g[2, 0] - k * u[0], g[2, 1] - k * u[1]
 
 
-def cell_loads(strip: Strip, mesh: MeshTri, basis: Basis) -> sp.csr_matrix:
+def cell_loads(strip: HarmonicStrip, mesh: MeshTri, basis: Basis) -> sp.csr_matrix:
     """(degrees of freedom, nx): forces of 1 Pa, downwards, on each cell of the patch."""
     top = mesh.facets_satisfying(lambda x: np.abs(x[1]) < 1e-9 * np.abs(mesh.p[1]).max(), boundaries_only=True)
     ends = mesh.p[0, mesh.facets[:, top]]
@@ -153,8 +153,8 @@ def cell_loads(strip: Strip, mesh: MeshTri, basis: Basis) -> sp.csr_matrix:
     top, ends = top[inside], ends[:, inside]
     cell = np.floor((ends.mean(axis=0) + strip.half) / strip.spacing[0]).astype(int)
     edges = (cell[None] + np.array([[0], [1]])) * strip.spacing[0] - strip.half
-    beyond = max(np.max(edges[0] - ends.min(axis=0)), np.max(ends.max(axis=0) - edges[1]))
-    if beyond > 1e-6 * strip.spacing[0]:
+    overhang = max(np.max(edges[0] - ends.min(axis=0)), np.max(ends.max(axis=0) - edges[1]))
+    if overhang > 1e-6 * strip.spacing[0]:
         raise AssertionError("a facet of the mesh crosses the edge of a cell")
     length = np.abs(np.diff(ends, axis=0))[0]
     rows = np.concatenate([*basis.nodal_dofs[1, mesh.facets[:, top]], basis.facet_dofs[1, top]])

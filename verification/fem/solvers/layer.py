@@ -58,13 +58,13 @@ class Layer:
         force = np.asarray(force, dtype=float)
         load = np.zeros((self.stiffness.shape[0], *force.shape[1:]))
         load[self.unknowns] = -force
-        found = self.factors.solve(load)
-        left = np.abs(self.stiffness @ found - load).max()
+        result = self.factors.solve(load)
+        left = np.abs(self.stiffness @ result - load).max()
         if not left <= 1e-9 * np.abs(load).max():
             raise ArithmeticError(
                 f"factorised layer: residual {left:.1e} N/m for forces up to {np.abs(load).max():.1e}"
             )
-        return found
+        return result
 
     def displacement(self, force) -> np.ndarray:
         """Downward displacement in m of the n surface nodes under forces there, N per metre of depth."""

@@ -204,11 +204,11 @@ def solve(grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: in
     load = surface.ravel()
     history: list[float] = []
     limits = {"tol": 0.1 * tolerance, "maxiter": max_iterations}
-    found = grid.hierarchy.solve(load, **limits, accel="cg", residuals=history)
+    result = grid.hierarchy.solve(load, **limits, accel="cg", residuals=history)
     scale = float(np.linalg.norm(load))
-    residual = float(np.linalg.norm(load - grid.matrix @ found)) / scale
+    residual = float(np.linalg.norm(load - grid.matrix @ result)) / scale
     status = CONVERGED if residual <= tolerance else ITERATION_LIMIT
     solver = "smoothed aggregation, conjugate gradients"
     past = tuple(r / scale for r in history)
     report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past)
-    return report.checked(Solved(found.reshape(layer.planes, *layer.shape, 3), report))
+    return report.checked(Solved(result.reshape(layer.planes, *layer.shape, 3), report))

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from skfem import LinearForm
 
-from .ehl import Solution
+from .ehl import EHLSolution
 from .ehl_body import Body
 from .ehl_film import assemble
 from .ehl_newton import HERTZ_LOAD, load_weights, step_length
@@ -38,7 +38,7 @@ class Moment(NamedTuple):
 
 
 def march(
-    at: Solution, waves: Callable, step: float, *, tolerance: float = 1e-7, max_iterations: int = 30
+    at: EHLSolution, waves: Callable, step: float, *, tolerance: float = 1e-7, max_iterations: int = 30
 ) -> Iterator[Moment]:
     """Moments that are ``step`` [b/U] apart, without end, from the smooth solution on.
 
@@ -89,7 +89,7 @@ def march(
         yield Moment(time, P, H)
 
 
-def content(at: Solution, P, H):
+def content(at: EHLSolution, P, H):
     """rho H at the points of quadrature."""
     line = at.body.line
     return at.film.density(np.asarray(line.interpolate(P))) * np.asarray(line.interpolate(H))

@@ -33,7 +33,7 @@ LARGEST_STEP = 3.0
 
 
 @dataclass(frozen=True)
-class Problem:
+class ReynoldsProblem:
     """What is solved. Lengths in m, speeds in m/s.
 
     mesh : scikit-fem mesh of lines, triangles or quadrilaterals; x (first coordinate) is the direction of motion
@@ -80,7 +80,7 @@ class Problem:
 
 
 @dataclass(frozen=True)
-class Solution:
+class ReynoldsSolution:
     """Pressure and how it was found.
 
     problem, report : what was solved; how it went
@@ -90,7 +90,7 @@ class Solution:
         the flow that enters there, in the cavitated part the flow that is not carried on, zero elsewhere
     """
 
-    problem: Problem
+    problem: ReynoldsProblem
     basis: Basis
     pressure: np.ndarray
     reaction: np.ndarray
@@ -126,7 +126,7 @@ class Solution:
         return float(np.sqrt(off / Functional(lambda w: exact(w.x) ** 2).assemble(self.basis)))
 
 
-def weak_form(problem: Problem, p, gradient, w) -> tuple[np.ndarray, np.ndarray]:
+def weak_form(problem: ReynoldsProblem, p, gradient, w) -> tuple[np.ndarray, np.ndarray]:
     """``(a, b)`` of the weak form ``integral a v + b . grad v`` at the quadrature points.
 
     ``p`` and its ``gradient`` may be real or complex; ``w`` are the fields of `given_fields`.
@@ -142,7 +142,7 @@ def weak_form(problem: Problem, p, gradient, w) -> tuple[np.ndarray, np.ndarray]
     return -w["f"] + 0 * p, flow
 
 
-def upwind_flow(problem: Problem, p, gradient, mobility, w) -> np.ndarray:
+def upwind_flow(problem: ReynoldsProblem, p, gradient, mobility, w) -> np.ndarray:
     """What the streamline-upwind form adds to the flow: ``tau`` times wave speed times strong residual.
 
     Brooks & Hughes 1982, doi:10.1016/0045-7825(82)90071-8; tau of Shakib, Hughes & Johan 1991,
@@ -178,7 +178,7 @@ def tangent(u, v, w):
     return a * v + dot(b, grad(v))
 
 
-def linearised(problem: Problem, p, gradient, w) -> dict[str, np.ndarray]:
+def linearised(problem: ReynoldsProblem, p, gradient, w) -> dict[str, np.ndarray]:
     """Derivatives of `weak_form` by a complex step, one for p and one for each component of its gradient."""
 
     def along(dp, dg):
@@ -197,12 +197,12 @@ def linearised(problem: Problem, p, gradient, w) -> dict[str, np.ndarray]:
 
 
 def solve_reynolds(
-    problem: Problem,
+    problem: ReynoldsProblem,
     *,
     start: np.ndarray | None = None,
     tolerance: float = 1e-8,
     max_iterations: int = 100,
-) -> Solution:
+) -> ReynoldsSolution:
     """Solve for the pressure from ``start`` (at the degrees of freedom; None: 0).
 
     Stops when the largest of these is <= ``tolerance``:
@@ -251,10 +251,10 @@ def solve_reynolds(
         p = p + newton_step(problem, matrix, r, p, held, cavitated)
     steps = len(history) - 1
     report = SolveReport("Reynolds finite elements", status, steps, tolerance, residuals, tuple(history))
-    return report.checked(Solution(problem, basis, p, r, report))
+    return report.checked(ReynoldsSolution(problem, basis, p, r, report))
 
 
-def solve_refined(problem: Problem, refinements: int, **options) -> list[Solution]:
+def solve_refined(problem: ReynoldsProblem, refinements: int, **options) -> list[ReynoldsSolution]:
     """Solve on ``problem.mesh`` and on each of its uniform refinements, each started from the one before.
 
     Besides giving a convergence study its meshes, this keeps the active set cheap: started from nothing, a
@@ -268,7 +268,7 @@ def solve_refined(problem: Problem, refinements: int, **options) -> list[Solutio
     return solutions
 
 
-def prolonged(coarse: Solution, problem: Problem) -> np.ndarray:
+def prolonged(coarse: ReynoldsSolution, problem: ReynoldsProblem) -> np.ndarray:
     """The vertex values of ``coarse``, linear in each cell, at the degrees of freedom on the refined mesh."""
     old = coarse.problem.mesh
     new = problem.mesh
@@ -291,15 +291,15 @@ def vertices_and_middles(mesh: skfem.Mesh, values: np.ndarray) -> list[np.ndarra
 
     In this order scikit-fem numbers the vertices of a refined mesh.
     """
-    found = [values]
+    result = [values]
     if mesh.dim() > 1:
-        found.append(values[..., mesh.facets].mean(axis=-2))
+        result.append(values[..., mesh.facets].mean(axis=-2))
     if not type(mesh).__name__.startswith("MeshTri"):
-        found.append(values[..., mesh.t].mean(axis=-2))
-    return found
+        result.append(values[..., mesh.t].mean(axis=-2))
+    return result
 
 
-def boundary_dofs(problem: Problem, basis: Basis) -> np.ndarray:
+def boundary_dofs(problem: ReynoldsProblem, basis: Basis) -> np.ndarray:
     """True at the degrees of freedom where p = 0 is prescribed."""
     mesh = problem.mesh
     held = np.zeros(basis.N, dtype=bool)
@@ -311,7 +311,7 @@ def boundary_dofs(problem: Problem, basis: Basis) -> np.ndarray:
     return held
 
 
-def given_fields(problem: Problem, basis: Basis) -> dict:
+def given_fields(problem: ReynoldsProblem, basis: Basis) -> dict:
     """Film, its gradient and the source at the quadrature points."""
     x = basis.global_coordinates()
     fields = {"film": problem.film(np.asarray(x)), "f": 0.0 * x[0], "size": np.asarray(basis.mesh_parameters())}
@@ -323,7 +323,7 @@ def given_fields(problem: Problem, basis: Basis) -> dict:
     return fields
 
 
-def flow_scale(problem: Problem, basis: Basis, fields: dict) -> np.ndarray:
+def flow_scale(problem: ReynoldsProblem, basis: Basis, fields: dict) -> np.ndarray:
     """What a residual is measured against at each degree of freedom, m^2/s or m^3/s; 1 when nothing moves."""
     width = float(np.ptp(problem.mesh.p[1])) if problem.mesh.dim() > 1 else 1.0
     made = np.abs(LinearForm(lambda v, w: w.f * v).assemble(basis, f=fields["f"])).sum()
@@ -331,19 +331,19 @@ def flow_scale(problem: Problem, basis: Basis, fields: dict) -> np.ndarray:
     return flow if flow.max() > 0 else np.ones(basis.N)
 
 
-def measure(problem: Problem, p, r, held, cavitated, flow) -> dict[str, float]:
+def measure(problem: ReynoldsProblem, p, r, held, cavitated, flow) -> dict[str, float]:
     """The residuals the stopping test of `solve_reynolds` names."""
     free = ~(held | cavitated)
-    found = {"mass": float(np.abs(r / flow)[free].sum())}
+    results = {"mass": float(np.abs(r / flow)[free].sum())}
     if problem.cavitation:
         largest = np.abs(p).max() or 1.0
-        found["tension"] = float(max(-p.min(), 0.0) / largest)
-        found["overlap"] = float(p[cavitated].max(initial=0.0) / largest)
-        found["suction"] = float(np.maximum(-r / flow, 0.0)[cavitated].sum())
-    return found
+        results["tension"] = float(max(-p.min(), 0.0) / largest)
+        results["overlap"] = float(p[cavitated].max(initial=0.0) / largest)
+        results["suction"] = float(np.maximum(-r / flow, 0.0)[cavitated].sum())
+    return results
 
 
-def newton_step(problem: Problem, matrix, r, p, held, cavitated) -> np.ndarray:
+def newton_step(problem: ReynoldsProblem, matrix, r, p, held, cavitated) -> np.ndarray:
     """The step to ``r = 0`` on free and ``p = 0`` on cavitated nodes, shortened where viscosity would run away."""
     step = np.where(cavitated & ~held, -p, 0.0)
     free = np.flatnonzero(~(held | cavitated))

@@ -12,8 +12,8 @@ its right side. The rupture point stays, as pressure and its slope vanish there.
 import numpy as np
 from skfem import BilinearForm
 
-from .ehl import Solution
-from .ehl_film import Film, assemble
+from .ehl import EHLSolution
+from .ehl_film import FilmEquations, assemble
 from .ehl_newton import load_weights, solve, tangent
 
 
@@ -23,7 +23,7 @@ def mass(u, v, w):
     return w.c * u * v
 
 
-def stored(film: Film, P, H):
+def stored(film: FilmEquations, P, H):
     """Derivatives of ``(rho H, v)`` by P and by H."""
     line = film.line
     p = np.asarray(line.interpolate(P))
@@ -31,7 +31,7 @@ def stored(film: Film, P, H):
     return mass.assemble(line, c=film.wave(p, h)), mass.assemble(line, c=film.density(p))
 
 
-def ripple(at: Solution, wavelength: float, speed: float = 0.0) -> np.ndarray:
+def ripple(at: EHLSolution, wavelength: float, speed: float = 0.0) -> np.ndarray:
     """Change of the smooth film per height of a wave exp(i k x) of ``wavelength`` [m] at one moment, complex, at the
     dofs of the line. ``speed``: of the waves, over the entrainment speed."""
     body = at.body

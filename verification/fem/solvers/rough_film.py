@@ -13,7 +13,7 @@ from scipy.interpolate import LinearNDInterpolator
 
 from .fluid import Fluid
 from .report import require
-from .reynolds import Problem, Solution, solve_reynolds
+from .reynolds import ReynoldsProblem, ReynoldsSolution, solve_reynolds
 
 FAR = 30.0  # length upstream that is meshed, in lengths of the given gap upstream
 COARSE = 160  # cells of it, geometrically longer
@@ -102,13 +102,13 @@ class RoughFilm:
     upstream: float
     flow: float
     pressure: np.ndarray
-    solution: Solution
+    solution: ReynoldsSolution
 
 
 def rough_film(given: GivenGap, fluid: Fluid, speed: float, *, cells: int) -> RoughFilm:
     """Solve for the pressure in ``given`` at the entrainment ``speed`` [m/s]. The film ruptures where it would pull."""
     width = given.width
-    problem = Problem(
+    problem = ReynoldsProblem(
         mesh_of(given, cells),
         given.film,
         fluid,
@@ -128,7 +128,7 @@ def rough_film(given: GivenGap, fluid: Fluid, speed: float, *, cells: int) -> Ro
     return RoughFilm(float(upstream) / width, flow / width, _at_cells(given, solution), solution)
 
 
-def _at_cells(given: GivenGap, solution: Solution) -> np.ndarray:
+def _at_cells(given: GivenGap, solution: ReynoldsSolution) -> np.ndarray:
     half = given.gap.shape[1] // 2
     y = (np.arange(half) + 0.5) * given.dy
     x, y = np.meshgrid(given.x, y, indexing="ij")

@@ -62,8 +62,8 @@ class Bodies:
 
     def under(self, shape: np.ndarray, load: float) -> Under:
         """The strip pressed with ``load`` (N) under the film's ``shape`` (nx,)."""
-        found = press(self.compliance, shape[:, None] - self.heights, load / self.width, hardness=self.hardness)
-        return Under(np.maximum(found.gap, 0).mean(axis=1), (found.pressure > 0).mean(axis=1), found)
+        solution = press(self.compliance, shape[:, None] - self.heights, load / self.width, hardness=self.hardness)
+        return Under(np.maximum(solution.gap, 0).mean(axis=1), (solution.pressure > 0).mean(axis=1), solution)
 
 
 @dataclass(frozen=True)
@@ -111,7 +111,7 @@ class Under:
 
 
 @dataclass(frozen=True)
-class Shared:
+class SharedLoad:
     """A division of the load.
 
     Forces are in N, mean_gap and mean_film in m. area is the share of the strip in contact, coefficient is f.
@@ -125,7 +125,7 @@ class Shared:
     mean_gap: float
     mean_film: float
     area: float
-    film: ehl.Solution
+    film: ehl.EHLSolution
     pressed: Contact | None
     report: SolveReport
 
@@ -153,16 +153,16 @@ def share_load(
     refinements: int = 1,
     tolerance: float = 1e-5,
     max_evaluations: int = 40,
-) -> Shared:
+) -> SharedLoad:
     """The division of the load at which |residual| <= ``tolerance``.
 
     ``guess`` is that of ln(F_H/F_C), ``step`` the first step from it, ``refinements`` those of the film's mesh. Raises
     `SolveError` with report and last division when the root is not found, and whatever film and contact raise.
     """
-    tried: dict[float, Shared] = {}
+    tried: dict[float, SharedLoad] = {}
 
     def at(split: float) -> float:
-        tried[split] = divided(bodies, split, refinements)
+        tried[split] = loads_at(bodies, split, refinements)
         return tried[split].residual
 
     def done() -> bool:
@@ -176,7 +176,7 @@ def share_load(
     return report.checked(replace(best(tried), report=report))
 
 
-def best(tried: dict) -> Shared:
+def best(tried: dict) -> SharedLoad:
     """The division with the smallest residual."""
     return min(tried.values(), key=lambda s: abs(s.residual))
 
@@ -208,7 +208,7 @@ def root(f: Callable[[float], float], done: Callable[[], bool], guess: float, st
         fb = fc
 
 
-def divided(bodies: Bodies | FlatBodies, split: float, refinements: int) -> Shared:
+def loads_at(bodies: Bodies | FlatBodies, split: float, refinements: int) -> SharedLoad:
     """Film, contact and friction at ln(F_H/F_C) = ``split``."""
     film_load = bodies.load / (1 + math.exp(-split))
     contact_load = bodies.load - film_load
@@ -225,16 +225,18 @@ def divided(bodies: Bodies | FlatBodies, split: float, refinements: int) -> Shar
     boundary = bodies.boundary_friction * contact_load * np.sign(bodies.sliding)
     f = float(math.copysign(1.0, bodies.sliding) * (boundary + couette + rolling) / bodies.load)
     gap, mean_film, area = (float(weight @ values) for values in (under.gap, shape, under.touching))
-    return Shared(film_load, contact_load, couette, rolling, f, gap, mean_film, area, film, under.pressed, film.report)
+    return SharedLoad(
+        film_load, contact_load, couette, rolling, f, gap, mean_film, area, film, under.pressed, film.report
+    )
 
 
-def cell_means(film: ehl.Solution, edges: np.ndarray) -> np.ndarray:
+def cell_means(film: ehl.EHLSolution, edges: np.ndarray) -> np.ndarray:
     """Mean film [m] in each cell."""
     points = edges[:-1, None] + np.diff(edges)[:, None] * (np.arange(POINTS) + 0.5) / POINTS
     return film.at(points.ravel())[1].reshape(points.shape).mean(axis=1)
 
 
-def shear(film: ehl.Solution, sliding: float, edges: np.ndarray, wet: np.ndarray) -> tuple[float, float]:
+def shear(film: ehl.EHLSolution, sliding: float, edges: np.ndarray, wet: np.ndarray) -> tuple[float, float]:
     """(Couette, rolling) force on the upper surface in N/m: the integrals of eta sliding/h and of (h/2) dp/dx.
 
     Each is taken times the lubricated share ``wet`` of the cells between ``edges`` (1 outside). The first goes up to
@@ -264,16 +266,16 @@ def upstream(t: float, n: int, floor: float, radius: float) -> float:
     return t ** (2 * n - 2) / (floor * t**2 + 1 / (2 * radius)) ** n
 
 
-def rupture(film: ehl.Solution) -> float:
+def rupture(film: ehl.EHLSolution) -> float:
     """Where the film behind its minimum is that of the flow (rho h = q/U at p = 0), m."""
     c = film.contact
     order = np.argsort(film.body.x)
     x = film.body.x[order] * c.half_width
     H = film.H[order] * c.film_unit
     thinnest = int(H.argmin())
-    beyond = thinnest + np.flatnonzero(H[thinnest:] > film.flow_film)[0]
+    past_rupture = thinnest + np.flatnonzero(H[thinnest:] > film.flow_film)[0]
 
     def excess(at: float) -> float:
         return float(film.at(np.array([at]))[1][0]) - film.flow_film
 
-    return brentq(excess, x[thinnest], x[beyond], xtol=1e-6 * c.half_width)
+    return brentq(excess, x[thinnest], x[past_rupture], xtol=1e-6 * c.half_width)

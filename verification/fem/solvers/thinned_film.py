@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .ehl import LineContact, Solution, solve_ehl
-from .ehl_film import Film
+from .ehl import EHLSolution, LineContact, solve_ehl
+from .ehl_film import FilmEquations
 from .ehl_newton import Iterate, film_thickness, newton
 
 STATIONS = 41  # across the film
@@ -46,8 +46,8 @@ class Law:
 
 
 @dataclass(frozen=True)
-class ThinnedFilm(Film):
-    """A `Film` of a fluid with a ``law``; stress_per_film [Pa]: the Newtonian stress of sliding at the film b^2/R and
+class ThinnedFilm(FilmEquations):
+    """A `FilmEquations` of a fluid with a ``law``; stress_per_film [Pa]: the Newtonian stress of sliding at the film b^2/R and
     eta = eta0; pull [Pa]: h dp/dx/2 at that film and dP/dX = 1."""
 
     law: Law = Law(math.inf)
@@ -72,7 +72,9 @@ class ThinnedFilm(Film):
         return super().flux(P, P1, H, H1, size) + (1 - self.factor(P, P1, H)) * self.mobility(P, H) * P1
 
 
-def solve_thinned(contact: LineContact, law: Law, sliding: float, *, refinements: int = 1) -> tuple[Solution, Solution]:
+def solve_thinned(
+    contact: LineContact, law: Law, sliding: float, *, refinements: int = 1
+) -> tuple[EHLSolution, EHLSolution]:
     """The Newtonian solution on the finest mesh, and from it that of the fluid with a ``law`` between surfaces that
     slide at ``sliding`` [m/s]."""
     newtonian = solve_ehl(contact, refinements=refinements)[-1]
@@ -91,5 +93,5 @@ def solve_thinned(contact: LineContact, law: Law, sliding: float, *, refinements
         end, flow, report = newton(body, film, end, 1e-7, 40)
         report.checked(None)
     fields = (end.u, end.P, film_thickness(body, end), end.H0)
-    thinned = Solution(contact, newtonian.layout, body, film, *fields, flow * contact.film_unit, report)
+    thinned = EHLSolution(contact, newtonian.layout, body, film, *fields, flow * contact.film_unit, report)
     return newtonian, thinned

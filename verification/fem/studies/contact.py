@@ -41,17 +41,17 @@ def hertz_layer(depth: float, fine: float, degree: int) -> Layer:
     return make_layer(mesh, BODY, degree=degree, strip=1.5 * B)
 
 
-def press(found: Layer, load: float = LINE_LOAD, limit: float | None = None) -> Contact:
+def press(layer: Layer, load: float = LINE_LOAD, limit: float | None = None) -> Contact:
     """A cylinder of RADIUS on the layer."""
-    compliance = found.compliance
+    compliance = layer.compliance
     return solve_contact(
-        lambda f: compliance @ f, found.weights, found.x**2 / (2 * RADIUS), load, limit=limit, tolerance=1e-9
+        lambda f: compliance @ f, layer.weights, layer.x**2 / (2 * RADIUS), load, limit=limit, tolerance=1e-9
     )
 
 
-def difference(found: Layer, values, expected) -> float:
+def difference(layer: Layer, values, expected) -> float:
     """Relative difference of two pressures in the L2 norm over the surface."""
-    return float(np.sqrt(found.weights @ np.square(values - expected) / (found.weights @ np.square(expected))))
+    return float(np.sqrt(layer.weights @ np.square(values - expected) / (layer.weights @ np.square(expected))))
 
 
 def hertz_pressure(x, load: float):
@@ -77,17 +77,17 @@ def hertz(level: str):
         errors = []
         off = []
         for fine in fines:
-            found = hertz_layer(40, fine, degree)
-            p = press(found)
-            errors.append(edge_mean_error(found, fine))
-            off.append(difference(found, p.pressure, np.interp(found.x, x, smooth.pressure[:, 0])))
+            layer = hertz_layer(40, fine, degree)
+            p = press(layer)
+            errors.append(edge_mean_error(layer, fine))
+            off.append(difference(layer, p.pressure, np.interp(layer.x, x, smooth.pressure[:, 0])))
             peak = p.pressure.max() / PEAK
-            rows.append((f"P{degree}", found.x.size, fine, errors[-1], off[-1], peak, p.report.iterations))
+            rows.append((f"P{degree}", layer.x.size, fine, errors[-1], off[-1], peak, p.report.iterations))
         check = f"Hertz line P{degree}: order of the pressure error"
         why = "an edge like a square root in some cell"
         series.append(Series(f"P{degree}", fines, errors, 1, check, 0.3, why, AT_LEAST))
     yield Check("Hertz line P2: peak pressure", p.pressure.max(), PEAK, 5e-3, HERTZ, unit="Pa")
-    yield Check("Hertz line P2: half-width", half_width(found.x, p.pressure), B, 5e-3, HERTZ, unit="m")
+    yield Check("Hertz line P2: half-width", half_width(layer.x, p.pressure), B, 5e-3, HERTZ, unit="m")
     allowed = 0.015 if level == "quick" else 5e-3
     yield bound("Hertz line P2: pressure difference to lubfric", off[-1], allowed, DRY, "L2")
     name = "Hertz line P2: the difference shrinks, finest over coarsest mesh"
@@ -97,38 +97,38 @@ def hertz(level: str):
     caption = "Hertz line contact: error of the pressure in the L2 norm, relative, root mean square over five loads "
     caption += "that put the edge of the contact at different places of a cell."
     yield from convergence("contact_hertz", caption, series, "cell length / b", "relative pressure error")
-    yield from capped_cylinder(found, p, x, smooth, level)
+    yield from capped_cylinder(layer, p, x, smooth, level)
 
 
-def edge_mean_error(found: Layer, fine: float) -> float:
+def edge_mean_error(layer: Layer, fine: float) -> float:
     """Relative L2 error of the pressure, rms over loads that move the edge of the contact through a cell."""
     errors = []
     for shift in np.arange(5) / 5:
         load = LINE_LOAD * (1 + fine * shift) ** 2 / (1 + fine) ** 2
-        errors.append(difference(found, press(found, load).pressure, hertz_pressure(found.x, load)))
+        errors.append(difference(layer, press(layer, load).pressure, hertz_pressure(layer.x, load)))
     return float(np.sqrt(np.mean(np.square(errors))))
 
 
-def capped_cylinder(found: Layer, elastic: Contact, x, smooth, level: str):
+def capped_cylinder(layer: Layer, elastic: Contact, x, smooth, level: str):
     """The cylinder with pressures cut at 0.7 of the Hertz peak, and the stress below the elastic one."""
-    p = press(found, limit=CAP)
+    p = press(layer, limit=CAP)
     _, other = pressed_cylinder(LINE, 200, CAP)
     width = (x[1] - x[0]) * np.count_nonzero(other.pressure[:, 0] >= CAP)
     note = "cap 0.7 of the elastic peak; counts of whole cells on both sides"
-    rows = [("width at the cap", "m", found.weights @ p.saturated, width, 0.04 if level == "quick" else 0.015)]
+    rows = [("width at the cap", "m", layer.weights @ p.saturated, width, 0.04 if level == "quick" else 0.015)]
     yield from compared("capped Hertz line", rows, DRY, note)
-    off = difference(found, p.pressure, np.interp(found.x, x, other.pressure[:, 0]))
+    off = difference(layer, p.pressure, np.interp(layer.x, x, other.pressure[:, 0]))
     allowed = 0.015 if level == "quick" else 5e-3
     yield bound("capped Hertz line: pressure difference to lubfric", off, allowed, DRY, "L2")
-    sigma = found.stress(elastic.pressure * found.weights)
+    sigma = layer.stress(elastic.pressure * layer.weights)
     data = dict(zip(("sigma_xx", "sigma_zz", "sigma_xz"), sigma), von_mises=von_mises(sigma, BODY.poisson))
-    yield mesh_field("contact_line_stress", "Stress under the cylinder, Pa", found.basis.mesh, data)
-    yield from axis_stress(found, sigma)
+    yield mesh_field("contact_line_stress", "Stress under the cylinder, Pa", layer.basis.mesh, data)
+    yield from axis_stress(layer, sigma)
 
 
-def axis_stress(found: Layer, sigma):
+def axis_stress(layer: Layer, sigma):
     """Stresses on the axis against the closed form."""
-    x, z = found.basis.mesh.p / B
+    x, z = layer.basis.mesh.p / B
     at = (np.abs(x) < 1e-9) & (z < -0.2) & (z > -3)
     root = np.sqrt(1 + z[at] ** 2)
     exact = -np.array([(1 + 2 * z[at] ** 2) / root + 2 * z[at], 1 / root])

@@ -99,7 +99,7 @@ def layer_of(nodes: int, degree: int, depth: float = THICKNESS, layers: int | No
 def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
     """The rough patch pressed on the layer."""
     weights = grid.weights
-    found = solve_contact(
+    solution = solve_contact(
         fourier_compliance(grid).displacement,
         weights.ravel(),
         -roughness(*grid.x).ravel(),
@@ -107,14 +107,17 @@ def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
         limit=limit,
     )
     return Patch(
-        found.pressure.reshape(grid.shape), found.gap.reshape(grid.shape), weights, np.inf if limit is None else limit
+        solution.pressure.reshape(grid.shape),
+        solution.gap.reshape(grid.shape),
+        weights,
+        np.inf if limit is None else limit,
     )
 
 
 def half_space_patch(nodes: int, limit: float | None = None) -> Patch:
     """The same patch by `lubfric`."""
     x = np.arange(nodes) * BOX / nodes
-    found = lubfric.solve_contact(
+    solution = lubfric.solve_contact(
         -roughness(x[:, None], x[None]),
         BOX / nodes,
         E_PRIME,
@@ -122,7 +125,7 @@ def half_space_patch(nodes: int, limit: float | None = None) -> Patch:
         hardness=limit,
         tolerance=1e-6,  # far below what is compared; with yielded cells the single-precision search ends near 1e-7
     )
-    return Patch(found.pressure, found.gap, np.ones_like(found.gap), np.inf if limit is None else limit)
+    return Patch(solution.pressure, solution.gap, np.ones_like(solution.gap), np.inf if limit is None else limit)
 
 
 def rough(level: str):
@@ -167,7 +170,7 @@ def patch_checks(name: str, patches, best: Patch, off):
     yield from compared(label, rows if np.isfinite(finest.limit) else rows[:2], other)
     sizes = [1 / p.gap.shape[0] for p in patches]
     source = "edges like a square root, at places the grid does not know"
-    yield Series("", sizes, off, 1, f"{label}: order of the pressure difference", 0.4, source, AT_LEAST).judged()
+    yield Series("", sizes, off, 1, f"{label}: order of the pressure difference", 0.4, source, AT_LEAST).check_order()
     yield bound(f"{label}: pressure difference", off[-1], 2 / nodes, other, "L2")
 
 
@@ -193,7 +196,7 @@ def thickness(level: str):
     yield bound(name, off[chosen], 1e-4, "thickness study")
     near = (off > 1e-5) & (stiff < 0.1)
     name = "rough patch: change of the mean gap follows the missing compliance, exponent"
-    yield Series("", stiff[near], off[near], 1, name, 0.15, "first order in what the layer lacks").judged()
+    yield Series("", stiff[near], off[near], 1, name, 0.15, "first order in what the layer lacks").check_order()
 
 
 def certified(level: str):

@@ -80,11 +80,11 @@ def smooth():
     for speed, load in ((0.3, LOAD), (0.1, 20 * LOAD)):
         case: dict[str, Any] = {"load_per_width": load, "entrainment_speed": speed, "density_law": "dowson-higginson"}
         case |= {"radius": RADIUS, "e_prime": E_PRIME, "viscosity": VISCOSITY, "pressure_viscosity_coefficient": ALPHA}
-        found = smooth_film(line_contact(case), 2 * speed)
+        solution = smooth_film(line_contact(case), 2 * speed)
         film = lubfric.solve_ehl(**case, tolerance=1e-4)
         rows = [
-            ("smallest film", "m", found.min_gap, film.min_film, 1e-3),
-            ("flow film", "m", found.flow_film, film.flow_film, 1e-3),
+            ("smallest film", "m", solution.min_gap, film.min_film, 1e-3),
+            ("flow film", "m", solution.flow_film, film.flow_film, 1e-3),
         ]
         yield from compared(f"smooth, {load:g} N/m, {speed:g} m/s", rows, "solve_ehl")
 
@@ -92,29 +92,29 @@ def smooth():
 def dry():
     """At 2 µm/s the fluid carries nothing, and the dry contact is left."""
     case = problem(64, 2e-6)
-    found = solve_point(case).pressure
+    solution = solve_point(case).pressure
     exact = dry_contact(case, tolerance=1e-8).pressure
-    difference = np.sqrt(np.mean((found - exact) ** 2) / np.mean(exact**2))
+    difference = np.sqrt(np.mean((solution - exact) ** 2) / np.mean(exact**2))
     yield Check("dry limit: rms of the pressure", difference, 0.0, 0.01, "solve_contact", ABSOLUTE, grade="B")
 
 
 def same_gap(cells: int, speed: float):
     """Flow and load of the film by finite elements in the gap that was found."""
     case = problem(cells, speed)
-    found = solve_point(case)
-    pressure = 0.5 * (found.pressure + found.pressure[:, ::-1])
-    gap = 0.5 * (found.gap + found.gap[:, ::-1])
+    solution = solve_point(case)
+    pressure = 0.5 * (solution.pressure + solution.pressure[:, ::-1])
+    gap = 0.5 * (solution.gap + solution.gap[:, ::-1])
     spots = pressure > SPOT
-    given = GivenGap(found.x, case.spacing[1], gap, pressure, spots, RADIUS, case.edge_log)
+    given = GivenGap(solution.x, case.spacing[1], gap, pressure, spots, RADIUS, case.edge_log)
     judge = rough_film(given, Fluid(VISCOSITY, "roelands", ALPHA), speed, cells=cells)
     half = pressure.shape[1] // 2
     free = ~spots[:, :half]
     cell = case.spacing[0] / half
-    load = pressure[:, :half][free].sum() * cell + found.inlet_load
+    load = pressure[:, :half][free].sum() * cell + solution.inlet_load
     by_elements = judge.pressure[free].sum() * cell + judge.upstream
     rows = [
         ("load of the film", "N/m", by_elements, load, 5e-3),
-        ("flow", "m^2/s", judge.flow, found.flow_film * speed, 5e-3),
+        ("flow", "m^2/s", judge.flow, solution.flow_film * speed, 5e-3),
     ]
     note = f"{100 * load / LOAD:.0f} % of the load is outside the spots"
     yield from compared(f"{cells} cells, {speed:g} m/s", rows, "finite elements in the same gap", note)

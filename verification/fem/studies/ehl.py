@@ -12,7 +12,7 @@ from ...meshes import mesh_field
 from ..convergence import Series, convergence, picture
 from ..parts import case_of
 from ..published.friction import force
-from ..solvers.ehl import LineContact, Solution, solve_ehl
+from ..solvers.ehl import EHLSolution, LineContact, solve_ehl
 from ..solvers.ehl_body import POISSON
 from ..solvers.ehl_film import PENALTY
 from ..solvers.thinned_film import Law, solve_thinned
@@ -72,12 +72,12 @@ class Pair:
     """One contact solved both ways: on all finite-element meshes, coarsest first, and by `lubfric`."""
 
     point: tuple[float, float, str]
-    solutions: list[Solution]
+    solutions: list[EHLSolution]
     line: lubfric.EHLResult
     seconds: float
 
     @property
-    def finest(self) -> Solution:
+    def finest(self) -> EHLSolution:
         """The solution on the finest mesh."""
         return self.solutions[-1]
 
@@ -87,7 +87,7 @@ class Pair:
         M, L, density = self.point
         return f"M = {M:g}, L = {L:g}" + ("" if density == CONSTANT else ", compressible")
 
-    def differences(self, s: Solution) -> tuple[float, float, float]:
+    def differences(self, s: EHLSolution) -> tuple[float, float, float]:
         """Relative differences of flow film and smallest film, and the root mean square of that of the film over the
         contact, in flow films.
 
@@ -196,7 +196,7 @@ def differences(pairs: list[Pair], level: str):
         if level != "quick":
             mean = np.sqrt(np.mean(np.square([list(s.errors) for s in series[L]]), axis=0))
             name = f"order of the film difference, L = {L}, root mean square over contacts"
-            yield Series("", 0.5 ** np.arange(mean.size), mean, order, name, 0.2, source, AT_LEAST).judged()
+            yield Series("", 0.5 ** np.arange(mean.size), mean, order, name, 0.2, source, AT_LEAST).check_order()
         caption = f"Film of the full-system finite elements against lubfric at L = {L}, root mean square over the "
         caption += "contact in flow films, against the smallest cell."
         words = "smallest cell / Hertz half-width", "film difference / flow film"
@@ -221,8 +221,8 @@ def ringing():
 def finite_body():
     """What a body of side D costs against a half-space: the same mesh near the contact, with D doubled."""
     sides = np.array([60.0, 120.0, 240.0, 480.0])
-    found = [solve_ehl(LineContact.of(case_of(20, 5)), refinements=1, side=side)[-1] for side in sides]
-    films = np.array([[s.flow_film, s.min_film] for s in found])
+    values = [solve_ehl(LineContact.of(case_of(20, 5)), refinements=1, side=side)[-1] for side in sides]
+    films = np.array([[s.flow_film, s.min_film] for s in values])
     errors = np.abs(films / (films[-1] + (films[-1] - films[-2]) / 3) - 1)
     series = []
     for name, error in zip(("flow film", "smallest film"), errors.T, strict=True):

@@ -74,7 +74,9 @@ def rigid(level: str):
         estimates.append(own(f))
     allowed = 1e-4 if level == "quick" else 2e-5
     yield bound("rigid limit: film error on the finest grid", errors[-1], allowed, "closed form, Martin 1916")
-    yield Series("", 1 / cells[1:], np.abs(np.diff(films)), 2.0, "rigid limit: order in the cells", *SECOND).judged()
+    yield Series(
+        "", 1 / cells[1:], np.abs(np.diff(films)), 2.0, "rigid limit: order in the cells", *SECOND
+    ).check_order()
     worst = float(np.max(np.array(errors) / estimates))
     yield bound("rigid limit: error per estimated error", worst, 1.0, "the estimate has to cover the error")
     caption = "lubfric.solve_ehl at M = 0.001: film error against the closed form, and the error it states."

@@ -35,7 +35,7 @@ MUST_AGREE = ("single loop", "alternating, root")
 COLUMNS = ("case", "method", "status", "iterations", "convolutions", "residual", "relative L2 of pressure", "seconds")
 
 
-class Case:
+class FormulationCase:
     """A rough contact that is solved at a given load. Its volume over the area A is then given instead."""
 
     def __init__(self, shape: str, hardness: float | None, count: int):
@@ -81,25 +81,27 @@ def formulations(level: str):
     """
     rows = []
     repeats = 1 if level == "quick" else 3
-    for case in (Case(shape, hardness, COUNTS[level]) for shape in BOUNDARIES for hardness in (None, HARDNESS)):
+    for case in (
+        FormulationCase(shape, hardness, COUNTS[level]) for shape in BOUNDARIES for hardness in (None, HARDNESS)
+    ):
         calls = {DIRECT: case.by_load}
         calls |= {name: partial(method, *case.given, **case.options) for name, method in METHODS.items()}
         solved = interleaved(calls, repeats)
         direct = solved[DIRECT][0]
-        for name, (found, (seconds, *_)) in solved.items():
-            off = float(np.linalg.norm(found.pressure - direct.pressure) / np.linalg.norm(direct.pressure))
-            rows.append(row(case, name, found, off, seconds))
+        for name, (result, (seconds, *_)) in solved.items():
+            off = float(np.linalg.norm(result.pressure - direct.pressure) / np.linalg.norm(direct.pressure))
+            rows.append(row(case, name, result, off, seconds))
             if name in MUST_AGREE:
                 source = "load-controlled contact solve"
-                note = found.report.message
+                note = result.report.message
                 about = {"note": note, "seconds": seconds}
                 yield Check(f"{name}: {case.name}", off, 0.0, AGREEMENT, source, AT_MOST, **about)
     caption = f"Contact formulations, {COUNTS[level]} x {COUNTS[level]} cells, cold start, tolerance 1e-6. {PAPER}"
     yield Table("formulations", caption, COLUMNS, rows)
 
 
-def row(case: Case, name: str, found, off: float, seconds: float) -> tuple:
+def row(case: FormulationCase, name: str, result, off: float, seconds: float) -> tuple:
     """A line of the table."""
-    r = found.report
+    r = result.report
     residuals = float(f"{r.residual:.2g}"), float(f"{off:.2g}")
     return (case.name, name, r.status, r.iterations, round(r.evaluations), *residuals, round(seconds, 4))

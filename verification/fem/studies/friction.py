@@ -118,7 +118,7 @@ def contact_cells(finest: int):
     if len(grids) > 2:
         why = "area of contact spots, first order"
         order = replace(series[0], order=1.0, check="contact grid: order of f", tolerance=0.2, source=why)
-        yield replace(order, kind=AT_LEAST).judged()
+        yield replace(order, kind=AT_LEAST).check_order()
     caption = f"Errors against {finest} x {finest} cells, largest over {SPEEDS} m/s."
     rows = [(n, c, *row) for n, c, row in zip(grids, cells.tolist(), errors.tolist())]
     yield Table("contact_cells", caption, ("cells", "per correlation length", *labels.values()), rows)
@@ -178,13 +178,13 @@ def patch_size():
     """Mean and scatter of f over realisations against the length of the patch along the line."""
     spacing = 0.9375e-6
     lengths = (45e-6, 90e-6, 180e-6, 360e-6)
-    found = []
+    values = []
     for seed in range(12):
         heights = surface((384, 384), spacing, seed)[:96]
         cut = [model(heights[:, : round(length / spacing)], spacing) for length in lengths]
-        found.append([lubfric.friction(made, 0.01).coefficient for made in cut])
-    mean = np.mean(found, axis=0)
-    scatter = np.std(found, axis=0, ddof=1)
+        values.append([lubfric.friction(made, 0.01).coefficient for made in cut])
+    mean = np.mean(values, axis=0)
+    scatter = np.std(values, axis=0, ddof=1)
     name = "patch along the line: scatter of f at 360 µm over that at 45 µm"
     source = "independent stretches average out, one over the root of their number; 12 surfaces"
     yield Check(name, scatter[-1] / scatter[0], 8**-0.5, 0.45, source, AT_MOST)

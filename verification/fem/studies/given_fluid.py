@@ -19,7 +19,7 @@ from lubfric.models.deterministic import DeterministicResult, Problem, lay_out, 
 from ...check import ABSOLUTE, Check
 from ..solvers.compliance import Elastic
 from ..solvers.contact import Contact
-from ..solvers.harmonic import Compliance, Strip, compliance, press
+from ..solvers.harmonic import Compliance, HarmonicStrip, compliance, press
 from .load_sharing import cell_mean
 
 SOURCE = "finite-element contact given the fluid"
@@ -31,7 +31,7 @@ MORE = 1.02  # times the load, for the slope of the gap
 
 
 @dataclass(frozen=True)
-class Case:
+class GivenFluidCase:
     """Cells over 90 µm, and across; speed [m/s]; floor [m]; hardness [Pa]; 2^fineness facets of elements in a cell."""
 
     cells: int
@@ -48,12 +48,12 @@ class Case:
         return f"{self.cells} x {self.across} cells, {self.speed:g} m/s, floor {1e9 * self.floor:g} nm{plastic}"
 
 
-TOUCHING = Case(64, 64, 0.01, 20e-9, 2.5e9, 2)
-DENTED = Case(64, 64, 3e-4, 1e-9, 4e9, 2)
+TOUCHING = GivenFluidCase(64, 64, 0.01, 20e-9, 2.5e9, 2)
+DENTED = GivenFluidCase(64, 64, 3e-4, 1e-9, 4e9, 2)
 CASES = {
     "quick": (),
     "default": (TOUCHING, DENTED),
-    "full": (TOUCHING, replace(TOUCHING, hardness=None), DENTED, Case(64, 64, 1e-4, 1e-9, None, 2)),
+    "full": (TOUCHING, replace(TOUCHING, hardness=None), DENTED, GivenFluidCase(64, 64, 1e-4, 1e-9, None, 2)),
 }
 # of the pressure, the load at the same gap, the gap; twice as long elements: 3 times
 RMS = 5e-3
@@ -73,7 +73,7 @@ def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Check]:
         yield from compared(case, problem, solve_point(problem), bodies[grid])
 
 
-def laid(case: Case, contact: LineContact) -> Problem:
+def laid(case: GivenFluidCase, contact: LineContact) -> Problem:
     """The paper's roughness under ``contact`` at the case's speed, on an even number of cells along x."""
     shape = (FINE, FINE * case.across // case.cells)
     rough = {"sq": 100e-9, "acf": "gaussian", "seed": 1}
@@ -87,42 +87,44 @@ def laid(case: Case, contact: LineContact) -> Problem:
         laid = lay_out(surface, line, sliding=sliding, boundary_friction=0.09, hardness=case.hardness, ends=ends)
         return replace(laid, floor=case.floor)
 
-    found = over((upstream, downstream))
-    if found.x.size % 2:
-        found = over((upstream + surface.spacing[0], downstream))
-    return replace(found, operator=cell_mean(found.operator))
+    solution = over((upstream, downstream))
+    if solution.x.size % 2:
+        solution = over((upstream + surface.spacing[0], downstream))
+    return replace(solution, operator=cell_mean(solution.operator))
 
 
 def elements(problem: Problem, fineness: int) -> Compliance:
     """The elastic body under the grid of ``problem``."""
     body = Elastic.from_e_prime(problem.e_prime, 0.3)
-    return compliance(Strip(problem.heights.shape, problem.spacing, body, fineness=fineness))
+    return compliance(HarmonicStrip(problem.heights.shape, problem.spacing, body, fineness=fineness))
 
 
-def compared(case: Case, problem: Problem, found: DeterministicResult, body: Compliance) -> Iterator[Check]:
+def compared(
+    case: GivenFluidCase, problem: Problem, solution: DeterministicResult, body: Compliance
+) -> Iterator[Check]:
     """Checks of one case."""
-    mine = np.where(found.touching, found.pressure, 0.0)
-    by_elements, load = judged(problem, found, body)
+    mine = np.where(solution.touching, solution.pressure, 0.0)
+    by_elements, load = contact_by_elements(problem, solution, body)
     judge = by_elements.pressure
     rms = np.sqrt(np.mean((judge - mine) ** 2) / np.mean(mine**2))
-    share = mine.sum() / found.pressure.sum()
+    share = mine.sum() / solution.pressure.sum()
     note = f"{np.count_nonzero(mine)} cells touch and carry {100 * share:.0f} %"
     yield Check(f"{case.name}: rms of the contact pressure", rms, 0.0, RMS, SOURCE, ABSOLUTE, note=note)
     misplaced = np.count_nonzero((judge > 0) != (mine > 0)) / np.count_nonzero(mine)
     yield Check(f"{case.name}: cells of one contact alone, of all", misplaced, 0.0, MISPLACED, SOURCE, ABSOLUTE)
     yield Check(f"{case.name}: load of the contact at the same gap", load, 1.0, LOAD, SOURCE, note="relative")
-    apart = ~found.touching & (judge == 0)
-    gap = float((by_elements.gap + problem.floor)[apart].mean() / found.gap[apart].mean())
+    apart = ~solution.touching & (judge == 0)
+    gap = float((by_elements.gap + problem.floor)[apart].mean() / solution.gap[apart].mean())
     yield Check(f"{case.name}: mean gap of the film under the same load", gap, 1.0, GAP, SOURCE, note="relative")
 
 
-def judged(problem: Problem, found: DeterministicResult, body: Compliance) -> tuple[Contact, float]:
-    """The contact under what the fluid leaves of the load; and its load at the mean gap of ``found``, over that."""
-    fluid = np.where(found.touching, 0.0, found.pressure)
-    left = problem.load - found.inlet_load - fluid.sum() * problem.spacing[0] / fluid.shape[1]
-    gap0 = problem.rigid_gap + np.where(found.touching, 0.0, found.dent) + body.apply(fluid) - problem.floor
+def contact_by_elements(problem: Problem, solution: DeterministicResult, body: Compliance) -> tuple[Contact, float]:
+    """The contact under what the fluid leaves of the load; and its load at the mean gap of ``solution``, over that."""
+    fluid = np.where(solution.touching, 0.0, solution.pressure)
+    left = problem.load - solution.inlet_load - fluid.sum() * problem.spacing[0] / fluid.shape[1]
+    gap0 = problem.rigid_gap + np.where(solution.touching, 0.0, solution.dent) + body.apply(fluid) - problem.floor
     once, more = (press(body, gap0, n * left, hardness=problem.hardness) for n in (1.0, MORE))
-    apart = (once.pressure == 0) & (more.pressure == 0) & ~found.touching
+    apart = (once.pressure == 0) & (more.pressure == 0) & ~solution.touching
     gap, thinner = (float(one.gap[apart].mean()) for one in (once, more))
-    wanted = float(found.gap[apart].mean()) - problem.floor
+    wanted = float(solution.gap[apart].mean()) - problem.floor
     return once, 1.0 + (MORE - 1.0) * (wanted - gap) / (thinner - gap)

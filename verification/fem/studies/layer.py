@@ -44,11 +44,11 @@ def plane_wave(cells: int, degree: int, depth: float = 0.5, body: Elastic = BODY
     """
     rows = max(4, round(depth * cells))
     mesh = MeshTri.init_tensor(np.linspace(-WAVE / 2, WAVE / 2, cells + 1), np.linspace(-depth * WAVE, 0, rows + 1))
-    found = make_layer(mesh, body, degree=degree)
-    pressure = np.cos(K * found.x)
-    moved = found.displacement(pressure * found.weights)
+    result = make_layer(mesh, body, degree=degree)
+    pressure = np.cos(K * result.x)
+    moved = result.displacement(pressure * result.weights)
     exact = layer_compliance(K, depth * WAVE, body)
-    energy = (found.weights * pressure) @ moved / ((found.weights * pressure) @ pressure)
+    energy = (result.weights * pressure) @ moved / ((result.weights * pressure) @ pressure)
     return float(energy), float(np.abs(moved / exact - pressure).max())
 
 
@@ -58,16 +58,16 @@ def plane_orders(level: str):
     series = []
     source = "element theory, energy of a smooth load"
     for degree, cells in ((1, 2 * np.array(CELLS[level])), (2, np.array(CELLS[level]))):
-        found = [plane_wave(n, degree) for n in cells]
-        energy = np.abs([f[0] / exact - 1 for f in found])
+        values = [plane_wave(n, degree) for n in cells]
+        energy = np.abs([f[0] / exact - 1 for f in values])
         name = f"plane layer P{degree}"
         order = 2 * degree
         check = f"{name}: order of the compliance"
         series.append(Series(f"P{degree}", WAVE / cells, energy, order, check, 0.2, source, finest=2))
         if degree == 2:  # for P1 the two coincide
-            series.append(Series("P2, nodes", WAVE / cells, [f[1] for f in found], degree + 1))
+            series.append(Series("P2, nodes", WAVE / cells, [f[1] for f in values], degree + 1))
         allowed = {1: 40, 2: 60}[degree] / cells[-1] ** order
-        yield from compared(name, [("compliance at kd = π", "m/Pa", found[-1][0], exact, allowed)], SOURCE)
+        yield from compared(name, [("compliance at kd = π", "m/Pa", values[-1][0], exact, allowed)], SOURCE)
     caption = "Plane-strain layer, half a wavelength thick: relative error of the compliance of a wave, from its "
     caption += "energy, and for P2 largest error of a displacement at a node."
     yield from convergence("layer_plane", caption, series, "cell length (m)", "relative error")
@@ -81,9 +81,9 @@ def plane_finite(level: str):
         body = Elastic.from_e_prime(BODY.e_prime, poisson)
         for s in (0.3, 1.0, 3.0) if level == "quick" else (0.3, 1.0, 3.0, 6.0):
             depth = s / (2 * np.pi)
-            found = plane_wave(cells, 2, depth, body)[0]
+            result = plane_wave(cells, 2, depth, body)[0]
             exact = layer_compliance(K, depth * WAVE, body)
-            rows.append((poisson, s, found, float(exact), abs(found / exact - 1)))
+            rows.append((poisson, s, result, float(exact), abs(result / exact - 1)))
     columns = ("Poisson's ratio", "kd", "finite elements (m/Pa)", "exact (m/Pa)", "relative error")
     yield Table("layer_finite", f"Compliance of a bonded layer, P2, {cells} cells per wavelength", columns, rows)
     worst = max(r[-1] for r in rows)
@@ -153,33 +153,33 @@ def approach(level: str):
     nu = BODY.poisson
     cells = {"quick": 32, "default": 48, "full": 64}[level]
 
-    def lacks(cells_deep: float) -> float:
+    def missing_compliance(cells_deep: float) -> float:
         return 1 - plane_wave(cells, 2, cells_deep)[0] / half_space_compliance(K, BODY)
 
-    found = np.array([lacks(s / (2 * np.pi)) for s in depths])
+    values = np.array([missing_compliance(s / (2 * np.pi)) for s in depths])
     exact = np.array([missing(s, nu) for s in depths])
     polynomial = (4 * depths**2 + 4 * depths + 2 * (5 - 12 * nu + 8 * nu**2)) / (3 - 4 * nu)
-    floor = abs(lacks(2.0))
+    floor = abs(missing_compliance(2.0))
     far = (depths >= 3) & (exact > 100 * floor)
-    exponent = np.polyfit(depths[far], np.log(np.abs(found[far]) / polynomial[far]), 1)[0]
+    exponent = np.polyfit(depths[far], np.log(np.abs(values[far]) / polynomial[far]), 1)[0]
     source = "expansion of the exact compliance, q(kd) exp(-2 kd)"
     yield Check("wave on a thick layer: exponent of the approach to the half-space", exponent, -2, 0.02, source)
-    worst = np.max(np.abs(found - exact))
+    worst = np.max(np.abs(values - exact))
     allowed = {"quick": 5e-5, "default": 1e-5, "full": 3e-6}[level]
     note = "1 - C/C(half-space), absolute"
     yield bound("wave on a layer: worst departure of the missing compliance", worst, allowed, SOURCE, note)
 
 
-def bending(found: Layer) -> float:
+def bending(result: Layer) -> float:
     """Curvature that a layer adds under a narrow load, over ``4 w/(pi E' b^2)``; for a thick layer it is J (b/d)^2.
 
     The pressure is ``p0 (1 - X^2)^1.5`` with X = x/b. A half-space sinks under it by ``(p0 b/E')(X^4 - 3 X^2)`` and a
     constant (from ``PV integral sqrt(1 - s^2) U_n(s)/(x - s) ds = pi T_(n+1)(x)``). The rest is fitted.
     """
-    big = found.x / HALF_WIDTH
+    big = result.x / HALF_WIDTH
     b = HALF_WIDTH
-    force = np.maximum(1 - big**2, 0) ** 1.5 * found.weights
-    extra = found.displacement(force) - b / BODY.e_prime * (big**4 - 3 * big**2)
+    force = np.maximum(1 - big**2, 0) ** 1.5 * result.weights
+    extra = result.displacement(force) - b / BODY.e_prime * (big**4 - 3 * big**2)
     inside = np.abs(big) < 1
     curvature = 2 * np.polynomial.Polynomial.fit(big[inside], extra[inside], 4).convert().coef[2]
     return float(curvature / (4 * (3 * np.pi / 8) * b / (np.pi * BODY.e_prime)))
@@ -199,14 +199,14 @@ def narrow(level: str):
     # depths are powers of two apart, the meshes near the load alike: their error drops out of differences
     base = at(deepest)
     number = curvature_number(BODY.poisson)
-    found = np.array([at(d) - base for d in depths])
+    values = np.array([at(d) - base for d in depths])
     inverse = b**2 * (depths**-2.0 - deepest**-2.0)
     source = "expansion of the exact compliance for a load narrow against d"
     check = "narrow load: order in 1/d of the extra curvature"
     note = f"differences to a layer of {deepest / b:g} b"
-    yield Series("", np.sqrt(inverse), found, 2, check, 0.05, source, note=note, finest=3).judged()
+    yield Series("", np.sqrt(inverse), values, 2, check, 0.05, source, note=note, finest=3).check_order()
     name = f"narrow load: extra curvature from d = {deepest / b:g} b to {depths[-1] / b:g} b"
     source = f"J b²/d², J = {number:.4f} by quadrature"
-    yield Check(name, found[-1], number * inverse[-1], 0.02, source, note="in units of 4w/(πE'b²)")
+    yield Check(name, values[-1], number * inverse[-1], 0.02, source, note="in units of 4w/(πE'b²)")
     name = "narrow load, d = 10 b, width 8 d: curvature with free sides over periodic ones"
-    yield Check(name, (at(depths[1], "free") - base) / found[1], 1, 0.01, "sides so far do not matter")
+    yield Check(name, (at(depths[1], "free") - base) / values[1], 1, 0.01, "sides so far do not matter")

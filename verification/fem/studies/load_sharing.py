@@ -19,8 +19,8 @@ from .. import parts
 from ..convergence import Series, convergence
 from ..solvers.compliance import Elastic
 from ..solvers.ehl import LineContact
-from ..solvers.harmonic import Compliance, Strip, compliance
-from ..solvers.sharing import Bodies, Shared, share_load
+from ..solvers.harmonic import Compliance, HarmonicStrip, compliance
+from ..solvers.sharing import Bodies, SharedLoad, share_load
 
 LENGTH = 44.8e-6  # of the patch, both ways
 CORRELATION = 4e-6  # m, where the autocorrelation of the heights falls to 1/e
@@ -87,7 +87,7 @@ class Point:
 
     cells: int
     speed: float
-    fem: Shared
+    fem: SharedLoad
     main: lubfric.FrictionResult
 
     def difference(self, name: str) -> float:
@@ -117,7 +117,9 @@ def rough(finest: int, cells: int) -> np.ndarray:
 @lru_cache(maxsize=3)
 def strip(cells: int, fineness: int, across: float | None = None) -> Compliance:
     """The patch on so many cells each way, which are ``across`` (m) long along y (None: as along x)."""
-    return compliance(Strip((cells, cells), (LENGTH / cells, across or LENGTH / cells), elastic(), fineness=fineness))
+    return compliance(
+        HarmonicStrip((cells, cells), (LENGTH / cells, across or LENGTH / cells), elastic(), fineness=fineness)
+    )
 
 
 def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int, known: float | None) -> Point:
@@ -127,11 +129,11 @@ def both(speed: float, heights: np.ndarray, body: Compliance, refinements: int, 
     cell = LENGTH / heights.shape[0]
     bodies = cylinder(s, speed, body, heights)
     guess, step = (0.0, 1.0) if known is None else (known, 0.05)
-    found = share_load(bodies, refinements=min(refinements, 1), guess=guess, step=step)
+    solution = share_load(bodies, refinements=min(refinements, 1), guess=guess, step=step)
     if refinements > 1:
-        found = share_load(bodies, refinements=refinements, guess=found.split, step=0.01)
+        solution = share_load(bodies, refinements=refinements, guess=solution.split, step=0.01)
     model = averaged(prepare(s, lubfric.Surface(heights, (cell, cell))))
-    return Point(heights.shape[0], speed, found, lubfric.friction(model, speed, fields=True))
+    return Point(heights.shape[0], speed, solution, lubfric.friction(model, speed, fields=True))
 
 
 def cylinder(s: lubfric.Scene, speed: float, body: Compliance, heights: np.ndarray) -> Bodies:
@@ -180,13 +182,13 @@ def cell_mean(operator: HalfSpace) -> HalfSpace:
 
 def twice_integrated(z: np.ndarray) -> np.ndarray:
     """The function whose second derivative is K0(z), zero far away: ∫ exp(-z cosh t)/cosh² t dt, t > 0."""
-    found = 0.5 * np.exp(-z)
+    values = 0.5 * np.exp(-z)
     for growth in np.cosh(STEP * np.arange(1, POINTS)):
-        found += np.exp(-z * growth) / growth**2
-    return STEP * found
+        values += np.exp(-z * growth) / growth**2
+    return STEP * values
 
 
-def rows_of(main: lubfric.FrictionResult, fem: Shared, allowed: tuple[float, float, float]) -> list[tuple]:
+def rows_of(main: lubfric.FrictionResult, fem: SharedLoad, allowed: tuple[float, float, float]) -> list[tuple]:
     """Both programs side by side. The load of the contact is the rest of the whole."""
     return [
         ("coefficient", "1", main.coefficient, fem.coefficient, allowed[0]),
@@ -221,7 +223,7 @@ def approach(points: list[Point], grids: tuple[int, ...]):
         series.append(Series(label, sizes, errors))
     why = "finite elements as fine as the cells: at least first order at the edges of contact spots"
     name = "difference in mean gap: order in the cell size"
-    yield replace(series[-1], order=1.0, check=name, tolerance=0.3, source=why, kind=AT_LEAST).judged()
+    yield replace(series[-1], order=1.0, check=name, tolerance=0.3, source=why, kind=AT_LEAST).check_order()
     caption = "Differences between lubfric and the finite-element model (largest over the speeds) against the cell of "
     caption += "the contact grid."
     yield from convergence("load_sharing_convergence", caption, series, "cell (µm)", "relative difference")

@@ -7,7 +7,7 @@ from ...check import ABSOLUTE, AT_LEAST, Check, Table, bound, compared
 from .. import exact
 from ..convergence import Series, convergence
 from ..solvers.fluid import Fluid
-from ..solvers.reynolds import Problem, Solution, solve_refined, solve_reynolds
+from ..solvers.reynolds import ReynoldsProblem, ReynoldsSolution, solve_refined, solve_reynolds
 
 REFINEMENTS = {"quick": 3, "default": 5, "full": 6}
 SLIDER = exact.Slider(viscosity=0.1, speed=1.0, length=0.01, inlet=2e-6, outlet=1e-6)
@@ -36,17 +36,19 @@ def slider(refinements: int):
     series = []
     for degree in (1, 2):
         mesh = skfem.MeshLine(np.linspace(0, SLIDER.length, 9))
-        found = solve_refined(Problem(mesh, SLIDER.film, Fluid(SLIDER.viscosity), SLIDER.speed, degree), refinements)
-        sizes = [SLIDER.length / s.problem.mesh.nelements for s in found]
-        errors = [s.error(SLIDER.pressure) for s in found]
+        solution = solve_refined(
+            ReynoldsProblem(mesh, SLIDER.film, Fluid(SLIDER.viscosity), SLIDER.speed, degree), refinements
+        )
+        sizes = [SLIDER.length / s.problem.mesh.nelements for s in solution]
+        errors = [s.error(SLIDER.pressure) for s in solution]
         name = f"slider P{degree}"
         series.append(
             Series(f"P{degree}", sizes, errors, degree + 1, f"{name}: order of the pressure error", 0.1, finest=3)
         )
         allowed = (sizes[-1] / SLIDER.length) ** (2 * degree)
         rows = (
-            ("load", "N/m", found[-1].load, SLIDER.load, 10 * allowed),
-            ("flow", "m²/s", found[-1].inflow(0.0), SLIDER.flow, allowed),
+            ("load", "N/m", solution[-1].load, SLIDER.load, 10 * allowed),
+            ("flow", "m²/s", solution[-1].inflow(0.0), SLIDER.flow, allowed),
         )
         yield from compared(name, rows, "closed form, Rayleigh 1918, doi:10.1080/14786440108635730")
     caption = "Plane slider: pressure error in the L2 norm, relative, against cell length. Dotted: the expected order."
@@ -62,7 +64,7 @@ def parabola_mesh(cells: int, inlet: float = PARABOLA.inlet, shift: float = 0.0)
 
 def ruptured(e: exact.Parabola, mesh: skfem.MeshLine, degree: int, refinements: int, fluid: Fluid | None = None):
     """Solutions with a free rupture point on a mesh and its refinements."""
-    problem = Problem(mesh, e.film, fluid or Fluid(e.viscosity), e.speed, degree, cavitation=True)
+    problem = ReynoldsProblem(mesh, e.film, fluid or Fluid(e.viscosity), e.speed, degree, cavitation=True)
     return solve_refined(problem, refinements)
 
 
@@ -76,17 +78,17 @@ def parabola(refinements: int):
     rows: list[tuple] = []
     for degree in (1, 2):
         runs = [ruptured(e, parabola_mesh(50, shift=shift), degree, refinements) for shift in np.arange(8) / 8]
-        errors = np.sqrt(np.mean([[s.error(e.pressure) ** 2 for s in found] for found in runs], axis=0))
-        found = runs[0]
-        sizes = [1 / s.problem.mesh.nelements for s in found]
+        errors = np.sqrt(np.mean([[s.error(e.pressure) ** 2 for s in result] for result in runs], axis=0))
+        result = runs[0]
+        sizes = [1 / s.problem.mesh.nelements for s in result]
         why = "rupture is held at a node, where the true pressure is O(h²): 2 for either element"
         check = f"parabola P{degree}: order of the pressure error"
         series.append(Series(f"P{degree}", sizes, errors, 2, check, 0.15, why))
         rows += [
             (f"P{degree}", s.problem.mesh.nelements, float(error), *constants(s), s.report.iterations)
-            for s, error in zip(found, errors, strict=True)
+            for s, error in zip(result, errors, strict=True)
         ]
-        yield from parabola_checks(found[-1], sizes[-1], degree)
+        yield from parabola_checks(result[-1], sizes[-1], degree)
     names = ("load/(ηUR/h₀)", "rupture x/√(2Rh₀)", "Couette/(ηΔu√(R/h₀))", "rolling/(ηuₛ√(R/h₀))")
     rows.append(("exact", "", "", *exact_constants(), ""))
     caption = "Parabolic film flooded from X = -100 with Reynolds' outlet. With the inlet at infinity the constants "
@@ -104,7 +106,7 @@ def scaled(load: float, exit: float, couette: float, rolling: float) -> tuple[fl
     return load / lift, float(exit), couette / friction, rolling / (2 * e.speed * friction)
 
 
-def constants(s: Solution) -> tuple[float, float, float, float]:
+def constants(s: ReynoldsSolution) -> tuple[float, float, float, float]:
     """The four numbers of a solution. At rupture, U h is the flow."""
     film = s.inflow(s.problem.mesh.p.min()) / PARABOLA.speed
     return scaled(s.load, np.sqrt(film / PARABOLA.film_thickness - 1), *s.friction(1.0))
@@ -115,18 +117,18 @@ def exact_constants() -> tuple[float, float, float, float]:
     return scaled(PARABOLA.load, PARABOLA.exit, PARABOLA.couette, PARABOLA.rolling)
 
 
-def parabola_checks(finest: Solution, size: float, degree: int):
+def parabola_checks(finest: ReynoldsSolution, size: float, degree: int):
     """Checks of one element on its finest mesh."""
     source = "closed form with Reynolds' outlet, inlet at X = -100 (Martin 1916)"
-    found = constants(finest)
+    result = constants(finest)
     true = exact_constants()
     near = {1: 60, 2: 6}[degree] * size**2
     for i, name in ((0, "load"), (1, "rupture point"), (3, "rolling friction")):
-        yield Check(f"parabola P{degree}: {name}", found[i], true[i], near, source)
+        yield Check(f"parabola P{degree}: {name}", result[i], true[i], near, source)
     # the Couette integral runs over whole cells under pressure; the last one is cut by the rupture point
     cell = np.sqrt(2) * np.diff(np.sort(finest.problem.mesh.p[0]))[-1] / PARABOLA.scale
     name = f"parabola P{degree}: Couette friction"
-    yield Check(name, found[2], true[2], cell, source, ABSOLUTE, note="within the last cell")
+    yield Check(name, result[2], true[2], cell, source, ABSOLUTE, note="within the last cell")
 
 
 def piezoviscous(refinements: int):
@@ -174,7 +176,9 @@ def ringing():
         cells = np.array([20, 1280, 2560])
         for count in cells:
             x = np.linspace(0, GAS.length, count + 1)
-            s = solve_reynolds(Problem(skfem.MeshLine(x), GAS.film, fluid, GAS.speed, stabilisation=stabilisation))
+            s = solve_reynolds(
+                ReynoldsProblem(skfem.MeshLine(x), GAS.film, fluid, GAS.speed, stabilisation=stabilisation)
+            )
             true = exact.gas_slider(GAS, AMBIENT, x)
             errors.append(s.error(lambda at: np.reshape(exact.gas_slider(GAS, AMBIENT, np.ravel(at[0])), at[0].shape)))
             over.append(np.abs(np.diff(s.at_vertices)).sum() / np.abs(np.diff(true)).sum() - 1)
@@ -184,5 +188,5 @@ def ringing():
             yield Check(words, over[0], 1.0, 0.0, source, AT_LEAST)
         else:
             yield bound(f"{name}: excess variation on 20 cells, which does not ring", over[0], 0.01, source)
-        yield Series(label, 1 / cells, errors, 2, f"{name}: order of the pressure error", 0.2, finest=2).judged()
+        yield Series(label, 1 / cells, errors, 2, f"{name}: order of the pressure error", 0.2, finest=2).check_order()
         yield bound(f"{name}: finest pressure error", errors[-1], 5e-3, source)

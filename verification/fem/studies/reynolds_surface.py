@@ -8,7 +8,7 @@ from ...meshes import mesh_field
 from .. import exact
 from ..convergence import Series, convergence
 from ..solvers.fluid import Fluid, slope
-from ..solvers.reynolds import Problem, Solution, solve_refined
+from ..solvers.reynolds import ReynoldsProblem, ReynoldsSolution, solve_refined
 
 KINDS = {"line": skfem.MeshLine, "triangle": skfem.MeshTri, "quadrilateral": skfem.MeshQuad}
 REFINEMENTS = {"quick": 2, "default": 3, "full": 4}
@@ -94,10 +94,10 @@ def manufactured(refinements: int):
         mesh = box(kind, 8) if kind == "line" else box(kind, 8).translated((0.0, WIDTH / 2))
         for degree, form in ((1, "none"), (1, "supg"), (2, "none")):
             label = f"{kind} {'Q' if kind == 'quadrilateral' else 'P'}{degree}{' SUPG' if form == 'supg' else ''}"
-            problem = Problem(mesh, case.film, case.fluid, SPEED, degree, case.source, stabilisation=form)
-            found = solve_refined(problem, refinements)
-            errors = [s.error(case.pressure) for s in found]
-            rows += [(label, round(LENGTH / h), e, s.report.iterations) for h, e, s in zip(sizes, errors, found)]
+            problem = ReynoldsProblem(mesh, case.film, case.fluid, SPEED, degree, case.source, stabilisation=form)
+            solution = solve_refined(problem, refinements)
+            errors = [s.error(case.pressure) for s in solution]
+            rows += [(label, round(LENGTH / h), e, s.report.iterations) for h, e, s in zip(sizes, errors, solution)]
             check = f"manufactured, {label}: order of the pressure error"
             series.append(Series(label, sizes, errors, degree + 1, check, 0.15, finest=2))
     columns = ("element", "cells a side", "error", "Newton steps")
@@ -114,12 +114,12 @@ def pad(ratio: float) -> exact.ExponentialPad:
 def finite_width(refinements: int):
     """Pads of all widths against the series, which runs between the two limits."""
 
-    def solved(e: exact.ExponentialPad) -> Solution:
-        return solve_refined(Problem(edged(e), e.film, Fluid(VISCOSITY), SPEED, 2), refinements - 1)[-1]
+    def solved(e: exact.ExponentialPad) -> ReynoldsSolution:
+        return solve_refined(ReynoldsProblem(edged(e), e.film, Fluid(VISCOSITY), SPEED, 2), refinements - 1)[-1]
 
     source = "separation of variables, exact series (verification.fem.exact.ExponentialPad)"
-    found = {ratio: solved(pad(ratio)) for ratio in (0.05, 0.2, 1.0, 5.0, 20.0)}
-    for ratio, s in found.items():
+    results = {ratio: solved(pad(ratio)) for ratio in (0.05, 0.2, 1.0, 5.0, 20.0)}
+    for ratio, s in results.items():
         name = f"exponential pad, width/length {ratio:g}"
         e = pad(ratio)
         yield from compared(name, [("load", "N", s.load, e.load, 1e-5 * 8.0 ** (2 - refinements))], source)
@@ -133,13 +133,13 @@ def finite_width(refinements: int):
     def side(x):
         return (x[0] > 1e-9) & (x[0] < LENGTH - 1e-9)
 
-    closed = Problem(box("quadrilateral", 8), e.film, Fluid(VISCOSITY), SPEED, 2, open_boundary=side)
+    closed = ReynoldsProblem(box("quadrilateral", 8), e.film, Fluid(VISCOSITY), SPEED, 2, open_boundary=side)
     load = solve_refined(closed, refinements)[-1].load / WIDTH
     allowed = 1e-4 * 8.0 ** (1 - refinements)
     rows = [("load / width", "N/m", load, e.wide_load, allowed)]
     yield from compared("exponential pad, closed sides", rows, "infinitely wide pad, quadrature")
-    s = found[1.0].problem.mesh
-    p = found[1.0].at_vertices
+    s = results[1.0].problem.mesh
+    p = results[1.0].at_vertices
     data = {"pressure": p, "film_thickness": e.film(s.p), "difference": p - pad(1.0).pressure(s.p)}
     caption = "Pad as wide as long: pressure (Pa), film (m), difference to the exact pressure (Pa)"
     yield mesh_field("pad", caption, s, data)
@@ -161,8 +161,8 @@ def parabolic(refinements: int):
     e = exact.Parabola(VISCOSITY, SPEED, 0.01, 1e-6, -10.0)
     x = np.sinh(np.linspace(-np.arcsinh(10), np.arcsinh(2), 25)) * e.scale
 
-    def solved(mesh, degree: int, refinements: int, side=None) -> Solution:
-        problem = Problem(mesh, e.film, Fluid(VISCOSITY), SPEED, degree, cavitation=True, open_boundary=side)
+    def solved(mesh, degree: int, refinements: int, side=None) -> ReynoldsSolution:
+        problem = ReynoldsProblem(mesh, e.film, Fluid(VISCOSITY), SPEED, degree, cavitation=True, open_boundary=side)
         return solve_refined(problem, refinements)[-1]
 
     def side(at):

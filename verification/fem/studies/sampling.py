@@ -29,8 +29,8 @@ def sampling(level: str) -> Iterator[Check]:
     yield from statistics()
     base = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling_tolerance": ASKED})
     count = SEEDS[level]
-    found = [lubfric.friction(base.with_(surface={"seed": seed}), SPEED) for seed in range(1, count + 1)]
-    f, stated = np.array([[p.coefficient, p.uncertainty.sampling] for p in found]).T
+    values = [lubfric.friction(base.with_(surface={"seed": seed}), SPEED) for seed in range(1, count + 1)]
+    f, stated = np.array([[p.coefficient, p.uncertainty.sampling] for p in values]).T
     ratio = float(f.std(ddof=1) / f.mean() / np.sqrt(np.mean(stated**2)))
     allowed = 2 / np.sqrt(2 * (count - 1))
     name = f"scatter of f over {count} seeds, over the error stated"

@@ -20,7 +20,7 @@ from ..parts import the
 from ..solvers.contact import solve_contact
 from ..solvers.harmonic import Compliance
 from ..solvers.layer_waves import fourier_compliance
-from ..solvers.sharing import FlatBodies, Shared, share_load
+from ..solvers.sharing import FlatBodies, SharedLoad, share_load
 from .contact_rough import BOX, layer_of, roughness
 from .load_sharing import LENGTH, SOURCE, TIGHT, averaged, cylinder, rough, rows_of, scene, strip, whole
 
@@ -63,20 +63,20 @@ def sharing_cases(level: str):
         speed, sections = CASES[name]
         s = scene().with_(**sections)
         model = averaged(prepare(s, lubfric.Surface(heights, (LENGTH / CELLS,) * 2)))
-        found = share_load(cylinder(s, speed, body, heights), refinements=refinements)
+        solution = share_load(cylinder(s, speed, body, heights), refinements=refinements)
         main = lubfric.friction(model, speed)
-        yield from compared(name, rows_of(main, found, asked), SOURCE)
+        yield from compared(name, rows_of(main, solution, asked), SOURCE)
         if name == YIELDING:
-            yield from yielded(found, main, body, model)
+            yield from yielded(solution, main, body, model)
     if level != "quick":
         yield from measured_map(asked, refinements)
     yield from flat(asked, refinements)
 
 
-def yielded(found: Shared, main: lubfric.FrictionResult, body: Compliance, model: Prepared):
+def yielded(solution: SharedLoad, main: lubfric.FrictionResult, body: Compliance, model: Prepared):
     """Cells at the hardness, on both sides."""
     weight = model.contact.weight / model.contact.weight.sum()
-    share = float(weight @ the(found.pressed, "dry contact").saturated.mean(axis=1))
+    share = float(weight @ the(solution.pressed, "dry contact").saturated.mean(axis=1))
     words = f"{YIELDING}: share of the strip at the hardness"
     yield Check(f"{words}, finite elements", share, 1e-3, 0.0, "the hardness was chosen so", AT_LEAST)
     yield Check(words, main.plastic_area_fraction, share, 0.1, SOURCE, note="whole cells: a few of them")
@@ -94,8 +94,10 @@ def measured_map(allowed, refinements: int):
         model = averaged(prepare(s))
     heights = planed(ground(across)).T
     heights *= 100e-9 / heights.std()
-    found = share_load(cylinder(s, speed, strip(CELLS, 1, across), heights - heights.mean()), refinements=refinements)
-    yield from compared("measured map", rows_of(lubfric.friction(model, speed), found, allowed), SOURCE)
+    solution = share_load(
+        cylinder(s, speed, strip(CELLS, 1, across), heights - heights.mean()), refinements=refinements
+    )
+    yield from compared("measured map", rows_of(lubfric.friction(model, speed), solution, allowed), SOURCE)
 
 
 def ground(across: float) -> np.ndarray:
@@ -123,8 +125,8 @@ def flat(allowed, refinements: int):
     b = s.bodies
     sliding = s.motion.slide_roll_ratio * speed
     bodies = FlatBodies(whole(s, speed), b.width, pressed_layer(32), b.boundary_friction_coefficient, sliding)
-    found = share_load(bodies, refinements=refinements, tolerance=1e-4)
-    yield from compared("flat", rows_of(lubfric.friction(model, speed), found, allowed), SOURCE)
+    solution = share_load(bodies, refinements=refinements, tolerance=1e-4)
+    yield from compared("flat", rows_of(lubfric.friction(model, speed), solution, allowed), SOURCE)
 
 
 def pressed_layer(nodes: int) -> Callable[[float], tuple[float, float]]:
@@ -135,7 +137,7 @@ def pressed_layer(nodes: int) -> Callable[[float], tuple[float, float]]:
     gap0 = -roughness(*grid.x).ravel()
 
     def pressed(pressure: float) -> tuple[float, float]:
-        found = solve_contact(displacement, weights, gap0, pressure * BOX**2)
-        return float(weights @ np.maximum(found.gap, 0) / weights.sum()), float(np.mean(found.pressure > 0))
+        solution = solve_contact(displacement, weights, gap0, pressure * BOX**2)
+        return float(weights @ np.maximum(solution.gap, 0) / weights.sum()), float(np.mean(solution.pressure > 0))
 
     return pressed

@@ -88,8 +88,8 @@ def step_history(value: float, factor: float) -> History:
 def squeeze(most: int):
     """The exact law, and the orders in time and space, with up to ``most`` equal steps."""
     times = np.linspace(0, LONG, 21)
-    found = solve_transient_ehl(**SQUEEZE, times=times, tolerance=1e-3, time_tolerance=1e-6)
-    error = np.max(np.abs(found.min_film / (1e-6**-0.5 + RATE * times) ** -2 - 1))
+    history = solve_transient_ehl(**SQUEEZE, times=times, tolerance=1e-3, time_tolerance=1e-6)
+    error = np.max(np.abs(history.min_film / (1e-6**-0.5 + RATE * times) ** -2 - 1))
     yield bound("rigid squeeze to a ninth of the film: largest error", error, 1e-3, LAW)
     counts = np.array([n for n in (16, 32, 64, 128, 256) if n <= most])
     films = [marched(0.5, n) for n in (*counts, 8 * most)]
@@ -122,8 +122,8 @@ def marched(resolution: float, steps: int) -> float:
     now = Progress((first,), LONG)
     system = SimpleNamespace(solve=made.solve, error_of=lambda solution, difference: 0.0)
     for k in range(steps):
-        found = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)
-        now = the(found, "step in time")
+        result = advance(replace(now, step=LONG), 0.3 * LONG * (k + 1) / steps, system, 1.0, 0.0)
+        now = the(result, "step in time")
     return float(now.levels[-1].film.min())
 
 
@@ -143,9 +143,9 @@ def halved():
     times = unit * np.array([row[0] for row in HALVED])
     rows = []
     source = "separate solver on nested meshes, X in [-4, 1.5]"
-    found = solve_transient_ehl(**keywords, times=times)
+    history = solve_transient_ehl(**keywords, times=times)
     for i, (time, centre, smallest) in enumerate(HALVED):
-        films = found.central_film[i] / problem.film_unit, found.min_film[i] / problem.film_unit
+        films = history.central_film[i] / problem.film_unit, history.min_film[i] / problem.film_unit
         rows.append((time, *films, centre, smallest))
         expected = (f"H(0) at T = {time:g}", centre), (f"H_min at T = {time:g}", smallest)
         checks = [(name, "1", value, wanted, 0.01) for value, (name, wanted) in zip(films, expected)]
@@ -159,17 +159,17 @@ def stopped():
     keywords, _, unit = contact(0.05, 1)
     keywords |= {"viscosity_law": "constant", "pressure_viscosity_coefficient": 0.0, "e_prime": 1e4 * E_PRIME}
     keywords["entrainment_speed"] = step_history(keywords["entrainment_speed"], 0.0)
-    found = solve_transient_ehl(**keywords, times=unit * np.linspace(0, 40, 41), time_tolerance=1e-6)
+    history = solve_transient_ehl(**keywords, times=unit * np.linspace(0, 40, 41), time_tolerance=1e-6)
     exact = keywords["load_per_width"] / (6 * math.sqrt(2) * math.pi * VISCOSITY * RADIUS**1.5)
-    slope = (found.min_film[-1] ** -0.5 - found.min_film[20] ** -0.5) / (found.time[-1] - found.time[20])
+    slope = (history.min_film[-1] ** -0.5 - history.min_film[20] ** -0.5) / (history.time[-1] - history.time[20])
     yield Check("light contact stopped: rate of h^-1/2", slope, exact, 3e-3, LAW)
     keywords, _, unit = contact(20, 5)
     keywords["entrainment_speed"] = step_history(keywords["entrainment_speed"], 0.0)
-    found = solve_transient_ehl(**keywords, times=unit * np.geomspace(1e-2, 1e3, 41), **COARSE)
-    centre = found.central_film / found.central_film[0]
+    history = solve_transient_ehl(**keywords, times=unit * np.geomspace(1e-2, 1e3, 41), **COARSE)
+    centre = history.central_film / history.central_film[0]
     name = "heavy contact stopped: film left in the centre after 10 transits"
     source = "viscous entrapment: the film at the edge closes first and seals the centre (M = 20, L = 5, 0.4 GPa)"
-    yield Check(name, np.interp(10 * unit, found.time, centre), 0.8, 0.0, source, AT_LEAST)
+    yield Check(name, np.interp(10 * unit, history.time, centre), 0.8, 0.0, source, AT_LEAST)
 
 
 def reversal():
@@ -178,10 +178,10 @@ def reversal():
     period = 20 * unit
     largest = keywords["entrainment_speed"]
     keywords["entrainment_speed"] = Harmonic(amplitude=largest, frequency=1 / period, phase=math.pi / 2)
-    found = solve_transient_ehl(**keywords, times=period * np.linspace(0, 2.5, 201), **COARSE)
-    change = np.max(np.abs(found.min_film[161:201] / found.min_film[81:121] - 1))
+    history = solve_transient_ehl(**keywords, times=period * np.linspace(0, 2.5, 201), **COARSE)
+    change = np.max(np.abs(history.min_film[161:201] / history.min_film[81:121] - 1))
     yield bound("reversal: third cycle against the second", change, 5e-3, "a periodic run becomes periodic")
-    wet = np.min(found.pressure[20] > 0)
+    wet = np.min(history.pressure[20] > 0)
     source = "pure squeeze has no cavity"
     yield Check("no entrainment: film pressurised on both sides", wet, 1.0, 0.0, source, AT_LEAST)
 
@@ -198,15 +198,15 @@ def jumps(level: str):
         wait = (60.0 if loaded or factor < 1 else 20.0) * unit
         changed = keywords | {name: step_history(keywords[name], factor)}
         try:
-            found = solve_transient_ehl(**changed, times=[wait], tolerance=5e-3, time_tolerance=3e-4)
+            history = solve_transient_ehl(**changed, times=[wait], tolerance=5e-3, time_tolerance=3e-4)
         except ConvergenceError as error:
             failed += M <= HEAVIEST
             rows.append((M, L, f"{name} x {factor:g}", error.report.iterations, "reported failure", ""))
             continue
         steady = solve_ehl(**keywords | {name: factor * keywords[name]}, tolerance=3e-3)
-        ratio = float(found.min_film[0] / steady.min_film)
+        ratio = float(history.min_film[0] / steady.min_film)
         wrong += abs(ratio - 1) > 0.03 and M >= 1  # lighter contacts take longer to fill or drain
-        rows.append((M, L, f"{name} x {factor:g}", found.report.iterations, "converged", ratio))
+        rows.append((M, L, f"{name} x {factor:g}", history.report.iterations, "converged", ratio))
     caption = "Jumps at t = 0; smallest film after 20 to 60 transits over that of the steady solver (lighter "
     caption += "contacts, M < 1, are still on their way)."
     yield Table("jumps", caption, ("M", "L", "jump", "steps", "outcome", "film/steady"), rows)
@@ -228,7 +228,7 @@ def steps_and_ramp():
     yield bound("first steps over four decades: spread of the film", np.ptp(films) / films[0], 1e-3, source)
     load = keywords["load_per_width"]
     raised = keywords | {"load_per_width": Ramp(start=load, end=10 * load, until=2 * unit)}
-    found = solve_transient_ehl(**raised, times=[60 * unit], tolerance=5e-3, time_tolerance=3e-4)
+    history = solve_transient_ehl(**raised, times=[60 * unit], tolerance=5e-3, time_tolerance=3e-4)
     steady = solve_ehl(**keywords | {"load_per_width": 10 * load}, tolerance=1e-3)
-    rows = [("film", "m", found.min_film[0], steady.min_film, 0.01)]
+    rows = [("film", "m", history.min_film[0], steady.min_film, 0.01)]
     yield from compared("load raised tenfold over two transits at M = 10", rows, "lubfric.solve_ehl")

@@ -72,8 +72,8 @@ def loops(model):
     opening = []
     for period in PERIODS:
         plan = Transient(2 * period, speed=wave(0.94 * LARGEST, 1 / period, LARGEST))
-        found = run(model, plan, period * np.linspace(0, 2, 81))
-        opening.append(found.coefficient[70] - found.coefficient[50])  # up minus down at the mean speed
+        history = run(model, plan, period * np.linspace(0, 2, 81))
+        opening.append(history.coefficient[70] - history.coefficient[50])  # up minus down at the mean speed
     name = "hysteresis: f speeding up above f slowing down (shortest period)"
     source = "the film lags behind the speed"
     yield Check(name, opening[0], 1e-3, 0.0, source, AT_LEAST)
@@ -82,24 +82,24 @@ def loops(model):
     yield bound(name, closed, 0.1, "slow loops close on the Stribeck curve")
     period = PERIODS[1]
     plan = Transient(2.5 * period, speed=wave(LARGEST, 1 / period))
-    found = run(model, plan, period * np.linspace(0, 2.5, 101))
-    change = np.max(np.abs(found.coefficient[60:101] / found.coefficient[20:61] - 1))
+    history = run(model, plan, period * np.linspace(0, 2.5, 101))
+    change = np.max(np.abs(history.coefficient[60:101] / history.coefficient[20:61] - 1))
     yield bound("reciprocating: third cycle against the second", change, 5e-3, "a periodic run becomes periodic")
-    share = found.film_load[90] / found.load[90]
+    share = history.film_load[90] / history.load[90]
     yield Check("reciprocating: lubricant held at U = 0 carries load", share, 0.05, 0.0, "squeeze", AT_LEAST)
 
 
 def stop_and_start(model):
     """Shut-down, standstill and start-up."""
     plan = Transient(0.02, speed=History(times=(0, 5e-3, 1e-2, 1.5e-2, 0.02), values=(0.1, 0, 0, 0.1, 0.1)))
-    found = run(model, plan, np.linspace(0, 0.02, 161))
-    down = found.time <= 5e-3
-    up = (found.time >= 1e-2) & (found.time <= 1.5e-2)
-    low = np.interp(0.04, found.entrainment_speed[down][::-1], found.coefficient[down][::-1])
-    high = np.interp(0.04, found.entrainment_speed[up], found.coefficient[up])
+    history = run(model, plan, np.linspace(0, 0.02, 161))
+    down = history.time <= 5e-3
+    up = (history.time >= 1e-2) & (history.time <= 1.5e-2)
+    low = np.interp(0.04, history.entrainment_speed[down][::-1], history.coefficient[down][::-1])
+    high = np.interp(0.04, history.entrainment_speed[up], history.coefficient[up])
     name = "start-up friction over shut-down friction at 0.04 m/s"
     yield Check(name, high / low, 1.1, 0.0, "the film lags", AT_LEAST)
-    rest = found.film_load[(found.time > 9e-3) & (found.time <= 1e-2)][-1] / found.load[0]
+    rest = history.film_load[(history.time > 9e-3) & (history.time <= 1e-2)][-1] / history.load[0]
     name = "after 5 ms of rest the contact carries the load: share left to the film"
     yield bound(name, rest, 5e-3, "squeeze decays against the contact")
 
@@ -125,6 +125,6 @@ def errors(model):
 def cost():
     """The paper's own grid, in 300 steps of a reciprocating cycle."""
     scene = lubfric.load_scene("paper").with_(transient=Transient(0.1, outputs=300, speed=wave(0.03, 10.0)))
-    found, seconds = paced(lambda: lubfric.transient(scene))
-    name = f"paper scene, {found.report.iterations} steps of a cycle: processor time on the stated core"
+    history, seconds = paced(lambda: lubfric.transient(scene))
+    name = f"paper scene, {history.report.iterations} steps of a cycle: processor time on the stated core"
     yield Check(name, seconds, 30.0, 0.0, "asked for", AT_MOST, unit="s")

@@ -35,7 +35,7 @@ COLUMNS = ("case", "speed/U", "wavelength/b", "surface: lubfric", "elements", "i
 
 
 @dataclass(frozen=True)
-class Case:
+class WavinessCase:
     """A smooth line contact by the arguments of `solve_ehl`, and its Eyring stress [Pa] (None: Newtonian)."""
 
     name: str
@@ -50,23 +50,25 @@ class Case:
         """For the finite elements, with waves of this ``speed`` over the entrainment speed."""
         return ehl.LineContact.of(self.values, 2 * abs(speed - 1) * self.values["entrainment_speed"])
 
-    def but(self, name: str = "", **values) -> "Case":
+    def but(self, name: str = "", **values) -> "WavinessCase":
         """The same with other ``values``."""
-        return Case(name or self.name, self.values | values)
+        return WavinessCase(name or self.name, self.values | values)
 
 
-SOFT = Case(
+SOFT = WavinessCase(
     "soft, isoviscous",
     {"load_per_width": 2e4, "radius": 1e-2, "e_prime": 2e9, "entrainment_speed": 0.5, "viscosity": 0.05}
     | {"viscosity_law": "constant"},
 )
-STEEL = Case(
+STEEL = WavinessCase(
     "steel, Roelands",
     {"load_per_width": 2e5, "radius": 1e-2, "e_prime": 2.3e11, "entrainment_speed": 1.0, "viscosity": 0.04}
     | {"pressure_viscosity_coefficient": 18e-9},
 )
 SHEARED = STEEL.but("steel, Eyring 5 MPa", eyring_stress=5e6)
-CASES: dict[str, tuple[tuple[Case, float, float], ...]] = {  # case, speed of the waves, wavelength in half-widths
+CASES: dict[
+    str, tuple[tuple[WavinessCase, float, float], ...]
+] = {  # case, speed of the waves, wavelength in half-widths
     "quick": ((STEEL, 1.0, 1.0),),
     "default": (
         (SOFT, 0.0, 0.5),
@@ -102,17 +104,20 @@ def waviness(level: str) -> Iterator[Item]:
 
 
 def compared(
-    case: Case, speed: float, length: float, judged: Case | None = None
+    case: WavinessCase, speed: float, length: float, reference_case: WavinessCase | None = None
 ) -> tuple[float, float, float, float, float]:
     """The part that goes with the surface by lubfric and by finite elements, the part from the inlet by both (0 in
-    pure rolling, where they are one), and the rms difference of the films. ``judged``: what the elements solve."""
+    pure rolling, where they are one), and the rms difference of the films. ``reference_case``: what the elements solve."""
     smooth = laid_out(case.line, speed, CELLS * (max(1.0, speed) if speed else 2.5) / length)
     b = smooth.half_width
     x = smooth.film.x
     near = np.flatnonzero(np.abs(x) < NEAR * b)
     mine, _ = response(smooth, 2 * np.pi / (length * b), HEIGHT * smooth.film.central_gap)
     solution = ehl.solve_ehl(
-        (judged or case).elements(speed), refinements=0, fineness=1.0, between=0.1 * min(length, 1.0) / max(speed, 1.0)
+        (reference_case or case).elements(speed),
+        refinements=0,
+        fineness=1.0,
+        between=0.1 * min(length, 1.0) / max(speed, 1.0),
     )[-1]
     judge = solution.body.line.probes(x[None, near] / b) @ ripple(solution, length * b, speed)
     rms = float(np.sqrt(np.mean(np.abs(mine[near] - judge) ** 2)))
@@ -127,8 +132,8 @@ def parts(film: np.ndarray, x: np.ndarray, length: float, speed: float) -> tuple
     if speed == 1:
         return float(np.abs(np.vdot(surface, film)) / x.size), 0.0
     columns = np.stack([surface, inlet, inlet * x], axis=1)
-    found = np.linalg.lstsq(columns, film, rcond=None)[0]
-    return float(abs(found[0])), float(abs(found[1]))
+    coefficients = np.linalg.lstsq(columns, film, rcond=None)[0]
+    return float(abs(coefficients[0])), float(abs(coefficients[1]))
 
 
 def in_time() -> Iterator[Check]:
@@ -142,8 +147,8 @@ def in_time() -> Iterator[Check]:
     count = 64
 
     def waves(x, time):
-        grown = min(time, 1.0)
-        return height / unit * grown**2 * (3 - 2 * grown) * np.cos(2 * np.pi * (x - time))
+        phase = min(time, 1.0)
+        return height / unit * phase**2 * (3 - 2 * phase) * np.cos(2 * np.pi * (x - time))
 
     near = np.abs(smooth.film.x) < NEAR * b
     pick = at.body.line.probes(smooth.film.x[None, near] / b)
