@@ -146,7 +146,7 @@ def test_jacobian_matches_differences(density, options):
     line = LineContact(si["load_per_width"], 0.01, 2.2e11, si["entrainment_speed"], Lubricant(0.04, ALPHA, "roelands"))
     line = replace(line, lubricant=replace(line.lubricant, density_law=density, **law))
     line = replace(line, sliding=0.5 * line.entrainment_speed if law else None)
-    p = problem.Problem(line, **options)
+    p = problem.FilmProblem(line, **options)
     g = grid.make_grid(solve.problem_nodes(p, 24, start.rupture_guess(p)))
     z, _ = start.cold_start(g, p)
     if p.fed is not None:
