@@ -76,6 +76,12 @@ class Quantities(Generic[T]):
     shear_force: T = quantity("N", "shear force of the film", "F_sh", error="shear", note="of both parts")
     couette_force: T = quantity("N", "sliding part of the shear force", error="shear")
     rolling_force: T = quantity("N", "rolling part of the shear force", error="shear")
+    rolling_resistance: T = quantity(
+        "N",
+        "rolling resistance of both surfaces together, against the entrainment",
+        error="shear",
+        note="moment of the load about the middle over R; twice the rolling part without moving roughness",
+    )
     boundary_force: T = quantity(
         "N", "friction force of the contact spots", "f_b F_C", error="split", note="zero in pure rolling"
     )
@@ -95,6 +101,13 @@ class Quantities(Generic[T]):
         "largest mean temperature rise of the film over the surfaces",
         error="heat",
         note="mean across the film; 0 where heat is left out",
+    )
+    power_loss: T = quantity(
+        "W",
+        "power loss",
+        "P",
+        error="all",
+        note="friction forces on both surfaces times their speeds, rolling resistance included",
     )
 
     def in_unit(self, name: str, unit: str) -> T:
@@ -153,6 +166,8 @@ NOT_IN_TIME = {"shear_force", "real_contact_area", "film_to_roughness_ratio", "c
 INTERVAL = {
     "interval_low": Quantity("-", "lower end of the 95 % interval of f"),
     "interval_high": Quantity("-", "upper end of the 95 % interval of f"),
+    "power_loss_low": Quantity("W", "lower end of the 95 % interval of the power loss"),
+    "power_loss_high": Quantity("W", "upper end of the 95 % interval of the power loss"),
 }
 OF_MOMENT = {  # of a run in time, in the order of its table
     "time": Quantity("s", "time"),

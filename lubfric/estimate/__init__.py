@@ -10,6 +10,7 @@ from .heated import strip_heat
 from .moving import MOST_WORK, maps_of
 from .outlook import forecast
 from .pair import numbers_of, strip_of
+from .power import power_of_forces
 from .result import FrictionResult, together
 from .sample import sampled
 from .scatter import block_error, moment_error

@@ -91,6 +91,7 @@ def _numbers(prepared: Prepared, speed: float, found: Found) -> dict[str, Any]:
     touched = touched_length(contact) * found.effect.touched / found.effect.area
     numbers = quantities(balance.forces, film, loads, contact.mean_film if separated else contact.mean_gap)
     return numbers | {
+        "power_loss": math.nan,  # by `with_power_loss`
         "speed": speed,
         "real_contact_area_fraction": contact.real_contact_area_fraction,
         "real_contact_area": touched * scene.bodies.width,

@@ -169,6 +169,7 @@ def _shear_errors(found: Forces, film: float) -> dict[str, float]:
         "shear_force": (shear.total, film * abs(shear.couette) + rolling + heat),
         "couette_force": (shear.couette, film * abs(shear.couette) + heat),
         "rolling_force": (shear.rolling, rolling),
+        "rolling_resistance": (shear.rolling, rolling),
     }
     return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 

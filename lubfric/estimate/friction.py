@@ -23,6 +23,7 @@ from .heated import too_hot
 from .methods import with_methods
 from .moving import too_costly
 from .pair import cells_of
+from .power import with_power_loss
 from .ranges import with_ranges
 from .result import FrictionResult
 from .sample import Found, sampled
@@ -78,6 +79,7 @@ def friction(
             "stresses of a lubricated contact"
         )
     known = result.boundary_force / prepared.scene.bodies.load, result.coefficient
+    result = with_power_loss(prepared.scene, result)
     result = replace(result, lacks=lacking(prepared.scene, prepared.surface.sq, speed, known))
     if raise_on_failure:
         result.report.raise_if_failed(result)

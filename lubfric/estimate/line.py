@@ -66,6 +66,7 @@ def line_of(prepared: Prepared, found: Found) -> Line:
         ("film_load", solved.film_load),
         ("boundary_force", solved.forces.boundary),
         ("rolling_force", solved.forces.shear.rolling),
+        ("rolling_resistance", solved.forces.shear.resistance),
         ("mean_gap", solved.contact.mean_gap),
     ):
         numbers[name] = value * response.rates[name] * moved

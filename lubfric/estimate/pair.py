@@ -85,6 +85,7 @@ def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, flo
         "shear_force": (result.couette + result.rolling) * width,
         "couette_force": result.couette * width,
         "rolling_force": result.rolling * width,
+        "rolling_resistance": result.rolling_resistance * width,
         "boundary_force": result.boundary * width,
         "real_contact_area_fraction": result.spot_fraction,
         "real_contact_area": result.spot_length * width,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -37,6 +38,7 @@ class FrictionResult(PointQuantities[float], Shown):
         the model (`Uncertainty`, docs/uncertainty.md)
     errors : relative errors of every other number (`FieldErrors`), for example ``errors.contact_load``
     decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
+    power_loss_interval : 95 % interval of the power loss [W], (low, high)
     validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
     lacks : what the scene leaves out, the likely change of f by it (relative; NaN: not known), and what to do, the
         largest first; nothing that would change f by less than the tolerance (`lubfric.models.shared.lacking`)
@@ -48,6 +50,7 @@ class FrictionResult(PointQuantities[float], Shown):
     uncertainty: Uncertainty
     errors: FieldErrors
     decision: Decision
+    power_loss_interval: tuple[float, float] = (math.nan, math.nan)
     validity: tuple[Validity, ...] = ()
     lacks: tuple[Lack, ...] = ()
     methods: tuple[str, ...] = ()

@@ -111,7 +111,7 @@ def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequ
     before, after = ({name: float(np.mean([row[name] for row in level])) for name in numbers} for level in rows)
     new = {name: value * after[name] / before[name] if before[name] else value for name, value in numbers.items()}
     load = prepared.scene.bodies.load
-    kept = ("speed", "load_residual", "rolling_force", "film_to_roughness_ratio")
+    kept = ("speed", "load_residual", "rolling_force", "rolling_resistance", "film_to_roughness_ratio")
     new |= {name: numbers[name] for name in kept}
     odds = new["contact_load"] / new["film_load"] if new["film_load"] > 0 else math.inf
     new["contact_load"] = load / (1 + 1 / odds) if odds else 0.0

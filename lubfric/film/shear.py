@@ -21,6 +21,7 @@ class ShearForce:
       the whole film, and what the spots take from it. An error of the film is that much larger in the force.
     - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
       (`lubfric.oil.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
+    - ``sense``: 1, or -1 where the upper surface is the slower one, whose sliding the rolling part then helps.
     """
 
     couette: float
@@ -29,6 +30,13 @@ class ShearForce:
     rolling_parts: float = 0.0
     excess: float = 0.0
     stress_ratio: float = 0.0
+    sense: float = 1.0
+
+    @property
+    def resistance(self) -> float:
+        """Rolling resistance of both surfaces together [N], against the entrainment: the gradient of pressure pulls at
+        both alike."""
+        return 2.0 * self.sense * self.rolling
 
     @property
     def total(self) -> float:
@@ -95,7 +103,7 @@ def shear_force(
         couette += np.sum((face_tau * share)[~full])
     sense = math.copysign(1.0, slide_roll_ratio)
     forces = [float(width * each) for each in (sense * couette, sense * resistance, quadrature, parts, excess)]
-    return replace(ShearForce(*forces), stress_ratio=ratio)
+    return replace(ShearForce(*forces), stress_ratio=ratio, sense=sense)
 
 
 def above_carried(pressure, tau, lengths) -> tuple[float, float]:

@@ -45,6 +45,13 @@ class CurveResult(Shown):
         """How sure f is at every point: arrays of the numbers of `Uncertainty`, ``interval`` (n, 2)."""
         return curve_of([None if point is None else point.uncertainty for point in self.points])
 
+    @property
+    def power_loss_interval(self) -> np.ndarray:
+        """95 % interval of the power loss at every point [W], (n, 2); NaN where a point failed."""
+        missing = (np.nan, np.nan)
+        rows = [missing if point is None else point.power_loss_interval for point in self.points]
+        return np.array(rows).reshape(-1, 2)
+
     def entries(self, index: int) -> tuple[Validity, ...]:
         """The assumptions that are violated at a point, refused or not."""
         return entries_of(self.points[index], self.errors.get(index))
@@ -127,6 +134,7 @@ def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
     swept = {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
     low, high = found.interval.T
     columns = swept | columns_of(curve.points) | swept | {"interval_low": low, "interval_high": high}
+    columns |= dict(zip(("power_loss_low", "power_loss_high"), curve.power_loss_interval.T))
     return columns | {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}
 
 

@@ -105,6 +105,7 @@ def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
     numbers = {name: getattr(outcome, name) for name in NUMBERS}
     numbers |= {f"uncertainty_{n}": v for n, v in vars(outcome.uncertainty).items() if isinstance(v, float)}
     numbers |= zip(("uncertainty_low", "uncertainty_high"), outcome.uncertainty.interval)
+    numbers |= zip(("power_loss_low", "power_loss_high"), outcome.power_loss_interval)
     return {STATUS: outcome.report.status, VALIDITY: in_a_cell(outcome.validity), **numbers}
 
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ..estimate import moment_error
+from ..estimate import moment_error, power_of_forces
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
 from ..models.shared import (
     Heat,
@@ -74,6 +74,8 @@ def moment(model: TransientLoadSharing, now: Progress) -> tuple[dict[str, float]
         "boundary_force": boundary,
         "couette_force": shear.couette,
         "rolling_force": shear.rolling,
+        "rolling_resistance": 2.0 * shear.rolling * (np.sign(speed) or 1.0),
+        "power_loss": power_of_forces(force, 2.0 * shear.rolling, speed, sliding),
         "coefficient": force * sense / total,
         "sampling_error": finite,
         "shear_error": shear.quadrature / abs(force) if force else 0.0,

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
-from ..estimate import block_error, maps_of, numbers_of, strip_heat, strip_of
+from ..estimate import block_error, maps_of, numbers_of, power_of_forces, strip_heat, strip_of
 from ..models.deterministic import (
     BOUNDARY_FILM,
     KRYLOV,
@@ -273,6 +273,7 @@ def deterministic_moment(
     total = scene.bodies.load
     f = result.coefficient
     sense = float(np.sign(sliding) or np.sign(speed) or 1.0)
+    along = float(np.sign(speed) or 1.0)
     places = (result.friction_at - f * result.load_at) / result.load
     scatter = block_error(places, solver.base.spacing[1], solver.correlation_length).error
     wet = solver.x[now.solution.payload.pressure.mean(axis=1) > 0]
@@ -283,6 +284,7 @@ def deterministic_moment(
         "sliding_speed": sliding,
         "load": total,
         "friction_force": sense * f * total,
+        "power_loss": power_of_forces(sense * f * total, along * numbers["rolling_resistance"], speed, sliding),
         "sampling_error": scatter / abs(f) if f and math.isfinite(scatter) else math.nan,
         "shear_error": 0.0,
         "time_error": now.error,

@@ -47,6 +47,8 @@ class DeterministicResult:
       and pressure on the flanks of a rough surface 2. Both with what is upstream of the grid. coefficient: (boundary +
       couette + rolling)/load, of surface 2 against its sliding (`Problem`); at_half_film, at_twice_film: with half and
       twice the boundary film. split: the load on spots, and its parts.
+    - rolling_resistance: of both surfaces together, against U: pressure gradient, and pressure on the flanks of all
+      roughness.
     - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
       b of the load) [m]. spot_fraction, plastic_fraction: of the area of the strip.
     - load_at, friction_at [N/m] (ny,): load and friction of every column of cells along x, with those upstream. Their
@@ -73,6 +75,7 @@ class DeterministicResult:
     boundary: float
     couette: float
     rolling: float
+    rolling_resistance: float
     split: LoadSplit
     load: float
     load_at: np.ndarray
@@ -103,7 +106,7 @@ class Rubbing:
     """How the fields shear surface 2: bools (nx, ny) of the gaps that are ``thin``, of all ``spots`` where the
     stress is f_b p, and of the ``wet`` rest, fluid under its own law; the ``stress`` [Pa] (nx, ny); and of every column
     along x the forces [N/m] (ny,) on spots (``boundary``) and in the film (``couette``, ``rolling``), with those
-    upstream of the grid."""
+    upstream of the grid; ``rolling_resistance`` [N/m] (ny,): of both surfaces together, against U."""
 
     thin: np.ndarray
     spots: np.ndarray
@@ -112,6 +115,7 @@ class Rubbing:
     boundary: np.ndarray
     couette: np.ndarray
     rolling: np.ndarray
+    rolling_resistance: np.ndarray
 
     @property
     def friction(self) -> np.ndarray:
@@ -134,10 +138,22 @@ def rubbing(at: Iterate, law, film: float) -> Rubbing:
     both = (wet[1:] & wet[:-1]) | (wet[:-1] & (p[1:] == 0)) | (wet[1:] & (p[:-1] == 0))
     stress = np.where(spots, limit, np.where(wet, law, 0.0))
     couette = (stress * wet).sum(axis=0) * dx + problem.lubricant.viscosity * problem.sliding * inlet.shearing
-    rolling = (0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]) * both).sum(axis=0) + inlet.rolling
-    if problem.upper is not None:  # the pressure on its flanks
-        rolling = rolling - (0.5 * (p[1:] + p[:-1]) * np.diff(problem.upper, axis=0)).sum(axis=0)
-    return Rubbing(thin, spots, wet, stress, (limit * spots).sum(axis=0) * dx, couette, problem.sense * rolling)
+    by_gradient = (0.25 * (h[1:] + h[:-1]) * (p[1:] - p[:-1]) * both).sum(axis=0) + inlet.rolling
+
+    def on_flanks(heights: np.ndarray | None):
+        """The force [N/m] along x of the pressure on the flanks of ``heights`` [m]; None: there are none."""
+        return 0.0 if heights is None else (0.5 * (p[1:] + p[:-1]) * np.diff(heights, axis=0)).sum(axis=0)
+
+    return Rubbing(
+        thin=thin,
+        spots=spots,
+        wet=wet,
+        stress=stress,
+        boundary=(limit * spots).sum(axis=0) * dx,
+        couette=couette,
+        rolling=problem.sense * (by_gradient - on_flanks(problem.upper)),
+        rolling_resistance=2.0 * by_gradient - on_flanks(problem.heights),
+    )
 
 
 def assemble(at: Iterate, report: Report) -> DeterministicResult:
@@ -174,6 +190,7 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         boundary=float(rubs.boundary.mean()),
         couette=float(rubs.couette.mean()),
         rolling=float(rubs.rolling.mean()),
+        rolling_resistance=float(rubs.rolling_resistance.mean()),
         split=LoadSplit(*loads),
         load=problem.load,
         load_at=p.sum(axis=0) * dx + inlet.load,

@@ -143,6 +143,7 @@ def quantities(found: Forces, film: EHLResult | None, loads: tuple[float, float]
         "shear_force": found.shear.total,
         "couette_force": found.shear.couette,
         "rolling_force": found.shear.rolling,
+        "rolling_resistance": found.shear.resistance,
         "boundary_force": found.boundary,
         "min_film": math.nan if film is None else film.min_film,
         "central_film": math.nan if film is None else film.central_film,
