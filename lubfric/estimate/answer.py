@@ -20,6 +20,7 @@ from ..models.shared import (
 from ..oil import estimate_in_words
 from .decision import decided
 from .errors_of import errors_of
+from .ranges import with_ranges
 from .result import FrictionResult
 from .sample import Found
 
@@ -42,7 +43,7 @@ def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: f
     known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
     validity = (*passed(found, prepared, speed), *cautions)
     notes = (*found.balance.report.notes, decision.text, *known, *(entry.text for entry in validity), uncertainty.text)
-    return FrictionResult(
+    result = FrictionResult(
         **numbers,
         seconds=time.perf_counter() - begun,
         report=replace(found.balance.report, notes=notes),
@@ -53,6 +54,7 @@ def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: f
         balance=replace(found.balance, contact=replace(found.balance.contact, fields=found.solved.contact.fields)),
         heights=None if found.strips is None else found.contact.heights,  # type: ignore[attr-defined]
     )
+    return with_ranges(prepared, result)
 
 
 def passed(found: Found, prepared: Prepared, speed: float) -> tuple[Validity, ...]:

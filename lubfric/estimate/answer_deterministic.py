@@ -26,6 +26,7 @@ from .decision import Decision
 from .errors_of import TOO_SHORT
 from .heated import LEAST_FILM, MOST_CHANGE, error_by_heat, strip_heat, too_hot, warmed
 from .levels import Levels, levels_of, mean
+from .ranges import with_ranges
 from .result import FrictionResult
 from .sample import Found
 from .uncertainty import Uncertainty, field_errors_of, interval, percent, student
@@ -81,7 +82,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         *_of_model(model, numerics.model_tolerance),
     )
     finest = levels.pieces[0][-1] if strips.whole and levels.pieces else levels.pairs[0].resolved
-    return FrictionResult(
+    result = FrictionResult(
         **(numbers | {"seconds": time.perf_counter() - begun}),
         report=replace(results[0].report, notes=(decision.text, *(e.text for e in entries), known.text)),
         uncertainty=known,
@@ -92,6 +93,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         heights=None if found is None or strips.whole else found.contact.heights,  # type: ignore[attr-defined]
         deterministic=finest.result,
     )
+    return with_ranges(prepared, result, levels.pairs[0].longer if moves(scene) else finest)
 
 
 def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Levels, heat: Heat) -> Decision:

@@ -24,7 +24,6 @@ from .methods import with_methods
 from .moving import too_costly
 from .pair import cells_of
 from .power import with_power_loss
-from .ranges import with_ranges
 from .result import FrictionResult
 from .sample import Found, sampled
 
@@ -72,7 +71,7 @@ def friction(
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     numerics = prepared.scene.numerics
     with told_doubts(prepared.scene):
-        result = with_methods(prepared, with_ranges(prepared, _answer(prepared, speed, fields, begun)))
+        result = with_methods(prepared, _answer(prepared, speed, fields, begun))
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "

@@ -34,12 +34,12 @@ class Pair:
 def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
     """Length of the cells of the deterministic model in cells of the ``strips``, along x and y: 2, or 1 where 2 would
     leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in the ``half_width`` [m], or
-    does not divide the strip."""
+    does not divide the rows of a strip."""
     (lx, ly) = strips.lengths
     (dx, dy) = strips.cells.coarse
     longest = min(lx / (MOVING if moves(strips.scene) else PER_LENGTH), half_width / PER_HALF_WIDTH)
     along = longest >= 2 * dx * (1 - 1e-9)
-    across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and round(strips.length / dy) % 2 == 0
+    across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and strips.rows % 2 == 0
     return 1 + along, 1 + across
 
 

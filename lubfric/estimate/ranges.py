@@ -16,7 +16,7 @@ from ..models.shared import (
 from ..scene import FRICTION, Scene, moves, value_of
 from .heated import strip_heat
 from .moving import solved_strip
-from .pair import longer_than, strip_of
+from .pair import strip_of
 from .result import FrictionResult
 from .uncertainty import Uncertainty
 
@@ -24,19 +24,24 @@ HARDNESS = "bodies.hardness"
 LEAST = 5e-4  # of f: a smaller change is not told
 
 
-def with_ranges(prepared: Prepared, result: FrictionResult) -> FrictionResult:
-    """``result`` with the `Scene.ranges` of its inputs in the interval.
+def with_ranges(prepared: Prepared, result: FrictionResult, strip: Strip | None = None) -> FrictionResult:
+    """Return ``result`` with the `Scene.ranges` of its inputs in its interval.
 
     f is linear in f_b at a given division of the load. At both ends of every other range it is solved again, by the
-    model of the result: Eq. (8) on the first strips, or the deterministic model on one of them. The changes are
+    model of the result: load sharing on the first strips, or the deterministic model on one of them. The changes are
     relative to the middle on the same cells. Those of several inputs add up as squares, up and down for
     themselves. An end that cannot be solved, and the hardness of a contact that is not lubfric's own, leave ``inputs``
     NaN, and a note.
+
+    ``strip``: a strip of the deterministic model at the middle of all ranges, on the cells on which the ends are solved
+    (None: the result is by load sharing). A hardness at both ends above every pressure of that strip changes nothing,
+    and is not solved.
     """
     scene = prepared.scene
     if not scene.ranges:
         return result
-    at: Callable[[Scene], float] | None = None
+    coefficient: Callable[[Scene], float] | None = None
+    middle = math.nan
     changes: dict[str, tuple[float, ...] | str] = {}
     for name, *ends in scene.at_ends():
         if name == FRICTION:
@@ -44,16 +49,29 @@ def with_ranges(prepared: Prepared, result: FrictionResult) -> FrictionResult:
             changes[name] = tuple(slope * (value_of(end, name) - value_of(scene, name)) for end in ends)
         elif name == HARDNESS and not prepared.own:
             changes[name] = "the contact is not lubfric's own"
+        elif name == HARDNESS and strip is not None and _stays_elastic(strip, scene, *ends):
+            changes[name] = (0.0, 0.0)
         else:
             try:
-                at = at or (_resolved if result.deterministic is not None else _shared)(prepared, result)
-                changes[name] = tuple(result.coefficient * (at(end) / at(scene) - 1) for end in ends)
+                if coefficient is None:
+                    coefficient = (
+                        _load_sharing(prepared, result)
+                        if strip is None
+                        else _deterministic(prepared, strip, result.speed)
+                    )
+                    middle = coefficient(scene)
+                changes[name] = tuple(result.coefficient * (coefficient(end) / middle - 1) for end in ends)
             except ConvergenceError:  # the point itself is solved
                 changes[name] = "an end was not solved"
     old = result.uncertainty
     known = widened(old, result.coefficient, changes)
     notes = tuple(known.text if note == old.text else note for note in result.report.notes)
     return replace(result, uncertainty=known, report=replace(result.report, notes=notes))
+
+
+def _stays_elastic(strip: Strip, *scenes: Scene) -> bool:
+    """Return whether the solution of ``strip`` reaches the hardness of none of ``scenes`` in any cell, at any moment."""
+    return all(strip.peak_pressure < value_of(scene, HARDNESS) for scene in scenes)
 
 
 def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | str]) -> Uncertainty:
@@ -80,8 +98,9 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | s
     )
 
 
-def _shared(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], float]:
-    """f of scenes alike but for inputs, by Eq. (8) on the first strips of ``prepared``, or on its only contact."""
+def _load_sharing(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], float]:
+    """Return f of scenes that differ from the prepared one in inputs only, by load sharing on the first strips of
+    ``prepared``, or on its only contact."""
     strips = prepared.strips
     surface = prepared.surface
     stack = None if strips is None else on_stack(prepared, strips, strips.first)
@@ -98,26 +117,25 @@ def _shared(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], flo
     return f
 
 
-def _resolved(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], float]:
-    """The same by the deterministic model, on one strip and its own cells, or on the patch and the cells of the
-    ``result``. Cells twice as long make the change of f by the stress of an oil up to three times as large. Only
-    roughness that moves is left on them, for the time that it takes."""
-    (surface, factors) = strip_of(prepared, 0)
-    moving = moves(prepared.scene)
-    if prepared.strips is not None and prepared.strips.whole and result.deterministic is not None and not moving:
-        cells = result.deterministic.spacing
-        factors = round(cells[0] / surface.spacing[0]), round(cells[1] / surface.spacing[1])
-    longer = longer_than(surface, factors, moving)
+def _deterministic(prepared: Prepared, strip: Strip, speed: float) -> Callable[[Scene], float]:
+    """Return f at ``speed`` [m/s] of scenes that differ from the prepared one in inputs only, by the deterministic model
+    on the cells of ``strip``, which is solved at the prepared one and from which each begins.
 
-    def heated(scene: Scene) -> float:
-        found = solved(scene, start).result
-        return found.coefficient * (1 - strip_heat(scene, found).change)
+    These are the cells of the answer, because the change of f by the stress of an oil is up to three times as large on
+    cells twice as long. Only where roughness moves they are longer along y, for the time that it takes.
+    """
+    surface, _ = strip_of(prepared, 0)
+    spacing = strip.problem.spacing
+    factors = (round(spacing[0] / surface.spacing[0]), round(spacing[1] / surface.spacing[1]))
 
-    def solved(scene: Scene, start: Strip | None, factors=longer if moving else factors) -> Strip:
-        if moving:
-            return solved_strip(replace(prepared, scene=scene), 0, result.speed, factors=factors, start=start)
-        return solve_strip(scene, surface, result.speed, factors=factors, start=start)
+    def f(scene: Scene) -> float:
+        if scene is prepared.scene:
+            at_end = strip
+        elif moves(scene):
+            there = replace(prepared, scene=scene)
+            at_end = solved_strip(there, 0, speed, factors=factors, start=strip)
+        else:
+            at_end = solve_strip(scene, surface, speed, factors=factors, start=strip)
+        return at_end.result.coefficient * (1 - strip_heat(scene, at_end.result).change)
 
-    start = solved(prepared.scene, None, longer)
-    start = start if moving else solved(prepared.scene, start)
-    return heated
+    return f

@@ -81,6 +81,11 @@ class Strips:
     whole: bool = False
     bodies: tuple[Surface, ...] = ()
 
+    @property
+    def rows(self) -> int:
+        """The number of cells along y of one strip."""
+        raise NotImplementedError
+
     def joined(self, indices: Sequence[int]) -> Surface:
         """The strips of these numbers joined along y, the last to the first: periodic, on ``cells``."""
         raise NotImplementedError
@@ -107,9 +112,13 @@ class Strips:
 class GeneratedStrips(FieldsOnly, Strips):
     """Strips of one endless generated surface, or of two whose heights are added."""
 
+    @property
+    def rows(self) -> int:
+        return self.cells.rows(self.length)
+
     def joined(self, indices: Sequence[int]) -> Surface:
         blend = blend_of(self.lengths[1], self.cells.coarse[1])
-        shape = self.cells.count, self.cells.rows(self.length) + blend
+        shape = self.cells.count, self.rows + blend
         known = self._known
         strip = self._generator(STRIPS, self.cells.coarse, shape)
         strips = [known.get(index) or strip(index) for index in indices]
@@ -159,11 +168,15 @@ class MeasuredStrips(Strips):
     surface: Surface = field(kw_only=True)
     starts: tuple[int, ...] = field(kw_only=True)
 
+    @property
+    def rows(self) -> int:
+        return self._rows(self.surface.shape[1] - self._blend)
+
     def joined(self, indices: Sequence[int]) -> Surface:
         fx, fy = self.cells.factors
         pieces = [self._columns(self.starts[index])[fx // 2 :: fx] for index in indices]
         heights = stacked(pieces, self._blend)
-        rows = heights.shape[1] // (4 * fy) * 4 * fy
+        rows = self._rows(heights.shape[1]) * fy
         shape = f"{self.cells.count * fx} x {self.surface.shape[1]} cells"
         note = f"{counted(len(pieces), 'windows')} of {shape}, stacked along y"
         return self._made(heights[:, fy // 2 : rows : fy], self.cells.coarse, note)
@@ -177,6 +190,10 @@ class MeasuredStrips(Strips):
         first = (whole.shape[1] - rows - blend) // 2
         piece = stacked([whole[:, first : first + rows + blend]], blend)[:, :rows]
         return self._made(piece, self.surface.spacing, "a piece on the map's own cells")
+
+    def _rows(self, columns: int) -> int:
+        """The number of cells along y on so many ``columns`` of the map: a multiple of four."""
+        return columns // (4 * self.cells.factors[1]) * 4
 
     @property
     def _blend(self) -> int:
@@ -198,6 +215,10 @@ class OnePatch(Strips):
     """One patch, ``surface``, of which there is no more."""
 
     surface: Surface = field(kw_only=True)
+
+    @property
+    def rows(self) -> int:
+        return self.surface.shape[1] // self.cells.factors[1]
 
     def joined(self, indices: Sequence[int]) -> Surface:
         heights = self.cells.thinned(self.surface.heights, self.cells.factors)

@@ -12,7 +12,7 @@ import scipy.stats
 import lubfric
 from lubfric.estimate import levels, sampled, shorter
 from lubfric.estimate.line import Line, line_of
-from lubfric.estimate.pair import Pair, solve_pair, strip_of
+from lubfric.estimate.pair import Pair, cells_of, solve_pair, strip_of
 from lubfric.estimate.scatter import BlockError
 from lubfric.models.deterministic import change_by_flow, solve_strip
 from lubfric.models.load_sharing import solve_balance
@@ -160,6 +160,16 @@ def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correla
         factors = strip_of(prepared, 0)[1]
         along, across = (f * cell / one for f, cell, one in zip(factors, strips.cells.coarse, strips.lengths))
         assert most / 2 < along <= most and 0.25 < across <= 0.5
+
+
+def test_cells_along_y_are_twice_as_long_where_the_rows_of_a_strip_allow_it():
+    """The nominal length of a strip may be an odd number of cells; the rows of which it is made are what counts."""
+    for scene in (FINE, FINE.with_(contact={"spacing": 0.48e-6}), FINE.with_(contact={"spacing": 0.53e-6}), PATCH):
+        strips = lubfric.prepare(scene).strips
+        assert strips.rows == strips.strip(0).shape[1]
+        assert strips.whole or cells_of(strips, scene.bodies.half_width)[1] == 2
+    odd = lubfric.prepare(PATCH.with_(contact={"shape": (40, 33)})).strips
+    assert odd.rows == odd.strip(0).shape[1] == 33 and cells_of(odd, PATCH.bodies.half_width)[1] == 1
 
 
 def test_a_tighter_tolerance_takes_more_strips(prepared, found):

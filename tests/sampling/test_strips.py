@@ -33,6 +33,7 @@ def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():
     fx, fy = strips.cells.factors
     wide = strips.cells.count * fx
     assert strips.windows and all(0 <= start <= 600 - wide for start in strips.starts)
+    assert strips.rows == strips.strip(0).shape[1]
     assert np.diff(sorted(strips.starts)).min() * 0.45e-6 >= 4 * 3.5e-6
     line = strips.stack(strips.available)
     assert line.size[1] == pytest.approx(strips.available * strips.length, rel=0.05)

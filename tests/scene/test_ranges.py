@@ -101,6 +101,49 @@ def test_the_deterministic_answer_has_its_ranges_too():
     assert by_friction.uncertainty.inputs == pytest.approx(share)
 
 
+@pytest.mark.parametrize("motion", [{}, {"slide_roll_ratio": 0.3}])
+def test_only_the_ends_of_ranges_are_solved(motion, monkeypatch):
+    """The middle is the answer itself. A hardness above every pressure of the contact changes nothing, so its ends are
+    not solved; a range that the pressure reaches is."""
+    solves = []
+
+    def counted(solve):
+        def wrapper(*args, **options):
+            solves.append(solve)
+            return solve(*args, **options)
+
+        return wrapper
+
+    at_rest = lubfric.models.deterministic.solve_strip
+
+    def without_motion(scene, bodies, speed, **options):
+        """Stand in for the march in time, which takes a minute here: only the number of solves counts."""
+        return at_rest(scene, bodies[0].surface, speed, **options)
+
+    for place in ("estimate.moving", "estimate.ranges"):
+        monkeypatch.setattr(f"lubfric.{place}.solve_strip", counted(at_rest))
+    monkeypatch.setattr("lubfric.estimate.moving.solve_moving_strip", counted(without_motion))
+    numerics = {"model": "deterministic", "sampling": "patch", "tolerance": 0.2}
+    contact = {"shape": (24, 16), "spacing": (3e-6, 6e-6)}
+    surface = {"correlation_length": (8e-6, 14e-6)}
+    scene = SMALL.with_(contact=contact, numerics=numerics, motion=motion, surface=surface)
+    lubricant = {EYRING: [5e6, 1e6, 2e7]}
+    counts = []
+    answers = []
+    for ranges in (
+        {},
+        {"lubricant": lubricant, "bodies": {FRICTION: [0.08, 0.1]}},
+        {"lubricant": lubricant, "bodies": {FRICTION: [0.08, 0.1], HARDNESS: [50e9, 80e9]}},
+        {"bodies": {HARDNESS: [0.3e9, 80e9]}},
+    ):
+        solves.clear()
+        answers.append(f(scene.with_(**ranges), 0.01))
+        counts.append(len(solves))
+    assert [count - counts[0] for count in counts] == [0, 2, 2, 2]
+    assert answers[2].uncertainty.inputs == answers[1].uncertainty.inputs > 0
+    assert answers[3].uncertainty.inputs > 0
+
+
 def test_a_friction_of_nothing_may_be_as_large_as_its_range():
     """At rest in entrainment the contact carries all, and rubs with f_b: 0, or up to 0.1."""
     known = f(SMALL.with_(bodies={FRICTION: [0.0, 0.0, 0.1]}), 0.0)

@@ -46,7 +46,7 @@ SWEEP = 2.5  # half-widths that the film travels before anything counts: from -1
 # factorisations and iterations in a step in time, about
 STEPS = 4.0
 KRYLOV = 25.0
-SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film"
+SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film", "peak_pressure"
 # of U: roughness that is slower or faster passes a cell in a step; else the lubricant does
 SLOW = 0.5
 FAST = 2.0
@@ -202,13 +202,17 @@ class MovingStrip(Strip):
 
     ``rest``: the same strip at rest, from which it started. ``times`` [s] (n,): all moments after it, the first
     ``discarded`` of which count nothing: the film had not passed the contact yet. ``series``: of each the numbers
-    `SERIES` and ``share``, of the load that rubs with f_b.
+    `SERIES`: ``share``, of the load that rubs with f_b, ``peak_pressure`` [Pa] of any cell.
     """
 
     rest: Strip
     times: np.ndarray
     discarded: int
     series: dict[str, np.ndarray] = field(repr=False)
+
+    @property
+    def peak_pressure(self) -> float:
+        return max(self.rest.peak_pressure, float(self.series["peak_pressure"].max()))
 
 
 def solve_moving_strip(
@@ -250,7 +254,8 @@ def solve_moving_strip(
     for moment in islice(moving, 1, 1 + discarded + count):
         rows.append({name: getattr(moment.result, name) for name in AVERAGED} | vars(moment.result.split))
         work = work_of_steps(moment.at.gap.size, moment.work.factorisations, moment.work.krylov)
-        rows[-1] |= {"share": moment.result.split.spots / moment.result.load, "work": work}
+        peak = float(moment.at.state.pressure.max())
+        rows[-1] |= {"share": moment.result.split.spots / moment.result.load, "peak_pressure": peak, "work": work}
     mean = {name: np.mean([row[name] for row in rows[discarded:]], axis=0) for name in rows[0]}
     split = LoadSplit(*(float(mean[f.name]) for f in fields(LoadSplit)))
     parts: dict[str, Any] = {name: mean[name] if mean[name].ndim else float(mean[name]) for name in AVERAGED}

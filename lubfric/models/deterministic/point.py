@@ -45,6 +45,11 @@ class Strip:
     work: float
 
     @property
+    def peak_pressure(self) -> float:
+        """The largest pressure [Pa] of any cell, touching or not, at any moment."""
+        return float(self.result.pressure.max())
+
+    @property
     def deviations(self) -> np.ndarray:
         """(F_i - slope (w_i - w) - F)/w of every column i along y (ny,), with a mean of 0: what f of places deviates by
         if the load is balanced."""
