@@ -1,5 +1,6 @@
 """Height maps: read, prepared, generated, filtered and measured."""
 
+from .bearing import Bearing, material_ratio
 from .generate import ACFS, generate_surface, surface_generator
 from .height_map import Surface
 from .prepare import FORMS, outliers

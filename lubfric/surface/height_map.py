@@ -12,6 +12,7 @@ import numpy as np
 from .._base import FrozenArrays, Shown, figures, validate
 from ..errors import InputError
 from . import prepare, regrid, statistics
+from .bearing import Bearing, bearing
 
 HIGHEST = 1e3  # m, of any height
 LEAST_CELLS = 5  # of the nesting index of a filter: fewer do not resolve the weights
@@ -84,13 +85,15 @@ class Surface(FrozenArrays, Shown):
         return float(self.measured.std())
 
     def describe(self) -> str:
-        """One line: size, points, Sq, Ra, Rz, largest height over Sq, missing share, source."""
+        """Return one line: size, points, Sq, Ra, Rz, Sk, Spk, Svk, largest height over Sq, missing share, source."""
         (lx, ly) = self.size
         (nx, ny) = self.shape
         (rz, length) = statistics.rz(self)
+        curve = self.bearing()
         text = (
             f"{nx} x {ny} points, {lx * 1e6:.4g} x {ly * 1e6:.4g} µm, Sq {self.sq * 1e9:.4g} nm, "
             f"Ra {self.sa * 1e9:.4g} nm, Rz {rz * 1e9:.4g} nm over {length * 1e3:.3g} mm, "
+            f"Sk {curve.sk * 1e9:.4g}, Spk {curve.spk * 1e9:.4g}, Svk {curve.svk * 1e9:.4g} nm, "
             f"max |z|/Sq {self.largest_ratio:.3g}, {100 * self.missing_fraction:.3g} % missing"
         )
         return f"{self.source}: {text}" if self.source else text
@@ -274,6 +277,25 @@ class Surface(FrozenArrays, Shown):
     sa = property(statistics.sa)
     ssk = property(statistics.ssk)
     sku = property(statistics.sku)
+
+    def bearing(self) -> Bearing:
+        """Return Sk, Spk, Svk, Smr1 and Smr2 of the measured points (ISO 25178-2, `lubfric.surface.bearing`)."""
+        return bearing(self.measured)
+
+    @property
+    def sk(self) -> float:
+        """Core height Sk [m]."""
+        return self.bearing().sk
+
+    @property
+    def spk(self) -> float:
+        """Reduced peak height Spk [m]."""
+        return self.bearing().spk
+
+    @property
+    def svk(self) -> float:
+        """Reduced dale height Svk [m]."""
+        return self.bearing().svk
 
 
 def _mask(given: Any, heights: Any, shape: tuple[int, ...]) -> np.ndarray | None:
