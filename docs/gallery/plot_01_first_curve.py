@@ -15,7 +15,7 @@ scene = lubfric.load_scene("paper")
 curve = lubfric.stribeck(scene, np.geomspace(1e-4, 1.0, 9))
 
 # %%
-# The two forces add up to the load of 5.5 N at every speed. The band says how sure the coefficient is.
+# The two forces add up to the load of 5.5 N at every speed. The band is the 95 % interval of the friction coefficient.
 
 print(f"largest load error: {max(abs(curve.load_residual)):.1e}")
 

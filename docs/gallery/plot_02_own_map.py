@@ -23,8 +23,8 @@ surface = lubfric.read_surface(path, spacing=0.5e-6)
 print(surface.describe())
 
 # %%
-# The scene takes the file in place of its generated surface, and keeps the map's own grid. Where few summits touch, the
-# map is too small for an interval of 2 %. The result says so, and how much more area it would take.
+# The scene takes the file in place of its generated surface, and keeps the grid of the map. Where few asperities touch,
+# the map is too small for a sampling error of 2 %. The result says so, and how much more area is needed.
 
 scene = lubfric.load_scene("paper").with_(
     surface={"file": str(path), "spacing": 0.5e-6, "sq": None, "correlation_length": None},

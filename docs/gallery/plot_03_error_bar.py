@@ -1,10 +1,10 @@
 """
-How sure is a friction coefficient?
-===================================
+Sampling error of a friction coefficient
+========================================
 
-A finite piece of a rough surface is a sample. Where film and summits share the load, few summits carry their part, and
-one small patch can be far off. The library joins as many strips of the surface as the asked error needs, and says what
-error is left.
+A finite piece of a rough surface is a sample. Where film and asperities share the load, few asperities carry their
+part, and one small patch can be far off. The library solves as many strips of the surface as the target error needs,
+and states the error that remains.
 """
 
 import matplotlib.pyplot as plt
@@ -17,7 +17,7 @@ point = lubfric.friction(scene, 0.03)
 print(point.uncertainty.text)
 
 # %%
-# Ten patches of the paper's size, 90 µm wide, scatter widely about it. No single one shows where it is.
+# Ten patches of the paper's size, 90 µm wide, scatter widely about this value. No single patch shows it.
 
 patches = []
 for seed in range(10):

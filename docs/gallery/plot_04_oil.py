@@ -17,7 +17,7 @@ temperature = np.linspace(293.15, 393.15, 41)  # K
 viscosity = [used.viscosity(t) for t in temperature]
 
 # %%
-# The pressure-viscosity coefficient is not on the can. It is estimated, and the estimate says how far
+# The pressure-viscosity coefficient is not on the can. It is estimated, and the estimate states how far
 # measured oils lie from it.
 
 print(used.pressure_viscosity_coefficient(343.15).text)

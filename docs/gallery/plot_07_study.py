@@ -2,8 +2,8 @@
 A study over loads and viscosities
 ==================================
 
-A study varies any key of a scene. It needs no loops, keeps every finished point in a folder when one is given, and
-hands back a table. Here an executor solves twelve combinations of load and viscosity at four speeds each.
+A study varies any key of a scene. It needs no loops, keeps every finished point in a folder if one is given, and
+returns a table. Here an executor solves twelve combinations of load and viscosity at four speeds each.
 """
 
 from concurrent.futures import ThreadPoolExecutor
@@ -20,21 +20,21 @@ vary = {"bodies.load": [2.0, 5.5, 11.0], "lubricant.viscosity": [0.1, 0.2, 0.4, 
 speeds = np.geomspace(3e-3, 0.3, 4)
 
 # %%
-# The plan says what it will cost before anything is solved.
+# The plan estimates the time before anything is solved.
 
 print(lubfric.plan_study(scene, vary, speeds).explain())
 
 # %%
-# Any executor of ``concurrent.futures`` may carry it out: a pool of processes, a cluster, or the threads used here. The
-# numbers are the same on each, to the last bit.
+# Any executor of ``concurrent.futures`` can solve it: a pool of processes, a cluster, or the threads used here. The
+# results are the same on each.
 
 with ThreadPoolExecutor(2) as executor:
-    found = lubfric.study(scene, vary, speeds, executor=executor)
+    study = lubfric.study(scene, vary, speeds, executor=executor)
 viscosity, load = np.array(vary["lubricant.viscosity"]), np.array(vary["bodies.load"])
-coefficient = found["coefficient"]  # loads x viscosities x speeds
+coefficient = study["coefficient"]  # loads x viscosities x speeds
 
 # %%
-# Drawn over viscosity times speed over load (the Hersey number per length), the curves nearly fall on one.
+# Drawn over viscosity times speed over load (the Hersey number per length), the curves nearly coincide.
 
 figure, axes = plt.subplots(figsize=(6.4, 4), layout="constrained")
 for w, rows, colour in zip(load, coefficient, ("#1f5a94", "#2f7d4f", "#b3392f")):

@@ -2,9 +2,9 @@
 A fit to a measured curve
 =========================
 
-Which boundary friction coefficient explains a measured Stribeck curve, and how well can the data tell? The
-measurement of this example is made up: a computed curve with a coefficient of 0.12 and 5 % noise. So the answer is
-known.
+Which boundary friction coefficient explains a measured Stribeck curve, and how well do the data determine it? The
+measurement of this example is synthetic: a computed curve with a coefficient of 0.12 and 5 % noise. So the true value
+is known.
 """
 
 import numpy as np
@@ -20,14 +20,14 @@ truth = lubfric.stribeck(scene.with_(bodies={"boundary_friction_coefficient": 0.
 noisy = truth.coefficient * (1 + 0.05 * rng.standard_normal(speeds.size))
 
 # %%
-# The search is bounded. About how long it takes is said before. The result says how sure each parameter is.
+# The search is bounded. The time is estimated beforehand. The result has an interval for each parameter.
 
 measured, bounds = lubfric.Measured(speeds, noisy), {"bodies.boundary_friction_coefficient": (0.05, 0.2)}
 print(lubfric.explain_fit(scene, measured, bounds))
-found = lubfric.fit(scene, measured, bounds)
-print(found.explain())
+fitted = lubfric.fit(scene, measured, bounds)
+print(fitted.explain())
 
-axes = found.plot()
-axes.semilogx(speeds, truth.coefficient, "--", color="0.5", label="truth")
+axes = fitted.plot()
+axes.semilogx(speeds, truth.coefficient, "--", color="0.5", label="true curve")
 axes.set(ylim=(0, None))
 axes.legend(frameon=False)

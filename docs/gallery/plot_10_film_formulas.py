@@ -1,9 +1,9 @@
 """
-Film formulas beside the numerical film
-=======================================
+Film formulas compared with the numerical film
+==============================================
 
 Formulas for the film thickness are quick, and a few per cent off. Here Moes' formula for the film where the
-pressure has its maximum is set beside the numerical film, from light to heavy loads.
+pressure has its maximum is compared with the numerical film, from light to heavy loads.
 """
 
 from dataclasses import replace
@@ -28,7 +28,7 @@ formula = np.array([film.contact.moes_film for film in films])
 fine = np.geomspace(loads[0], loads[-1], 100)
 drawn = np.array([replace(films[0].contact, load_per_width=w).moes_film for w in fine])
 error = 100 * (formula / numerical - 1)
-print(f"the formula is off by {error.min():+.1f} to {error.max():+.1f} %")
+print(f"the formula deviates by {error.min():+.1f} to {error.max():+.1f} %")
 
 figure, (upper, lower) = plt.subplots(2, sharex=True, figsize=(6.4, 5.2), layout="constrained")
 upper.loglog(loads, 1e6 * numerical, "o", color="#1f5a94", label="numerical")
@@ -38,4 +38,4 @@ upper.minorticks_off()
 upper.legend(frameon=False)
 lower.semilogx(loads, error, "o-", color="#b3392f")
 lower.axhline(0, color="0.7", lw=1)
-lower.set(xlabel="load per width (N/m)", ylabel="formula off by (%)")
+lower.set(xlabel="load per width (N/m)", ylabel="deviation of the formula (%)")

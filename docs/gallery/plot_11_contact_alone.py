@@ -2,7 +2,7 @@
 The dry rough contact alone
 ===========================
 
-The contact solver stands alone: two rough half-spaces pressed together, with the hardness as the limit of the
+The contact solver can be used alone: two rough half-spaces are pressed together, with the hardness as the limit of the
 pressure. The real contact area grows almost in proportion to the pressure.
 """
 

@@ -2,8 +2,8 @@
 Check a change against a closed form
 ====================================
 
-A change to the contact solver is believed when its error falls at the rate it should. Here the pressure under a smooth
-cylinder is held against Hertz's formula on ever finer grids. The peak is of second order. The mean square is of first
+A change to the contact solver is verified when its error falls at the expected rate. Here the pressure under a smooth
+cylinder is compared with Hertz's formula on finer and finer grids. The peak is of second order. The mean square is of first
 order, because Hertz's pressure falls like a square root at its edge.
 """
 

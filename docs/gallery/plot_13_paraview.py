@@ -22,7 +22,7 @@ path.write_bytes(vtk_bytes(model, point))
 print(f"{path.name}: {path.stat().st_size / 2**20:.1f} MiB, {point.x.size} x {point.y.size} points")
 
 # %%
-# The same fields from Python: the pressure on the contact spots, and the gap between them.
+# The same fields from Python: the pressure on the asperity contacts, and the gap between them.
 
 figure, panels = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")
 extent = [1e6 * value for value in (point.x[0], point.x[-1], point.y[0], point.y[-1])]

@@ -11,7 +11,7 @@ the sum over 16 rollers and two races is two to three times the measured torque,
 (Biboulet and Houpert 2010). So the inlets are not flooded, or hotter than the outer ring. Inlets that begin 0.2 to 0.3
 mm before the contact, where the gap is some micrometres, bracket the measurement; how long they are is not known. Not
 modelled: the flange, the cage and churning, which only add. (Bearing 32008, measured by Manjunath et al., Machines 11
-(2023) 801, has no page: neither its rollers nor its roughness are published.)
+(2023) 801, is not compared: neither its rollers nor its roughness are published.)
 """
 
 import matplotlib.pyplot as plt
@@ -46,8 +46,8 @@ def torque(oil: dict) -> np.ndarray:
     total = np.zeros(RPM.size)
     for race in (inner, -outer):
         radii = [DIAMETER / 2, race / 2 / np.cos(ANGLE)]
-        found = lubfric.stribeck(base.with_(bodies={"radii": radii}, lubricant=oil), speeds)
-        total += ROLLERS * 2 * speeds / turn * found["rolling_force"]
+        curve = lubfric.stribeck(base.with_(bodies={"radii": radii}, lubricant=oil), speeds)
+        total += ROLLERS * 2 * speeds / turn * curve["rolling_force"]
     return total
 
 

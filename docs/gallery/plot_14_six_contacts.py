@@ -1,11 +1,11 @@
 """
-Six contacts: what changes f by how much
-========================================
+Six contacts: which effects change f most
+=========================================
 
-A cam, a gear flank, a roller, a piston ring, a seal and a covered roller, each as a small scene. A scene leaves things
-out: less oil may arrive, the oil may be warmer than said or be thinned by shear, the surface runs in, an additive
-changes f_b. Here each is put in, one at a time, by load sharing on one patch, which is quick. The longest bar is what
-to measure first.
+A cam, a gear flank, a roller, a piston ring, a seal and a covered roller, each as a small scene. A scene leaves effects
+out: less oil may arrive, the oil may be warmer than stated or be thinned by shear, the surface runs in, an additive
+changes f_b. Here each effect is added, one at a time, with the load-sharing model on one patch, which is quick. The
+longest bar shows what to measure first.
 """
 
 import math
@@ -82,12 +82,12 @@ contacts = [
 ]
 
 # %%
-# What is put in, and how. The film of the point itself tells how much oil is 70 % of what would flow. The Carreau law,
+# The effects, and how each is added. The film of the point itself gives 70 % of the oil that would flow. The Carreau law,
 # here with 30 kPa and 0.8, is that of an oil with polymers, such as a multigrade oil.
 
 
 def variations(scene, film):
-    """Other scenes, by what is different."""
+    """Return the scenes with one effect each."""
     oil, bodies = scene.lubricant, scene.bodies
     other = {
         "starved: film x 0.7": {"lubricant": {"inlet_film": 0.7 * film}},
@@ -124,5 +124,5 @@ for one, ax in zip(contacts, axes.flat, strict=True):
     )
 
 # %%
-# Where asperities carry most of the load, f_b and the surface count; where the film does, the oil. A
-# result tells the likely sizes by itself, from closed forms: ``point.lacks``, printed above, and ``lubfric info``.
+# Where asperities carry most of the load, f_b and the surface matter most; where the film does, the oil. A result lists
+# the likely size of each effect from closed forms, as printed above; so does ``lubfric info``.

@@ -4,7 +4,7 @@ A gear flank along its path of contact
 
 A pair of the FZG rig, type C: 16 and 24 teeth, module 4.5 mm, pressure angle 22.4 degrees in operation, 14 mm wide, at
 2.1 m/s in the pitch circle, with a mineral oil of ISO VG 100 at 60 °C. Along the path of contact the radius and both
-speeds change. Near the pitch point next to nothing slides: the film's own shear is gone, and the spots are left.
+speeds change. Near the pitch point hardly anything slides: the shear of the film vanishes, and asperity friction remains.
 
 The flanks are ground, Ra 0.2 µm each. As published for them, f_b is 0.065 to 0.07 (Arana et al. 2019); roller contacts
 are quoted at 0.12. Where two pairs of teeth are in contact each has half the load, as if the teeth were stiff.
@@ -43,12 +43,12 @@ base = lubfric.load_scene("paper").with_(
 
 
 def along(f_b: float) -> list[float]:
-    found = []
+    coefficients = []
     for r, (u1, u2), alone in zip(radius.T, u.T, single):
         bodies = {"radii": list(r), "load": FORCE * (1 if alone else 0.5), "boundary_friction_coefficient": f_b}
         motion = {"slide_roll_ratio": 2 * (u2 - u1) / (u1 + u2)}
-        found.append(lubfric.friction(base.with_(bodies=bodies, motion=motion), (u1 + u2) / 2).coefficient)
-    return found
+        coefficients.append(lubfric.friction(base.with_(bodies=bodies, motion=motion), (u1 + u2) / 2).coefficient)
+    return coefficients
 
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), layout="constrained")

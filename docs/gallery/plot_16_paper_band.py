@@ -1,13 +1,13 @@
 """
-How sure can the paper's curve be?
-==================================
+Uncertainty of the paper's curve
+================================
 
 The paper measured a cylinder on a disk (its Fig. 8) and printed neither the points nor all of its inputs. Three of them
-are open: the surface (Sq 100 nm is all that is told), f_b (0.09, read off the same measurement), and the temperature:
+are open: the surface (only Sq 100 nm is stated), f_b (0.09, read off the same measurement), and the temperature:
 the oil has 150 mm²/s at 40 °C, and the tests were at "room temperature, 25 °C". The table's 0.36 Pa s is that of 25 °C.
 
-Each band is what one of them leaves open: five surfaces of that Sq, lengths of 2 to 16 µm; f_b within a tenth; 25 ± 3
-degrees. The measured points are in no text that could be had, so none are drawn: only f_b of the paper's table.
+Each band shows one of them: five surfaces of that Sq, lengths of 2 to 16 µm; f_b within a tenth; 25 ± 3
+degrees. The measured points were not available as numbers, so none are drawn: only f_b of the paper's table.
 """
 
 import matplotlib.pyplot as plt
