@@ -93,7 +93,7 @@ def finish(name: str, canvas, caption: str, format: str = "svg", dpi: int = 160)
 
 
 def compact(figure: Figure, colours: int = 128) -> Figure:
-    """The same picture with a palette (rare colours are kept as well), in a third of the space."""
+    """Return the picture with a palette (rare colours are kept as well), in a third of the space."""
     from PIL import Image
 
     stream = io.BytesIO()

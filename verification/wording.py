@@ -23,7 +23,7 @@ def mark(check: Check) -> str:
 
 
 def listed(checks: tuple[Check, ...]) -> tuple[Check, ...]:
-    """Those a person reads: all of a few; of very many those that failed (report.json has them all)."""
+    """Return the checks that a person reads: all of a few; of very many those that failed (report.json has them all)."""
     return checks if len(checks) <= MANY else tuple(c for c in checks if c.failed)
 
 
@@ -42,7 +42,7 @@ def allowed(check: Check) -> str:
 
 
 def by_grade(checks: Iterable[Check]) -> str:
-    """Of each grade, how many of the checks that decide passed: "A 3 of 4, C 2 of 2"."""
+    """Return how many of the decisive checks of each grade passed: "A 3 of 4, C 2 of 2"."""
     decisive = [c for c in checks if c.decisive]
     counts = {g: [c.passed for c in decisive if c.grade == g] for g in GRADES}
     return ", ".join(f"{grade} {sum(passed)} of {len(passed)}" for grade, passed in counts.items() if passed)

@@ -105,7 +105,8 @@ class Surface(FrozenArrays, Shown):
         x, y = (np.arange(count) * step for count, step in zip(self.shape, self.spacing))
         z = (self.heights - np.nanmean(self.heights)) * 1e9
         (low, high) = np.nanpercentile(z, (0.5, 99.5))
-        (least, most) = (np.nanmin(z), np.nanmax(z))
+        least = np.nanmin(z)
+        most = np.nanmax(z)
         reach = 0.4 * (high - low)  # to some four times Sq, were the heights normally distributed
         ends = {"vmin": max(least, low - reach), "vmax": min(most, high + reach)}
         beyond = least < ends["vmin"], most > ends["vmax"]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from verification.campaigns.mutants import FAILED, table, trial
+from verification.campaigns.mutants import FAILED, ROOT, Mutant, table, trial
 from verification.catalogue import STUDIES
 from verification.check import Check
 from verification.run import load
@@ -20,3 +20,21 @@ def test_a_lost_option_is_noticed():
     """One of them; ``python -m verification --only mutants`` tries all."""
     study = "wiring_contact"
     assert trial(next(mutant for mutant in table() if study in mutant.noticed_by), (study,)) == FAILED
+
+
+def test_every_mutant_quotes_text_that_stands_once_in_its_place():
+    wrong = []
+    for mutant in table():
+        try:
+            mutant.broken(ROOT / "lubfric")
+        except ValueError as error:
+            wrong.append(str(error))
+    assert wrong == []
+
+
+def test_a_quoted_text_is_found_however_its_lines_are_broken(tmp_path):
+    (tmp_path / "a.py").write_text("x = f(\n    one + two,\n    three,\n)\n")
+    _, content = Mutant("a.py", "f(one + two, three)", "g(1)", ()).broken(tmp_path)
+    assert content == "x = g(1)\n"
+    with pytest.raises(ValueError, match="0 times"):
+        Mutant("a.py", "f(onetwo", "g(", ()).broken(tmp_path)

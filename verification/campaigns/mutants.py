@@ -7,6 +7,7 @@ studies by name, at their quick level; blanks stand between them.
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -43,15 +44,32 @@ class Mutant:
         return f"{self.place}: {self.text} -> {self.wrong}"
 
     def broken(self, library: Path) -> tuple[Path, str]:
-        """The file that holds the text, and its content with the mistake. Raises ValueError unless it stands there
-        once."""
+        """Return the file that holds the text, and its content with the mistake.
+
+        Raises ValueError unless the text stands there once."""
         place = library / self.place
-        files = {f: f.read_text(encoding="utf-8") for f in ([place] if place.is_file() else place.rglob("*.py"))}
-        times = sum(content.count(self.text) for content in files.values())
-        if times != 1:
-            raise ValueError(f"{self.place} holds {self.text!r} {times} times; a mutant needs it once")
-        file = next(f for f, content in files.items() if self.text in content)
-        return file, files[file].replace(self.text, self.wrong)
+        files = [place] if place.is_file() else sorted(place.rglob("*.py"))
+        contents = {file: file.read_text(encoding="utf-8") for file in files}
+        pattern = pattern_of(self.text)
+        matches = [(file, match) for file, content in contents.items() for match in pattern.finditer(content)]
+        if len(matches) != 1:
+            raise ValueError(f"{self.place} holds {self.text!r} {len(matches)} times; a mutant needs it once")
+        ((file, match),) = matches
+        content = contents[file]
+        return file, content[: match.start()] + self.wrong + content[match.end() :]
+
+
+def pattern_of(text: str) -> re.Pattern[str]:
+    """Return the pattern of a quoted ``text`` however its lines are broken.
+
+    Between two words stands some white space, elsewhere any or none; a comma may stand before a closing bracket."""
+    tokens = re.findall(r"\w+|[^\w\s]", text)
+    pattern = re.escape(tokens[0])
+    for before, token in zip(tokens, tokens[1:]):
+        blank = r"\s+" if before[-1].isalnum() and token[0].isalnum() else r"\s*"
+        comma = r"(?:,\s*)?" if token in ")]}" and before not in "([{," else ""
+        pattern += blank + comma + re.escape(token)
+    return re.compile(pattern)
 
 
 def table(text: str | None = None) -> list[Mutant]:

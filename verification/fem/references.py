@@ -48,7 +48,7 @@ class Source:
 
 
 def _sources() -> dict[str, Source]:
-    """Those of references.toml, by key."""
+    """Return the sources of references.toml by key."""
     rows = tomllib.loads(Path(__file__).with_suffix(".toml").read_text("utf-8"))
     return {key: Source(**row | {"got": GOT.get(row["got"], row["got"])}) for key, row in rows.items()}
 
@@ -274,7 +274,7 @@ def gupta(number: float, slide_roll: float, pressure_ratio: float) -> float:
 
 
 def olver_spikes(number: float, slide_roll: float) -> float:
-    """The same by another fit."""
+    """Return the film over the isothermal one by the fit of Olver and Spikes."""
     return 1 / (1 + 0.1 * (1 + 14.8 * slide_roll**0.83) * number**0.64)
 
 

@@ -29,7 +29,7 @@ class Smooth:
 
     @property
     def half_width(self) -> float:
-        """Of Hertz [m]."""
+        """Half-width of Hertz [m]."""
         return self.problem.contact.half_width
 
     @property

@@ -238,7 +238,7 @@ def closed_again(judge: Judge, share: float, closely: bool = False) -> tuple[tup
 
 
 def _bracketed(judge: Judge, here: float) -> tuple[tuple[float, float], float]:
-    """As `closed_again`, by a root between divisions on both sides of it."""
+    """Close the balance as `closed_again` does, by a root between divisions on both sides of it."""
 
     def surplus(split):
         sides = judge.sides(split)

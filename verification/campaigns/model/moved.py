@@ -70,7 +70,7 @@ def row(problem, result, out: float) -> dict[str, Any]:
 
 
 def share(out: float, enters: float) -> float:
-    """Of the lubricant that is given off, in all of it."""
+    """Return the share of the lubricant that is given off."""
     return out / (out + max(enters, 0.0)) if out > 0 else 0.0
 
 

@@ -39,7 +39,7 @@ class Pad:
     density: str = "constant"
 
     def problem(self, load: float) -> Problem:
-        """As the model has it, with the gap at the end of the pad left open. ``load`` [N/m]."""
+        """Return the pad as the model has it, with the gap at the end of the pad left open. ``load`` [N/m]."""
         (nx, ny) = self.cells
         p = self.pocket
         dx = p.length / (nx - 0.5)

@@ -151,7 +151,7 @@ def trace_matrix(basis: Basis, line: Basis) -> sp.csr_matrix:
 
 
 def refined_displacement(coarse: Body, fine: Body, displacement: np.ndarray) -> np.ndarray:
-    """The same displacement on the uniform refinement of the mesh, exactly."""
+    """Return a displacement on the uniform refinement of the mesh, exactly."""
     lattice = Basis(coarse.basis.mesh, coarse.basis.elem, quadrature=(QUARTERS, np.ones(QUARTERS.shape[1])))
     values = np.asarray(lattice.interpolate(coarse.everywhere(displacement))).reshape(2, -1)
     points = np.asarray(lattice.global_coordinates()).reshape(2, -1)

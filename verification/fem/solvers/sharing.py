@@ -68,7 +68,7 @@ class Bodies:
 
 @dataclass(frozen=True)
 class FlatBodies:
-    """As `Bodies`, with roughness that is the same all over the Hertz strip of the total load (paper, Sec. 3.1).
+    """Bodies as `Bodies`, with roughness that is the same all over the Hertz strip of the total load (paper, Sec. 3.1).
 
     pressed(mean pressure in Pa) gives the mean gap (m) of a periodic patch, and the share of it in contact.
     """

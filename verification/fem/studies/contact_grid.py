@@ -142,7 +142,8 @@ def row_of_spheres(cells: int):
     """
     exact = Sphere(E_PRIME, RADIUS, SIZE)
     dx = SIZE / cells
-    (nx, ny) = (4 * cells, 24 * cells)
+    nx = 4 * cells
+    ny = 24 * cells
     square = centred(nx, dx)[:, None] ** 2 + centred(ny, dx) ** 2
     options = {"boundary": ("free", "periodic"), "tolerance": 1e-6}
     mean = exact.load / (nx * ny * dx**2)

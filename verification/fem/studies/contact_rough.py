@@ -115,7 +115,7 @@ def press_patch(grid: Layer3D, limit: float | None = None) -> Patch:
 
 
 def half_space_patch(nodes: int, limit: float | None = None) -> Patch:
-    """The same patch by `lubfric`."""
+    """Return the contact of the patch by `lubfric`."""
     x = np.arange(nodes) * BOX / nodes
     solution = lubfric.solve_contact(
         -roughness(x[:, None], x[None]),

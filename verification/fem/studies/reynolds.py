@@ -159,7 +159,7 @@ def piezoviscous(refinements: int):
 
 
 def fast_film(e: exact.Parabola, alpha: float, index: float) -> exact.Parabola:
-    """The same gap at the speed at which a Roelands oil reaches 0.5 GPa."""
+    """Return the problem of the gap at the speed at which a Roelands oil reaches 0.5 GPa."""
     s = np.linspace(0, 5e8, 20_001)
     reduced = np.trapezoid(np.exp(-alpha * 1.96e8 / index * ((1 + s / 1.96e8) ** index - 1)), s)
     peak = e.pressure(np.linspace(-2, 1, 200_001)[None] * e.scale).max()

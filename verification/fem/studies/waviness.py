@@ -51,7 +51,7 @@ class WavinessCase:
         return ehl.LineContact.of(self.values, 2 * abs(speed - 1) * self.values["entrainment_speed"])
 
     def but(self, name: str = "", **values) -> "WavinessCase":
-        """The same with other ``values``."""
+        """Return the case with other ``values``."""
         return WavinessCase(name or self.name, self.values | values)
 
 
