@@ -1,9 +1,10 @@
-"""What changes in time: the march, smooth films, contacts that share their load with a film."""
+"""Runs in time: the march, the film of smooth bodies in time, and two models of the mixed contact."""
 
 from .film import TransientFilm, solve_transient_ehl
 from .film_grid import make_fixed_grid, symmetric_nodes
 from .film_setting import FIRST_STEP, TIME_SHARE, WET, ContactHistory, make_setting
 from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of, report_of, steps
+from .model import Output, Start, TimeModel
 from .result import TransientResult, friction_over_time, time_scale
 from .run import transient
 from .start import speeds_of_run

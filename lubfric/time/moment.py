@@ -1,9 +1,12 @@
 """The numbers of one moment: film, contact, friction with both parts and its heat, mass balance, validity."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,7 +29,10 @@ from ..scene import Scene
 from .film_equations import outside_shear
 from .film_setting import WET
 from .march import Progress, Step
-from .transient_load_sharing import TransientLoadSharing, scene_at, sliding_at
+from .scene_in_time import scene_at, sliding_at
+
+if TYPE_CHECKING:
+    from .transient_load_sharing import TransientLoadSharing
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"
@@ -35,7 +41,7 @@ AT_REST = 1e-6
 LOAD_STEP = 0.05
 
 
-def moment(model: TransientLoadSharing, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
+def load_sharing_moment(model: TransientLoadSharing, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then."""
     solution = now.solution
     time = now.time

@@ -14,17 +14,12 @@ from ..models.shared import (
 )
 from ..quantities import OF_MOMENT, axis_label
 from ..scene import FRICTION as FRICTION_KEY
-from ..scene import moving_bodies, value_of
+from ..scene import value_of
 from .march import Plan, Progress, report_of
-from .transient_deterministic import TransientDeterministic
-from .transient_load_sharing import TransientLoadSharing
+from .model import Output, TimeModel
 
-Solver = TransientLoadSharing | TransientDeterministic
-# at an output time: numbers by name, assumptions that do not hold, pressures [Pa] and films [m] over x
-Output = tuple[dict[str, float], tuple[Validity, ...], np.ndarray, np.ndarray]
 MANY = 30  # blocks less one: of a strip
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
-STANDS = "roughness that moves is taken as if it stood still; numerics.model = 'deterministic' moves it"
 TINY = 1e-30  # no f is divided by less
 MASS = 1e-3  # largest residual of a step's mass
 
@@ -172,44 +167,47 @@ class TransientResult(Shown):
         raise AttributeError(f"TransientResult has no attribute {name!r}{validate.nearest(name, columns)}")
 
 
-def collect(solver: Solver, grid_error: float, plan: Plan, now: Progress, outputs: list[Output]) -> TransientResult:
-    """The result of the outputs so far. ``grid_error``: of a steady start, or NaN."""
-    columns = {name: np.array([row.get(name, math.nan) for row, *_ in outputs], float) for name in OF_MOMENT}
-    P, H = (np.array([output[k] for output in outputs]).reshape(-1, solver.x.size) for k in (2, 3))
-    worst = {
-        "mass": float(np.max(columns["mass_residual"], initial=0.0)) / MASS,
-        "volume": float(np.max(np.abs(columns["volume_residual"]), initial=0.0)) / solver.tolerance,
+def collect(
+    model: TimeModel, grid_error: float, plan: Plan, progress: Progress, outputs: list[Output]
+) -> TransientResult:
+    """Return the result of the ``outputs`` so far. ``grid_error``: of a steady start, or NaN."""
+    columns = {name: np.array([o.numbers.get(name, math.nan) for o in outputs], float) for name in OF_MOMENT}
+    shape = (-1, model.x.size)
+    residuals = {
+        "mass": _largest(columns["mass_residual"]) / MASS,
+        "volume": _largest(columns["volume_residual"]) / model.tolerance,
     }
     if not math.isnan(grid_error):
-        worst["grid"] = grid_error / solver.scene.numerics.tolerance_of("film")
+        residuals["grid"] = grid_error / model.scene.numerics.tolerance_of("film")
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
-    prepared = solver.prepared
+    prepared = model.prepared
     renewal = math.nan
     ends = {name: [end - value_of(prepared.scene, name) for end in both] for name, *both in prepared.scene.ranges}
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
-    half = 0.5 * columns["sliding_speed"]
-    rough = [name for name, _ in moving_bodies(prepared.scene)]
-    ways = {"surface": columns["entrainment_speed"] - half, "counterface": columns["entrainment_speed"] + half}
-    stands = (STANDS,) if isinstance(solver, TransientLoadSharing) and any(ways[name].any() for name in rough) else ()
-    report = report_of("transient, BDF2", plan, now, f"{solver.cells}; surface: {surface}", worst)
+    report = report_of("transient, BDF2", plan, progress, f"{model.cells}; surface: {surface}", residuals)
     if prepared.strips is not None and not prepared.strips.whole:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
     return TransientResult(
         columns=columns,
-        x=solver.x,
-        pressure=P,
-        film_thickness=H,
-        report=replace(report, notes=(*report.notes, *stands, *not_in)),
-        entries=tuple(entries for _, entries, _, _ in outputs),
+        x=model.x,
+        pressure=np.array([output.pressure for output in outputs]).reshape(shape),
+        film_thickness=np.array([output.film_thickness for output in outputs]).reshape(shape),
+        report=replace(report, notes=(*report.notes, *model.notes, *not_in)),
+        entries=tuple(output.entries for output in outputs),
         inputs=np.outer((-low, high), by_load),
         not_in=not_in,
         line_length=prepared.surface.size[1],
         width=prepared.scene.bodies.width,
         renewal=renewal,
     )
+
+
+def _largest(residual: np.ndarray) -> float:
+    """Return the largest magnitude of a ``residual``; 0 where a model has none (NaN)."""
+    return float(np.max(np.abs(residual[~np.isnan(residual)]), initial=0.0))
 
 
 def in_motion(c: dict[str, np.ndarray]) -> np.ndarray:

@@ -1,5 +1,6 @@
 """Friction in time: `transient`, and its state on disk after every step, so that a kill loses nothing."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -15,13 +16,20 @@ from ..models.shared import (
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint, opened
 from .march import Plan, Progress, Step, checked_times, initial_progress, plan_of, steps
-from .moment import moment
-from .result import Output, Solver, TransientResult, collect
+from .model import Output, Start, TimeModel
+from .result import TransientResult, collect
+from .scene_in_time import transient_of
 from .start import start_load_sharing
-from .transient_deterministic import TransientDeterministic, deterministic_moment, start_deterministic
-from .transient_load_sharing import Contact, transient_of
+from .transient_deterministic import start_deterministic
+from .transient_load_sharing import Contact
 
-CLASSES = classes_of(Progress, Contact, Validity, State)  # that a state or an output may hold
+# each makes a scene ready, by the value of numerics.model
+MODELS: dict[str, Callable[[Scene | Prepared], Start]] = {
+    "auto": start_load_sharing,
+    "load-sharing": start_load_sharing,
+    "deterministic": start_deterministic,
+}
+CLASSES = classes_of(Progress, Output, Contact, Validity, State)  # that a state or an output may hold
 STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
 
 
@@ -69,22 +77,20 @@ def transient(
     - grid: the discretisation error of the steady start over the film tolerance (if it starts steady)
     """
     scene, times = _with_plan(scene, times)
-    solver, start, grid_error = (
-        start_deterministic if scene_of(scene).numerics.model == "deterministic" else start_load_sharing
-    )(scene)
-    scene = solver.scene
-    plan = transient_of(solver.scene)
-    tolerance = plan.tolerance or solver.time_error
-    course = plan_of(times, plan.histories, solver.first_step, tolerance, solver.stops)
-    key = fingerprint(solver.prepared, plan, times)
+    start = MODELS[scene_of(scene).numerics.model](scene)
+    model = start.model
+    plan = transient_of(model.scene)
+    tolerance = plan.tolerance or model.time_error
+    course = plan_of(times, plan.histories, model.first_step, tolerance, model.stops)
+    key = fingerprint(model.prepared, plan, times)
     with opened(checkpoint, CLASSES, "checkpoint") as store:
-        now, outputs = _marched(solver, start, course, store, key, on_step)
-    result = collect(solver, grid_error, course, now, outputs)
+        progress, outputs = _marched(model, start.state, course, store, key, on_step)
+    result = collect(model, start.grid_error, course, progress, outputs)
     if raise_on_failure:
         result.report.raise_if_failed(result)
         severe = sorted((e for entries in result.entries for e in entries if e.severe), key=lambda e: e.value)
         worst = {entry.what: entry for entry in severe}  # of each kind
-        refused(tuple(worst.values()), scene.numerics.accept, result)
+        refused(tuple(worst.values()), model.scene.numerics.accept, result)
     if result.report.converged:
         store.clear([key, *_output_keys(key, len(outputs))])
     return result
@@ -94,49 +100,31 @@ def _output_keys(key: str, count: int) -> list[str]:
     return [digest([key, number]) for number in range(count)]
 
 
-def _marched(solver: Solver, start: Step, plan: Plan, store: Store, key: str, on_step) -> tuple[Progress, list[Output]]:
-    """The last progress of a run, and its outputs; from where the ``store`` has it under ``key``, if it does: its state
-    and all outputs that the state knows of, which were kept before it."""
-    count, now = store.get(key, STATE) or (0, initial_progress(start, plan))
+def _marched(
+    model: TimeModel, start: Step, plan: Plan, store: Store, key: str, on_step: Callable | None
+) -> tuple[Progress, list[Output]]:
+    """Return the last progress of a run, and its outputs. The run continues from where the ``store`` has it under
+    ``key``, if it does: from its state, with all outputs that the state counts, which were stored before it."""
+    count, progress = store.get(key, STATE) or (0, initial_progress(start, plan))
     outputs: list[Output] = [*store.known(_output_keys(key, count), Output).values()]
-    if len(outputs) < count:  # one was damaged, which was told
-        now = initial_progress(start, plan)
+    if len(outputs) < count:  # one was damaged, which the store has reported
+        progress = initial_progress(start, plan)
         outputs = []
 
-    def put_out(now: Progress) -> None:
-        outputs.append(_output(solver, now))
+    def record(progress: Progress) -> None:
+        outputs.append(model.record(progress))
         store.add(_output_keys(key, len(outputs))[-1], outputs[-1], sync=True)
 
     if not outputs and plan.times[0] == 0.0:
-        put_out(now)
-    for now in steps(solver, plan, now):
-        if now.at_output:
-            put_out(now)
+        record(progress)
+    for progress in steps(model, plan, progress):
+        if progress.at_output:
+            record(progress)
         if store.folder is not None:
-            store.add(key, (len(outputs), _state(now)), sync=True)
+            store.add(key, (len(outputs), model.resumable(progress)), sync=True)
         if on_step is not None:
-            on_step(now.time, plan.end, outputs[-1][0] if now.at_output else None)
-    return now, outputs
-
-
-def _output(solver: Solver, now: Progress) -> Output:
-    """Numbers and fields after the last step."""
-    terms = now.solution.terms
-    if isinstance(solver, TransientDeterministic):
-        fields = (f.mean(axis=1)[:: solver.back(now.time)] for f in (terms.state.pressure, terms.balance.film))
-        return (*deterministic_moment(solver, now), *fields)
-    p = solver.setting.problem
-    return (*moment(solver, now), terms.P * p.pressure_unit, terms.H * p.film_unit)
-
-
-def _state(now: Progress) -> Progress:
-    """All that a resumed run needs to give the same bits: ``now``, of the contact the pressure, from which the next one
-    is solved, and not what the next step computes again."""
-    if isinstance(now.payload, State):
-        return replace(now, solution=None)
-    state = now.payload.state
-    fields = state.fields and replace(state.fields, gap=np.empty(0), displacement=np.empty(0))
-    return replace(now, payload=replace(now.payload, state=replace(state, fields=fields, y=None)), solution=None)
+            on_step(progress.time, plan.end, outputs[-1].numbers if progress.at_output else None)
+    return progress, outputs
 
 
 def _with_plan(scene: Scene | Prepared, times) -> tuple[Scene | Prepared, np.ndarray]:

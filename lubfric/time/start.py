@@ -2,7 +2,7 @@
 and its state at t = 0, which is steady, at rest with all load on the contact, or a film without pressure."""
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -23,20 +23,13 @@ from ..samples import (
 from ..scene import Constant, Scene
 from .film_setting import FINER, ContactHistory, make_setting, steady_start
 from .march import Step
-from .transient_load_sharing import (
-    Contact,
-    TransientLoadSharing,
-    inlet_viscosity,
-    make_load_sharing,
-    sampled_times,
-    scene_at,
-    sliding_at,
-    transient_of,
-)
+from .model import Start
+from .scene_in_time import inlet_viscosity, sampled_times, scene_at, sliding_at, transient_of
+from .transient_load_sharing import Contact, TransientLoadSharing, make_load_sharing
 
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
-DONE = {  # what a run does of the steady options; the film is deflected by its own pressure, whatever the default says
+SUPPORTED = {  # what a run does of the steady options; the film is deflected by its own pressure, whatever the default says
     "model": ("auto", "load-sharing"),
     "film_deflection": ("scaled", "hydrodynamic"),
     "cavitated_shear": ("none",),
@@ -44,37 +37,46 @@ DONE = {  # what a run does of the steady options; the film is deflected by its 
 SOFT = 0.3  # of the mean gap: softness of the contact, until a step has measured it
 
 
-def start_load_sharing(scene: Scene | Prepared) -> tuple[TransientLoadSharing, Step, float]:
-    """Check a scene with a ``transient`` and make it ready. Returns the `TransientLoadSharing`, the state at t = 0, and the relative
-    error by the grid of the films of a steady start (NaN for another start)."""
+def start_load_sharing(scene: Scene | Prepared) -> Start:
+    """Check a scene with a ``transient``, and return the load-sharing model of its run. Raises `InputError` and
+    `ConvergenceError`."""
     base = scene_of(scene)
     plan = transient_of(base)
-    load = transient_of(base).load or Constant(base.bodies.load)
-    for name, done in DONE.items():
+    load = plan.load or Constant(base.bodies.load)
+    for name, allowed in SUPPORTED.items():
         value = getattr(base.numerics, name)
-        if value not in done:
-            raise InputError(f" = {value!r} is not for a run in time", f"numerics.{name}", ", ".join(map(repr, done)))
+        if value not in allowed:
+            raise InputError(
+                f" = {value!r} is not for a run in time", f"numerics.{name}", ", ".join(map(repr, allowed))
+            )
     if load.range(plan.duration)[1] > base.bodies.load * (1 + 1e-9):
         said = f" rises to {load.range(plan.duration)[1]:g} N"
         most = f"up to bodies.load = {base.bodies.load:g} N"
         raise InputError(said, "transient.load", f"{most}, whose Hertz strip is the area A")
     for time in sampled_times(base) if base.bodies.boundary_friction_table is not None else ():
         scene_at(base, time)  # raises where the table of f_b has no value
-    prepared, *of_strip = strip_of_run(scene if isinstance(scene, Prepared) else prepare(scene))
+    run_strip = strip_of_run(scene if isinstance(scene, Prepared) else prepare(scene))
+    prepared = run_strip.prepared
     sq = prepared.surface.sq
     contact = _contact_history(prepared.scene)
     if not sq > 0.0 and plan.initial_film is None and contact.speed.before(0.0) == 0.0:
         ways = "transient.initial_film > 0 m, or an entrainment speed before t = 0"
         raise InputError(f"smooth surfaces at rest have no film to start from; give {ways}")
     reach = float(np.max(np.abs(prepared.contact.x))) if sq > 0.0 else 0.0
-    allowed = base.numerics.tolerance_of("film")
+    tolerance = base.numerics.tolerance_of("film")
     for finer in FINER:
-        setting = make_setting(contact, allowed, sq=max(sq, 0.0), reach=reach, finer=finer)
-        model = make_load_sharing(prepared, setting, *of_strip)
-        start, grid_error = _first_state(model)
-        if not grid_error > allowed:  # NaN: no steady start to judge by
+        setting = make_setting(contact, tolerance, sq=max(sq, 0.0), reach=reach, finer=finer)
+        model = make_load_sharing(
+            prepared,
+            setting,
+            correlation_length=run_strip.correlation_length,
+            area=run_strip.area,
+            plastic=run_strip.plastic,
+        )
+        state, grid_error = _first_state(model)
+        if not grid_error > tolerance:  # NaN: no steady start to judge by
             break
-    return model, start, grid_error
+    return Start(model=model, state=state, grid_error=grid_error)
 
 
 def _contact_history(scene: Scene) -> ContactHistory:
@@ -165,31 +167,46 @@ def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
     return found, error
 
 
-def strip_of_run(prepared: Prepared) -> tuple[Prepared, float, float, float]:
-    """The strip of rough surface of a run, its correlation length along y [m], and the factors of its contact area and
-    plastic area (`TransientLoadSharing`).
+@dataclass(frozen=True, kw_only=True)
+class RunStrip:
+    """The strip of rough surface of a run: ``prepared`` has it as its surface; the other attributes as in
+    `TransientLoadSharing`."""
 
-    Strips as many as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of four speeds of the
-    run, or as memory and map allow. Their cells change f by no more than ``numerics.tolerance`` at any of these speeds,
-    or are the scene's own: a run in time is not corrected for them. The factors of areas are means over the speeds.
+    prepared: Prepared
+    correlation_length: float
+    area: float = 1.0
+    plastic: float = 1.0
+
+
+def strip_of_run(prepared: Prepared) -> RunStrip:
+    """Return the strip of rough surface of a run.
+
+    It has as many strips as `lubfric.friction` needs for ``numerics.sampling_tolerance`` at the worst of four speeds of
+    the run, or as memory and map allow. Their cells change f by no more than ``numerics.tolerance`` at any of these
+    speeds, or are the scene's own: a run in time is not corrected for them. The factors of areas are means over the
+    speeds.
     """
     strips = prepared.strips
     speeds = speeds_of_run(prepared.scene)
     if strips is None:
-        return prepared, length_or_half(prepared.surface, 1), 1.0, 1.0
+        return RunStrip(prepared=prepared, correlation_length=length_or_half(prepared.surface, 1))
     if strips.whole:
         while not strips.cells.own:
             strips = strips.halved()
-        return _made(prepared, strips, 1), strips.lengths[1], 1.0, 1.0
+        return RunStrip(prepared=_made(prepared, strips, 1), correlation_length=strips.lengths[1])
     if not speeds:
         known = 1.0 if strips.cells.own else math.nan
-        return prepared, strips.lengths[1], known, known
+        return RunStrip(prepared=prepared, correlation_length=strips.lengths[1], area=known, plastic=known)
     needs = _needs(prepared, strips, speeds)
     while not strips.cells.own and max(needs[1]) > prepared.scene.numerics.tolerance:
         strips = strips.halved()
         needs = _needs(prepared, strips, speeds)
-    made = _made(prepared, strips, min(int(max(needs[0])), strips.available))
-    return made, strips.lengths[1], _mean(needs[2]), _mean(needs[3])
+    return RunStrip(
+        prepared=_made(prepared, strips, min(int(max(needs[0])), strips.available)),
+        correlation_length=strips.lengths[1],
+        area=_mean(needs[2]),
+        plastic=_mean(needs[3]),
+    )
 
 
 def _made(prepared: Prepared, strips: Strips, count: int) -> Prepared:

@@ -47,7 +47,8 @@ from ..quantities import OF_MOMENT
 from ..scene import Constant, Scene, moving_bodies
 from .film_setting import WET
 from .march import Memory, Progress, Step
-from .transient_load_sharing import sampled_times, scene_at, sliding_at, transient_of
+from .model import Output, Start
+from .scene_in_time import SLIDING_PART, sampled_times, scene_at, sliding_at, surface_speed, transient_of
 
 TIME_ERROR = 2e-3  # of the film: local error of a step, unless it is said
 EXACT = 1e-3  # residuals of a step
@@ -57,9 +58,8 @@ LEAST_FLOW = 1e-3  # of the film of the fastest entrainment times that: what res
 FIRST = 0.1  # cells by which the fastest surface moves in the step after a start or a jump
 START = 20  # steps after the start, about
 MOST_CELLS = 100_000  # by which the roughness may move in a run
-SAMPLED_TIMES = 20_001  # times at which the speeds are looked up to find the steps
+TRAVEL_TIMES = 20_001  # times at which the speeds are looked up to find the steps
 LEFT_OUT = "a run with one gap is isothermal: in truth the film is thinner and shears more easily"
-SIDES = {"surface": -0.5, "counterface": 0.5}  # of a body's section: its speed is U plus that times u2 - u1
 
 
 @dataclass(frozen=True)
@@ -74,6 +74,7 @@ class TransientDeterministic:
     correlation_length: float
     tolerance = EXACT
     time_error = TIME_ERROR
+    notes = ()
 
     @property
     def scene(self) -> Scene:
@@ -93,7 +94,8 @@ class TransientDeterministic:
     @cached_property
     def fastest(self) -> float:
         """The largest speed of a surface [m/s]."""
-        return max(map(max, _speeds(self.scene, np.array(sampled_times(self.scene)))))
+        times = np.array(sampled_times(self.scene))
+        return max(_body_speed(self.scene, body, times).max() for body in SLIDING_PART)
 
     @property
     def first_step(self) -> float:
@@ -107,8 +109,8 @@ class TransientDeterministic:
         """Times [s] at which the fastest rough body has moved by one more cell, about."""
         duration = transient_of(self.scene).duration
         dx = self.base.spacing[0]
-        times = np.linspace(0.0, duration, SAMPLED_TIMES)
-        speed = np.max([_speeds(self.scene, times)[list(SIDES).index(name)] for name in self.heights] or [0 * times], 0)
+        times = np.linspace(0.0, duration, TRAVEL_TIMES)
+        speed = np.max([0 * times, *(_body_speed(self.scene, body, times) for body in self.heights)], axis=0)
         way = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(times)))
         if way[-1] > MOST_CELLS * dx:
             said = f" = {duration:g} s: the roughness would move by {way[-1] / dx:.2g} cells, a step each"
@@ -126,7 +128,7 @@ class TransientDeterministic:
         along = (plan.speed or Constant(motion.entrainment_speed)).integral(time)
         apart = motion.slide_roll_ratio * along if plan.sliding is None else plan.sliding.integral(time)
         back = -1 if speed < 0 else 1
-        rough = {name: at(along + SIDES[name] * apart)[::back] for name, at in self.heights.items()}
+        rough = {name: at(along + SLIDING_PART[name] * apart)[::back] for name, at in self.heights.items()}
         pace = max(abs(speed), REST * self.base.speed)
         return replace(
             self.base,
@@ -186,6 +188,22 @@ class TransientDeterministic:
             raise InputError("transient.initial_film: the surfaces touch", way_out=way_out)
         return self._step(evaluated(problem, state), back)
 
+    def record(self, progress: Progress) -> Output:
+        """Return the numbers and fields after the last step; the fields are means over y."""
+        back = self.back(progress.time)
+        terms = progress.solution.terms
+        numbers, entries = deterministic_moment(self, progress)
+        return Output(
+            numbers=numbers,
+            entries=entries,
+            pressure=terms.state.pressure.mean(axis=1)[::back],
+            film_thickness=terms.balance.film.mean(axis=1)[::back],
+        )
+
+    def resumable(self, progress: Progress) -> Progress:
+        """Return ``progress`` without its solution, which the next step computes again."""
+        return replace(progress, solution=None)
+
     def back(self, time: float) -> int:
         """-1 where the film is solved in the mirror, else 1."""
         return -1 if scene_at(self.scene, time).motion.entrainment_speed < 0 else 1
@@ -200,18 +218,16 @@ def _turned(state: State, back: int) -> State:
     return replace(state, **parts)
 
 
-def _speeds(scene: Scene, times: np.ndarray) -> list[np.ndarray]:
-    """|u| [m/s] of both surfaces at ``times`` [s]."""
-    speed = transient_of(scene).speed or Constant(scene.motion.entrainment_speed)
-    both = np.array([(speed.before(t), sliding_at(scene, t)) for t in times.tolist()]).T
-    return [np.abs(both[0] + side * both[1]) for side in SIDES.values()]
+def _body_speed(scene: Scene, body: str, times: np.ndarray) -> np.ndarray:
+    """Return |u| [m/s] of the ``body`` at ``times`` [s]."""
+    return np.abs([surface_speed(scene, body, time) for time in times.tolist()])
 
 
-def start_deterministic(scene: Scene | Prepared) -> tuple[TransientDeterministic, Step, float]:
-    """The solver of a scene; its state at t = 0; NaN: the error of the cells is not known. Raises `InputError` and
-    `ConvergenceError`."""
-    solver = make_deterministic(scene)
-    return solver, solver.start(), math.nan
+def start_deterministic(scene: Scene | Prepared) -> Start:
+    """Check a scene with a ``transient``, and return the deterministic model of its run. The error of its cells is not
+    known. Raises `InputError` and `ConvergenceError`."""
+    model = make_deterministic(scene)
+    return Start(model=model, state=model.start(), grid_error=math.nan)
 
 
 def work_of_run(scene: Scene) -> tuple[int, float]:

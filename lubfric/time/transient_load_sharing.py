@@ -1,123 +1,27 @@
-"""A run in time at one moment: its scene, in which the values of the histories replace the constants; its warm
-inlet; and how a film that remembers its past and the rough contact share the load."""
+"""The load-sharing model in time: a film that remembers its past and the rough contact share the load of the moment."""
 
 import math
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 
 from ..contact import ContactState, RoughContact
 from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
 from ..film import cubic
-from ..models.shared import (
-    Prepared,
-    film_lubricant,
-    inlet_at,
-)
-from ..scene import Constant, History, Scene, Transient
+from ..models.shared import Prepared
+from ..scene import Scene, moving_bodies
 from .film_equations import Spring
 from .film_setting import TIME_SHARE, Setting
-from .march import Memory, Step
+from .march import Memory, Progress, Step
+from .model import Output
+from .moment import load_sharing_moment
+from .scene_in_time import sampled_times, surface_speed
 
-FASTER = 1e6  # slide-roll ratio beyond which a moment counts as one of sliding alone
-SAMPLED_TIMES = 257  # times at which a run is looked through
-FIRST_TOUCH = 1e-3  # of the load: tried when the film has just come too thin for separated surfaces
-LAST_TOUCH = 1e-5  # of the load: below it, ask whether the film clears the surface
-MOST_TRIALS = 16
-LOOSEST = 1e-4  # tolerance on the volume
-
-
-def transient_of(scene: Scene) -> Transient:
-    """What changes in a scene of a run in time."""
-    assert scene.transient is not None
-    return scene.transient
-
-
-def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
-    """``scene``, whose ``transient`` says what changes, just "before" ``time`` [s], or "at" it: just after. It has the
-    load, radius, speed, slide-roll ratio, f_b and viscosity of the moment. Its hardness is left out, because the
-    contact has it, and so are its ranges."""
-
-    def now(name: str, constant: float) -> float:
-        return _value(scene, name, constant, time, side)
-
-    bodies = scene.bodies
-    oil = scene.lubricant
-    speed = now("speed", scene.motion.entrainment_speed)
-    sliding = sliding_at(scene, time, side)
-    bodies = replace(
-        bodies,
-        load=now("load", bodies.load),
-        radius=now("radius", bodies.radius),
-        hardness=None,
-        boundary_friction_coefficient=bodies.boundary_friction(sliding, oil.temperature),
-        boundary_friction_table=None,
-    )
-    oil = replace(oil, viscosity=now("viscosity", oil.viscosity))
-    alone = abs(sliding) > FASTER * abs(speed)
-    ratio = math.copysign(FASTER, sliding) if alone else sliding / speed if sliding else 0.0
-    motion = replace(scene.motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
-    return replace(scene, bodies=bodies, lubricant=oil, motion=motion, ranges=())
-
-
-def sliding_at(scene: Scene, time: float, side: str = "before") -> float:
-    """u2 - u1 [m/s]."""
-    motion = scene.motion
-    speed = _value(scene, "speed", motion.entrainment_speed, time, side)
-    return _value(scene, "sliding", motion.slide_roll_ratio * speed, time, side)
-
-
-def _value(scene: Scene, name: str, constant: float, time: float, side: str) -> float:
-    history = getattr(transient_of(scene), name)
-    return constant if history is None else getattr(history, side)(time)
-
-
-@dataclass(frozen=True)
-class WarmInlet(History):
-    """Ambient viscosity [Pa s] in the inlet, which the shear of the moment keeps warmer than the oil around. The inlet
-    is passed in less than b/U, so its heat is taken as that of steady motion."""
-
-    scene: Scene
-
-    def at(self, time: float) -> float:
-        return self._warm(time, "at")
-
-    def before(self, time: float) -> float:
-        return self._warm(time, "before")
-
-    def range(self, duration: float) -> tuple[float, float]:
-        """The range that `SAMPLED_TIMES` times and every stop show."""
-        return self._seen
-
-    @cached_property
-    def _seen(self) -> tuple[float, float]:
-        found = [self._warm(t, side) for t in sampled_times(self.scene) for side in ("before", "at")]
-        return min(found), max(found)
-
-    def _warm(self, time: float, side: str) -> float:
-        now = scene_at(self.scene, time, side)
-        return film_lubricant(now, now.motion.entrainment_speed).viscosity
-
-
-def inlet_viscosity(scene: Scene) -> History:
-    """The viscosity [Pa s] with which the film is solved: that of the scene, or its history. If the heat of the inlet
-    would at some time thin the film by more than its share of the tolerance, it is that of the warm inlet."""
-    cold = transient_of(scene).viscosity or Constant(scene.lubricant.viscosity)
-    if scene.numerics.heat == "off" or not scene.lubricant.heats:
-        return cold
-    if scene.numerics.heat == "auto":
-        moments = (scene_at(scene, time) for time in sampled_times(scene))
-        if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in moments):
-            return cold
-    return WarmInlet(scene.with_(numerics={"heat": "on"}))
-
-
-def sampled_times(scene: Scene) -> list[float]:
-    """Times [s] at which a run is looked through before it begins: `SAMPLED_TIMES` of them evenly, and all stops and jumps."""
-    plan = transient_of(scene)
-    stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
-    return sorted({*np.linspace(0, plan.duration, SAMPLED_TIMES).tolist(), *stops})
+FIRST_TOUCH = 1e-3  # [-] share of the load that is tried when the film has just become too thin for separated surfaces
+LAST_TOUCH = 1e-5  # [-] share of the load on the contact below which the film is tried without contact
+MOST_TRIALS = 16  # number of film and contact solves in one step, at most
+LOOSEST = 1e-4  # [-] loosest tolerance of the volume balance
+STANDS_STILL = "moving roughness is treated as stationary; numerics.model = 'deterministic' moves it"
 
 
 @dataclass(frozen=True)
@@ -129,14 +33,20 @@ class Contact:
     softness: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class TransientLoadSharing:
-    """A solver of `lubfric.time.march`: film and rough contact share the load of the moment.
+    """The load-sharing model in time (`lubfric.time.model.TimeModel`).
 
-    ``prepared``: the strip of rough surface of the run; ``setting``: of the film; ``to_patch`` gives the film [m] at
-    the points of the contact's patch from H, and its ``mean_row`` the mean film over A; ``tolerance``: of the volume.
-    ``correlation_length``: of the heights along y [m]; ``area``, ``plastic``: factors by which contact area and plastic
-    area on the strip's cells are those on the scene's own (NaN: not known).
+    Attributes
+    ----------
+    prepared : scene and strip of rough surface of the run
+    setting : grid and units of the film
+    to_patch : operator from the film H at the nodes to the film [m] at the points of the contact's patch
+    mean_row : operator from H to the mean film [m] over A
+    tolerance : of the volume balance
+    correlation_length : of the heights along y [m]
+    area, plastic : factors from contact area and plastic area on the strip's cells to those on the scene's own cells;
+        NaN where they are not known
     """
 
     prepared: Prepared
@@ -178,6 +88,34 @@ class TransientLoadSharing:
     def patch(self) -> RoughContact:
         """The rough contact."""
         return self.prepared.contact
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader of the result should know."""
+        rough = [name for name, _ in moving_bodies(self.scene)]
+        times = sampled_times(self.scene)
+        moving = any(surface_speed(self.scene, name, time) for name in rough for time in times)
+        return (STANDS_STILL,) if moving else ()
+
+    def record(self, progress: Progress) -> Output:
+        """Return the numbers and fields after the last step."""
+        unit = self.setting.problem
+        terms = progress.solution.terms
+        numbers, entries = load_sharing_moment(self, progress)
+        return Output(
+            numbers=numbers,
+            entries=entries,
+            pressure=terms.P * unit.pressure_unit,
+            film_thickness=terms.H * unit.film_unit,
+        )
+
+    def resumable(self, progress: Progress) -> Progress:
+        """Return ``progress`` with the pressure of the contact, from which the next one is solved, and without what the
+        next step computes again."""
+        contact = progress.payload
+        state = contact.state
+        fields = state.fields and replace(state.fields, gap=np.empty(0), displacement=np.empty(0))
+        return replace(progress, payload=replace(contact, state=replace(state, fields=fields, y=None)), solution=None)
 
     def error_of(self, solution: Step, difference: np.ndarray) -> float:
         """Error of the film."""
@@ -245,17 +183,25 @@ class TransientLoadSharing:
             return None
 
 
-def make_load_sharing(prepared: Prepared, setting: Setting, *of_strip: float) -> TransientLoadSharing:
-    """The `TransientLoadSharing` on the strip ``prepared``, with the operators between the film's grid and the patch. ``of_strip``:
-    its correlation length and factors."""
-    p = setting.problem
+def make_load_sharing(
+    prepared: Prepared, setting: Setting, *, correlation_length: float, area: float, plastic: float
+) -> TransientLoadSharing:
+    """Return the model on the strip of ``prepared``, with the operators between the film's grid and the patch.
+    ``correlation_length``, ``area``, ``plastic``: as in `TransientLoadSharing`."""
+    problem = setting.problem
     patch = prepared.contact
-    x = patch.x / p.length_unit
+    x = patch.x / problem.length_unit
     unit_vectors = np.eye(setting.grid.n + 1)
-    to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * p.film_unit
-    tolerance = min(prepared.scene.numerics.tolerance_of("balance"), LOOSEST)
+    to_patch = np.stack([cubic(setting.grid.x, e, x) for e in unit_vectors], axis=1) * problem.film_unit
     return TransientLoadSharing(
-        prepared, setting, to_patch, patch.weight @ to_patch / patch.weight.sum(), tolerance, *of_strip
+        prepared=prepared,
+        setting=setting,
+        to_patch=to_patch,
+        mean_row=patch.weight @ to_patch / patch.weight.sum(),
+        tolerance=min(prepared.scene.numerics.tolerance_of("balance"), LOOSEST),
+        correlation_length=correlation_length,
+        area=area,
+        plastic=plastic,
     )
 
 

@@ -75,11 +75,11 @@ def test_a_run_in_time_takes_cells_that_do_not_move_its_friction():
         transient=Transient(1e-3, outputs=1),
     )
     coarse = lubfric.prepare(scene)
-    fine = strip_of_run(coarse)[0]
+    fine = strip_of_run(coarse).prepared
     assert lubfric.friction(scene).decision.change_by_cells > 0.015
     assert lubfric.friction(fine).decision.change_by_cells <= scene.numerics.tolerance
     assert fine.surface.spacing[0] < coarse.surface.spacing[0]
-    kept = strip_of_run(lubfric.prepare(scene.with_(numerics={"tolerance": 0.1})))[0]
+    kept = strip_of_run(lubfric.prepare(scene.with_(numerics={"tolerance": 0.1}))).prepared
     assert kept.strips.cells == coarse.strips.cells
 
 
@@ -116,7 +116,7 @@ def test_a_run_on_one_patch_takes_the_cells_of_the_patch():
     spacing = tuple(np.broadcast_to(scene.contact.spacing, 2).tolist())
     prepared = lubfric.prepare(scene)
     assert max(prepared.strips.cells.factors) > 1
-    strip = strip_of_run(prepared)[0]
+    strip = strip_of_run(prepared).prepared
     assert strip.strips.cells.own and strip.surface.spacing == strip.contact.spacing == pytest.approx(spacing)
     assert strip.surface.shape == strip.contact.heights.shape == scene.contact.shape
     run = lubfric.transient(scene)

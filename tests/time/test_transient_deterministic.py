@@ -115,7 +115,7 @@ def test_each_surface_is_displaced_by_the_integral_of_its_own_speed():
         surface=rough, counterface=rough, numerics={"sampling": "strips"}, contact={"shape": (24, 24)},
         transient=Transient(2e-3, speed=speed, sliding=sliding),
     )  # fmt: skip
-    solver, *_ = start_deterministic(scene)
+    solver = start_deterministic(scene).model
     for name, side in (("surface", -0.5), ("counterface", 0.5)):
         way = quad(lambda t: speed.at(t) + side * sliding.at(t), 0, 1.7e-3, points=[1e-3], epsabs=1e-15)[0]
         assert way == pytest.approx(speed.integral(1.7e-3) + side * sliding.integral(1.7e-3), rel=1e-9)
@@ -145,7 +145,9 @@ def test_steps_are_of_second_order(monkeypatch):
     """A rough body under a load that swings: BDF2 from its own memory, in steps of a half and a quarter."""
     monkeypatch.setattr("lubfric.time.transient_deterministic.EXACT", 1e-9)
     plan = Transient(1.0, load=Harmonic(mean=15.0, amplitude=4.0, frequency=4e3))
-    solver, start, _ = start_deterministic(SCENE.with_(transient=plan, surface={"sq": 5e-9}))
+    begin = start_deterministic(SCENE.with_(transient=plan, surface={"sq": 5e-9}))
+    solver = begin.model
+    start = begin.state
 
     def after(count):
         step = 1e-4 / count

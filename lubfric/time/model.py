@@ -1,0 +1,97 @@
+"""The contract of a model in time: what the march and a run need of it, and nothing else."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from ..models.shared import Prepared, Validity
+from ..scene import Scene
+from .march import Memory, Progress, Step
+
+
+@dataclass(frozen=True, kw_only=True)
+class Output:
+    """What a model records at an output time.
+
+    Attributes
+    ----------
+    numbers : the numbers of the moment by name (`lubfric.quantities.OF_MOMENT`); one that is missing was not computed
+    entries : the assumptions that do not hold then
+    pressure, film_thickness : of the film over x [Pa], [m], (nx,); means over y where it is solved on rough surfaces
+    """
+
+    numbers: dict[str, float]
+    entries: tuple[Validity, ...]
+    pressure: np.ndarray
+    film_thickness: np.ndarray
+
+
+class TimeModel(Protocol):
+    """A model of a run in time.
+
+    ``prepared`` has the strip of rough surface of the run, ``scene`` what changes in time, ``x`` the nodes of the film
+    [m], ``cells`` its grid in words. ``tolerance`` is the largest residual of a solved step, ``time_error`` the largest
+    local error of a step unless the scene states one, ``first_step`` [s] the step after a start or a jump, and
+    ``stops`` [s] the times at which a step has to end. ``notes`` say what a reader of the result should know.
+    """
+
+    @property
+    def tolerance(self) -> float: ...
+
+    @property
+    def prepared(self) -> Prepared: ...
+
+    @property
+    def scene(self) -> Scene: ...
+
+    @property
+    def x(self) -> np.ndarray: ...
+
+    @property
+    def cells(self) -> str: ...
+
+    @property
+    def time_error(self) -> float: ...
+
+    @property
+    def first_step(self) -> float: ...
+
+    @property
+    def stops(self) -> Sequence[float]: ...
+
+    @property
+    def notes(self) -> tuple[str, ...]: ...
+
+    def solve(self, time: float, memory: Memory, z: np.ndarray, payload: Any) -> Step:
+        """Return the step that ends at ``time`` [s], from the unknowns ``z`` and what the last step handed on."""
+        ...
+
+    def error_of(self, step: Step, difference: np.ndarray) -> float:
+        """Return the relative size of a ``difference`` of films or masses."""
+        ...
+
+    def record(self, progress: Progress) -> Output:
+        """Return the numbers and fields after the last step of ``progress``."""
+        ...
+
+    def resumable(self, progress: Progress) -> Progress:
+        """Return what a later process needs to continue from ``progress`` to the same bits."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Start:
+    """A model that is ready to run.
+
+    Attributes
+    ----------
+    model : the model on its grid
+    state : the state at t = 0
+    grid_error : relative error of a steady start by the grid; NaN of another start, or where it is not known
+    """
+
+    model: TimeModel
+    state: Step
+    grid_error: float

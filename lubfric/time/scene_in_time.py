@@ -1,0 +1,113 @@
+"""The scene of a run in time at one moment: the values of the histories replace the constants; and its warm inlet."""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from ..models.shared import film_lubricant, inlet_at
+from ..scene import Constant, History, Scene, Transient
+
+FASTER = 1e6  # [-] slide-roll ratio beyond which a moment counts as one of sliding alone
+SAMPLED_TIMES = 257  # number of times at which the histories are sampled before a run begins
+
+SLIDING_PART = {"surface": -0.5, "counterface": 0.5}  # [-] the speed of a body is U plus this part of u2 - u1
+
+
+def transient_of(scene: Scene) -> Transient:
+    """What changes in a scene of a run in time."""
+    assert scene.transient is not None
+    return scene.transient
+
+
+def scene_at(scene: Scene, time: float, side: str = "before") -> Scene:
+    """``scene``, whose ``transient`` says what changes, just "before" ``time`` [s], or "at" it: just after. It has the
+    load, radius, speed, slide-roll ratio, f_b and viscosity of the moment. Its hardness is left out, because the
+    contact has it, and so are its ranges."""
+
+    def now(name: str, constant: float) -> float:
+        return _value(scene, name, constant, time, side)
+
+    bodies = scene.bodies
+    oil = scene.lubricant
+    speed = now("speed", scene.motion.entrainment_speed)
+    sliding = sliding_at(scene, time, side)
+    bodies = replace(
+        bodies,
+        load=now("load", bodies.load),
+        radius=now("radius", bodies.radius),
+        hardness=None,
+        boundary_friction_coefficient=bodies.boundary_friction(sliding, oil.temperature),
+        boundary_friction_table=None,
+    )
+    oil = replace(oil, viscosity=now("viscosity", oil.viscosity))
+    alone = abs(sliding) > FASTER * abs(speed)
+    ratio = math.copysign(FASTER, sliding) if alone else sliding / speed if sliding else 0.0
+    motion = replace(scene.motion, entrainment_speed=speed, slide_roll_ratio=ratio, speeds=())
+    return replace(scene, bodies=bodies, lubricant=oil, motion=motion, ranges=())
+
+
+def sliding_at(scene: Scene, time: float, side: str = "before") -> float:
+    """u2 - u1 [m/s]."""
+    motion = scene.motion
+    speed = _value(scene, "speed", motion.entrainment_speed, time, side)
+    return _value(scene, "sliding", motion.slide_roll_ratio * speed, time, side)
+
+
+def surface_speed(scene: Scene, body: str, time: float) -> float:
+    """Return the speed [m/s] of the ``body`` with that section ("surface", "counterface"), just before ``time`` [s]."""
+    speed = _value(scene, "speed", scene.motion.entrainment_speed, time, "before")
+    return speed + SLIDING_PART[body] * sliding_at(scene, time)
+
+
+def _value(scene: Scene, name: str, constant: float, time: float, side: str) -> float:
+    history = getattr(transient_of(scene), name)
+    return constant if history is None else getattr(history, side)(time)
+
+
+@dataclass(frozen=True)
+class WarmInlet(History):
+    """Ambient viscosity [Pa s] in the inlet, which the shear of the moment keeps warmer than the oil around. The inlet
+    is passed in less than b/U, so its heat is taken as that of steady motion."""
+
+    scene: Scene
+
+    def at(self, time: float) -> float:
+        return self._warm(time, "at")
+
+    def before(self, time: float) -> float:
+        return self._warm(time, "before")
+
+    def range(self, duration: float) -> tuple[float, float]:
+        """The range that `SAMPLED_TIMES` times and every stop show."""
+        return self._seen
+
+    @cached_property
+    def _seen(self) -> tuple[float, float]:
+        found = [self._warm(t, side) for t in sampled_times(self.scene) for side in ("before", "at")]
+        return min(found), max(found)
+
+    def _warm(self, time: float, side: str) -> float:
+        now = scene_at(self.scene, time, side)
+        return film_lubricant(now, now.motion.entrainment_speed).viscosity
+
+
+def inlet_viscosity(scene: Scene) -> History:
+    """The viscosity [Pa s] with which the film is solved: that of the scene, or its history. If the heat of the inlet
+    would at some time thin the film by more than its share of the tolerance, it is that of the warm inlet."""
+    cold = transient_of(scene).viscosity or Constant(scene.lubricant.viscosity)
+    if scene.numerics.heat == "off" or not scene.lubricant.heats:
+        return cold
+    if scene.numerics.heat == "auto":
+        moments = (scene_at(scene, time) for time in sampled_times(scene))
+        if not any(inlet_at(now, now.motion.entrainment_speed)[1] for now in moments):
+            return cold
+    return WarmInlet(scene.with_(numerics={"heat": "on"}))
+
+
+def sampled_times(scene: Scene) -> list[float]:
+    """Times [s] at which a run is looked through before it begins: `SAMPLED_TIMES` of them evenly, and all stops and jumps."""
+    plan = transient_of(scene)
+    stops = {t for h in plan.histories for t in (*h.stops(plan.duration), *h.jumps(plan.duration))}
+    return sorted({*np.linspace(0, plan.duration, SAMPLED_TIMES).tolist(), *stops})
