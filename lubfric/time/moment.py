@@ -1,12 +1,9 @@
 """The numbers of one moment: film, contact, friction with both parts and its heat, mass balance, validity."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -28,11 +25,9 @@ from ..oil import shear_stress
 from ..scene import Scene
 from .film_equations import outside_shear
 from .film_setting import WET
+from .load_sharing_solver import LoadSharingSolver
 from .march import Progress, Step
 from .scene_in_time import scene_at, sliding_at
-
-if TYPE_CHECKING:
-    from .transient_load_sharing import TransientLoadSharing
 
 NO_FLOW = 1e-2  # of central film x largest speed: less flow than this is a film at rest
 STEADY_ONLY = "a transient has no other deflection: compare with the steady f by film_deflection = 'scaled'"
@@ -41,7 +36,7 @@ AT_REST = 1e-6
 LOAD_STEP = 0.05
 
 
-def load_sharing_moment(model: TransientLoadSharing, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
+def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[str, float], tuple[Validity, ...]]:
     """The numbers after the last step, by name, and the assumptions that do not hold then."""
     solution = now.solution
     time = now.time
@@ -110,9 +105,7 @@ def load_sharing_moment(model: TransientLoadSharing, now: Progress) -> tuple[dic
     return row, tuple([*_violated(model, scene, row, shear, heat), *of_typical_heat(scene, heat.typical)])
 
 
-def _violated(
-    model: TransientLoadSharing, scene: Scene, row: dict, shear: ShearForce, heat: Heat
-) -> Iterator[Validity]:
+def _violated(model: LoadSharingSolver, scene: Scene, row: dict, shear: ShearForce, heat: Heat) -> Iterator[Validity]:
     """The assumptions of the steady model and of a run that do not hold at one moment."""
     speed = row["entrainment_speed"]
     film = row["central_film"]
@@ -135,7 +128,7 @@ def _violated(
         yield from of_deflection(scene, row["mean_gap"], STEADY_ONLY)
 
 
-def _mass(model: TransientLoadSharing, solution: Step) -> dict[str, float]:
+def _mass(model: LoadSharingSolver, solution: Step) -> dict[str, float]:
     """Balance of the lubricant per unit width and time [m²/s] where the film carries load (pressure above ``WET`` of
     the largest): flow into it, lubricant stored there; and the growth of the gap in the cavitated zone that nothing
     fills. mass_residual: what is missing in the balance, over the larger of the flow and ``NO_FLOW``."""
@@ -157,7 +150,7 @@ def _mass(model: TransientLoadSharing, solution: Step) -> dict[str, float]:
 
 
 def film_shear(
-    model: TransientLoadSharing, scene: Scene, time: float, sliding: float, solution: Step, boundary: float
+    model: LoadSharingSolver, scene: Scene, time: float, sliding: float, solution: Step, boundary: float
 ) -> tuple[ShearForce, Heat]:
     """Forces [N] along +x on the upper surface, and the heat of these and of the ``boundary`` friction [N].
 
@@ -199,7 +192,7 @@ def film_shear(
 
 
 def _summed(
-    model: TransientLoadSharing, time: float, solution: Step, stress: Callable, drag: float | None = None
+    model: LoadSharingSolver, time: float, solution: Step, stress: Callable, drag: float | None = None
 ) -> ShearForce:
     """`ShearForce` by trapezes of ``stress(x, pressure, film)`` [Pa]. ``drag``: that times the film [N/m] beyond the
     ends of the grid; None: as at the last node, because at any film its own heat thins it by the same factor."""
@@ -238,7 +231,7 @@ def _halfway(nodal: np.ndarray) -> np.ndarray:
     return 0.5 * (nodal[1:] + nodal[:-1])
 
 
-def _tails(model: TransientLoadSharing, time: float, drags: np.ndarray, solution: Step) -> tuple[float, float]:
+def _tails(model: LoadSharingSolver, time: float, drags: np.ndarray, solution: Step) -> tuple[float, float]:
     """Couette and rolling part [N/m] of the parabolic film beyond the ends of the grid. ``drags``: shear stress times
     film [N/m] at both ends."""
     setting = model.setting

@@ -15,13 +15,13 @@ from ..models.shared import (
 )
 from ..scene import Scene, Transient
 from ..studies import Store, classes_of, digest, fingerprint, opened
+from .load_sharing_solver import Contact
 from .march import Plan, Progress, Step, checked_times, initial_progress, plan_of, steps
 from .model import Output, Start, TimeModel
 from .result import TransientResult, collect
 from .scene_in_time import transient_of
 from .start import start_load_sharing
 from .transient_deterministic import start_deterministic
-from .transient_load_sharing import Contact
 
 # each makes a scene ready, by the value of numerics.model
 MODELS: dict[str, Callable[[Scene | Prepared], Start]] = {

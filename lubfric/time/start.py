@@ -22,10 +22,11 @@ from ..samples import (
 )
 from ..scene import Constant, Scene
 from .film_setting import FINER, ContactHistory, make_setting, steady_start
+from .load_sharing_solver import Contact
 from .march import Step
 from .model import Start
 from .scene_in_time import inlet_viscosity, sampled_times, scene_at, sliding_at, transient_of
-from .transient_load_sharing import Contact, TransientLoadSharing, make_load_sharing
+from .transient_load_sharing import TransientLoadSharing, make_load_sharing
 
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication

@@ -1,0 +1,137 @@
+"""One step of the load-sharing model in time: a film that remembers its past and the rough contact share the load of the
+moment."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..contact import ContactState, RoughContact
+from ..errors import CONVERGED, ITERATION_LIMIT, ConvergenceError
+from ..models.shared import Prepared
+from ..scene import Scene
+from .film_equations import Spring
+from .film_setting import Setting
+from .march import Memory, Step
+
+FIRST_TOUCH = 1e-3  # [-] share of the load that is tried when the film has just become too thin for separated surfaces
+LAST_TOUCH = 1e-5  # [-] share of the load on the contact below which the film is tried without contact
+MOST_TRIALS = 16  # number of film and contact solves in one step, at most
+
+
+@dataclass(frozen=True)
+class Contact:
+    """The asperity contact in a step: its load [N], its state, and its softness -d(gap)/d(ln load) [m]."""
+
+    load: float
+    state: ContactState
+    softness: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class LoadSharingSolver:
+    """Film and rough contact of a run by the load-sharing model.
+
+    Attributes
+    ----------
+    prepared : scene and strip of rough surface of the run
+    setting : grid and units of the film
+    to_patch : operator from the film H at the nodes to the film [m] at the points of the contact's patch
+    mean_row : operator from H to the mean film [m] over A
+    tolerance : of the volume balance
+    correlation_length : of the heights along y [m]
+    area, plastic : factors from contact area and plastic area on the strip's cells to those on the scene's own cells;
+        NaN where they are not known
+    """
+
+    prepared: Prepared
+    setting: Setting
+    to_patch: np.ndarray
+    mean_row: np.ndarray
+    tolerance: float
+    correlation_length: float
+    area: float = 1.0
+    plastic: float = 1.0
+
+    @property
+    def scene(self) -> Scene:
+        """The scene, with all that changes in time."""
+        return self.prepared.scene
+
+    @property
+    def patch(self) -> RoughContact:
+        """The rough contact of the strip."""
+        return self.prepared.contact
+
+    def error_of(self, solution: Step, difference: np.ndarray) -> float:
+        """Return the relative size of a ``difference`` of films."""
+        return self.setting.error_of(solution, difference)
+
+    def solve(self, time: float, memory: Memory | None, z: np.ndarray, past: Contact) -> Step:
+        """Return the solution at ``time`` [s]; its payload is the `Contact`.
+
+        A `Spring` stands for the contact in the film's load balance. Then the contact is solved at the load of the
+        spring, and its gap gives the next spring (a secant in ln load), until |gap - film|/(gap + film) <= tolerance.
+        """
+        touch = past.load
+        softness = past.softness
+        seen = None
+        total = self.setting.contact.load.before(time)
+        state = past.state
+        mean = past.state.mean_gap
+        solution: Step
+        for _ in range(MOST_TRIALS):
+            spring = None
+            if touch > 0.0:
+                spring = Spring(self.mean_row, mean, touch / self.setting.load_unit, softness)
+            solution = self.setting.solve(time, memory, z, spring)
+            if solution.status != CONVERGED:
+                return solution
+            load = solution.terms.spring[0] * self.setting.load_unit
+            if spring is not None and load < LAST_TOUCH * total:
+                load = 0.0
+            film = self.to_patch @ solution.terms.H
+            closed = self._close(film, load, state)
+            if closed is None:
+                break
+            if load == 0.0:
+                if closed.volume_residual <= 0.0:
+                    if spring is None:
+                        return replace(solution, payload=Contact(0.0, closed, softness))
+                    touch = 0.0
+                    z = solution.z
+                    state = closed
+                    seen = None
+                    continue
+                load = min(FIRST_TOUCH * total, max(touch, LAST_TOUCH * total))
+                touching = closed.mean_gap
+                closed = self._close(film, load, state)
+                if closed is None:
+                    break
+                softness = max(touching - closed.mean_gap, 1e-3 * touching)
+            elif abs(closed.volume_residual) <= self.tolerance:
+                return replace(solution, payload=Contact(load, closed, _softness(softness, seen, load, closed)))
+            softness = _softness(softness, seen, load, closed)
+            seen = (load, closed.mean_gap)
+            touch = load
+            mean = closed.mean_gap
+            state = closed
+            z = solution.z
+        return replace(solution, status=ITERATION_LIMIT)
+
+    def _close(self, film: np.ndarray, load: float, start: ContactState) -> ContactState | None:
+        """Return the contact at ``load`` [N] under ``film`` [m]; None if it cannot be solved."""
+        if film.min() <= 0.0 and load == 0.0:
+            return None
+        try:
+            return self.patch.close(film, load, start)
+        except ConvergenceError:
+            return None
+
+
+def _softness(old: float, seen, load: float, closed: ContactState) -> float:
+    """Secant of the gap over the logarithm of the load, if it is meaningful."""
+    if seen is None or abs(math.log(load / seen[0])) < 1e-6:
+        return old
+    slope = (seen[1] - closed.mean_gap) / math.log(load / seen[0])
+    return min(max(slope, 0.3 * old), 3.0 * old) if slope > 0.0 else old
