@@ -2,7 +2,7 @@
 as one line, or as the call that makes them."""
 
 from dataclasses import MISSING, fields
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -26,6 +26,18 @@ class FieldsOnly:
 
     def __getstate__(self) -> dict[str, Any]:
         return {f.name: getattr(self, f.name) for f in fields(self)}  # type: ignore[arg-type]
+
+
+class Renamed:
+    """Base of results: an attribute that has another name today raises `AttributeError` with that name."""
+
+    _RENAMED: ClassVar[dict[str, str]] = {}  # today's name by the old one
+
+    def __getattr__(self, name: str) -> Any:
+        kind = type(self)
+        if name in kind._RENAMED:
+            raise AttributeError(f"{kind.__name__}.{name} is called {kind._RENAMED[name]} now")
+        raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
 
 
 class Shown:

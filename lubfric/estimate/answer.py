@@ -7,7 +7,7 @@ from typing import Any
 
 from ..models.load_sharing import (
     Response,
-    judged,
+    limits_exceeded,
     quantities,
     touched_length,
 )
@@ -22,12 +22,14 @@ from .decision import decided
 from .errors_of import errors_of
 from .ranges import with_ranges
 from .result import FrictionResult
-from .sample import Found
+from .sample import SampleSolution
 
 CLOSER = "f is good to that error; a tighter numerics.tolerance or a larger map makes it smaller"
 
 
-def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: float, why: str = "") -> FrictionResult:
+def load_sharing_answer(
+    found: SampleSolution, prepared: Prepared, speed: float, begun: float, why: str = ""
+) -> FrictionResult:
     """The answer of the sample ``found`` of ``prepared`` at ``speed`` [m/s]. ``begun``: the starting time, by
     `time.perf_counter`; ``why``: the reason for this model, in words."""
     scene = prepared.scene
@@ -37,11 +39,14 @@ def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: f
     sample = {"coarsening": factors, "strips": found.count, "change_by_cells": found.change("gap")}
     decision = decided(scene, found.contact, found.balance, numbers["clearance"], why, **sample)
     tolerance = scene.numerics.tolerance
-    cautions = (*_finer(found.change("beyond"), tolerance), *of_error(uncertainty.numerical, tolerance, CLOSER))
+    cautions = (
+        *_finer(found.change("finer_grid_change"), tolerance),
+        *of_error(uncertainty.numerical, tolerance, CLOSER),
+    )
     oil = scene.lubricant.oil
     temperature = scene.lubricant.temperature
     known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
-    validity = (*passed(found, prepared, speed), *cautions)
+    validity = (*limits_passed(found, prepared, speed), *cautions)
     notes = (*found.balance.report.notes, decision.text, *known, *(entry.text for entry in validity), uncertainty.text)
     result = FrictionResult(
         **numbers,
@@ -57,17 +62,17 @@ def load_sharing_answer(found: Found, prepared: Prepared, speed: float, begun: f
     return with_ranges(prepared, result)
 
 
-def passed(found: Found, prepared: Prepared, speed: float) -> tuple[Validity, ...]:
+def limits_passed(found: SampleSolution, prepared: Prepared, speed: float) -> tuple[Validity, ...]:
     """Entries for every limit of Eq. (8) that ``found`` is beyond."""
-    return judged(prepared, speed, found.balance, _cells(found)[1])
+    return limits_exceeded(prepared, speed, found.balance, _cells(found)[1])
 
 
-def _cells(found: Found) -> tuple[tuple[int, int], float]:
+def _cells(found: SampleSolution) -> tuple[tuple[int, int], float]:
     """Length of the cells that were solved, in cells of the map, along each axis; and the share of the load on the edge
     columns, on the map's own cells."""
-    factors = (1, 1) if found.strips is None else found.strips.cells.factors
-    if found.strips is not None and found.strips.whole and factors != (1, 1):
-        return factors, found.effect.ends
+    factors = (1, 1) if found.strips is None else found.strips.cells.coarsening
+    if found.strips is not None and found.strips.is_single_patch and factors != (1, 1):
+        return factors, found.effect.edge_load_ratio
     return factors, found.contact.on_the_ends(found.solved.contact) / factors[0]
 
 
@@ -81,7 +86,7 @@ def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
     return (Validity(what, 100 * change, 100 * tolerance, "%", consequence, remedy),)
 
 
-def _numbers(prepared: Prepared, speed: float, found: Found) -> dict[str, Any]:
+def _numbers(prepared: Prepared, speed: float, found: SampleSolution) -> dict[str, Any]:
     """All numbers of the sample but the time, by name."""
     scene = prepared.scene
     balance = found.balance
@@ -113,4 +118,4 @@ def _steepness(prepared: Prepared, speed: float, response: Response | None, bala
         return math.nan
     scene = prepared.scene
     line = replace(scene.line_contact(speed), load_per_width=balance.film_load / scene.bodies.width)
-    return -film_exponents(line)[2] * response.split * balance.contact.mean_film
+    return -film_exponents(line)[2] * response.log_load_ratio_per_gap * balance.contact.mean_film

@@ -28,7 +28,7 @@ from .heated import LEAST_FILM, MOST_CHANGE, error_by_heat, strip_heat, too_hot,
 from .levels import Levels, levels_of, mean
 from .ranges import with_ranges
 from .result import FrictionResult
-from .sample import Found
+from .sample import SampleSolution
 from .uncertainty import Uncertainty, field_errors_of, interval, percent, student
 
 FEW_STRIPS = "not known from fewer than three strips"
@@ -47,7 +47,7 @@ DRAWN = 0.1
 CUT = 0.1
 
 
-def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: float) -> FrictionResult:
+def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None, begun: float) -> FrictionResult:
     """Solve the strips of ``prepared`` at ``speed`` [m/s], which is not 0; ``found``: the sample of Eq. (8) there, if
     any. ``begun``: the starting time, by `time.perf_counter`. Raises `ConvergenceError`."""
     scene = prepared.scene
@@ -81,7 +81,7 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         *of_error(levels.numerical, numerics.tolerance, _way_out(prepared)),
         *_of_model(model, numerics.model_tolerance),
     )
-    finest = levels.pieces[0][-1] if strips.whole and levels.pieces else levels.pairs[0].resolved
+    finest = levels.pieces[0][-1] if strips.is_single_patch and levels.pieces else levels.pairs[0].resolved
     result = FrictionResult(
         **(numbers | {"seconds": time.perf_counter() - begun}),
         report=replace(results[0].report, notes=(decision.text, *(e.text for e in entries), known.text)),
@@ -89,8 +89,8 @@ def strips_answer(prepared: Prepared, speed: float, found: Found | None, begun: 
         errors=field_errors_of(levels.errors | dict.fromkeys(of_heat, math.nan), FEW_STRIPS, of_heat),
         decision=decision,
         validity=entries,
-        balance=None if found is None or strips.whole else found.balance,
-        heights=None if found is None or strips.whole else found.contact.heights,  # type: ignore[attr-defined]
+        balance=None if found is None or strips.is_single_patch else found.balance,
+        heights=None if found is None or strips.is_single_patch else found.contact.heights,  # type: ignore[attr-defined]
         deterministic=finest.result,
     )
     return with_ranges(prepared, result, levels.pairs[0].longer if moves(scene) else finest)
@@ -118,7 +118,7 @@ def _way_out(prepared: Prepared) -> str:
     scene = prepared.scene
     strips = prepared.strips
     assert strips is not None
-    if not strips.cells.own and (moves(scene) or not strips.whole):
+    if not strips.cells.is_native and (moves(scene) or not strips.is_single_patch):
         return f"numerics.grid = 'given' for shorter cells, or {LOOSER}"
     if prepared.given or measured(scene):
         return f"{LOOSER}, or a map with shorter cells"

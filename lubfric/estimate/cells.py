@@ -54,14 +54,14 @@ class CellStep:
 
     gap: float
     error: BlockError
-    rest: float
-    beyond: float
+    remaining_change: float
+    finer_grid_change: float
     film: float
     area: float
     area_error: float
     touched: float
     plastic: float
-    ends: float
+    edge_load_ratio: float
 
 
 @dataclass(frozen=True)
@@ -70,14 +70,14 @@ class CellEffect:
 
     gap: float = 0.0
     error: BlockError = BlockError(0.0, 1)
-    rest: float = 0.0
-    beyond: float = math.nan
+    remaining_change: float = 0.0
+    finer_grid_change: float = math.nan
     film: float = 0.0
     area: float = 1.0
     area_error: float = 0.0
     touched: float = 1.0
     plastic: float = 0.0
-    ends: float = 0.0
+    edge_load_ratio: float = 0.0
     contact_load: float = 0.0
 
     def at_load(self, contact_load: float) -> CellEffect:
@@ -86,27 +86,27 @@ class CellEffect:
         if not self.contact_load:
             return self
         moved = abs(math.log(contact_load / self.contact_load))
-        rest = self.rest + BY_LOAD * moved * (abs(self.gap) + self.error.error)
-        return replace(self, rest=rest, area_error=self.area_error + abs(1 - self.area) * moved)
+        rest = self.remaining_change + BY_LOAD * moved * (abs(self.gap) + self.error.error)
+        return replace(self, remaining_change=rest, area_error=self.area_error + abs(1 - self.area) * moved)
 
 
 def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> CellEffect:
     """Compare pieces of ``strips`` until the scatter between them is a small part of the sampling tolerance."""
     response = balance.response
     numerics = prepared.scene.numerics
-    if strips.cells.own or balance.film is None or response is None:
+    if strips.cells.is_native or balance.film is None or response is None:
         return CellEffect()
     enough = response.gap_for("coefficient", budget.CONTACT_GRID * numerics.tolerance)
     scatter = response.gap_for("coefficient", PIECE_SHARE * numerics.sampling_tolerance)
     steps: list[CellStep] = []
     while not _settled(steps, min(MOST_PIECES, strips.pieces), scatter):
         steps.append(_step(prepared, point, balance, strips, len(steps), enough))
-    error = BlockError(0.0, 1) if strips.whole else mean_error(steps)
+    error = BlockError(0.0, 1) if strips.is_single_patch else mean_error(steps)
 
     def mean(name: str) -> float:
         return sum(getattr(step, name) for step in steps) / len(steps)
 
-    names = ("gap", "rest", "beyond", "film", "area", "touched", "plastic", "ends")
+    names = ("gap", "remaining_change", "finer_grid_change", "film", "area", "touched", "plastic", "edge_load_ratio")
     values = {name: mean(name) for name in names}
     return CellEffect(error=error, area_error=_error_of_area(steps), contact_load=balance.contact_load, **values)
 
@@ -146,7 +146,7 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
             break
         start = states[-1] if states else None
         states.append(point.pressed(contact, balance.film, balance.contact_load, start))
-        places.append(_along_y(contact, states[-1], slope, coarse.factors[1] // factors[1]))
+        places.append(_along_y(contact, states[-1], slope, coarse.coarsening[1] // factors[1]))
         if len(places) > 1:
             changes.append(float(np.mean(places[-1][0]) - np.mean(places[-2][0])))
             rest = remaining(changes)
@@ -155,21 +155,21 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
     length = strips.lengths[1]
     difference = places[-1][0] - places[0][0]
     area, area_error = _ratio(places[-1][1], places[0][1], step, length)
-    if strips.whole:
+    if strips.is_single_patch:
         area_error = 0.0
     if not own:
         area_error = math.hypot(area_error, _ratio(places[-1][1], places[-2][1], step, length)[0] - 1)
     return CellStep(
         gap=float(difference.mean()),
         error=block_error(difference, step, length),
-        rest=0.0 if own else rest,
-        beyond=half_again(changes[-1:-3:-1]) if own else math.nan,
+        remaining_change=0.0 if own else rest,
+        finer_grid_change=predicted_next_change(changes[-1:-3:-1]) if own else math.nan,
         film=states[-1].mean_film - states[0].mean_film,
         area=area,
         area_error=area_error,
         touched=touched_length(states[-1]) / touched_length(states[0]),
         plastic=states[-1].plastic_area_fraction - states[0].plastic_area_fraction,
-        ends=contact.on_the_ends(states[-1]),
+        edge_load_ratio=contact.on_the_ends(states[-1]),
     )
 
 
@@ -214,7 +214,7 @@ def remaining(changes: Sequence[float]) -> float:
     return last * ratio / (1 - ratio)
 
 
-def half_again(changes: Sequence[float]) -> float:
+def predicted_next_change(changes: Sequence[float]) -> float:
     """The change by the next halving, from the ``changes`` d1 (and d2) by the last halvings, the last first.
 
     It is d1 r with r = d1/d2, kept between 1/8 (smooth, second order and better) and 1/2 (detail at every scale; also
@@ -232,6 +232,6 @@ def lost_summits(prepared: Prepared, point: Point, balance: Balance, strips: Str
     assert balance.film is not None
     own, coarse = (
         point.pressed(on_piece(prepared, strips, 0, factors), balance.film, 0.0, None).mean_gap
-        for factors in ((1, 1), strips.cells.factors)
+        for factors in ((1, 1), strips.cells.coarsening)
     )
     return own - coarse

@@ -6,7 +6,7 @@ from ..models.load_sharing import Balance, Forces
 from ..quantities import depending_on
 from ..scene import Scene, budget, gap_not_resolved, moves
 from .heated import error_by_heat
-from .sample import Found
+from .sample import SampleSolution
 from .scatter import BlockError, Scatter
 from .uncertainty import (
     FEW,
@@ -35,7 +35,7 @@ MODEL_UNKNOWN = "the error of the model itself is not known and not in the inter
 MISSED = "not known: the patch is too short along y to tell what contact it misses"
 
 
-def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
+def errors_of(scene: Scene, found: SampleSolution) -> tuple[Uncertainty, FieldErrors]:
     """Uncertainty of f, and errors by field."""
     balance = found.balance
     response = found.response
@@ -86,7 +86,7 @@ def errors_of(scene: Scene, found: Found) -> tuple[Uncertainty, FieldErrors]:
     return known, field_errors_of(errors | {"coefficient": both}, why, left_out)
 
 
-def _numerical(found: Found) -> tuple[float, float, float, float]:
+def _numerical(found: SampleSolution) -> tuple[float, float, float, float]:
     """The errors of solvers and grids: of the film, relative; of the mean gap at given load [m], by the closing of the
     volume and by the cells of the contact; of the film's shear stress, by its sum over nodes and by the heat left out
     of it, relative to f; of the contact area, relative."""
@@ -101,7 +101,7 @@ def _numerical(found: Found) -> tuple[float, float, float, float]:
     gap = 0.0
     if found.response is not None and balance.film is not None:
         gap = (
-            effect.rest
+            effect.remaining_change
             + found.second_order
             + (budget.SLOPE * abs(found.corrected) or abs(found.left_by_root))
             + solved.contact.gap_error
@@ -114,7 +114,7 @@ def _numerical(found: Found) -> tuple[float, float, float, float]:
     return film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read
 
 
-def _contact_errors(scene: Scene, found: Found, film: float, gap: float, area: float) -> dict[str, float]:
+def _contact_errors(scene: Scene, found: SampleSolution, film: float, gap: float, area: float) -> dict[str, float]:
     """Relative errors where film and contact share the load, by the names of `FrictionResult`: the root of the sum of
     squares of the standard error by the surface and of the estimated error by solvers and grids.
 
@@ -174,7 +174,7 @@ def _shear_errors(found: Forces, film: float) -> dict[str, float]:
     return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 
 
-def model_error(scene: Scene, found: Found) -> tuple[tuple[float, float], tuple[str, ...]]:
+def model_error(scene: Scene, found: SampleSolution) -> tuple[tuple[float, float], tuple[str, ...]]:
     """Relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and why."""
     balance = found.balance
     if balance.film is None:
@@ -193,7 +193,7 @@ def model_error(scene: Scene, found: Found) -> tuple[tuple[float, float], tuple[
     return load_sharing_error(film / sq if sq else math.inf, share, *(part / load for part in parts)), ()
 
 
-def _area_needed(found: Found, scene: Scene) -> float:
+def _area_needed(found: SampleSolution, scene: Scene) -> float:
     """How many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not known)."""
     strips = found.strips
     ends = strips is not None and strips.windows and found.count == strips.available
@@ -201,7 +201,7 @@ def _area_needed(found: Found, scene: Scene) -> float:
     return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
 
 
-def _notes(found: Found, scene: Scene, sampling: float) -> tuple[str, ...]:
+def _notes(found: SampleSolution, scene: Scene, sampling: float) -> tuple[str, ...]:
     asked = scene.numerics.sampling_tolerance
     strips = found.strips
     notes = []

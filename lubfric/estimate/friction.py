@@ -12,11 +12,11 @@ from ..models.shared import (
     Prepared,
     at_speed,
     at_tolerance,
-    lacking,
     refused,
+    unmodelled_effects,
 )
 from ..scene import FASTEST, Scene, gap_not_resolved, told_doubts
-from .answer import load_sharing_answer, passed
+from .answer import limits_passed, load_sharing_answer
 from .answer_deterministic import strips_answer
 from .errors_of import model_error
 from .heated import too_hot
@@ -25,7 +25,7 @@ from .moving import too_costly
 from .pair import cells_of
 from .power import with_power_loss
 from .result import FrictionResult
-from .sample import Found, sampled
+from .sample import SampleSolution, sampled
 
 
 def friction(
@@ -79,7 +79,7 @@ def friction(
         )
     known = result.boundary_force / prepared.scene.bodies.load, result.coefficient
     result = with_power_loss(prepared.scene, result)
-    result = replace(result, lacks=lacking(prepared.scene, prepared.surface.sq, speed, known))
+    result = replace(result, unmodelled_effects=unmodelled_effects(prepared.scene, prepared.surface.sq, speed, known))
     if raise_on_failure:
         result.report.raise_if_failed(result)
         refused(result.validity, numerics.accept, result)
@@ -94,12 +94,12 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
     asked = scene.numerics.model
     if asked == "load-sharing" or speed == 0 or strips is None or prepared.surface.sq == 0:
         return load_sharing_answer(sampled(prepared, speed, own_cells=fields), prepared, speed, begun)
-    if asked == "deterministic" and strips.whole:
+    if asked == "deterministic" and strips.is_single_patch:
         return strips_answer(prepared, speed, None, begun)
     found = sampled(prepared, speed, own_cells=fields)
     if asked == "auto":
         why = _enough(prepared, found) or too_costly(prepared, speed, cells_of(strips, scene.bodies.half_width))
-        if why or any(entry.severe for entry in passed(found, prepared, speed)):
+        if why or any(entry.severe for entry in limits_passed(found, prepared, speed)):
             return load_sharing_answer(found, prepared, speed, begun, why)
     try:
         return strips_answer(prepared, speed, found, begun)
@@ -109,7 +109,7 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
         return load_sharing_answer(found, prepared, speed, begun, f"the deterministic model was not solved ({error})")
 
 
-def _enough(prepared: Prepared, found: Found) -> str:
+def _enough(prepared: Prepared, found: SampleSolution) -> str:
     """Why Eq. (8) alone answers, in words; "" if it does not."""
     scene = prepared.scene
     balance = found.balance

@@ -22,7 +22,7 @@ from ..samples import Strips
 from ..scene import Numerics
 from .line import Line, line_of
 from .pair import Pair, numbers_of, solve_pair
-from .sample import Found, enlarged
+from .sample import SampleSolution, required_strips
 from .scatter import BlockError, add_errors, block_error
 from .shorter import changed, on_shorter_cells
 from .uncertainty import student
@@ -35,7 +35,7 @@ LINED = 1.2
 PRIOR = 3
 FREEDOM = 5
 BALANCED = 1.3  # times (scatter of f between strips)²: bias of strips that balance the load each by itself
-# of the number of strips, which are dear: see `enlarged`
+# of the number of strips, which are dear: see `required_strips`
 GROWTH = (4.0, 2.0)
 SPARE = (1.1, 1.2)
 MOST_WORK = 120.0  # s, counted: of the strips of one point
@@ -87,13 +87,13 @@ class Sum:
         f = abs(self.numbers["coefficient"])
         asked = numerics.sampling_tolerance
         if not self.line:
-            return enlarged(count, 1, most, self.whole, f * asked, growth=GROWTH, spare=SPARE)
+            return required_strips(count, 1, most, self.whole, f * asked, growth=GROWTH, spare=SPARE)
         allowed = f * DIFFERENCE * numerics.model_tolerance / student(self.difference.freedom)
         errors = (self.whole, math.hypot(f * asked, allowed)), (self.difference, allowed)
-        return max(enlarged(count, 1, most, error, limit, growth=GROWTH, spare=SPARE) for error, limit in errors)
+        return max(required_strips(count, 1, most, error, limit, growth=GROWTH, spare=SPARE) for error, limit in errors)
 
 
-def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
+def levels_of(prepared: Prepared, speed: float, found: SampleSolution | None) -> Levels:
     """The sum over levels at ``speed`` [m/s], not 0, for a scene with strips. ``found``: its sample of Eq. (8) there
     (None: there is no first level).
 
@@ -126,7 +126,7 @@ def levels_of(prepared: Prepared, speed: float, found: Found | None) -> Levels:
     return Levels(numbers, errors, films, flow, inlet, *parts, *of_f, length)
 
 
-def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tuple[list[Pair], Sum]:
+def _first_levels(prepared: Prepared, speed: float, found: SampleSolution | None) -> tuple[list[Pair], Sum]:
     """The strips of the second level, as many as it takes, and the sum of the first two."""
     strips = prepared.strips
     numerics = prepared.scene.numerics
@@ -137,7 +137,7 @@ def _first_levels(prepared: Prepared, speed: float, found: Found | None) -> tupl
     most = max(1, min(strips.available, int(MOST_WORK / first.work)))
     same = found is not None and found.strips is not None and found.strips.cells == strips.cells
     line = None
-    if found is not None and same and not strips.whole and math.isfinite(found.sampling):
+    if found is not None and same and not strips.is_single_patch and math.isfinite(found.sampling):
         line = line_of(prepared, found)
     while True:
         sums = [_sum(prepared, pairs, one) for one in (line, None) if one is None or len(pairs) <= one.count]

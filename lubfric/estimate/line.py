@@ -16,7 +16,7 @@ from ..models.shared import (
     Prepared,
     on_strip,
 )
-from .sample import Found
+from .sample import SampleSolution
 from .scatter import BlockError, friction_influence, gap_influence, line_load, strip_gap
 from .uncertainty import ORDER
 
@@ -41,7 +41,7 @@ class Line:
         return values - values.mean()
 
 
-def line_of(prepared: Prepared, found: Found) -> Line:
+def line_of(prepared: Prepared, found: SampleSolution) -> Line:
     """The `Line` of ``found``, a sample of the strips of ``prepared``. Where nothing touches, strips do not differ."""
     solved = found.solved
     response = found.response
@@ -60,7 +60,7 @@ def line_of(prepared: Prepared, found: Found) -> Line:
         return Line(places, numbers, BlockError(found.sampling, ORDER))
     gap, loads = (of(contact, solved.contact) for of in (strip_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
-    moved = response.split * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
+    moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
     for name, value in (
         ("contact_load", solved.contact_load),
         ("film_load", solved.film_load),

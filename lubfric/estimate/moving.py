@@ -29,7 +29,7 @@ def solved_strip(prepared: Prepared, index: int, speed: float, **how) -> Strip:
 def strip_surface(prepared: Prepared, index: int) -> Surface:
     """The map of strip ``index``; of a patch at rest all of it, on its own cells."""
     assert prepared.strips is not None
-    if prepared.strips.whole and not moves(prepared.scene):
+    if prepared.strips.is_single_patch and not moves(prepared.scene):
         return prepared.surface
     return map_of(prepared, on_strip(prepared, prepared.strips, index))
 

@@ -70,7 +70,7 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     summit = float(surface.heights.max() - surface.heights.mean())
     seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
     touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
-    if strips is None or strips.whole:
+    if strips is None or strips.is_single_patch:
         if touching != "none":
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
         patch = (0, 0.0, 0.0) if strips is None else _resolved(scene, strips, surface, speed, film, 0.0)
@@ -88,9 +88,9 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     count = math.ceil(strips.first * max(1.0, SAFETY * (error / asked) ** 2 if error > asked else 1.0))
     count = min(count, strips.available)
     cells = strips.cells
-    (fx, fy) = cells.factors
+    (fx, fy) = cells.coarsening
     (_, dy) = cells.coarse
-    piece = 0.0 if cells.own else cells.count * fx * fy * strips.length / dy / 2
+    piece = 0.0 if cells.is_native else cells.count * fx * fy * strips.length / dy / 2
     if touching != "none":
         seconds += CELL_SECONDS * cells.count * count * strips.length / dy + PIECE_SECONDS * piece
     resolved, work, moving = _resolved(scene, strips, surface, speed, film, error * math.sqrt(strips.first))
@@ -121,12 +121,14 @@ def _resolved(
         return count, IN_MOTION * (count + ON_LONGER * (ends + 2 * (ends > 0))) * moving, moving
     (fx, fy) = both
     (dx, dy) = strips.cells.coarse
-    (ux, uy) = strips.cells.factors
+    (ux, uy) = strips.cells.coarsening
     cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
-    finer = 0.5 * cells * fx * fy * (ux * uy if strips.whole else 1)  # a patch may be solved down to its own cells
-    short = not strips.whole and strips.length < SHORT * strips.lengths[1] and fx * ux >= 4 <= fy * uy
+    finer = (
+        0.5 * cells * fx * fy * (ux * uy if strips.is_single_patch else 1)
+    )  # a patch may be solved down to its own cells
+    short = not strips.is_single_patch and strips.length < SHORT * strips.lengths[1] and fx * ux >= 4 <= fy * uy
     work = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
-    again = work_of_steps(finer if strips.whole else cells, AGAIN) * (ends + (ends > 0))
+    again = work_of_steps(finer if strips.is_single_patch else cells, AGAIN) * (ends + (ends > 0))
     return count, count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again + work, 0.0
 
 

@@ -49,7 +49,7 @@ def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
     strips = prepared.strips
     assert strips is not None
     fx, fy = cells_of(strips, prepared.scene.bodies.half_width)
-    ux, uy = strips.cells.factors if strips.whole and not moves(prepared.scene) else (1, 1)
+    ux, uy = strips.cells.coarsening if strips.is_single_patch and not moves(prepared.scene) else (1, 1)
     return strip_surface(prepared, index), (fx * ux, fy * uy)
 
 
@@ -68,7 +68,7 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
     first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors, moves(prepared.scene)))
     strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
-    return Pair(strip, first, prepared.strips.whole and mirrored(surface.heights))
+    return Pair(strip, first, prepared.strips.is_single_patch and mirrored(surface.heights))
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:

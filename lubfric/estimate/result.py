@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from .._base import Shown, figures, packaged
+from .._base import Renamed, Shown, figures, packaged
 from ..errors import InputError, Report
 from ..models.deterministic import DeterministicResult
 from ..models.load_sharing import Balance
 from ..models.shared import (
-    Lack,
+    UnmodelledEffect,
     Validity,
 )
 from ..quantities import PointQuantities, described_in_doc, in_words
@@ -24,7 +24,7 @@ from .uncertainty import FieldErrors, Uncertainty
 
 @described_in_doc
 @dataclass(frozen=True, repr=False, kw_only=True)
-class FrictionResult(PointQuantities[float], Shown):
+class FrictionResult(Renamed, PointQuantities[float], Shown):
     """One operating point (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
 
     The residuals are relative. ``balance`` holds the fields: the film (``balance.film``, an `EHLResult`)
@@ -40,8 +40,8 @@ class FrictionResult(PointQuantities[float], Shown):
     decision : how much was modelled, and the numbers it was judged by; ``decision.text`` in words
     power_loss_interval : 95 % interval of the power loss [W], (low, high)
     validity : the assumptions that do not hold (`lubfric.Validity`). A severe one is there only where it was accepted
-    lacks : what the scene leaves out, the likely change of f by it (relative; NaN: not known), and what to do, the
-        largest first; nothing that would change f by less than the tolerance (`lubfric.models.shared.lacking`)
+    unmodelled_effects : what the scene leaves out, the likely change of f by it (relative; NaN: not known), and what to do, the
+        largest first; nothing that would change f by less than the tolerance (`lubfric.models.shared.unmodelled_effects`)
     methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
     heights : of the cells of the contact that was solved [m], (nx, ny), about their mean; None if there are none
     """
@@ -52,11 +52,12 @@ class FrictionResult(PointQuantities[float], Shown):
     decision: Decision
     power_loss_interval: tuple[float, float] = (math.nan, math.nan)
     validity: tuple[Validity, ...] = ()
-    lacks: tuple[Lack, ...] = ()
+    unmodelled_effects: tuple[UnmodelledEffect, ...] = ()
     methods: tuple[str, ...] = ()
     balance: Balance | None = None
     heights: np.ndarray | None = None
     deterministic: DeterministicResult | None = None
+    _RENAMED = {"lacks": "unmodelled_effects"}
 
     def without_fields(self) -> FrictionResult:
         """A copy with its numbers alone."""

@@ -15,11 +15,11 @@ from ..models.load_sharing import (
     Balance,
     Point,
     Response,
-    divided,
     exponents,
     forces,
-    grown,
+    loads_at,
     solve_balance,
+    with_contact_area_scaled,
 )
 from ..models.shared import (
     Prepared,
@@ -29,9 +29,9 @@ from ..models.shared import (
 from ..samples import Strips
 from ..scene import budget
 from .cells import CellEffect, effect_of_cells, lost_summits
-from .missed import hidden_share, missed_share
 from .scatter import BlockError, Scatter, add_errors, scatter_of
 from .uncertainty import FEW, MATTERS, too_few
+from .undetected import hidden_contact, undetected_contact
 
 # times the length that a standard error asks for; times the length so far, at least
 SAFETY = 1.3
@@ -46,7 +46,7 @@ REFERENCED = 0.1  # if they leave no more than that of the tolerance on f
 
 
 @dataclass(frozen=True)
-class Found:
+class SampleSolution:
     """The balance of a sample, corrected for its cells, and what is known of its error.
 
     - ``balance``: with the division of the load that the scene's own cells demand; ``solved``: as it was solved on
@@ -62,7 +62,7 @@ class Found:
     effect: CellEffect = CellEffect()
     strips: Strips | None = None
     count: int = 1
-    missed: float = 0.0
+    undetected: float = 0.0
 
     @property
     def response(self) -> Response | None:
@@ -80,7 +80,7 @@ class Found:
         if self.solved.film is None:
             return 0.0
         if self.response is None:
-            return self.missed
+            return self.undetected
         whole = self.response.relative("coefficient", self.gap_error.error)
         to_first_order = self.response.per_gap("coefficient") * self.gap_error.error
         return self.friction_error.error * (whole / to_first_order if to_first_order else 1.0)
@@ -97,7 +97,7 @@ class Found:
     def corrected(self) -> float:
         """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left. On
         the scene's own cells nothing is corrected, so that loads and fields belong together."""
-        if self.strips is None or self.strips.cells.own:
+        if self.strips is None or self.strips.cells.is_native:
             return 0.0
         return self.effect.gap + self.left_by_root
 
@@ -110,50 +110,50 @@ class Found:
     def second_order(self) -> float:
         """What that correction leaves open of the gap [m]: the correction times the change of ln(F_H/F_C) that it
         makes. No more was seen, but for one of 25 scenes (1.4 times that, beside a scatter of 17 %)."""
-        return 0.0 if self.response is None else abs(self.response.split) * self.corrected**2
+        return 0.0 if self.response is None else abs(self.response.log_load_ratio_per_gap) * self.corrected**2
 
     def change(self, name: str) -> float:
         """Relative change of f by the gap [m] that the `CellEffect` has under ``name``."""
         return 0.0 if self.response is None else self.response.relative("coefficient", getattr(self.effect, name))
 
 
-def sampled(prepared: Prepared, speed: float, *, own_cells: bool = False) -> Found:
+def sampled(prepared: Prepared, speed: float, *, own_cells: bool = False) -> SampleSolution:
     """Solve ``prepared`` at ``speed`` [m/s]: on more strips until the standard error of f is within
     ``numerics.sampling_tolerance``, on cells so fine that their effect can be corrected for. ``own_cells``: on those of
     the scene, where one patch is all that there is. Raises `ConvergenceError`."""
     strips = prepared.strips
     if strips is None:
         return _without_cells(prepared, speed)
-    while own_cells and strips.whole and not strips.cells.own:
+    while own_cells and strips.is_single_patch and not strips.cells.is_native:
         strips = strips.halved()
     while True:
         found = _on_cells(prepared, speed, strips)
-        if strips.cells.own or not _too_coarse(prepared, speed, found):
+        if strips.cells.is_native or not _too_coarse(prepared, speed, found):
             return _corrected(prepared, speed, found)
         strips = strips.halved()
 
 
-def _without_cells(prepared: Prepared, speed: float) -> Found:
+def _without_cells(prepared: Prepared, speed: float) -> SampleSolution:
     contact = prepared.contact
     solved = solve_balance(prepared.scene, speed, contact, prepared.surface.sq)
     length = prepared.surface.size[1]
-    return _corrected(prepared, speed, Found(solved, solved, contact, Scatter(length), missed=math.nan))
+    return _corrected(prepared, speed, SampleSolution(solved, solved, contact, Scatter(length), undetected=math.nan))
 
 
-def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> Found:
+def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> SampleSolution:
     scene = prepared.scene
     count = strips.first
     start = _reference(prepared, speed, strips)
     effect: CellEffect | None = None
     while True:
         contact = on_stack(prepared, strips, count)
-        coarse = not strips.cells.own
+        coarse = not strips.cells.is_native
         solved = solve_balance(scene, speed, contact, prepared.surface.sq, start, correctable=coarse)
         line = Scatter(contact.heights.shape[1] * contact.spacing[1])
-        found = Found(solved, solved, contact, line, strips=strips, count=count)
+        found = SampleSolution(solved, solved, contact, line, strips=strips, count=count)
         if solved.response is None:
-            missed = missed_share(scene, contact, solved.film, solved.forces, strips.lengths[1])
-            found = replace(found, missed=missed)
+            missed = undetected_contact(scene, contact, solved.film, solved.forces, strips.lengths[1])
+            found = replace(found, undetected=missed)
         else:
             scatter = scatter_of(scene, contact, solved, strips, count)
             if effect is None and solved.film is not None:
@@ -173,7 +173,7 @@ def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | No
     before."""
     scene = prepared.scene
     sq = prepared.surface.sq
-    if speed == 0 or strips.whole or sq == 0 or scene.lubricant.inlet_film is not None:
+    if speed == 0 or strips.is_single_patch or sq == 0 or scene.lubricant.inlet_film is not None:
         return None
     film = scene.line_contact(speed).expected_film / sq
     nearest = min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))
@@ -185,7 +185,7 @@ def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | No
         except LubfricError:
             return None
 
-    found = prepared.remembered(("reference", strips.cells.factors, nearest, speed > 0), make)
+    found = prepared.remembered(("reference", strips.cells.coarsening, nearest, speed > 0), make)
     return found if found is not None and found.response is not None else None
 
 
@@ -201,8 +201,8 @@ def _effect(prepared: Prepared, point: Point, balance: Balance, strips: Strips) 
         def make() -> CellEffect:
             return effect_of_cells(prepared, there, reference, strips)
 
-        found = prepared.remembered(("reference", strips.cells.factors, there.speed, "cells"), make)
-        more = found.at_load(balance.contact_load).rest - found.rest
+        found = prepared.remembered(("reference", strips.cells.coarsening, there.speed, "cells"), make)
+        more = found.at_load(balance.contact_load).remaining_change - found.remaining_change
         if response.relative("coefficient", more) <= REFERENCED * prepared.scene.numerics.tolerance:
             return found
     return effect_of_cells(prepared, point, balance, strips)
@@ -221,7 +221,7 @@ def speed_of(scene, film: float) -> float:
     return speed
 
 
-def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
+def _wanted(prepared: Prepared, found: SampleSolution, strips: Strips) -> int:
     """Number of strips that ``numerics.sampling_tolerance`` needs, at least as many as there are."""
     asked = prepared.scene.numerics.sampling_tolerance
     spots = found.scatter.spots
@@ -229,11 +229,11 @@ def _wanted(prepared: Prepared, found: Found, strips: Strips) -> int:
     few = touching and too_few(spots, found.sampling, asked)
     enough = min(FEW / spots, (found.sampling / (MATTERS * asked)) ** 2) if few else 0.0
     error = BlockError(found.sampling, found.friction_error.freedom if touching else 0)
-    more = enlarged(found.count, strips.first, strips.available, error, asked, enough)
+    more = required_strips(found.count, strips.first, strips.available, error, asked, enough)
     return more if more == found.count else min(strips.available, fft.next_fast_len(more, real=True))  # 90, not 89
 
 
-def enlarged(
+def required_strips(
     count: int,
     first: int,
     available: int,
@@ -262,18 +262,18 @@ def enlarged(
     return min(available, math.ceil(min(max(times, spare[1]), most) * count - 1e-9))
 
 
-def _too_coarse(prepared: Prepared, speed: float, found: Found) -> bool:
+def _too_coarse(prepared: Prepared, speed: float, found: SampleSolution) -> bool:
     """Whether the cells change the division of the load or the gap by more than can be corrected, or f by more than is
     allowed beyond first order; where the film clears the summits, whether the cells cut off a summit that would
     touch."""
     response = found.response
     strips = found.strips
     scene = prepared.scene
-    if strips is None or strips.cells.own or found.solved.film is None:
+    if strips is None or strips.cells.is_native or found.solved.film is None:
         return False
     allowed = budget.CONTACT_GRID * scene.numerics.tolerance
     if response is not None:
-        moved = abs(response.split * found.corrected)
+        moved = abs(response.log_load_ratio_per_gap * found.corrected)
         if max(abs(found.corrected), abs(found.effect.film)) > LARGEST * found.solved.contact.mean_gap:
             return True
         there = found.solved.forces
@@ -289,15 +289,15 @@ def _too_coarse(prepared: Prepared, speed: float, found: Found) -> bool:
         return False
     depth = lost_summits(prepared, _point(prepared, speed, found), found.solved, strips) - clearance
     own = on_piece(prepared, strips, 0, (1, 1))
-    return depth > 0 and hidden_share(scene, own, found.solved.forces, depth) > allowed
+    return depth > 0 and hidden_contact(scene, own, found.solved.forces, depth) > allowed
 
 
-def _point(prepared: Prepared, speed: float, found: Found) -> Point:
+def _point(prepared: Prepared, speed: float, found: SampleSolution) -> Point:
     assert found.solved.settings is not None
     return Point(prepared.scene, speed, found.contact, found.solved.settings)
 
 
-def _corrected(prepared: Prepared, speed: float, found: Found) -> Found:
+def _corrected(prepared: Prepared, speed: float, found: SampleSolution) -> SampleSolution:
     """``found`` with the load divided as its own cells and the end of the root demand: film and friction are those of
     that division, areas follow its load."""
     solved = found.solved
@@ -306,13 +306,13 @@ def _corrected(prepared: Prepared, speed: float, found: Found) -> Found:
     effect = found.effect
     if response is None or solved.film is None or not found.corrected:
         return found
-    loads = divided(scene.bodies.load, solved.split + response.split * found.corrected)
+    loads = loads_at(scene.bodies.load, solved.log_load_ratio + response.log_load_ratio_per_gap * found.corrected)
     film = _point(prepared, speed, found).film(loads[0], solved.film, solved.film.cells)
     state = solved.contact
     area = solved.contact.real_contact_area_fraction
     by_load = response.slopes.area_factor(loads[1] - solved.contact_load, scene.bodies.width, area)
     plastic = max(state.plastic_area_fraction + effect.plastic, 0.0)
-    state = grown(replace(state, plastic_area_fraction=plastic), effect.area * by_load)
+    state = with_contact_area_scaled(replace(state, plastic_area_fraction=plastic), effect.area * by_load)
     mean = weighted_mean(film.film_at(found.contact.x), found.contact.weight) + effect.film
     state = replace(state, mean_gap=mean, mean_film=mean)
     there = forces(scene, film, state, loads[1])

@@ -121,7 +121,7 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips
     response = balance.response
     assert state.fields is not None and response is not None
     slopes = response.slopes
-    rows = slice(0, contact.heights.shape[1] // (2 if strips.whole and mirrored(contact.heights) else 1))
+    rows = slice(0, contact.heights.shape[1] // (2 if strips.is_single_patch and mirrored(contact.heights) else 1))
     by_place = line_load(contact, state)[rows]
     step = contact.spacing[1]
     touching = state.fields.pressure[:, rows] > 0
@@ -157,7 +157,7 @@ def friction_influence(scene: Scene, contact: HalfSpaceContact, balance: Balance
     touching = state.fields.pressure > 0
     touched = max(float(touching.sum(axis=0).mean()) * contact.spacing[0], 1e-300)
     lost = _film_stress(scene, contact, film) @ touching * contact.spacing[0]
-    by_load = response.rates["coefficient"] * response.split
+    by_load = response.rates["coefficient"] * response.log_load_ratio_per_gap
     force = balance.forces.total / scene.bodies.width
     slope = by_load * response.slopes.gap - response.slopes.touched * float(lost.mean()) / touched / force
     values = by_load * strip_gap(contact, state) - lost / force

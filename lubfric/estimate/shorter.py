@@ -56,15 +56,15 @@ def on_shorter_cells(
     strips = prepared.strips
     assert strips is not None
     by_longer = sum(changes_of((pair.longer, pair.resolved))[0] for pair in pairs) / len(pairs)
-    factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.factors)
+    factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED, MOVING * _coarse(prepared) ** 2 if moves(scene) else 0.0)
-    enough = left <= scene.numerics.tolerance and not (strips.whole and scene.numerics.grid == "given")
-    enough = enough and (strips.whole or _smooth(strips))
-    own = strips.cells.own and cells_of(strips, scene.bodies.half_width) == (1, 1)
+    enough = left <= scene.numerics.tolerance and not (strips.is_single_patch and scene.numerics.grid == "given")
+    enough = enough and (strips.is_single_patch or _smooth(strips))
+    own = strips.cells.is_native and cells_of(strips, scene.bodies.half_width) == (1, 1)
     if enough or own or moves(scene):
         return (), (), BlockError(0.0, 1), left
-    if strips.whole:
+    if strips.is_single_patch:
         patch = _refined(prepared, speed, 0, pairs[0])
         return (patch,), (), BlockError(0.0, 1), max(estimate(changes_of(patch)), SOLVED)
     if strips.length < SHORT * strips.lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
@@ -146,7 +146,7 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
     def cells(made) -> int:
         return sum(one.problem.heights.size for piece in made[0] for one in piece) if made else 0
 
-    found = prepared.remembered(("reference", strips.cells.factors, "pieces", step, speed > 0), make, cells)
+    found = prepared.remembered(("reference", strips.cells.coarsening, "pieces", step, speed > 0), make, cells)
     return found or _pieces(prepared, speed, None)
 
 
@@ -185,11 +185,11 @@ def _refined(
     strips = prepared.strips
     assert strips is not None
     surface, factors = strip_of(prepared, index)
-    enough = scene.numerics.tolerance if strips.whole and scene.numerics.grid != "given" else 0.0
+    enough = scene.numerics.tolerance if strips.is_single_patch and scene.numerics.grid != "given" else 0.0
     if first is not None:
         ladder = [first.longer, first.resolved]
     else:
-        cells = tuple(f * n for f, n in zip(factors, strips.cells.factors))
+        cells = tuple(f * n for f, n in zip(factors, strips.cells.coarsening))
         last = max(1, cells[0] // times), max(1, cells[1] // times)
         factors = cells[0] // last[0], cells[1] // last[1]
         surface = map_of(prepared, on_piece(prepared, strips, index, last, length=length))

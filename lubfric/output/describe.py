@@ -10,10 +10,10 @@ import numpy as np
 from ..errors import InputError
 from ..estimate import MOST_WORK, forecast
 from ..models.shared import (
+    effect_in_words,
     expected,
     gathered,
-    lack_in_words,
-    lacking,
+    unmodelled_effects,
 )
 from ..quantities import counted
 from ..samples import (
@@ -99,8 +99,8 @@ def estimate_scene(
     refusals = _doubts([(speed, entry) for speed, entry in at if entry.severe])
     whole = map_of(surface, strips)
     notes = [note for note in whole.notes if "nm as it is" in note]
-    lacks = lacking(scene, whole.sq, own)
-    left_out = [f"likely changes of f at {own:g} m/s, by closed forms:", *map(lack_in_words, lacks)]
+    lacks = unmodelled_effects(scene, whole.sq, own)
+    left_out = [f"likely changes of f at {own:g} m/s, by closed forms:", *map(effect_in_words, lacks)]
     sections = {
         "transient": changing,
         "surface": [*map_in_words(surface, strips), *notes, slopes_in_words(whole)],
@@ -201,7 +201,7 @@ def _course(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> tu
     found = [forecast(scene, strips, surface, speed) for speed in speeds]
     cells = surface.heights.size
     sample = []
-    if strips is not None and not strips.whole and scene.numerics.model != "deterministic":
+    if strips is not None and not strips.is_single_patch and scene.numerics.model != "deterministic":
         most = max(found, key=lambda one: one.strips)
         cells = round(strips.cells.count * most.length / strips.cells.coarse[1])
         asked = f"f within {100 * scene.numerics.sampling_tolerance:g} % at {most.speed:.3g} m/s, which needs most"
@@ -246,7 +246,7 @@ def map_of(surface: Surface, strips: Strips | None) -> Surface:
 
 def map_in_words(surface: Surface, strips: Strips | None) -> list[str]:
     """The map that the scene has; and where ``strips`` of it are solved, ``surface``, the first of them."""
-    if strips is None or strips.whole:
+    if strips is None or strips.is_single_patch:
         return [surface.describe()]
     made = "" if strips.windows else f"{surface.source}: as many strips as are needed"
     first = replace(surface, source="").describe()

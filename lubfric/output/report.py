@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..estimate import FrictionResult, percent
 from ..models.shared import (
     Prepared,
-    lack_in_words,
+    effect_in_words,
 )
 from ..quantities import COLUMNS, counted
 from ..scene import Scene
@@ -149,7 +149,7 @@ def _lacks(scene: Scene, curve: CurveResult | None, estimate: Estimate) -> str:
     if curve is None or (nearest := _nearest(scene, curve)) is None:
         return _list(estimate.sections["left out"])
     point, place = nearest
-    lacks = map(lack_in_words, point.lacks)
+    lacks = map(effect_in_words, point.unmodelled_effects)
     head = f"<p>Likely changes of f {escape(place)}, by closed forms:</p>"
     return _list([*lacks], "Nothing that would change f by its tolerance.", head=head)
 

@@ -14,7 +14,7 @@ from ..errors import ConvergenceError, InputError, ValidityError
 from ..models.shared import (
     Prepared,
     Validity,
-    lack_in_words,
+    effect_in_words,
 )
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
@@ -146,7 +146,7 @@ def _point(curve: studies.CurveResult, index: int) -> dict:
         "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
         "errors": asdict(point.errors),
         "report": point.report.as_dict(),
-        "lacks": [lack_in_words(lack) for lack in point.lacks],
+        "lacks": [effect_in_words(lack) for lack in point.unmodelled_effects],
     }
     return {number: getattr(point, number) for number in NUMBERS} | found | more
 

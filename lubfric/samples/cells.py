@@ -27,7 +27,7 @@ class Cells:
     contact).
     """
 
-    factors: tuple[int, int]
+    coarsening: tuple[int, int]
     spacing: tuple[float, float]
     count: int
     first: float | None = None
@@ -35,25 +35,25 @@ class Cells:
     @property
     def coarse(self) -> tuple[float, float]:
         """Length of a cell [m] along x and y."""
-        return self.spacing[0] * self.factors[0], self.spacing[1] * self.factors[1]
+        return self.spacing[0] * self.coarsening[0], self.spacing[1] * self.coarsening[1]
 
     @property
-    def own(self) -> bool:
+    def is_native(self) -> bool:
         """Whether they are the scene's own."""
-        return self.factors == (1, 1)
+        return self.coarsening == (1, 1)
 
     def halved(self) -> Cells:
         """Cells half as long along each axis, or as near to that as the scene's own cells allow."""
-        factors = max(1, self.factors[0] // 2), max(1, self.factors[1] // 2)
-        return replace(self, factors=factors, count=self.count * self.factors[0] // factors[0])
+        factors = max(1, self.coarsening[0] // 2), max(1, self.coarsening[1] // 2)
+        return replace(self, coarsening=factors, count=self.count * self.coarsening[0] // factors[0])
 
     def ladder(self) -> list[tuple[int, int]]:
         """Factors from those of these cells down to the scene's own, each half the one before."""
-        steps = [self.factors]
+        steps = [self.coarsening]
         cells = self
-        while not cells.own:
+        while not cells.is_native:
             cells = cells.halved()
-            steps.append(cells.factors)
+            steps.append(cells.coarsening)
         return steps
 
     def rows(self, length: float) -> int:
@@ -65,7 +65,7 @@ class Cells:
     def axis(self, factors: tuple[int, int] | None = None) -> np.ndarray:
         """Cell centres [m] along x of these cells, or of the finer ones of ``factors``, which share columns with
         them."""
-        fx = self.factors[0]
+        fx = self.coarsening[0]
         first = self.first
         if first is None:
             first = -0.5 * (self.count - 1) * self.coarse[0] - fx // 2 * self.spacing[0]
@@ -75,7 +75,7 @@ class Cells:
 
     def thinned(self, heights: np.ndarray, factors: tuple[int, int]) -> np.ndarray:
         """Every ``factors``-th of ``heights`` on the scene's own cells; of those along x the ones at `axis`."""
-        return heights[self.factors[0] // 2 % factors[0] :: factors[0], factors[1] // 2 :: factors[1]]
+        return heights[self.coarsening[0] // 2 % factors[0] :: factors[0], factors[1] // 2 :: factors[1]]
 
 
 def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:

@@ -78,7 +78,7 @@ class Strips:
     pieces: int = 1
     windows: bool = False
     exact_sq: bool = False
-    whole: bool = False
+    is_single_patch: bool = False
     bodies: tuple[Surface, ...] = ()
 
     @property
@@ -126,7 +126,7 @@ class GeneratedStrips(FieldsOnly, Strips):
         return replace(strips[0], heights=stacked([strip.heights for strip in strips], blend))
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
-        fx, fy = self.cells.factors
+        fx, fy = self.cells.coarsening
         rows = self.cells.rows(length * self.lengths[1]) * fy
         return self._generator(PIECES, self.cells.spacing, (self.cells.count * fx, rows))(index)
 
@@ -173,7 +173,7 @@ class MeasuredStrips(Strips):
         return self._rows(self.surface.shape[1] - self._blend)
 
     def joined(self, indices: Sequence[int]) -> Surface:
-        fx, fy = self.cells.factors
+        fx, fy = self.cells.coarsening
         pieces = [self._columns(self.starts[index])[fx // 2 :: fx] for index in indices]
         heights = stacked(pieces, self._blend)
         rows = self._rows(heights.shape[1]) * fy
@@ -184,7 +184,7 @@ class MeasuredStrips(Strips):
     def piece(self, index: int, length: float = PIECE) -> Surface:
         whole = self._columns(self.starts[index])
         blend = self._blend
-        unit = 4 * self.cells.factors[1]
+        unit = 4 * self.cells.coarsening[1]
         wanted = round(length * self.lengths[1] / self.surface.spacing[1])
         rows = min(whole.shape[1] - blend, wanted) // unit * unit
         first = (whole.shape[1] - rows - blend) // 2
@@ -193,14 +193,14 @@ class MeasuredStrips(Strips):
 
     def _rows(self, columns: int) -> int:
         """The number of cells along y on so many ``columns`` of the map: a multiple of four."""
-        return columns // (4 * self.cells.factors[1]) * 4
+        return columns // (4 * self.cells.coarsening[1]) * 4
 
     @property
     def _blend(self) -> int:
         return min(blend_of(self.lengths[1], self.surface.spacing[1]), self.surface.shape[1] // 4)
 
     def _columns(self, start: int) -> np.ndarray:
-        columns = start + np.arange(self.cells.count * self.cells.factors[0])
+        columns = start + np.arange(self.cells.count * self.cells.coarsening[0])
         last = self.surface.shape[0] - 1
         return self.surface.heights[np.minimum(np.where(columns < 0, -1 - columns, columns), 2 * last + 1 - columns)]
 
@@ -218,10 +218,10 @@ class OnePatch(Strips):
 
     @property
     def rows(self) -> int:
-        return self.surface.shape[1] // self.cells.factors[1]
+        return self.surface.shape[1] // self.cells.coarsening[1]
 
     def joined(self, indices: Sequence[int]) -> Surface:
-        heights = self.cells.thinned(self.surface.heights, self.cells.factors)
+        heights = self.cells.thinned(self.surface.heights, self.cells.coarsening)
         return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
 
     def piece(self, index: int, length: float = PIECE) -> Surface:
@@ -231,7 +231,7 @@ class OnePatch(Strips):
 def strips_of(scene: Scene) -> Strips:
     """Strips of the scene's surface, generated or measured; on the scene's own cells if ``numerics.grid`` is given."""
     found: Strips = measured_strips(scene, *whole_maps(scene)) if measured(scene) else generated_strips(scene)
-    while scene.numerics.grid == "given" and not found.cells.own:
+    while scene.numerics.grid == "given" and not found.cells.is_native:
         found = found.halved()
     return found
 
@@ -290,11 +290,13 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     if scene.contact.shape is not None:
         reach = scene.contact.shape[0] * dx
     cells = choose_cells(surface.spacing, lengths, half_width, min(reach, surface.size[0]))
-    while cells.count * cells.factors[0] > surface.shape[0]:
+    while cells.count * cells.coarsening[0] > surface.shape[0]:
         cells = replace(cells, count=cells.count - EVEN)
     if cells.count < 1:
-        raise InputError(f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.factors[0]}")
-    fine = cells.count * cells.factors[0]
+        raise InputError(
+            f"the map is {surface.shape[0]} cells long along x; allowed: at least {4 * cells.coarsening[0]}"
+        )
+    fine = cells.count * cells.coarsening[0]
     step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
     beyond = 0 if extended(scene) else min(max(0, math.floor(0.5 * fine - half_width / dx)), surface.shape[0])
     starts = starts_of(surface.shape[0], fine, step, 0)
@@ -320,6 +322,6 @@ def one_patch(scene: Scene, lengths: tuple[float, float], surface: Surface, *bod
     part of each of two."""
     first = float(centred_axis(surface.shape[0], surface.spacing[0])[0])
     cells = cells_of_a_box(surface.spacing, lengths, scene.bodies.half_width, surface.shape, first)
-    while scene.numerics.grid == "given" and not cells.own:
+    while scene.numerics.grid == "given" and not cells.is_native:
         cells = cells.halved()
-    return OnePatch(scene, cells, lengths, surface.size[1], whole=True, surface=surface, bodies=bodies)
+    return OnePatch(scene, cells, lengths, surface.size[1], is_single_patch=True, surface=surface, bodies=bodies)

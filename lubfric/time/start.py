@@ -191,15 +191,15 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
     speeds = speeds_of_run(prepared.scene)
     if strips is None:
         return RunStrip(prepared=prepared, correlation_length=length_or_half(prepared.surface, 1))
-    if strips.whole:
-        while not strips.cells.own:
+    if strips.is_single_patch:
+        while not strips.cells.is_native:
             strips = strips.halved()
         return RunStrip(prepared=_made(prepared, strips, 1), correlation_length=strips.lengths[1])
     if not speeds:
-        known = 1.0 if strips.cells.own else math.nan
+        known = 1.0 if strips.cells.is_native else math.nan
         return RunStrip(prepared=prepared, correlation_length=strips.lengths[1], area=known, plastic=known)
     needs = _needs(prepared, strips, speeds)
-    while not strips.cells.own and max(needs[1]) > prepared.scene.numerics.tolerance:
+    while not strips.cells.is_native and max(needs[1]) > prepared.scene.numerics.tolerance:
         strips = strips.halved()
         needs = _needs(prepared, strips, speeds)
     return RunStrip(
@@ -241,7 +241,7 @@ def _needs(prepared: Prepared, strips: Strips, speeds: list[float]) -> np.ndarra
         plastic = one.solved.contact.plastic_area_fraction
         corrected = one.balance.contact.plastic_area_fraction
         area = one.effect.area if one.response is not None else math.nan
-        same = one.strips.cells.factors == strips.cells.factors
+        same = one.strips.cells.coarsening == strips.cells.coarsening
         by_cells = one.change("gap") if same else math.inf
         found.append((one.count, by_cells, area, corrected / plastic if plastic else math.nan))
     return np.array(found, dtype=float).T

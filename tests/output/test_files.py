@@ -15,7 +15,7 @@ from pictures import stand_in
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
-from lubfric.models.shared import lack_in_words
+from lubfric.models.shared import effect_in_words
 from lubfric.output import main
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.01, 0.3]\n"
@@ -76,7 +76,7 @@ def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undr
         page = Balanced()
         page.feed((out / "report.html").read_text(encoding="utf-8"))
         text = " ".join(page.text)
-        assert all(lack_in_words(lack) in text for lack in curve.points[0].lacks)
+        assert all(effect_in_words(lack) in text for lack in curve.points[0].unmodelled_effects)
         assert "How it was solved" in text and f"for {len(speeds)} speeds" in text
         assert ("touch at all of them" in text) == (len(speeds) == 3)
         assert (out / "law.json").exists() == (out / "law.c").exists() == (len(speeds) > 2)

@@ -75,7 +75,7 @@ def test_the_effect_of_shorter_cells_is_that_on_other_strips():
         coarse, own = (solve_strip(FINE, surface, 0.1, factors=n).result.coefficient for n in ((2, 2), (1, 1)))
         changes.append(own / coarse - 1)
     shift = found.numbers["coefficient"] / alone - 1
-    assert len(found.pieces) >= 1 and prepared.strips.cells.factors == (4, 4)
+    assert len(found.pieces) >= 1 and prepared.strips.cells.coarsening == (4, 4)
     assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * found.sampling.error)
     assert found.numerical < FINE.numerics.tolerance
 
@@ -167,7 +167,7 @@ def test_cells_along_y_are_twice_as_long_where_the_rows_of_a_strip_allow_it():
     for scene in (FINE, FINE.with_(contact={"spacing": 0.48e-6}), FINE.with_(contact={"spacing": 0.53e-6}), PATCH):
         strips = lubfric.prepare(scene).strips
         assert strips.rows == strips.strip(0).shape[1]
-        assert strips.whole or cells_of(strips, scene.bodies.half_width)[1] == 2
+        assert strips.is_single_patch or cells_of(strips, scene.bodies.half_width)[1] == 2
     odd = lubfric.prepare(PATCH.with_(contact={"shape": (40, 33)})).strips
     assert odd.rows == odd.strip(0).shape[1] == 33 and cells_of(odd, PATCH.bodies.half_width)[1] == 1
 
@@ -283,9 +283,9 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
         pairs, of_line = synthetic(rng, 24, between=between)
         with_line, without = (levels._sum(model, pairs[:n], one) for one in (of_line, None))
         sums.append(with_line.numbers["coefficient"])
-        stated.append(with_line.whole.error)
+        stated.append(with_line.is_single_patch.error)
         means.append(without.numbers["coefficient"])
-        alone.append(without.whole.error)
+        alone.append(without.is_single_patch.error)
     assert math.sqrt(np.mean(np.square(stated))) == pytest.approx(np.std(sums), rel=0.15)
     assert 0.85 < math.sqrt(np.mean(np.square(alone))) / np.std(means) < 1.35
 

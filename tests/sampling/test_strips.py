@@ -30,7 +30,7 @@ def test_a_strip_is_always_the_same_and_like_no_other():
 def test_a_measured_map_gives_its_own_columns_no_more_than_it_holds():
     surface = lubfric.generate_surface((600, 256), 0.45e-6, sq=1e-7, correlation_length=4e-6, acf="gaussian", seed=1)
     strips = measured_strips(PAPER.with_(contact={"shape": None, "spacing": None}), surface)
-    fx, fy = strips.cells.factors
+    fx, fy = strips.cells.coarsening
     wide = strips.cells.count * fx
     assert strips.windows and all(0 <= start <= 600 - wide for start in strips.starts)
     assert strips.rows == strips.strip(0).shape[1]
@@ -56,7 +56,7 @@ def test_a_prepared_scene_is_used_again_or_made_again():
     same = lubfric.prepare(PAPER.with_(motion={"slide_roll_ratio": 1.0}), like=model)
     assert same.surface is model.surface and same.contact.operator is model.contact.operator
     patch = lubfric.prepare(PAPER.with_(numerics={"sampling": "patch"}), like=model)
-    assert patch.strips.whole and patch.surface.shape == PAPER.contact.shape
+    assert patch.strips.is_single_patch and patch.surface.shape == PAPER.contact.shape
     back = lubfric.prepare(PAPER, like=patch)
     np.testing.assert_array_equal(back.surface.heights, model.surface.heights)
     with pytest.raises(lubfric.InputError, match="surface = .* is not that of the prepared scene"):

@@ -115,9 +115,9 @@ def test_a_run_on_one_patch_takes_the_cells_of_the_patch():
     scene = HELD.with_(numerics={"sampling": "patch"})
     spacing = tuple(np.broadcast_to(scene.contact.spacing, 2).tolist())
     prepared = lubfric.prepare(scene)
-    assert max(prepared.strips.cells.factors) > 1
+    assert max(prepared.strips.cells.coarsening) > 1
     strip = strip_of_run(prepared).prepared
-    assert strip.strips.cells.own and strip.surface.spacing == strip.contact.spacing == pytest.approx(spacing)
+    assert strip.strips.cells.is_native and strip.surface.spacing == strip.contact.spacing == pytest.approx(spacing)
     assert strip.surface.shape == strip.contact.heights.shape == scene.contact.shape
     run = lubfric.transient(scene)
     own = scene.with_(numerics={"grid": "given", "film_deflection": "hydrodynamic"})

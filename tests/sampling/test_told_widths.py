@@ -9,9 +9,9 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.estimate import Uncertainty
-from lubfric.estimate.missed import missed_load, summit_radius
 from lubfric.estimate.scatter import BlockError, add_errors
 from lubfric.estimate.uncertainty import interval, load_sharing_error
+from lubfric.estimate.undetected import summit_radius, undetected_load
 
 E_PRIME = 2.3e11
 WIDTH = 6e-3
@@ -50,7 +50,7 @@ def test_the_contact_that_a_line_misses(count):
     heights, spacing = summits(tops)
     length = 8 * spacing[1] / 1.75  # so that a block of 1.75 correlation lengths is one summit
     film = np.full(heights.shape[0], 1.5e-7)
-    found = missed_load(heights, spacing, film, E_PRIME, WIDTH, length)
+    found = undetected_load(heights, spacing, film, E_PRIME, WIDTH, length)
     scale = tops.std(ddof=1) * math.sqrt(6) / math.pi * (2 if count < 14 else 1)
     place = tops.mean() - 1.5e-7 - 0.5772 * scale
     touching = 1 - math.exp(-math.exp(place / scale))

@@ -8,8 +8,8 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.models.shared import (
-    lack_in_words,
-    lacking,
+    effect_in_words,
+    unmodelled_effects,
 )
 from lubfric.output.describe import describe_scene
 
@@ -29,7 +29,7 @@ SQ = ROLLER.surface.sq
 
 
 def test_a_large_change_is_told_without_powers_of_ten():
-    words = [lack_in_words(("starved", change, "oil")) for change in (1.4, -0.126, 0.013, math.nan)]
+    words = [effect_in_words(("starved", change, "oil")) for change in (1.4, -0.126, 0.013, math.nan)]
     assert words == [f"starved: f {w}; oil" for w in ("+140 %", "-13 %", "+1.3 %", "not estimated")]
 
 
@@ -53,27 +53,29 @@ def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(s
         ("f_b", ROLLER.with_(bodies={"boundary_friction_coefficient": 0.75 * 0.12})),
     ):
         change = lubfric.friction(there, speed).coefficient / found.coefficient - 1
-        for guess in (told(found.lacks, word), told(lacking(ROLLER, SQ, speed), word)):
+        for guess in (told(found.unmodelled_effects, word), told(unmodelled_effects(ROLLER, SQ, speed), word)):
             assert 1 / 3 < guess / change < 3, (word, guess, change)
-    assert told(found.lacks, "f_b") == pytest.approx(-0.25 * found.boundary_force / 2000.0 / found.coefficient)
-    sizes = [abs(change) for _, change, _ in found.lacks if not math.isnan(change)]
-    assert sizes == sorted(sizes, reverse=True) and math.isnan(told(found.lacks, "moves"))
+    assert told(found.unmodelled_effects, "f_b") == pytest.approx(
+        -0.25 * found.boundary_force / 2000.0 / found.coefficient
+    )
+    sizes = [abs(change) for _, change, _ in found.unmodelled_effects if not math.isnan(change)]
+    assert sizes == sorted(sizes, reverse=True) and math.isnan(told(found.unmodelled_effects, "moves"))
 
 
 def test_what_is_given_and_what_is_below_the_tolerance_is_not_told():
     given = ROLLER.with_(lubricant={"inlet_length": 1.0}, bodies={"boundary_friction_coefficient": [0.1, 0.12]})
-    words = " ".join(what for what, *_ in lacking(given, SQ, 1.0))
+    words = " ".join(what for what, *_ in unmodelled_effects(given, SQ, 1.0))
     assert "starves" not in words and "f_b" not in words and "run in" in words
-    smooth = " ".join(what for what, *_ in lacking(ROLLER, 0.0, 1.0))
+    smooth = " ".join(what for what, *_ in unmodelled_effects(ROLLER, 0.0, 1.0))
     assert "run in" not in smooth and "moves" not in smooth
     loose = dataclasses.replace(ROLLER, numerics=dataclasses.replace(ROLLER.numerics, tolerance=0.2))
-    assert all(abs(change) > 0.2 or math.isnan(change) for _, change, _ in lacking(loose, SQ, 0.3))
-    assert [what for what, *_ in lacking(loose, 0.0, 1.0)] == []
-    assert "f_b" in lacking(paper_scene(), 1e-7, 0.0)[0][0]
+    assert all(abs(change) > 0.2 or math.isnan(change) for _, change, _ in unmodelled_effects(loose, SQ, 0.3))
+    assert [what for what, *_ in unmodelled_effects(loose, 0.0, 1.0)] == []
+    assert "f_b" in unmodelled_effects(paper_scene(), 1e-7, 0.0)[0][0]
 
 
 def test_info_tells_it_and_the_words_hold_the_numbers():
-    lacks = lacking(ROLLER, SQ, 1.0)
+    lacks = unmodelled_effects(ROLLER, SQ, 1.0)
     text = describe_scene(ROLLER)
     for what, change, remedy in lacks:
         size = "not estimated" if math.isnan(change) else f"{100 * change:+.2g} %"
@@ -83,7 +85,7 @@ def test_info_tells_it_and_the_words_hold_the_numbers():
 
 def test_a_soft_body_is_told_how_thick_its_cover_has_to_be():
     soft = ROLLER.with_(bodies={"e_prime": 2e7, "load": 100.0})
-    (cover,) = [what for what, *_ in lacking(soft, SQ, 1.0) if "cover" in what]
+    (cover,) = [what for what, *_ in unmodelled_effects(soft, SQ, 1.0) if "cover" in what]
     assert f"{5e3 * soft.bodies.half_width:.2g} mm" in cover
 
 

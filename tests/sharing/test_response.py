@@ -27,9 +27,9 @@ def test_it_is_what_a_rougher_surface_does(load, speed, near):
     thickness = found.film.film_at(model.contact.x)
     gap = [each.close(thickness, found.contact_load).mean_gap for each in (model.contact, rougher)]
     again = solve_balance(scene, speed, rougher, model.surface.sq, found)
-    moved = again.split - found.split
+    moved = again.log_load_ratio - found.log_load_ratio
     response = found.response
-    assert response.split * (gap[1] - gap[0]) == pytest.approx(moved, rel=near)
+    assert response.log_load_ratio_per_gap * (gap[1] - gap[0]) == pytest.approx(moved, rel=near)
     change = again.forces.coefficient / found.forces.coefficient - 1
     if load < 10:  # under more load f also feels where a rougher surface touches
         assert response.rates["coefficient"] * moved == pytest.approx(change, rel=near)
@@ -52,13 +52,13 @@ def test_slopes_of_a_contact_are_those_of_two_loads():
     assert slopes.area == pytest.approx(touched * per_load, rel=0.2)
 
 
-@pytest.mark.parametrize("odds", [0.3, 1.0, 30.0])
-def test_an_error_of_the_gap_counts_as_it_moves_a_light_contact(odds):
+@pytest.mark.parametrize("load_ratio", [0.3, 1.0, 30.0])
+def test_an_error_of_the_gap_counts_as_it_moves_a_light_contact(load_ratio):
     """F_C = F/(1 + e^s) in closed form, s moved by the error of the gap; to first order where little changes."""
-    rate = -odds / (1 + odds)  # d ln F_C/ds
-    response = Response(Slopes(0.0, 0.0, 0.0), 1.0, {"contact_load": rate}, odds)
+    rate = -load_ratio / (1 + load_ratio)  # d ln F_C/ds
+    response = Response(Slopes(0.0, 0.0, 0.0), 1.0, {"contact_load": rate}, load_ratio)
     for moved in (1e-3, 0.5, 3.0):
-        exact = (1 + odds) / (1 + odds * np.exp(-moved)) - 1
+        exact = (1 + load_ratio) / (1 + load_ratio * np.exp(-moved)) - 1
         assert response.relative("contact_load", moved) == pytest.approx(max(exact, -rate * moved), rel=1e-9)
         allowed = response.gap_for("contact_load", 0.1)
         assert response.relative("contact_load", allowed) <= 0.1 * (1 + 1e-9)

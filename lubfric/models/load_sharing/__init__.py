@@ -7,6 +7,6 @@ assumptions of the model that a balance violates.
 
 from .balance import Balance, solve_balance
 from .forces import Forces, forces
-from .limits import judged
+from .limits import limits_exceeded
 from .point import Point, exponents
-from .response import Response, Slopes, divided, grown, quantities, touched_length
+from .response import Response, Slopes, loads_at, quantities, touched_length, with_contact_area_scaled

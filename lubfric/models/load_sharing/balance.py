@@ -11,7 +11,7 @@ from ...scene import Scene, budget
 from ..shared import meaningless
 from .forces import Forces, forces
 from .point import Point, Settings, Trial, exponents
-from .response import Response, divided, respond
+from .response import Response, loads_at, respond
 
 SAFE_FILM = 2.0  # times Moes' film: more than any film has
 BOUNDS = (-40.0, 30.0)  # of ln(F_H/F_C): film shares down to 4e-18, contact shares to 1e-13
@@ -43,7 +43,7 @@ class Balance:
     notes: tuple[str, ...] = ()
 
     @property
-    def split(self) -> float:
+    def log_load_ratio(self) -> float:
         """ln(F_H/F_C)."""
         if self.film_load <= 0:
             return BOUNDS[0]
@@ -51,9 +51,9 @@ class Balance:
 
     @property
     def slope(self) -> float:
-        """Slope of the volume residual (G - h)/(G + h) over ``split``; infinite without a film that shares the load."""
-        split = 0.0 if self.response is None else self.response.split
-        return -0.5 / (split * self.contact.mean_film) if split else math.inf
+        """Slope of the volume residual (G - h)/(G + h) over ``log_load_ratio``; infinite where no film shares the load."""
+        per_gap = 0.0 if self.response is None else self.response.log_load_ratio_per_gap
+        return -0.5 / (per_gap * self.contact.mean_film) if per_gap else math.inf
 
 
 def solve_balance(
@@ -129,7 +129,7 @@ def _certainly_touching(scene: Scene, speed: float, contact: RoughContact) -> bo
 def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
     """Film and contact, solved again until the settings are those that the balance shows to be needed. Where a balance
     cannot be closed as tightly as needed, because f jumps with single cells, the last one stands: its error is told."""
-    split, slope, step, last = _beginning(point, sq, start)
+    log_load_ratio, slope, step, last = _beginning(point, sq, start)
     if last is None and alone is not None:
         last = Trial(alone, point.contact.close(alone.film_at(point.contact.x), 0.0), 0.0, 0.0)
     value: float | None = None
@@ -137,9 +137,9 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
     response = None
     if start is not None and start.response is not None and start.film is not None:
         if start.film.entrainment_speed == point.speed:
-            response = start.split, start.response
+            response = start.log_load_ratio, start.response
     for _ in range(ROUNDS):
-        point, root = _seen_root(point, split, slope, step, (value, last))
+        point, root = _seen_root(point, log_load_ratio, slope, step, (value, last))
         trial = root.payload
         if trial is None:
             return _dry(point.scene, point.contact, "what arrives does not fill the gap: all contact")
@@ -152,7 +152,13 @@ def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult
             break
         same = replace(settings, balance_tolerance=point.settings.balance_tolerance)
         value = root.value if same == point.settings else None
-        point, split, slope, step, last = replace(point, settings=settings), root.x, balance.slope, NEXT_STEP, trial
+        point, log_load_ratio, slope, step, last = (
+            replace(point, settings=settings),
+            root.x,
+            balance.slope,
+            NEXT_STEP,
+            trial,
+        )
     return closed or balance
 
 
@@ -173,13 +179,13 @@ def _beginning(point: Point, sq: float, start: Balance | None):
         return math.log(share / (1 - share)), None, FIRST_STEP, None
     trial = Trial(start.film, start.contact, start.film_load, start.contact_load, start.contact)
     if start.film.entrainment_speed == point.speed:
-        return start.split, start.slope, NEXT_STEP, trial
+        return start.log_load_ratio, start.slope, NEXT_STEP, trial
     return *predicted(point, start), NEXT_STEP, trial
 
 
 def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
-    """The split at ``point`` predicted from the balance ``start`` at another speed, and the slope of the residual
-    there.
+    """Predict ln(F_H/F_C) at ``point``, and the slope of the residual there, from the balance ``start`` at another
+    speed.
 
     The film follows Moes' formula, ``h ~ F_H^-m`` locally, and the mean gap a power of the contact's load, ``g ~
     F_C^-b``. The slope of (g - h)/(g + h) at a balance is (b F_H + m F_C)/(2 F_T), which gives b. The prediction is
@@ -191,30 +197,32 @@ def predicted(point: Point, start: Balance) -> tuple[float, float | None]:
     line = point.line(start.film_load)
     before, exponent, _ = exponents(replace(line, entrainment_speed=start.film.entrainment_speed))
     stiffness = max(2 * slope * load - exponent * start.contact_load, 0.0) / start.film_load
-    split = start.split
+    log_load_ratio = start.log_load_ratio
     for _ in range(STEPS):
-        film_load, contact_load = divided(load, split)
+        film_load, contact_load = loads_at(load, log_load_ratio)
         film, exponent, _ = exponents(point.line(film_load))
         steepness = (stiffness * film_load + exponent * contact_load) / load
         excess = -stiffness * math.log(contact_load / start.contact_load) - math.log(film / before)
-        split = min(max(split + min(max(-excess / steepness, -FARTHEST), FARTHEST), BOUNDS[0]), BOUNDS[1])
+        log_load_ratio = min(
+            max(log_load_ratio + min(max(-excess / steepness, -FARTHEST), FARTHEST), BOUNDS[0]), BOUNDS[1]
+        )
         if abs(excess) <= NEAR * steepness:
             break
-    return split, 0.5 * steepness
+    return log_load_ratio, 0.5 * steepness
 
 
-def _seen_root(point: Point, split: float, slope: float | None, step: float, first) -> tuple[Point, Root]:
+def _seen_root(point: Point, log_load_ratio: float, slope: float | None, step: float, first) -> tuple[Point, Root]:
     """The root, and ``point`` with a contact so tight that its gap at the root is known as closely as it is closed: a
     root of the errors of a loose contact is none."""
     while True:
-        root = _root(point, split, slope, step, first)
+        root = _root(point, log_load_ratio, slope, step, first)
         now = point.settings.contact_tolerance
         volume = point.settings.balance_tolerance
         tighter = now if root.payload is None else _contact_tolerance(point, root.payload.contact, volume)
         if tighter == now:
             return point, root
         point = replace(point, settings=replace(point.settings, contact_tolerance=tighter))
-        split = root.x
+        log_load_ratio = root.x
         first = (None, root.payload)
 
 
@@ -229,20 +237,20 @@ def _contact_tolerance(point: Point, contact: ContactState, volume: float) -> fl
     return now if (now or own) <= budget.SLACK * enough else 0.5 * enough
 
 
-def _root(point: Point, split: float, slope: float | None, step: float, first) -> Root:
+def _root(point: Point, log_load_ratio: float, slope: float | None, step: float, first) -> Root:
     load = point.scene.bodies.load
     most = point.contact.capacity
     lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
 
     def residual(x: float, last: Trial | None) -> tuple[float, Trial]:
-        found = point.trial(*divided(load, x), last)
+        found = point.trial(*loads_at(load, x), last)
         return found.contact.volume_residual, found
 
     tolerance = point.settings.balance_tolerance
     fed = point.scene.lubricant.inlet_film is not None
     lowest = max(lowest, EMPTY) if fed else lowest
     known = {"slope": slope, "first": first, "bounds": (lowest, BOUNDS[1])}
-    root = increasing_root(residual, split, step=step, tolerance=tolerance, **known)
+    root = increasing_root(residual, log_load_ratio, step=step, tolerance=tolerance, **known)
     return replace(root, payload=None) if fed and root.x == EMPTY and root.value > 0 else root
 
 
@@ -280,8 +288,10 @@ def _needed(point: Point, balance: Balance) -> Settings:
         allowed = response.gap_for("coefficient", share * numerics.tolerance)
         if now.correctable:
             allowed /= budget.SLOPE
-        if response.split:  # f may be anything farther off
-            allowed = min(allowed, (budget.MOST_MOVED if now.correctable else SETTLED) / abs(response.split))
+        if response.log_load_ratio_per_gap:  # f may be anything farther off
+            allowed = min(
+                allowed, (budget.MOST_MOVED if now.correctable else SETTLED) / abs(response.log_load_ratio_per_gap)
+            )
         closed = min(0.5 * allowed, budget.LOOSEST_VOLUME * min(mean_film, balance.film.central_film))
         volume = _tightened(volume, max(closed / mean_film, budget.TIGHTEST_VOLUME))
     contact = _contact_tolerance(point, balance.contact, volume)

@@ -16,7 +16,7 @@ from ..shared import (
 from .balance import Balance
 
 
-def judged(prepared, speed: float, balance: Balance, ends: float) -> tuple[Validity, ...]:
+def limits_exceeded(prepared, speed: float, balance: Balance, ends: float) -> tuple[Validity, ...]:
     """Entries for every assumption that ``balance`` violates. Those about bodies and map (`Prepared.known`) come
     first. ``ends``: the share of the contact's load on the edge columns of its patch."""
     scene = prepared.scene

@@ -16,9 +16,9 @@ LOAD_STEP = 0.05  # relative, of the contact load, for the slope of its gap
 LARGEST_GROWTH = 50.0  # of ln(F_H/F_C): beyond it nothing is known
 
 
-def divided(load: float, split: float) -> tuple[float, float]:
-    """(F_H, F_C) of ``load`` at split = ln(F_H/F_C)."""
-    return load / (1 + math.exp(-split)), load / (1 + math.exp(split))
+def loads_at(load: float, log_load_ratio: float) -> tuple[float, float]:
+    """Return (F_H, F_C) [N] of a total ``load`` [N] at ``log_load_ratio`` = ln(F_H/F_C)."""
+    return load / (1 + math.exp(-log_load_ratio)), load / (1 + math.exp(log_load_ratio))
 
 
 @dataclass(frozen=True)
@@ -42,19 +42,20 @@ class Slopes:
 class Response:
     """Reaction of a balance to an error of its gap.
 
-    ``slopes``: those of its contact; ``split``: ds/dG [1/m], the change of s = ln(F_H/F_C) by a change of the gap at
-    given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name; ``odds``: F_H/F_C.
-    Without a film the split does not change.
+    ``slopes``: those of its contact; ``log_load_ratio_per_gap``: ds/dG [1/m], the change of s = ln(F_H/F_C) by a change
+    of the gap at given load; ``rates``: d ln q/ds of the reported quantities q along the balance of load, by name;
+    ``load_ratio``: F_H/F_C.
+    Without a film the load ratio does not change.
     """
 
     slopes: Slopes
-    split: float = 0.0
+    log_load_ratio_per_gap: float = 0.0
     rates: dict[str, float] | None = None
-    odds: float = 0.0
+    load_ratio: float = 0.0
 
     def per_gap(self, name: str) -> float:
         """Relative change of quantity ``name`` per change of the gap [1/m], for small changes; 0 without a film."""
-        return abs(self.rates[name] * self.split) if self.rates else 0.0
+        return abs(self.rates[name] * self.log_load_ratio_per_gap) if self.rates else 0.0
 
     def per_film(self, found: Forces, mean_film: float) -> float:
         """Relative change of f per relative change of the film, of mean thickness ``mean_film`` [m], at most."""
@@ -69,7 +70,9 @@ class Response:
         rate = self.per_gap(name)
         if not rate:  # a quantity that does not move is known, however far the gap is off
             return 0.0
-        return rate * abs(gap_error) * max(1.0, growth(abs(self.split * gap_error), self.odds))
+        return (
+            rate * abs(gap_error) * max(1.0, load_growth(abs(self.log_load_ratio_per_gap * gap_error), self.load_ratio))
+        )
 
     def gap_for(self, name: str, change: float) -> float:
         """A gap error [m] that changes quantity ``name`` by no more than ``change``, relative."""
@@ -77,16 +80,16 @@ class Response:
         if not rate:
             return math.inf
         first_order = change / rate
-        return first_order / max(1.0, growth(abs(self.split * first_order), self.odds))
+        return first_order / max(1.0, load_growth(abs(self.log_load_ratio_per_gap * first_order), self.load_ratio))
 
 
-def growth(moved: float, odds: float) -> float:
+def load_growth(moved: float, load_ratio: float) -> float:
     """How much more the contact load grows than to first order, when ln(F_H/F_C) falls by ``moved`` >= 0 from
     ln(``odds``), ``odds`` = F_H/F_C. As F_C = F_T/(1 + F_H/F_C), it is less than 1 where the contact carries most."""
     moved = min(moved, LARGEST_GROWTH)
-    if not moved or not odds:
+    if not moved or not load_ratio:
         return 1.0
-    return ((1 + odds) / (1 + math.exp(-moved) * odds) - 1) * (1 + odds) / (moved * odds)
+    return ((1 + load_ratio) / (1 + math.exp(-moved) * load_ratio) - 1) * (1 + load_ratio) / (moved * load_ratio)
 
 
 def respond(
@@ -117,17 +120,19 @@ def respond(
         return Response(slopes)
     total = scene.bodies.load
     film_load = total - load
-    split = math.log(film_load / load)
+    log_load_ratio = math.log(film_load / load)
 
     def at(s: float) -> dict[str, float]:
-        loads = divided(total, s)
+        loads = loads_at(total, s)
         shared = film_of(loads[0])
         factor = slopes.area_factor(loads[1] - load, width, state.real_contact_area_fraction)
         mean_film = weighted_mean(shared.film_at(contact.x), contact.weight)  # the film fills the gap
-        return quantities(forces(scene, shared, grown(state, factor), loads[1]), shared, loads, mean_film)
+        return quantities(
+            forces(scene, shared, with_contact_area_scaled(state, factor), loads[1]), shared, loads, mean_film
+        )
 
-    low = at(split - STEP)
-    high = at(split + STEP)
+    low = at(log_load_ratio - STEP)
+    high = at(log_load_ratio + STEP)
     film_rate = (high["mean_gap"] - low["mean_gap"]) / (2 * STEP)
     ds_dgap = -1.0 / (-slopes.gap * load * film_load / (total * width) - film_rate)
     return Response(slopes, ds_dgap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
@@ -154,7 +159,7 @@ def quantities(found: Forces, film: EHLResult | None, loads: tuple[float, float]
     }
 
 
-def grown(state: ContactState, factor: float) -> ContactState:
+def with_contact_area_scaled(state: ContactState, factor: float) -> ContactState:
     """``state`` with ``factor`` times its contact area, at every x up to the whole width."""
     return replace(
         state,

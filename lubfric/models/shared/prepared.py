@@ -166,7 +166,7 @@ def on_stack(prepared: Prepared, strips: Strips, count: int) -> HalfSpaceContact
         surface = strips.stack(count)
         return _contact(prepared, surface.heights, surface.spacing, strips.cells.axis())
 
-    return prepared.remembered(("stack", strips.cells.factors, count), make, lambda made: made.heights.size)
+    return prepared.remembered(("stack", strips.cells.coarsening, count), make, lambda made: made.heights.size)
 
 
 def on_strip(prepared: Prepared, strips: Strips, index: int) -> HalfSpaceContact:
@@ -176,12 +176,12 @@ def on_strip(prepared: Prepared, strips: Strips, index: int) -> HalfSpaceContact
         surface = strips.strip(index)
         return _contact(prepared, surface.heights, surface.spacing, strips.cells.axis())
 
-    return prepared.remembered(("strip", strips.cells.factors, index), make, lambda made: made.heights.size)
+    return prepared.remembered(("strip", strips.cells.coarsening, index), make, lambda made: made.heights.size)
 
 
 def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int], **length) -> HalfSpaceContact:
     """The contact on every ``factors``-th cell of a piece of ``strips`` (`Strips.piece`)."""
-    own = "piece", strips.cells.factors, index, *length.values()
+    own = "piece", strips.cells.coarsening, index, *length.values()
 
     def make() -> HalfSpaceContact:
         surface = prepared.remembered(own, lambda: strips.piece(index, **length))
@@ -203,11 +203,11 @@ def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) ->
 
 def _on_strips(scene: Scene, surface: Surface, strips: Strips, given: bool) -> Prepared:
     check_map(scene, surface)
-    first = strips.stack(strips.first) if strips.whole else surface
+    first = strips.stack(strips.first) if strips.is_single_patch else surface
     heights = first.heights - first.heights.mean()
     contact = half_space_contact_of(scene, heights, first.spacing, x=strips.cells.axis())
     made = Prepared(scene, surface, contact, beforehand(scene, surface), strips, given)
-    made.memo[("stack", strips.cells.factors, strips.first)] = contact, contact.heights.size
+    made.memo[("stack", strips.cells.coarsening, strips.first)] = contact, contact.heights.size
     made.memo[("operator", first.heights.shape, tuple(first.spacing))] = contact.operator, contact.operator.symbol.size
     return made
 

@@ -1,4 +1,4 @@
-"""What a scene leaves out, and by how much f would likely change: `lacking`, from closed forms alone.
+"""What a scene leaves out, and by how much f would likely change: `unmodelled_effects`, from closed forms alone.
 
 f is guessed as ``f_b s + mu (1 - s)``. The share s = exp(-1.8 λ^1.2) of the load on the asperities (Aihara's law, one
 of the measured ones, which lie within a factor of two of each other) is that at λ, the expected film of the whole load
@@ -34,10 +34,12 @@ ALONE = 0.1  # of f by asperities, below which the film makes it
 NARROW = 0.184  # by which the least film of a rigid contact is thinner than that which flows
 NODES = 201
 
-Lack = tuple[str, float, str]  # what is left out; likely change of f, relative (NaN: not known); what to do
+UnmodelledEffect = tuple[str, float, str]  # what is left out; likely change of f, relative (NaN: not known); what to do
 
 
-def lacking(scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None) -> tuple[Lack, ...]:
+def unmodelled_effects(
+    scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None
+) -> tuple[UnmodelledEffect, ...]:
     """What ``scene``, whose surface has the standard deviation ``sq`` [m], leaves out at ``speed`` [m/s], the largest
     change of f first, what is not known last. What would change f by less than ``numerics.tolerance`` is not told.
 
@@ -57,7 +59,7 @@ def lacking(scene: Scene, sq: float, speed: float, known: tuple[float, float] | 
     return tuple(sorted(kept, key=lambda lack: -abs(lack[1]) if math.isfinite(lack[1]) else 0.0))
 
 
-def _of_film(scene: Scene, sq: float, speed: float, known) -> list[Lack]:
+def _of_film(scene: Scene, sq: float, speed: float, known) -> list[UnmodelledEffect]:
     """What needs a film."""
     line = scene.line_contact(speed)
     lubricant = scene.lubricant
@@ -75,7 +77,7 @@ def _of_film(scene: Scene, sq: float, speed: float, known) -> list[Lack]:
             after = _scaled(rubs, before, after, known)
         return after[1] / (known or before)[1] - 1
 
-    found: list[Lack] = []
+    found: list[UnmodelledEffect] = []
     if lubricant.floods:
         told = f"flooded from {1e3 * reach:.2g} mm before the line on; if less, give lubricant.inlet_length"
         size = math.nan if narrow and alone else change(scene, sq, STARVED)  # the rolling part may fall by more
@@ -134,7 +136,7 @@ def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[fl
     return rubs * share, rubs * share + mu * (1 - share)
 
 
-def lack_in_words(lack: Lack) -> str:
+def effect_in_words(lack: UnmodelledEffect) -> str:
     """One line; the change to two digits, all of 100 % and more."""
     what, change, remedy = lack
     digits = ".0f" if abs(change) >= 0.095 else ".2g"

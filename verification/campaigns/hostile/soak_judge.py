@@ -156,15 +156,15 @@ def judge_of(prepared: Prepared, result) -> Judge:
     scaled = scene.numerics.film_deflection == "scaled"
     strips = prepared.strips
     pairs: tuple[tuple[MappedStrip, MappedStrip], ...] = ()
-    if strips is None or strips.whole:
+    if strips is None or strips.is_single_patch:
         n = prepared.surface.shape[0]
         dx = prepared.surface.spacing[0]
         strip = _strip(prepared.surface, (np.arange(n) - 0.5 * (n - 1)) * dx)
     else:
-        while strips.cells.factors != result.decision.coarsening:
+        while strips.cells.coarsening != result.decision.coarsening:
             strips = strips.halved()
         strip = _strip(strips.stack(result.decision.strips), strips.cells.axis())
-        if not strips.cells.own:
+        if not strips.cells.is_native:
             pairs = tuple(_pair(strips, i) for i in range(min(PIECES, strips.pieces)))
     return Judge(prepared, result.speed, scaled, strip, pairs, tolerance)
 
@@ -177,7 +177,7 @@ def _pair(strips: Strips, index: int) -> tuple[MappedStrip, MappedStrip]:
     """A piece on its own cells and on those of the strips."""
     cells = strips.cells
     piece = strips.piece(index)
-    kept = replace(piece, heights=cells.thinned(piece.heights, cells.factors), spacing=cells.coarse)
+    kept = replace(piece, heights=cells.thinned(piece.heights, cells.coarsening), spacing=cells.coarse)
     return _strip(piece, cells.axis((1, 1))), _strip(kept, cells.axis())
 
 

@@ -14,17 +14,17 @@ OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
 
 
-def missed_share(scene, contact, film, found, correlation_length: float) -> float:
-    """Relative effect of `missed_load` on f; NaN if ``contact`` has no cells, or too few along y."""
+def undetected_contact(scene, contact, film, found, correlation_length: float) -> float:
+    """Relative effect of `undetected_load` on f; NaN if ``contact`` has no cells, or too few along y."""
     if contact.grid is None or not found.coefficient:
         return math.nan
     under = film.film_at(contact.x)
     bodies = scene.bodies
-    load = missed_load(contact.heights, contact.spacing, under, bodies.e_prime, bodies.width, correlation_length)
+    load = undetected_load(contact.heights, contact.spacing, under, bodies.e_prime, bodies.width, correlation_length)
     return _share(scene, load, found)
 
 
-def missed_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
+def undetected_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
     """Expected contact load [N] of the whole width on summits higher than the highest one of the line, to an order of
     magnitude.
 
@@ -49,7 +49,7 @@ def missed_load(heights, spacing, film, e_prime: float, width: float, correlatio
     return rate * spot / (size * step) * width
 
 
-def hidden_share(scene, contact, found, depth: float) -> float:
+def hidden_contact(scene, contact, found, depth: float) -> float:
     """Relative effect on f of the highest summit of ``contact``, a piece, that is pressed ``depth`` [m] into a body, if
     every such piece has one."""
     bodies = scene.bodies
