@@ -10,11 +10,11 @@ from typing import Any
 
 from .._base import Shown, changed, validate
 from ..errors import InputError
-from ..surface import ACFS, DECIMALS, FORMS, PER_SQ, UNITS
+from ..surface import ACFS, DECIMALS, FORMS, PER_SQ, units_of
 from .bodies import lengths
 
 NEEDED = "either 'file', or 'sq' (or 'ra', 'rz') and 'correlation_length' in m"
-OPTIONS = {"acf": ACFS, "motion_axis": ("x", "y"), "unit": UNITS, "decimal": DECIMALS, "form": FORMS}
+OPTIONS = {"acf": ACFS, "motion_axis": ("x", "y"), "decimal": DECIMALS, "form": FORMS}
 OPTIONS |= {"outliers": ("refuse", "keep", "mask"), "extension": ("none", "mirror")}
 GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize")  # fields of a generated map
 
@@ -36,7 +36,8 @@ class Roughness(Shown):
     oversize : a generated map is made this many times as long in x and y. Then its middle is cut out and scaled to sq.
         This is for correlation lengths that do not fit the patch
     spacing : of a file that does not carry its own [m]
-    unit : "m", "mm", "um" or "µm", "nm", of a file that does not carry its own
+    unit : "m", "mm", "um" or "µm", "nm", of a file that does not carry its own; of a list of points also several,
+        (x and y, heights) or (x, y, heights)
     decimal : "." or ",", of a text file in which commas can be either
     missing_value : number in a text or .npy file that stands for "not measured"
     form : F-operation, least squares: "plane" or "quadratic" (second order: cylinder or paraboloid too)
@@ -60,7 +61,7 @@ class Roughness(Shown):
     seed: int = 0
     motion_axis: str = "x"
     spacing: float | tuple[float, float] | None = None
-    unit: str | None = None
+    unit: str | tuple[str, ...] | None = None
     oversize: int = 1
     form: str = "plane"
     decimal: str | None = None
@@ -116,12 +117,19 @@ def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
     return values
 
 
+def checked_unit(name: str, value: Any) -> str | tuple[str, ...]:
+    """Return the unit of a map, or several, as given. Raise `InputError` for others."""
+    units_of(name, value)
+    return tuple(value) if isinstance(value, (list, tuple)) else value
+
+
 _CHECKS: dict[str, Callable[[str, Any], Any]] = dict.fromkeys(
     ("sq", "decay_level", "s_filter", "l_filter"), validate.of_key
 )
 _CHECKS |= dict.fromkeys(("correlation_length", "spacing"), lengths)
 _CHECKS |= {name: partial(validate.choice, options=options) for name, options in OPTIONS.items()}
 _CHECKS |= {
+    "unit": checked_unit,
     "seed": partial(validate.integer, minimum=0, maximum=2**128 - 1),
     "oversize": partial(validate.integer, minimum=1, maximum=64),
     "missing_value": partial(validate.number, unit="(unit of the file)"),

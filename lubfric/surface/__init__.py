@@ -2,8 +2,9 @@
 
 from .bearing import Bearing, material_ratio
 from .generate import ACFS, generate_surface, surface_generator
+from .header import UNITS
 from .height_map import Surface
 from .prepare import FORMS, outliers
-from .read import read_surface
+from .read import read_surface, units_of
 from .statistics import PER_SQ, check_slopes, correlation_length, rms_slope
-from .text import DECIMALS, UNITS
+from .text import DECIMALS

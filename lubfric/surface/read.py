@@ -1,21 +1,25 @@
 """Height maps from files: .npy, text matrix, .xyz points and X3P; some 40 formats of instruments through the optional
 package SurfaceTopography."""
 
-import warnings
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from .._base import validate
 from ..errors import InputError
+from .header import UNITS
 from .height_map import Surface
+from .layout import kind_of_table, refuse_profile
 from .prepare import FORMS
 from .regrid import points
-from .statistics import check_slopes
-from .text import DECIMALS, UNITS, read_matrix, read_points
+from .statistics import check_scale, check_slopes
+from .text import DECIMALS, read_text
 from .x3p import read_x3p
 
+MOST_BYTES = 2**31  # of any file
 TEXT = (".txt", ".csv", ".asc", ".dat", ".xyz")
 OWN_GRID = {".x3p": read_x3p}  # formats that carry their grid and their units, and their readers
 SUFFIXES = (".npy", *TEXT, *OWN_GRID)
@@ -31,23 +35,31 @@ HINT = "pip install 'lubfric[formats]'"
 
 
 def read_surface(
-    path, *, level=True, form="plane", fill=True, spacing=None, unit=None, decimal=None, missing_value=None
+    path: Any,
+    *,
+    level: bool = True,
+    form: str = "plane",
+    fill: bool = True,
+    spacing: Any = None,
+    unit: Any = None,
+    decimal: str | None = None,
+    missing_value: float | None = None,
 ) -> Surface:
     """Read a measured height map, take off its form, then fill what was not measured (the mask stays).
 
     ==================== ==================================================================
     .npy                 heights[ix, iy]; needs ``spacing``
-    .txt .csv .asc .dat  one line of the file is one x; blanks, tabs, commas or semicolons between
-                         values; needs ``spacing``, or a line ``# spacing = dx dy`` (m)
+    .txt .csv .asc .dat  a matrix: one line of the file is one x, unless its header says that x runs along the lines;
+                         or points "x y z". Headers of Gwyddion, SPIP, Wyko and others give spacing and units
     .xyz                 lines "x y z" on a uniform grid, any order; points left out are unmeasured
     .x3p                 ISO 25178-72; x is the fast axis of the file and axis 0 here; metres
     .sur .al3d .opd ...  every format of SurfaceTopography (``lubfric[formats]``): its first channel
     ==================== ==================================================================
 
-    In a text file, lines that start with # are skipped, and so are titles without numbers above the table (which are
-    noted in ``surface.notes``). Headings with one number are read where they name the steps along X and Y with their
-    unit ("Step X [um];1.0"), and skipped otherwise. An empty cell is unmeasured. A comma between digits is the decimal
-    mark where semicolons, tabs or blanks separate.
+    docs/inputs.md has a table of what is read of each format and what is checked. What a header states is used, and an
+    argument that contradicts it is refused. Lines above the table that state nothing are skipped; ``surface.notes``
+    lists them all. An empty cell, "nan", "Bad", "No Data", "---" and the like are unmeasured. A comma between digits is
+    the decimal mark where semicolons, tabs or blanks separate. A profile is refused.
     Look at ``surface.describe()`` (size, Sq, max |z|/Sq, missing share) before you trust a file.
 
     Parameters
@@ -55,9 +67,10 @@ def read_surface(
     path : file
     level, fill : subtract the ``form`` of the measured points; fill the others harmonically
     form : "plane", "cylinder" (about x or y) or "quadratic", by least squares: the F-operation of ISO 25178-2
-        (`Surface.filtered` has the S- and L-filters). A note of the surface tells the Sq that each form leaves
-    spacing : (dx, dy) or one length [m], only for files that do not carry their own
-    unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in .xyz); only where the file names none
+        (`Surface.filtered` has the S- and L-filters). A note of the surface gives the Sq that each form leaves
+    spacing : (dx, dy) or one length [m], where the file does not carry its own
+    unit : "m" (default), "mm", "um" or "µm", "nm" of the heights (and of x, y in a list of points), where the file
+        names none. Several: (x and y, z) or (x, y, z)
     decimal : "." or ",", the decimal mark of a text file in which commas can be either
     missing_value : number for "not measured" in a .npy or text file, in the unit of the file, beside NaN
 
@@ -65,10 +78,11 @@ def read_surface(
 
     Raises
     ------
-    InputError : a file that is missing, truncated, of an unknown kind, inconsistent or hostile; words among the
-        numbers; commas that can be read both ways; a title that names a unit when ``unit`` is not given; infinite
-        heights; non-uniform spacing; spacing given twice or not at all; a levelled map with slopes that no surface has,
-        since heights and spacing are then in different units
+    InputError : a file that is missing, truncated, of an unknown kind, inconsistent or hostile; a profile; words among
+        the numbers; commas that can be read both ways; a title that names a unit which belongs to nothing when ``unit``
+        is not given; infinite heights; points that are more than 15 % of the spacing off a uniform grid; spacing or
+        unit that contradict the file, or that nobody gives; slopes that no surface has, since heights and spacing are
+        then in different units
     """
     path, head = _opened(path)
     validate.choice("form", form, FORMS)
@@ -76,59 +90,80 @@ def read_surface(
         raise InputError(f"form = {form!r} and level = {level!r}; allowed: form = 'plane' with level = False")
     if decimal is not None:
         validate.choice("decimal", decimal, DECIMALS)
+    try:
+        with np.errstate(all="ignore"):
+            surface = _read(path, head, spacing, unit, decimal, missing_value)
+            return _prepared(replace(surface, source=path.name), level, fill, form)
+    except MemoryError:
+        size = path.stat().st_size
+        said = f"path = {str(path)!r} with {size:.3g} bytes does not fit into the memory that this process may use"
+        raise InputError(said, way_out="give a smaller part of the map, or allow more memory") from None
+
+
+def _read(path: Path, head: bytes, spacing, unit, decimal, missing_value) -> Surface:
+    """Return the map in a file as it stands, by the reader of its format."""
     suffix = path.suffix.lower()
     binary = b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))  # no text: .dat of an interferometer
     by_instrument = suffix in TEXT and binary or suffix not in SUFFIXES and suffix in INSTRUMENTS
     if by_instrument or suffix in OWN_GRID:
         _refuse(suffix, spacing=spacing, unit=unit, decimal=decimal, missing_value=missing_value)
-        surface = _instrument(path) if by_instrument else OWN_GRID[suffix](path)
-    elif suffix in SUFFIXES:
-        surface = _plain(path, suffix, spacing, unit, decimal, missing_value)
-    else:
-        others = f"with SurfaceTopography ({HINT}) {', '.join(INSTRUMENTS)}"
-        said = f"path = {str(path)!r} has the unknown suffix {suffix!r}"
-        raise InputError(said, allowed=f"{', '.join(SUFFIXES)}, and {others}")
-    return _prepared(replace(surface, source=path.name), level, fill, form)
+        return _instrument(path) if by_instrument else OWN_GRID[suffix](path)
+    if suffix in SUFFIXES:
+        return _plain(path, suffix, spacing, unit, decimal, missing_value)
+    others = f"with SurfaceTopography ({HINT}) {', '.join(INSTRUMENTS)}"
+    said = f"path = {validate.shown(str(path))} has the unknown suffix {validate.shown(suffix)}"
+    raise InputError(said, allowed=f"{', '.join(SUFFIXES)}, and {others}")
 
 
-def _opened(path) -> tuple[Path, bytes]:
-    """The path and the first bytes of a file that is there and can be opened."""
+def _opened(path: Any) -> tuple[Path, bytes]:
+    """Return the path and the first bytes of a file that is there, can be opened and is not too large."""
     path = validate.folder("path", path)
     if not path.is_file():
         raise InputError(f"path = {validate.shown(str(path))}: no such file")
     try:
+        size = path.stat().st_size
+        if size > MOST_BYTES:
+            raise InputError(f"path = {validate.shown(str(path))} has {size:.3g} bytes", "", f"up to {MOST_BYTES:.3g}")
         with path.open("rb") as file:
             return path, file.read(4096)
     except OSError as problem:
         raise InputError(f"path = {str(path)!r} cannot be read ({problem})") from None
 
 
-def _plain(path, suffix, spacing, unit, decimal, missing_value) -> Surface:
-    scale = UNITS[validate.choice("unit", "m" if unit is None else unit, UNITS)]
+def units_of(name: str, value: Any) -> tuple[str, str, str] | None:
+    """Return the units of x, y and the heights: one for all, (x and y, heights), or all three; None for None."""
+    if value is None:
+        return None
+    parts = list(value) if isinstance(value, (list, tuple)) else [value]
+    if not 1 <= len(parts) <= 3:
+        raise InputError(f" = {validate.shown(value)}", name, "one unit, (x and y, heights), or (x, y, heights)")
+    words = [validate.choice(name, part, UNITS) for part in parts]
+    return words[0], words[-2] if len(words) > 1 else words[0], words[-1]
+
+
+def _plain(path: Path, suffix: str, spacing, unit, decimal, missing_value) -> Surface:
+    """Return the map of a file of text, or of an array of NumPy."""
+    units = units_of("unit", unit)
+    if spacing is not None:
+        spacing = validate.spacing("spacing", spacing)
     if missing_value is not None:
         missing_value = validate.number("missing_value", missing_value, "(unit of the file)")
-    if suffix == ".xyz":
-        _refuse(suffix, spacing=spacing)
-        heights, (dx, dy), notes = read_points(path, decimal, unit)
-        return _masked(heights, scale, missing_value, (dx * scale, dy * scale), notes)
     if suffix == ".npy":
         _refuse(suffix, decimal=decimal)
         heights = _read_npy(path)
-        own = None
-        notes = ()
-        with np.errstate(over="ignore"):
-            if heights.dtype.kind == "f" and missing_value is not None:
-                missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
-            heights = heights.astype(float)
-    else:
-        heights, own, notes = read_matrix(path, decimal, unit)
-    if own is not None:
-        _refuse(suffix, spacing=spacing)
-    elif spacing is None:
-        why = next((note for note in notes if note.startswith("steps of")), "the file does not carry it")
-        said = f"spacing of {path.name} is missing: {why}"
-        raise InputError(said, allowed="one length or (dx, dy) in m (surface.spacing), dx from line to line")
-    return _masked(heights, scale, missing_value, spacing if own is None else own, notes)
+        kind = kind_of_table(path.name, heights)
+        if kind == "profile":
+            refuse_profile(path.name, heights, None, units)
+        if kind == "points":
+            said = f"path = {str(path)!r} holds points x y z on a grid, not a map of heights"
+            raise InputError(said, way_out="write them as text with the suffix .xyz")
+        if missing_value is not None and heights.dtype.kind == "f":
+            missing_value = float(heights.dtype.type(missing_value))  # in the precision of the file
+        scale = UNITS["m" if units is None else units[2]]
+        return _masked(path, heights.astype(float), scale, (missing_value,), spacing, ())
+    table = read_text(path, points=suffix == ".xyz", decimal=decimal, units=units, spacing=spacing)
+    missing = (missing_value, table.missing_value)
+    return _masked(path, table.heights, table.height_scale, missing, table.spacing, table.notes)
 
 
 def _refuse(suffix, **given) -> None:
@@ -138,21 +173,33 @@ def _refuse(suffix, **given) -> None:
             raise InputError(said, name, way_out="leave it out")
 
 
-def _masked(heights, scale, missing_value, spacing, notes) -> Surface:
-    """The heights with their mask: NaN and ``missing_value`` are unmeasured. `Surface` refuses infinite heights."""
+def _masked(path: Path, heights, scale, missing_values, spacing, notes) -> Surface:
+    """Return the heights with their mask: NaN and the ``missing_values`` are unmeasured. `Surface` refuses infinite
+    heights."""
+    if spacing is None:
+        why = next((note for note in notes if note.startswith("steps of")), "the file does not carry it")
+        said = f"spacing of {path.name} is missing: {why}"
+        raise InputError(said, allowed="one length or (dx, dy) in m (surface.spacing), dx from line to line")
     measured = ~np.isnan(heights)
-    if missing_value is not None:
-        measured &= heights != missing_value
-        notes = (*notes, f"missing_value = {missing_value:g}: {np.count_nonzero(heights == missing_value)} points")
+    for value in missing_values:
+        if value is not None:
+            measured &= heights != value
+            notes = (*notes, f"missing_value = {value:g}: {np.count_nonzero(heights == value)} points")
     if not measured.any():
         raise InputError(f"heights: none of {heights.size} values is measured; allowed: measured heights in m")
     return Surface(np.where(measured, heights * scale, np.nan), spacing, mask=measured, notes=notes)
 
 
 def _prepared(surface, level, fill, form) -> Surface:
-    """The map without its ``form``, noted with what the other forms would leave, and filled."""
+    """Return the map without its ``form``, noted with what the other forms would leave, and filled."""
+    if not level:
+        flat = surface
+        with suppress(InputError):  # points that fix no plane
+            flat = surface.level()
+        check_slopes(flat)
     if level:
-        left, surface = surface.left_by(), surface.level(form)
+        left = surface.left_by()
+        surface = surface.level(form)
         check_slopes(surface)
         words = ", ".join(f"{sq * 1e9:.4g} nm {f'without {name}' if name else 'as it is'}" for name, sq in left.items())
         least = min(left, key=lambda name: left[name])
@@ -166,9 +213,7 @@ def _read_npy(path) -> np.ndarray:
     """Read a .npy file. It is memory-mapped first, so that its header cannot ask for more than the file holds."""
     name = f"path = {str(path)!r}"
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            data = np.load(path, mmap_mode="r", allow_pickle=False)
+        data = np.load(path, mmap_mode="r", allow_pickle=False)
     except Exception as problem:  # the header is Python text: any error of its parser, or of the map made from it
         raise InputError(f"{name} is not a readable .npy array ({validate.shown(str(problem))})") from None
     if not isinstance(data, np.ndarray) or data.dtype.kind not in "iuf" or data.ndim != 2 or data.size == 0:
@@ -179,7 +224,7 @@ def _read_npy(path) -> np.ndarray:
 
 
 def _instrument(path: Path) -> Surface:
-    """The first height map of a file of an instrument as it stands, through the optional package SurfaceTopography:
+    """Return the first height map of a file of an instrument as it stands, through the optional package SurfaceTopography:
     unmeasured points NaN, neither levelled nor filled. Its units are not always right (lateral units of .nms were found
     wrong by 1e6): compare ``surface.describe()`` with the instrument's report.
 
@@ -193,18 +238,25 @@ def _instrument(path: Path) -> Surface:
         topography = reader.topography(channel_index=0)
         heights = topography.heights()
         sizes = topography.physical_sizes
-        found = topography.unit
+        unit = topography.unit
     except Exception as problem:  # the package raises many kinds for files it cannot read
         said = f" cannot be read by SurfaceTopography ({type(problem).__name__}: {validate.shown(str(problem))})"
         raise InputError(said, name, way_out="give a complete file of a format it knows") from problem
-    if found not in UNITS:
-        raise InputError(f": heights are in {found!r}", name, f"a channel of heights in {', '.join(UNITS)}")
+    if unit not in UNITS:
+        raise InputError(
+            f": heights are in {validate.shown(unit)}", name, f"a channel of heights in {', '.join(UNITS)}"
+        )
+    scale = UNITS[unit]
     heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
-    if heights.ndim != 2 or not np.isfinite(heights).any():
-        raise InputError(f" holds {heights.shape} heights", name, "a map with measured points")
-    spacing = tuple(size / n * UNITS[found] for size, n in zip(sizes, heights.shape))
-    notes = [f"read by SurfaceTopography, in {found}"]
+    if heights.ndim == 1:
+        refuse_profile(path.name, heights[:, None] * scale, None, ("m", "m", "m"))
+    if heights.ndim != 2 or not np.isfinite(heights).any() or sizes is None:
+        raise InputError(f" holds {heights.shape} heights", name, "a map with measured points and its size")
+    spacing = tuple(size / n * scale for size, n in zip(sizes, heights.shape))
+    notes = [f"read by SurfaceTopography, in {unit}"]
     if len(channels) > 1:
         notes.append(f"channel {channels[0]}, the first of {len(channels)}")
-    heights = heights * UNITS[found]
-    return Surface(heights, spacing, mask=~np.isnan(heights), source=path.name, notes=tuple(notes))
+    heights = heights * scale
+    surface = Surface(heights, spacing, mask=~np.isnan(heights), source=path.name, notes=tuple(notes))
+    check_scale(surface)
+    return surface

@@ -12,6 +12,9 @@ from .._base import validate
 from ..errors import InputError
 
 INVERSE_E = math.exp(-1)
+SMOOTHEST = 1e-7  # rms slope below which an instrument's heights and spacing cannot be in the same unit
+FINEST = 1e-11  # m: spacing of an instrument's map; a tenth of an atom
+COARSEST = 1e-2  # m
 STEEPEST = 3.0  # rms slope beyond which heights and spacing cannot be in the same unit
 # Heights of a Gaussian surface over its Sq. Ra: exactly. Rz: an estimate, for a profile of L correlation lengths has
 # 4.3 Sq in a sampling length of L = 25, 5.3 at 80 and 5.8 at 160 (Rice's rate of its summits, Gaussian ACF).
@@ -87,6 +90,22 @@ def check_slopes(surface) -> None:
     if slope > STEEPEST:
         of = f"of heights with Sq {surface.sq:.3g} m on a spacing of {surface.spacing[0]:.3g} m"
         raise InputError(f": rms slope = {slope:.3g} {of}", "surface", f"up to {STEEPEST:g} (are both in m?)")
+
+
+def check_scale(surface) -> None:
+    """Raise `InputError` for a map of an instrument whose lengths cannot be right: another program read them, and may
+    have taken a unit for another."""
+    dx, dy = surface.spacing
+    if not all(FINEST <= step <= COARSEST for step in (dx, dy)):
+        said = f": spacing = {dx:.3g} x {dy:.3g} m"
+        raise InputError(said, "surface", f"{FINEST:g} to {COARSEST:g} m in a file of an instrument (a wrong unit?)")
+    if min(surface.shape) < 3 or np.count_nonzero(np.isfinite(surface.heights)) < 9:
+        return
+    rough = surface.level()
+    slope = rms_slope(rough)[2]
+    if rough.sq > 0 and not SMOOTHEST <= slope <= STEEPEST:
+        said = f": rms slope = {slope:.3g} of heights with Sq {rough.sq:.3g} m on a spacing of {dx:.3g} m"
+        raise InputError(said, "surface", f"{SMOOTHEST:g} to {STEEPEST:g} in a file of an instrument (a wrong unit?)")
 
 
 def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:

@@ -1,170 +1,412 @@
-"""Height maps as text: a matrix of heights, or a list of points x y z; their separators and decimal marks."""
+"""Height maps as text: a matrix of heights, or a list of points x y z; their separators, decimal marks and headers."""
 
-import math
 import re
+from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
 from .._base import text_of, validate
 from ..errors import InputError
 from ..quantities import counted
-from ..units import UNITS as KINDS
-from ..units import spelled
+from .header import LENGTHS, UNIT_WORDS, UNITS, Header, column_units, grid_of, read_header, statements
+from .layout import FEWEST, Border, border_of, kind_of_table, refuse_profile
+from .points import gridded
 
-MOST_BYTES = 2**30
-NEXT_LINE = 0.1  # of the largest gap between coordinates: a larger one leads to the next grid line
-FARTHEST = 1e15  # in the unit of the file
-UNEVEN = 0.02  # of the spacing: the most a coordinate may be off its grid line
+MOST_BYTES = 2**30  # of a file of text
 DECIMALS = (".", ",")
-UNITS = {name: KINDS["m"][spelled(name)] for name in ("m", "mm", "um", "µm", "μm", "nm")}  # both signs of micro
-UNIT_WORDS = {"mm": "mm", "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "nm": "nm"}
-MISSING_WORDS = {"na", "n/a", "null", "none", "bad", "missing"}
-
-UNCLEAR = "is neither numbers nor a title; allowed: 'nan' where unmeasured, '#' before a line to be skipped"
+UNCLEAR = "is neither numbers nor a title; use 'nan' where unmeasured, '#' before a line to be skipped"
+WYKO = "Wyko ASCII Data File Format"
+HEIGHT_BLOCKS = ("RAW_DATA", "RAW DATA", "OPD", "SAMPLE_DATA")  # of a Wyko file; others are intensities
+LATERAL = (1.0, 1e-3, 1e-6, 1e-9)  # m: units that coordinates without a stated one may be in
+NEAR = 0.02  # relative difference up to which the step of coordinates is the given spacing
 
 _NUMBER = re.compile(r"[+-]?(?:(?:\d+[.,]?\d*|[.,]\d+)(?:e[+-]?\d+)?|nan|inf|infinity)", re.I)
 _VALUE = r"(?:[+-]?(?:\d+(?:,\d+)?(?:[eE][+-]?\d+)?|[nN][aA][nN]))"
 _EMPTY = re.compile(r"^\t|\t *(?:\t|$)")  # a value left out between tabs
-_HEADING = re.compile(
-    rf"([^\d;:=,\t]*[a-zµμ][^\d;:=,\t]*)[;:=,\t]\s*({_NUMBER.pattern})\s*[;,\t]?\s*([a-zµμ]*)[;,\t\s]*", re.I
-)
-_STEPS = {"step", "spacing", "increment", "pitch", "pixel", "dx", "dy"}
 _BLANKS_BETWEEN = re.compile(rf"{_VALUE}(?:\s+{_VALUE})*")  # '1,5 2,5'
 _PAIR = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
 _BOTH_WAYS = re.compile(rf"{_PAIR}(?:,\s*{_PAIR})*")  # '1,5' or '1,5,2,5'
-
 _COMMA_BLANK = re.compile(rf"{_VALUE}(?:,\s+{_VALUE})*")  # '1,5, 2' or '1, 2'
+_SHEET_ERROR = re.compile(
+    r"#(?:n/?[av]|div/0!|value!|wert!|ref!|num!|zahl!|null!|name\?)(?![^\s;,])", re.I
+)  # in a cell
+_MISSING = re.compile(  # how programs mark a point that was not measured
+    r"(?<![^\s;,\"])\"?(?:no[ _]?data|bad|#?n/?a|null|none|missing|invalid|void|undefined|masked|-{1,9}|\*{1,9}|\?{1,9}"
+    r"|[+-]?1[.,]#[a-z]+|#nv|#(?:div/0|value|wert|ref|num|zahl|null)!)\"?(?![^\s;,\"])",
+    re.I,
+)
+_ODD = re.compile(r"[^\d\s.,;+eE-]|--|(?<![\d.,eE])-(?![\d.,])")  # a line that may hold such a mark
 
 Lines = list[tuple[int, str]]  # (line number in the file, text without blanks around it)
 
 
-def _lines(path) -> tuple[list[str], list[tuple[int, str]]]:
-    """(comment lines, data lines with their number in the file) of a file of text."""
-    lines = text_of(path, MOST_BYTES).splitlines()
-    text = [(number, line.strip(" \r\f\v")) for number, line in enumerate(lines, 1) if line.strip()]
-    comments = [line.strip() for _, line in text if line.lstrip()[0] == "#"]
-    return comments, [pair for pair in text if pair[1].lstrip()[0] != "#"]
+@dataclass(frozen=True, kw_only=True)
+class Table:
+    """The numbers of a file of text as they stand, and what its titles and comments say of them."""
+
+    numbers: np.ndarray
+    header: Header
+    titles: Lines
+    own_spacing: tuple[float, float] | None = None
+    notes: tuple[str, ...] = ()
 
 
-def read_matrix(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float, float] | None, tuple[str, ...]]:
-    """heights[ix, iy] with one x per line; the spacing [m] of a ``# spacing = dx dy`` line, or of headings where the
-    steps along X and Y are the same (else they do not tell along which a line runs); notes."""
-    comments, lines = _lines(path)
-    spacing = None
-    for line in comments:
-        if not re.match(r"#\s*spacing\s*[=:]", line):
+@dataclass(frozen=True, kw_only=True)
+class TextMap:
+    """A map of a file of text: heights[ix, iy] in the unit ``height_scale`` [m], NaN where unmeasured, and its
+    spacing [m], None where the file does not carry it."""
+
+    heights: np.ndarray
+    height_scale: float
+    spacing: tuple[float, float] | None
+    missing_value: float | None = None
+    notes: tuple[str, ...] = field(default=())
+
+
+def read_text(
+    path: Path,
+    *,
+    points: bool,
+    decimal: str | None = None,
+    units: tuple[str, str, str] | None = None,
+    spacing: tuple[float, float] | None = None,
+) -> TextMap:
+    """Read the map in a file of text.
+
+    points : the file is a list of points x y z (.xyz); a matrix that is such a list is read as one too
+    units : of x, y and the heights, as the caller gives them; None to find them in the file
+    spacing : as the caller gives it [m], which the file must not contradict
+    """
+    text = text_of(path, MOST_BYTES)
+    if text.startswith(WYKO):
+        return _wyko(path, text, units, spacing)
+    table = _table(path, text, decimal)
+    kind = "points" if points else kind_of_table(path.name, table.numbers)
+    if kind == "profile":
+        refuse_profile(path.name, table.numbers, table.header, units)
+    if kind == "points":
+        return _points(path, table, units, spacing)
+    return _matrix(path, table, units, spacing)
+
+
+# --- a matrix ----------------------------------------------------------------------------------
+
+
+def _matrix(path, table: Table, units, spacing) -> TextMap:
+    """Return the map of a table of heights: turned so that x is axis 0, without rows and columns of coordinates."""
+    header = table.header
+    scale, notes = _height_scale(path, table, units)
+    border, numbers = border_of(table.numbers)
+    grid = grid_of(header, *numbers.shape)
+    steps = table.own_spacing if table.own_spacing is not None else grid.steps
+    if grid.steps is not None and table.own_spacing is not None:
+        _same_spacing(path, table.own_spacing, grid.steps, either=grid.either)
+    if border is not None:
+        numbers, coordinates, said = _coordinates(path, table, border, numbers, grid.across, spacing, steps)
+        steps = coordinates if steps is None else steps
+        notes += said
+    notes += (*table.notes, *grid.notes)
+    if grid.steps is not None and steps is not None and not grid.either:
+        lines = sorted({header.stated[name].line for name in ("dx", "dy", "width", "height") if name in header.stated})
+        where = "line " if len(lines) == 1 else "lines "
+        notes += (f"spacing {steps[0]:.6g} x {steps[1]:.6g} m from {where}{', '.join(map(str, lines))}",)
+    if spacing is not None and steps is not None:
+        _same_spacing(path, spacing, steps, either=grid.either)
+        steps = spacing
+    elif grid.either and table.own_spacing is None and border is None:
+        notes += (f"steps of {steps[0]:g} m along X and {steps[1]:g} m along Y: lines may run along either",)
+        steps = None
+    return TextMap(
+        heights=numbers.T if grid.across else numbers,
+        height_scale=scale,
+        spacing=steps if spacing is None else spacing,
+        missing_value=header.value("missing"),
+        notes=notes,
+    )
+
+
+def _coordinates(path, table, border: Border, numbers, across, spacing, steps):
+    """Return the heights, the steps [m] of the coordinates beside them where these are known, and notes."""
+    along, down = border.steps
+    pair = (along, down) if across else (down, along)
+    unit = table.header.value("xy unit")
+    known = [step for step in pair if step is not None]
+    expected = spacing if spacing is not None else steps
+    if unit is None and expected is not None:
+        unit = next((u for u in LATERAL if _all_near([s and s * u for s in pair], expected)), None)
+        if unit is None:
+            said = f"file {path.name}: {border.worded()} with steps of {' and '.join(f'{s:g}' for s in known)}"
+            raise InputError(said, allowed=f"steps of {expected[0]:g} and {expected[1]:g} m in m, mm, um or nm")
+    note = f"{border.worded()} taken off"
+    if unit is None:
+        said = f"file {path.name}: {border.worded()}, and no line states their unit"
+        raise InputError(said, way_out="give spacing in m, or write '# xy unit = um' above the table")
+    if None in pair:
+        if expected is None:
+            said = f"file {path.name}: {border.worded()}, and the other step is not stated"
+            raise InputError(said, way_out="give spacing = (dx, dy) in m")
+        return numbers, None, (note,)
+    return numbers, (pair[0] * unit, pair[1] * unit), (note,)
+
+
+def _all_near(pair, expected) -> bool:
+    return all(step is None or abs(step / goal - 1) < NEAR for step, goal in zip(pair, expected))
+
+
+def _same_spacing(path, given, steps, *, either: bool) -> None:
+    """Raise `InputError` where the spacing that the caller gives is not the one that the file states."""
+    if _all_near(given, steps) or either and _all_near(given, steps[::-1]):
+        return
+    said = f"spacing = {given[0]:g}, {given[1]:g} m is given, and file {path.name} states {steps[0]:g}, {steps[1]:g} m"
+    raise InputError(said, way_out="leave spacing out, or remove the wrong line from the file")
+
+
+def _height_scale(path, table: Table, units) -> tuple[float, tuple[str, ...]]:
+    """Return the unit [m] of the heights, by the caller or by the file. Raise `InputError` where they differ."""
+    header = table.header
+    stated = header.stated.get("z unit")
+    factor = header.value("z factor") or 1.0
+    if stated is not None:
+        if units is not None and UNITS[units[2]] != stated.value:
+            said = f"unit = {units[2]!r} is given, and file {path.name} says {stated.unit}: {stated.worded()}"
+            raise InputError(said, way_out="leave unit out, or remove the wrong line from the file")
+        return stated.value * factor, (f"heights in {stated.unit} by {stated.worded()}",)
+    if units is None:
+        _refuse_unit_words(path, table)
+        return factor, ()
+    return UNITS[units[2]] * factor, ()
+
+
+def _refuse_unit_words(path, table: Table) -> None:
+    """Raise `InputError` for a title that names a unit which nobody has assigned: the heights may be in it."""
+    for number, text in table.titles:
+        if number in table.header.lines_read:
             continue
-        found = re.fullmatch(r"#\s*spacing\s*[=:]\s*(\S+)(?:[\s,;]+(\S+))?(?:\s+m)?\s*", line)
-        words = [] if found is None else [word for word in found.groups() if word not in (None, "m")]
-        try:
-            pair = [float(word) for word in words or ("none",)]
-        except ValueError:  # no match, no numbers
-            said = f"spacing in {path.name}: {validate.shown(line)}"
-            raise InputError(said, allowed="'# spacing = dx dy' in m") from None
-        spacing = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
-    heights, notes, steps = read_table(path, lines, decimal, unit)
-    if spacing is None and len(steps) == 2:
-        if math.isclose(*steps.values()):
-            spacing = validate.spacing("spacing", steps["x"])
+        words = re.findall(r"[a-zµμ]+", text[:1000].lower())
+        named = sorted({UNIT_WORDS[word] for word in words if word in UNIT_WORDS and word not in ("m", "in")})
+        if named:
+            said = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
+            raise _wrong(path, number, text, f"{said}; allowed: unit = {named[0]!r}, or 'm' if it is m after all")
+
+
+# --- a list of points --------------------------------------------------------------------------
+
+
+def _points(path, table: Table, units, spacing) -> TextMap:
+    """Return the map of a table of three columns x y z."""
+    numbers = table.numbers
+    if numbers.shape[1] != 3:
+        raise InputError(f" has {numbers.shape[1]} columns", f"path = {str(path)!r}", "exactly 3 (x y z)")
+    named = column_units(table.titles)
+    notes = table.notes
+    if named is not None:
+        if units is not None and [UNITS[unit] for unit in units] != [LENGTHS[unit] for unit in named[0]]:
+            said = f"unit = {', '.join(units)} is given, and file {path.name} says {', '.join(named[0])}: {named[1]!r}"
+            raise InputError(said, way_out="leave unit out, or correct the headings")
+        scales = [LENGTHS[unit] for unit in named[0]]
+        notes += (f"columns in {', '.join(named[0])} by {named[1][:60]!r}",)
+    elif {"z unit", "xy unit"} & set(table.header.stated):
+        scales = _stated_scales(path, table, units)
+    else:
+        if units is None:
+            _refuse_unit_words(path, table)
+        scales = [UNITS[unit] for unit in units or ("m", "m", "m")]
+    heights, steps, said = gridded(path.name, numbers * np.array([scales[0], scales[1], 1.0]))
+    if spacing is not None:
+        _same_spacing(path, spacing, steps, either=False)
+    missing = table.header.value("missing")
+    return TextMap(heights=heights, height_scale=scales[2], spacing=steps, missing_value=missing, notes=(*notes, *said))
+
+
+def _stated_scales(path, table: Table, units) -> list[float]:
+    """Return the units [m] of x, y, z by separate lines of the header, for both of which there must be one."""
+    stated = [table.header.stated.get(name) for name in ("xy unit", "xy unit", "z unit")]
+    scales = []
+    for place, found in enumerate(stated):
+        given = None if units is None else UNITS[units[place]]
+        if found is not None and given is not None and found.value != given:
+            said = f"unit = {units[place]!r} is given, and file {path.name} says {found.unit}: {found.worded()}"
+            raise InputError(said, way_out="leave unit out, or remove the wrong line from the file")
+        if found is None and given is None:
+            said = f"file {path.name} states the unit of {'the heights' if place == 2 else 'x and y'} nowhere"
+            raise InputError(said, way_out="give unit = (unit of x, of y, of z), such as ('mm', 'mm', 'um')")
+        scales.append(found.value if found is not None else given)
+    return scales
+
+
+# --- Wyko --------------------------------------------------------------------------------------
+
+
+def _wyko(path, text: str, units, spacing) -> TextMap:
+    """Return the first block of heights of a Wyko (Veeco, Bruker Vision) ASCII file.
+
+    Each line of a block holds the points at one x. Values are in nm where the second flag of the first line is 1, else
+    in waves: times Wavelength [nm] over Mult. Pixel_size is in mm; Aspect is dy/dx (Gwyddion's opdfile.c).
+    """
+    if units is not None:
+        raise InputError(f"unit = {units[2]!r} is given, and a Wyko file has its own (nm, mm)", way_out="leave it out")
+    rows = text.splitlines()
+    flags = rows[0].removeprefix(WYKO).split()
+    fields: dict[str, str] = {}
+    start = None
+    for number, row in enumerate(rows[1:], 2):
+        cells = [cell.strip() for cell in row.split("\t")]
+        if cells[0] in HEIGHT_BLOCKS:
+            start = number
+            break
+        value = cells[1] if cells[0] in ("X Size", "Y Size") and len(cells) > 1 else cells[3] if len(cells) > 3 else ""
+        if fields.setdefault(cells[0], value) != value:
+            raise InputError(f"file {path.name} states {cells[0]} twice: {fields[cells[0]]} and {value}")
+    if start is None:
+        raise InputError(f"file {path.name} has no block of heights", allowed=", ".join(HEIGHT_BLOCKS))
+    nx, ny = (_field(path, fields, name, whole=True) for name in ("X Size", "Y Size"))
+    block = _block_lines(rows[start : start + int(nx)], start)
+    if len(block) < nx:
+        raise InputError(f"file {path.name} has {len(block)} lines of heights", "", f"{nx:g} by its X Size")
+    heights = _numbers(path, block, None)
+    if heights.shape[1] != ny:
+        raise InputError(f"file {path.name} has {heights.shape[1]} values in a line", "", f"{ny:g} by its Y Size")
+    pixel = _field(path, fields, "Pixel_size") * LENGTHS["mm"]
+    aspect = _field(path, fields, "Aspect", default=1.0)
+    in_nm = len(flags) > 1 and flags[1] == "1"
+    unit = 1.0 if in_nm else _field(path, fields, "Wavelength") / _field(path, fields, "Mult", default=1.0)
+    more = sum(row.split("\t")[0].strip() in (*HEIGHT_BLOCKS, "Intensity", "Image") for row in rows[start + int(nx) :])
+    notes = ["header of Wyko", f"heights in {'nm' if in_nm else f'waves, {unit:g} nm each'}"]
+    notes += [f"first block of {more + 1}"] if more else []
+    steps = (pixel, pixel * aspect)
+    if spacing is not None:
+        _same_spacing(path, spacing, steps, either=False)
+    scale = unit * LENGTHS["nm"]
+    return TextMap(heights=heights, height_scale=scale, spacing=steps, notes=tuple(notes))
+
+
+def _field(path, fields, name, *, whole: bool = False, default: float | None = None) -> float:
+    """Return the positive number of a field of a Wyko header."""
+    given = fields.get(name, "")
+    if not given and default is not None:
+        return default
+    called = f"{name} of {path.name}"
+    try:
+        value = float(given)
+    except ValueError:
+        raise InputError(f"{called} = {given[:40]!r} is no number", allowed="a number above 0") from None
+    value = validate.number(called, value, "(unit of the file)", above=0.0, maximum=1e9)
+    if whole and value != int(value):
+        raise InputError(f"{called} = {value:g}", allowed="a whole number")
+    return value
+
+
+# --- numbers -----------------------------------------------------------------------------------
+
+
+def _lines(text: str) -> tuple[Lines, Lines]:
+    """Return (comment lines, data lines) with their numbers in the file. Data end where the header of a second block
+    begins."""
+    numbered = [(number, line.strip(" \r\f\v")) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+    comments: Lines = []
+    data: Lines = []
+    for number, line in numbered:
+        if line.lstrip()[0] == "#" and not _SHEET_ERROR.match(line.lstrip()):
+            comments.append((number, line.strip()))
         else:
-            notes += (f"steps of {steps['x']:g} m along X and {steps['y']:g} m along Y: lines may run along either",)
-    return heights, spacing, notes
+            data.append((number, line))
+    return comments, data
 
 
-def read_points(path, decimal=None, unit=None) -> tuple[np.ndarray, tuple[float, float], tuple[str, ...]]:
-    """heights[ix, iy], NaN where no point is, and (dx, dy), all in the unit of the file; notes."""
-    table, notes, _ = read_table(path, _lines(path)[1], decimal, unit)
-    name = f"path = {str(path)!r}"
-    if table.shape[1] != 3:
-        raise InputError(f" has {table.shape[1]} columns", name, "exactly 3 (x y z)")
-    if not (np.abs(table[:, :2]) <= FARTHEST).all():
-        raise InputError(f": x or y is NaN, infinite or beyond {FARTHEST:g}", name, "finite coordinates")
-    (i, nx, dx), (j, ny, dy) = (_grid_lines(name, table[:, column]) for column, name in enumerate("xy"))
-    if nx * ny > 4 * len(table):
-        said = f": {len(table)} points on a grid of {nx} x {ny}"
-        raise InputError(said, name, "a uniform grid with most of its points")
-    heights = np.full((nx, ny), np.nan)
-    count = np.zeros((nx, ny), int)
-    np.add.at(count, (i, j), 1)
-    if count.max() > 1:
-        said = f": {np.count_nonzero(count > 1)} grid points are given more than once"
-        raise InputError(said, name, way_out="give each once")
-    heights[i, j] = table[:, 2]
-    return heights, (dx, dy), notes
+def _block_lines(rows: list[str], before: int) -> Lines:
+    """Return rows of a block with its marks of missing points made NaN, with their numbers in the file."""
+    lines = []
+    for number, row in enumerate(rows, before + 1):
+        text = row.strip()
+        if not text:
+            break
+        lines.append((number, _MISSING.sub("nan", text) if _ODD.search(text) else text))
+    return lines
 
 
-def _grid_lines(name, coordinate) -> tuple[np.ndarray, int, float]:
-    """(index of each point, number of lines, step) of one coordinate; uniform or an error."""
-    ordered = np.sort(coordinate)
-    gaps = np.diff(ordered)
-    if gaps.size == 0 or gaps.max() <= 0:
-        raise InputError(f"{name} has one value only ({coordinate[0]:g}); allowed: a grid of at least 2 x 2 points")
-    starts = np.flatnonzero(np.concatenate([[True], gaps > NEXT_LINE * gaps.max()]))
-    lines = np.add.reduceat(ordered, starts) / np.diff(np.append(starts, ordered.size))
-    steps = np.diff(lines)
-    count = 1 + int(np.rint(steps / np.median(steps)).sum())  # whole lines may be missing
-    step = (ordered[-1] - ordered[0]) / (count - 1)
-    position = (coordinate - ordered[0]) / step
-    index = np.rint(position).astype(int)
-    off = np.abs(position - index).max()
-    if off > UNEVEN:
-        said = f"spacing along {name} is not uniform: a point is {off:.2g} steps off its grid line"
-        raise InputError(said, allowed=f"at most {UNEVEN:g} of the step {step:g}")
-    return index, count, float(step)
-
-
-def read_table(path, lines: Lines, decimal=None, unit=None) -> tuple[np.ndarray, tuple[str, ...], dict[str, float]]:
-    """(rows, columns) of the numbers, NaN where a cell is empty; notes of the titles skipped, of a decimal comma and of
-    empty cells; steps [m] along "x" and "y" that headings name.
+def _table(path, text: str, decimal: str | None) -> Table:
+    """Return the numbers of a file, NaN where a cell is empty or marked as missing, and what stands around them.
 
     A point is always a decimal mark. A comma separates values, or it is the decimal mark. It is read where the lines
-    admit only one of the two, and is an error where they admit both.
-
-    lines : without comments. decimal : ".", "," or None to find out. unit : what the caller takes the lengths for;
-    None makes a title that names another unit than metres an error. Raises `InputError` naming the line.
+    admit only one of the two, and is an error where they admit both. ``decimal``: ".", "," or None to find out. Raises
+    `InputError` naming the line.
     """
+    comments, lines = _lines(text)
+    notes: list[str] = []
+    marked = 0
+    for place, (number, line) in enumerate(lines):
+        if _ODD.search(line):
+            made, count = _MISSING.subn("nan", line)
+            if count and not any(c.isalpha() for c in re.sub("nan|[eE]", "", made, flags=re.I)):
+                lines[place] = (number, made)
+                marked += count
     titles, lines = _split_titles(path, lines)
-    steps = dict(found for _, text in titles if (found := _step(text)) is not None)
-    for number, text in titles if unit is None else ():
-        named = sorted({UNIT_WORDS[w] for w in re.findall(r"[a-zµμ]+", text.lower()) if w in UNIT_WORDS})
-        if named and _step(text) is None:
-            allowed = f"allowed: unit = {named[0]!r}, or 'm' if it is m after all"
-            said = f"names {' and '.join(named)}, and unit is not given, which means m for every column"
-            raise _wrong(path, number, text, f"{said}; {allowed}")
-    done = [(number, "read" if _step(text) else "skipped", text[:60]) for number, text in titles]
-    notes = tuple(f"line {number} {how} as a title: {text!r}" for number, how, text in done)
+    first = lines[0][0]
+    second = next((number for number, line in comments if number > first and _begins_a_block(line)), None)
+    if second is not None:
+        lines = [(number, line) for number, line in lines if number < second]
+        comments = [(number, line) for number, line in comments if number < second]
+        notes.append(f"first of several blocks; the next begins at line {second}")
+    header = read_header(path.name, sorted([*comments, *titles]))
+    own = _own_spacing(path, comments)
+    for number, line in titles:
+        how = "read" if number in header.lines_read else "skipped"
+        notes.append(f"line {number} {how} as a title: {line[:60]!r}")
     separator, comma = _marks(path, lines, decimal)
-    if separator is not None and all(text.endswith(separator) for _, text in lines):
-        lines = [(number, text[:-1].rstrip(" ")) for number, text in lines]  # a separator behind every line
+    if separator is not None and all(line.endswith(separator) for _, line in lines):
+        lines = [(number, line[:-1].rstrip(" ")) for number, line in lines]  # a separator behind every line
     if comma:
-        for number, text in lines:
-            if "." in text:
-                allowed = "allowed: one decimal mark in the file, no mark for thousands"
-                raise _wrong(path, number, text, f"has a point where commas are the decimal mark; {allowed}")
-        lines = [(number, re.sub(r",(?=\s)", " ", text).replace(",", ".")) for number, text in lines]
-        notes += ("decimal comma",)
+        for number, line in lines:
+            if "." in line:
+                advice = "use one decimal mark in the file, no mark for thousands"
+                raise _wrong(path, number, line, f"has a point where commas are the decimal mark; {advice}")
+        lines = [(number, re.sub(r",(?=\s)", " ", line).replace(",", ".")) for number, line in lines]
+        notes.append("decimal comma")
     if separator is not None:
-        cells = [(number, [cell.strip() for cell in text.split(separator)]) for number, text in lines]
+        cells = [(number, [cell.strip() for cell in line.split(separator)]) for number, line in lines]
         if empty := sum(row.count("") for _, row in cells):
             lines = [(number, separator.join(cell or "nan" for cell in row)) for number, row in cells]
-            notes += (f"{counted(empty, 'empty cells')} taken for unmeasured",)
+            notes.append(f"{counted(empty, 'empty cells')} taken for unmeasured")
+    if marked:
+        notes.append(f"{counted(marked, 'marks')} of missing points taken for unmeasured")
+    numbers = _numbers(path, lines, separator)
+    return Table(numbers=numbers, header=header, titles=titles, own_spacing=own, notes=tuple(notes))
+
+
+def _numbers(path, lines: Lines, separator) -> np.ndarray:
     try:
-        table = np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None)
+        return np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None)
     except ValueError as problem:
         said = f"path = {str(path)!r} is not a table of numbers: {_fault(lines, separator) or problem}"
-        raise InputError(said, allowed="lines of equally many numbers, 'nan' where unmeasured") from None
-    return table, notes, steps
+        raise InputError(said, way_out="use lines of equally many numbers, 'nan' where unmeasured") from None
 
 
-def _step(title: str) -> tuple[str, float] | None:
-    """("x" or "y", step [m]) of a heading such as 'Step X [um];1.0'. None where it names no step, axis or unit."""
-    heading = _HEADING.fullmatch(title)
-    words = [] if heading is None else re.findall(r"[a-zµμ]+", f"{heading[1]} {heading[3]}".lower())
-    axes = [word[-1] for word in words if word in ("x", "y", "dx", "dy")]
-    units = [UNIT_WORDS.get(word, word) for word in words if word in UNIT_WORDS or word == "m"]
-    if heading is None or not _STEPS & set(words) or len(axes) != 1 or len(units) != 1:
-        return None
-    return axes[0], float(heading[2].replace(",", ".")) * UNITS[units[0]]
+def _begins_a_block(comment: str) -> bool:
+    """Whether a comment among the numbers is the header of a second table (Gwyddion's export of several channels)."""
+    return bool(re.match(r"#\s*(?:Channel|Width|Kanal|Breite|Canal|Largeur)\b\s*[:=：]", comment))
+
+
+def _own_spacing(path, comments: Lines) -> tuple[float, float] | None:
+    """Return the spacing [m] of a comment '# spacing = dx dy', or None."""
+    spacing = None
+    for _, line in comments:
+        key, mark, rest = line[1:].replace(":", "=", 1).partition("=")
+        if key.strip() != "spacing" or not mark:
+            continue
+        words = [word for word in re.split(r"[\s,;]+", rest) if word not in ("", "m")]
+        try:
+            pair = [float(word) for word in words]
+        except ValueError:
+            pair = []
+        if len(pair) not in (1, 2):
+            said = f"spacing in {path.name}: {validate.shown(line)}"
+            raise InputError(said, allowed="'# spacing = dx dy' in m")
+        found = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
+        if spacing not in (None, found):
+            raise InputError(f"file {path.name} states its spacing twice: {spacing} and {found} m")
+        spacing = found
+    return spacing
 
 
 def _wrong(path, number, text, words) -> InputError:
@@ -172,28 +414,44 @@ def _wrong(path, number, text, words) -> InputError:
 
 
 def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
-    """Leading lines without any number, with a name and one number (`_HEADING`), or that begin with a word and have
-    less than half as many numbers as the first line of numbers alone, are titles; any other leading line with words
-    and numbers is an error."""
+    """Return (titles, data lines).
+
+    Leading lines without any number, with words and one number, that state something of the table, or that begin with a
+    word and have less than half as many numbers as the first line of numbers alone, are titles. Any other leading line
+    with words and numbers is an error, except a row of coordinates with a word in its first cell.
+    """
     doubtful: list[tuple[int, str, int]] = []
     for index, (number, text) in enumerate(lines):
         words = [w for w in re.split(r"[\s;,]+", text) if w]
         numbers = sum(_NUMBER.fullmatch(w) is not None for w in words)
         if numbers == len(words):
             for line, title, count in doubtful:
+                if line == lines[index - 1][0] and count == numbers - 1 >= FEWEST - 1:
+                    cell = re.match(r"[^\s;,]+", title)
+                    if cell and not _NUMBER.fullmatch(cell[0]):  # the corner of a table with coordinates
+                        corner = (line, f"nan{title[cell.end() :]}")
+                        return lines[: index - 1], [corner, *lines[index:]]
                 if 2 * count >= numbers:
                     raise _wrong(path, line, title, UNCLEAR)
             return lines[:index], lines[index:]
-        unmeasured = any(w.lower() in MISSING_WORDS for w in words)
-        if unmeasured or not any(c.isalpha() for c in text) or numbers and _NUMBER.fullmatch(words[0]):
+        if not any(c.isalpha() for c in text) or numbers and _NUMBER.fullmatch(words[0]):
             raise _wrong(path, number, text, UNCLEAR)
-        if numbers and not _HEADING.fullmatch(text):
+        if numbers and not _is_heading(path, number, text):
             doubtful.append((number, text, numbers))
     raise InputError(f"path = {str(path)!r} holds no numbers")
 
 
+def _is_heading(path, number: int, text: str) -> bool:
+    """Whether a line is a name with a mark and one number ('Width: 10 um'), or states something of the table."""
+    found = statements(number, text)
+    numbers = sum(len(statement.numbers) for statement in found)
+    if found and numbers == 1 and found[0].words and re.search(r"[:=;,\t]", text):
+        return True
+    return bool(read_header(Path(path).name, [(number, text)]).lines_read)
+
+
 def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
-    """(separator or None for blanks, whether the comma is the decimal mark)."""
+    """Return (separator or None for blanks, whether the comma is the decimal mark)."""
     commas = [(number, text) for number, text in lines if "," in text]
     semicolon, tab = (any(mark in text for _, text in lines) for mark in ";\t")
     separator = ";" if semicolon else "\t" if any(_EMPTY.search(text) for _, text in lines) else None
@@ -215,7 +473,7 @@ def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
 
 
 def _fault(lines: Lines, separator) -> str:
-    """The first line that is not numbers or not as long as the first, in words."""
+    """Return the first line that is not numbers or not as long as the first, in words."""
     width = len(lines[0][1].split(separator))
     for number, text in lines:
         fields = [f.strip() for f in text.split(separator)]

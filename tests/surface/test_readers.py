@@ -1,5 +1,6 @@
 """Height maps from files: every format and number type, and files made to mislead."""
 
+import re
 import sys
 import zipfile
 
@@ -95,6 +96,9 @@ HOSTILE = {
     "scaled floats": {"xml": swap("<DataType>D</DataType>", "<DataType>D</DataType><Increment>1e-9</Increment>")},
     "nothing measured": {"mask": np.zeros((7, 5), bool)},
     "infinite heights": {"data": np.full((7, 5), np.inf).tobytes()},
+    "wrong checksum of the data": {"xml": lambda t: re.sub("(?<=PointData>)[0-9A-F]{32}", "0" * 32, t).encode()},
+    "datum list and link": {"xml": swap("<DataLink>", "<DataList><Datum>1</Datum></DataList><DataLink>")},
+    "checksum of main.xml": {"skip": ("md5checksum.hex",), "extra": (("md5checksum.hex", "0" * 32 + " *main.xml"),)},
     "huge XML": {"xml": lambda t: t.encode() + b" " * 2**23},
     "two documents": {"extra": (("main.xml", b"<a/>"),)},
 }
@@ -107,6 +111,59 @@ def test_x3p_refuses(tmp_path, case):
     with pytest.raises(InputError) as error:
         read_surface(path)
     assert "allowed" in str(error.value) or "not a complete" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "link", ["bindata\\data.bin", "./bindata/data.bin", ".\\bindata\\data.bin", "/bindata/data.bin"]
+)
+def test_x3p_links_in_the_spellings_of_windows(tmp_path, link):
+    z = heights()
+    path = write_x3p(tmp_path / "a.x3p", z, data_name=link, stored_name="bindata/data.bin")
+    assert np.array_equal(read_surface(path, **RAW).heights, z)
+    with pytest.raises(InputError, match="members named"):
+        read_surface(write_x3p(tmp_path / "b.x3p", z, data_name="../" + link, stored_name="bindata/data.bin"))
+
+
+@pytest.mark.parametrize("kind, increment", [("D", None), ("L", 1e-12)])
+def test_x3p_with_its_heights_in_the_xml(tmp_path, kind, increment):
+    """A DataList: one Datum a point, x fastest, empty where unmeasured."""
+    z = heights()
+    raw = z if increment is None else np.rint(z / increment)
+    data = [f"{value!r}" if increment is None else f"{value:.0f}" for value in raw.T.ravel().tolist()]
+    data[3] = ""
+
+    def listed(text):
+        body = "".join(f"<Datum>{value}</Datum>" for value in data)
+        return re.sub("<DataLink>.*</DataLink>", f"<DataList>{body}</DataList>", text, flags=re.S).encode()
+
+    surface = read_surface(write_x3p(tmp_path / "a.x3p", z, kind, increment=increment, xml=listed), **RAW)
+    measured = np.ones(z.shape, bool)
+    measured[3, 0] = False
+    assert np.array_equal(surface.mask, measured)
+    np.testing.assert_allclose(surface.heights[measured], z[measured], rtol=0, atol=1e-12)
+    for wrong in ("one", "1.5", "inf"):
+        data[5] = wrong
+        if kind == "L" or wrong != "1.5":
+            with pytest.raises(InputError):
+                read_surface(write_x3p(tmp_path / "b.x3p", z, kind, increment=increment, xml=listed))
+    data.pop()
+    with pytest.raises(InputError, match="number of Datum = 34"):
+        read_surface(write_x3p(tmp_path / "c.x3p", z, kind, increment=increment, xml=listed))
+
+
+def test_x3p_packed_in_a_way_that_breaks_off(tmp_path):
+    """LZMA, cut short: its errors are no zip errors."""
+    good = write_x3p(tmp_path / "a.x3p", heights())
+    with zipfile.ZipFile(good) as old, zipfile.ZipFile(tmp_path / "b.x3p", "w", zipfile.ZIP_LZMA) as new:
+        for info in old.infolist():
+            new.writestr(info.filename, old.read(info))
+    assert read_surface(tmp_path / "b.x3p", **RAW).shape == (7, 5)
+    content = bytearray((tmp_path / "b.x3p").read_bytes())
+    place = content.find(b"data.bin") + 8
+    content[place : place + 60] = bytes(60)
+    (tmp_path / "b.x3p").write_bytes(content)
+    with pytest.raises(InputError, match="not a complete"):
+        read_surface(tmp_path / "b.x3p")
 
 
 @pytest.mark.parametrize("name", ["main.xml", "bindata/data.bin"])
@@ -143,7 +200,7 @@ def test_npy(tmp_path):
     surface = read_surface(tmp_path / "a.npy", spacing=STEP, **RAW)
     assert np.array_equal(surface.heights, z) and surface.spacing == STEP
     np.save(tmp_path / "b.npy", (z * 1e12).astype(np.int32))
-    whole = read_surface(tmp_path / "b.npy", spacing=1e-6, unit="nm", **RAW)
+    whole = read_surface(tmp_path / "b.npy", spacing=1e-3, unit="nm", **RAW)
     assert np.allclose(whole.heights, z * 1e3, atol=2e-9)
 
 
@@ -235,7 +292,7 @@ def test_decimal_commas_are_read_where_something_else_separates(tmp_path, separa
     z = np.round(heights() * 1e9, 6)
     path = tmp_path / "a.csv"
     # a line without any comma under %g
-    z[0] = np.arange(5)
+    z[0] = [3, 1, 4, 1, 5]
     z[2, 3] = np.nan
     text = "\n".join(separator.join(number % v for v in row) for row in z)
     path.write_text(text.replace(".", ","))
@@ -258,9 +315,11 @@ def test_xyz_with_decimal_commas_and_titles(tmp_path):
         "line 1 skipped as a title: 'X;Y;Z'",
         "line 2 skipped as a title: '\u00b5m;\u00b5m;\u00b5m'",
         "decimal comma",
+        "columns in um, um, um by '\u00b5m;\u00b5m;\u00b5m'",
     )
-    with pytest.raises(InputError, match="line 2 .*names um, and unit is not given.*unit = 'um'"):
-        read_surface(path)
+    assert np.array_equal(read_surface(path, **RAW).heights, surface.heights)
+    with pytest.raises(InputError, match="unit = nm, nm, nm is given, and file a.xyz says um, um, um"):
+        read_surface(path, unit="nm")
 
 
 @pytest.mark.parametrize(
@@ -281,7 +340,8 @@ def test_xyz_with_decimal_commas_and_titles(tmp_path):
 )
 def test_text_that_can_be_read_in_one_way(tmp_path, text, found):
     (tmp_path / "a.txt").write_text(text)
-    assert np.allclose(read_surface(tmp_path / "a.txt", spacing=1.0, **RAW).heights, found, rtol=1e-14, equal_nan=True)
+    surface = read_surface(tmp_path / "a.txt", spacing=1.0, unit="mm", **RAW)
+    assert np.allclose(surface.heights * 1e3, found, rtol=1e-14, equal_nan=True)
 
 
 @pytest.mark.parametrize(
@@ -292,11 +352,12 @@ def test_commas_that_can_be_either_need_a_word(tmp_path, text):
     path.write_text(text)
     with pytest.raises(InputError, match=r"line 1 .*decimal = '\.'.*','"):
         read_surface(path, spacing=1.0)
-    separated = read_surface(path, spacing=1.0, decimal=".", **RAW).heights
+    separated = read_surface(path, spacing=1.0, unit="mm", decimal=".", **RAW).heights
     assert separated.shape == (2, text.split("\n")[0].count(",") + 1)
     marks = {"1,2": [[1.2], [3.5]], "-1,": [[-1.5e-7, 2.5e-7], [3.5e-7, 4.5e-7]], "6, ": [[6, -9.8], [7, 1.5]]}
     if text[:3] in marks:
-        assert np.allclose(read_surface(path, spacing=1.0, decimal=",", **RAW).heights, marks[text[:3]], rtol=1e-12)
+        z = read_surface(path, spacing=1.0, unit="mm", decimal=",", **RAW).heights
+        assert np.allclose(z * 1e3, marks[text[:3]], rtol=1e-12)
     else:
         with pytest.raises(InputError, match="line 1"):
             read_surface(path, spacing=1.0, decimal=",")
@@ -307,7 +368,7 @@ def test_commas_that_can_be_either_need_a_word(tmp_path, text):
     [
         ("1 2\n3 4\nfoo\n5 6\n", {}, "line 3 has 'foo'"),
         ("# c\n\n1;2\n3;4;5\n", {}, "line 4 has 3 values, the first one 2"),
-        ("1 2\n3 BAD\n", {}, "line 2 has 'BAD'.*'nan' where unmeasured"),
+        ("1 2\n3 BUT\n", {}, "line 2 has 'BUT'.*'nan' where unmeasured"),
         ("1,5;2.5\n3;4\n", {}, "line 1 .*point where commas"),
         ("1.000,5;2\n3;4\n", {}, "thousands"),
         ("1;2,5\n3;4\n", {"decimal": "."}, "line 1 .*decimal = ','"),
@@ -315,9 +376,9 @@ def test_commas_that_can_be_either_need_a_word(tmp_path, text):
         ("1.5 2\n3 4\n", {"decimal": ","}, "line 1 .*point"),
         ("1 2\n3 4\n", {"decimal": ";"}, "decimal = ';'"),
         ("Scan 5\n1 2\n3 4\n", {}, "line 1 'Scan 5'"),
-        ("NA NA\n3 4\n", {}, "line 1 .*unmeasured"),
+        ("1 2 3 left\n3 4 5 6\n", {}, "line 1 .*unmeasured"),
         ("only words\n", {}, "no numbers"),
-        ("z (nm)\n3 4\n1 2\n", {}, "line 1 .*unit = 'nm'"),
+        ("seen with blue light, nm\n3 4\n1 2\n", {}, "line 1 .*unit = 'nm'"),
         ("x/mm z/um\n3 4\n1 2\n", {}, "mm and um"),
         ("1\t\t2\n3\t4\n", {}, "line 2 has 2 values, the first one 3"),
     ],
@@ -362,7 +423,7 @@ HUGE_NPY = (
     + [("a.txt", b"\xff\xfe\x00\x81", {"spacing": 1e-6}), ("a.txt", b"1 2\n3 inf\n", {"spacing": 1e-6})]
     + [("a.txt", b"nan nan\nnan nan\n", {"spacing": 1e-6}), ("a.txt", b"1 2\n3 4\n", {})]
     + [("a.txt", b"1 2\n3 4\n", {"spacing": 1e-6, "unit": "inch"})]
-    + [("a.txt", b"# spacing = 1e-6 1e-6\n1 2\n3 4\n", {"spacing": 1e-6})]
+    + [("a.txt", b"# spacing = 1e-6 1e-6\n1 2\n3 4\n", {"spacing": 2e-6})]
     + [("a.xyz", b"0 0 1\n0 1 1\n1 0 1\n1 1 1\n", {"spacing": 1e-6}), ("a.x3p", b"PK", {"spacing": 1e-6})],
 )
 def test_reader_refuses(tmp_path, name, content, options):
@@ -441,13 +502,13 @@ def test_a_number_can_stand_for_not_measured(tmp_path, suffix):
     z = heights((20, 30)) * 1e9
     z[3, 4] = z[10, 11] = -9999.0
     path = tmp_path / f"map{suffix}"
-    options = {"unit": "nm", "spacing": 2e-9}
+    options = {"unit": "nm", "spacing": 2e-7}
     if suffix == ".npy":
         np.save(path, z)
     elif suffix == ".txt":
         np.savetxt(path, z, fmt="%.6f")
     else:
-        x, y = np.meshgrid(2.0 * np.arange(20), 2.0 * np.arange(30), indexing="ij")
+        x, y = np.meshgrid(200.0 * np.arange(20), 200.0 * np.arange(30), indexing="ij")
         np.savetxt(path, np.stack([x.ravel(), y.ravel(), z.ravel()], axis=1), fmt="%.6f")
         options.pop("spacing")
     surface = read_surface(path, **options, missing_value=-9999, **RAW)

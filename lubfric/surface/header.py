@@ -1,0 +1,347 @@
+"""What the lines above a table of heights say: numbers of points, steps, extents, units, the mark of a missing point.
+
+Programs of instruments write such lines in their own words and order. They are read as statements, each some words, a
+number or two, and a unit; the words decide what the statement is about. Two statements that contradict each other, or
+the table below, are an `InputError`.
+"""
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from .._base import validate
+from ..errors import InputError
+from ..units import UNITS as KINDS
+from ..units import spelled
+
+UNITS = {name: KINDS["m"][spelled(name)] for name in ("m", "mm", "um", "µm", "μm", "nm")}  # both signs of micro
+UNIT_WORDS = {"mm": "mm", "um": "um", "µm": "um", "μm": "um", "micron": "um", "microns": "um", "nm": "nm", "m": "m"}
+UNIT_WORDS |= {"millimeter": "mm", "millimeters": "mm", "micrometer": "um", "micrometers": "um", "nanometer": "nm"}
+UNIT_WORDS |= {"nanometers": "nm", "metre": "m", "meter": "m", "meters": "m", "cm": "cm", "in": "in", "inch": "in"}
+LENGTHS = {"m": 1.0, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "cm": 1e-2, "in": 0.0254}  # m
+LONGEST = 400  # characters of a line that is read as statements; a longer one is a title
+SAME = 0.01  # relative difference up to which two statements of one length agree (they are printed to few digits)
+
+# Gwyddion translates the words of its text export; SurfaceTopography has the same list.
+WIDTH = {"width", "šířka", "breite", "anchura", "largeur", "larghezza", "幅", "폭", "largura", "ширина"}
+HEIGHT = {"height", "výška", "höhe", "altura", "hauteur", "altezza", "高さ", "높이", "высота"}
+VALUE_UNIT = {"value", "values", "hodnot", "einheiten", "unités", "valore", "値の単位", "값", "valor", "измерения"}
+CHANNEL = {"channel", "kanál", "kanal", "canal", "canale", "チャネル", "채널", "канал"}
+STEP_WORDS = {
+    "step",
+    "steps",
+    "spacing",
+    "increment",
+    "pitch",
+    "pixel",
+    "pixelsize",
+    "cellsize",
+    "interval",
+    "dx",
+    "dy",
+}
+COUNT_WORDS = {"points", "pixels", "size", "samples", "number", "no", "num", "n", "resolution", "count", "res"}
+COLUMN_WORDS = {"columns", "cols", "ncols", "ncolumns", "column", "numcols"}
+LINE_WORDS = {"rows", "nrows", "lines", "profiles", "numrows", "nlines"}
+EXTENT_WORDS = {"length", "range", "extent", "size", "scan", "width", "field"}
+MISSING_WORDS = {"nodata", "missing", "invalid", "void", "undefined", "bad"}
+AXES = {"x": "x", "y": "y", "z": "z", "dx": "x", "dy": "y", "nx": "x", "ny": "y", "xres": "x", "yres": "y"}
+AXES |= {"xscale": "x", "yscale": "y", "zscale": "z"}
+
+_DIGITS = r"[+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][+-]?\d+)?"
+_NUMBER = re.compile(_DIGITS)
+_GLUED = re.compile(rf"({_DIGITS})([a-zµμ]+)")  # '10µm'
+_MARKED = re.compile(r"[\[(]\s*([^\[\]()\s]{1,12})\s*[\])]|/(mm|um|µm|μm|nm|m)(?![\w/])")  # '[um]', '/mm'
+_UNIT = "\x01"  # before a word that a bracket or a slash marks as a unit
+_BETWEEN = re.compile(r"[\s:=;：\"'|<>#{}]+|,(?!\d)|(?<!\d),")
+_WORDS = re.compile(r"[A-Z]{2,}(?![a-z])|[A-Z]?[^\W\d_A-Z]+|[A-Z]")  # of 'numCols', 'x-length', 'Pixel_size'
+
+
+@dataclass(frozen=True, kw_only=True)
+class Statement:
+    """Some words of a line with the numbers and the unit that follow them."""
+
+    words: tuple[str, ...]
+    numbers: tuple[float, ...]
+    unit: str | None
+    line: int
+    text: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stated:
+    """The value of one quantity (lengths in m where ``unit`` is given) and the line that states it."""
+
+    value: float
+    unit: str | None
+    line: int
+    text: str
+
+    def worded(self) -> str:
+        """Return where and how the file states it."""
+        return f"line {self.line} {self.text[:60]!r}"
+
+
+@dataclass(kw_only=True)
+class Header:
+    """What the lines around a table state, by quantity: "nx", "ny", "columns", "lines", "dx", "dy", "width", "height",
+    "z unit", "xy unit", "z factor", "missing"."""
+
+    name: str
+    program: str = ""
+    stated: dict[str, Stated] = field(default_factory=dict)
+    lines_read: set[int] = field(default_factory=set)
+
+    def state(self, quantity: str, statement: Statement, value: float, unit: str | None = None) -> None:
+        """Keep the ``value`` of a ``quantity``. Raise `InputError` where another line states another one."""
+        new = Stated(value=value, unit=unit, line=statement.line, text=statement.text)
+        old = self.stated.get(quantity)
+        if old is not None and (old.unit != new.unit or not math.isclose(old.value, new.value, rel_tol=SAME)):
+            said = f"file {self.name} contradicts itself about {quantity}: {old.worded()} and {new.worded()}"
+            raise InputError(said, way_out="remove the wrong line")
+        self.stated.setdefault(quantity, new)
+        self.lines_read.add(statement.line)
+
+    def value(self, quantity: str) -> float | None:
+        """Return the value of a ``quantity``, or None where no line states it."""
+        stated = self.stated.get(quantity)
+        return None if stated is None else stated.value
+
+
+def statements(number: int, text: str) -> list[Statement]:
+    """Return the statements of one line: words, the numbers behind them, and their unit."""
+    if len(text) > LONGEST:
+        return []
+    marked = _MARKED.sub(lambda match: f" {_UNIT}{match[1] or match[2]} ", text)
+    made: list[Statement] = []
+    words: list[str] = []
+    numbers: list[float] = []
+    unit: str | None = None
+    axis: list[str] = []
+
+    def end() -> None:
+        nonlocal axis
+        spoken = tuple(words)
+        if spoken or numbers:
+            made.append(Statement(words=spoken, numbers=tuple(numbers), unit=unit, line=number, text=text.strip()))
+        if not axis:
+            axis = [word for word in words if word in ("x", "y")]
+
+    tokens = [token for token in _BETWEEN.split(marked) if token]
+    for place, token in enumerate(tokens):
+        glued = _GLUED.fullmatch(token)
+        follows = tokens[place + 1] if place + 1 < len(tokens) else ""
+        if _NUMBER.fullmatch(token):
+            numbers.append(float(token.replace(",", ".")))
+        elif glued and glued[2] in UNIT_WORDS:
+            numbers.append(float(glued[1].replace(",", ".")))
+            unit = UNIT_WORDS[glued[2]]
+        elif token.startswith(_UNIT):
+            if unit is None:
+                unit = UNIT_WORDS.get(token[1:].lower(), token[1:])
+        elif numbers and unit is None and token.lower().rstrip(".") in UNIT_WORDS:
+            unit = UNIT_WORDS[token.lower().rstrip(".")]
+        elif numbers and token.lower() in ("x", "×", "by", "*", "/") and _NUMBER.match(follows):
+            continue
+        else:
+            if numbers:
+                end()
+                words = list(axis)
+                numbers = []
+                unit = None
+            words += [word.lower() for word in _WORDS.findall(token)]
+    end()
+    return made
+
+
+def read_header(name: str, lines: Iterable[tuple[int, str]]) -> Header:
+    """Return what the ``lines`` (number in the file, text) above a table state."""
+    header = Header(name=name)
+    for number, text in lines:
+        if "Digital Surf" in text or "MountainsMap" in text:
+            header.program = "MountainsMap"
+        if re.match(r"#?\s*File Format\s*=\s*ASCII\s*$", text):
+            header.program = "SPIP"
+        for statement in statements(number, text):
+            _file(header, statement)
+    if {"width", "height"} <= set(header.stated) and "z unit" in header.stated and not header.program:
+        header.program = "Gwyddion"
+    if header.program == "SPIP" and "z unit" not in header.stated and "z factor" in header.stated:
+        factor = header.stated["z factor"]  # Bit2nm
+        header.stated["z unit"] = Stated(value=LENGTHS["nm"], unit="nm", line=factor.line, text=factor.text)
+    return header
+
+
+def _file(header: Header, statement: Statement) -> None:
+    """Put a ``statement`` into the ``header`` as the quantity that its words name, if they name one."""
+    words = set(statement.words)
+    axes = {AXES[word] for word in statement.words if word in AXES}
+    axis = axes.pop() if len(axes) == 1 else ""
+    length = LENGTHS.get(statement.unit or "")
+    numbers = statement.numbers
+    if not numbers:
+        if len(axes) < 2 and len(_MARKED.findall(statement.text)) < 2:
+            _unit_alone(header, statement, words, axis)
+        return
+    value = numbers[0]
+    if "voidpixels" in words or {"void", "pixels"} <= words:
+        if value:
+            header.state("missing", statement, value)
+        return
+    if "data" in words and "no" in words or words & MISSING_WORDS and "value" in words or "nodata" in words:
+        header.state("missing", statement, value)
+    elif "bit2nm" in statement.text.lower():
+        header.state("z factor", statement, numbers[-1])
+    elif axis == "z" and words & {"scale", "factor", "zscale"} or {"conversion", "factor", "height"} <= words:
+        header.state("z factor", statement, value)
+        if length is not None:
+            header.state("z unit", statement, length, statement.unit)
+    elif len(numbers) == 1 and _whole(value) and length is None and words & COLUMN_WORDS:
+        header.state("columns", statement, value)
+    elif len(numbers) == 1 and _whole(value) and length is None and words & LINE_WORDS:
+        header.state("lines", statement, value)
+    elif len(numbers) == 1 and _whole(value) and length is None and axis in ("x", "y") and _counts(words):
+        header.state("n" + axis, statement, value)
+    elif words & STEP_WORDS and (length is not None or header.program == "SPIP"):
+        scale = length or LENGTHS["nm"]
+        if axis in ("x", "y") and len(numbers) == 1:
+            header.state("d" + axis, statement, value * scale)
+        elif axis == "" and (axes == set() or axes == {"x", "y"}) and len(numbers) <= 2 and _square(words):
+            header.state("dx", statement, value * scale)
+            header.state("dy", statement, numbers[-1] * scale)
+    elif axis in ("x", "y") and words & EXTENT_WORDS and len(numbers) == 1:
+        if length is not None or header.program == "SPIP" and "length" in words:
+            header.state("width" if axis == "x" else "height", statement, value * (length or LENGTHS["nm"]))
+    elif length is not None and not axis and len(numbers) == 1 and words & (WIDTH | HEIGHT) and len(words) == 1:
+        header.state("width" if words & WIDTH else "height", statement, value * length)
+    elif length is not None and not axis and len(numbers) == 2 and words & {"size", "range", "area", "field"}:
+        header.state("width", statement, value * length)
+        header.state("height", statement, numbers[1] * length)
+
+
+def _unit_alone(header: Header, statement: Statement, words: set[str], axis: str) -> None:
+    """File a statement without a number: a unit of the heights, or of the coordinates."""
+    last = next((word for word in reversed(statement.words) if word in UNIT_WORDS), None)
+    unit = statement.unit or (UNIT_WORDS[last] if last and words & ({"unit", "units", "data"} | VALUE_UNIT) else None)
+    spoken = words - set(UNIT_WORDS)
+    about_heights = axis == "z" or spoken & VALUE_UNIT or spoken & (HEIGHT | {"heights", "z", "elevation"})
+    lateral = axis in ("x", "y") or spoken & {"lateral", "xy"}
+    if "data" in spoken and spoken & {"unit", "units", "z"}:
+        about_heights = True
+    if unit is None and about_heights and spoken & {"heights", "height", "z"}:
+        unit = UNIT_WORDS[last] if last else None  # 'heights in nm'
+    if unit is None and about_heights and (spoken & VALUE_UNIT or spoken & {"unit", "units"}):
+        _, mark, stated = re.sub("[:：]", "=", statement.text).partition("=")
+        unit = stated.strip() or None if mark else None
+    if unit is None:
+        return
+    if about_heights and not lateral:
+        if unit not in LENGTHS:
+            said = f"file {header.name}, line {statement.line} {statement.text[:60]!r}: values are in {unit!r}"
+            raise InputError(said, allowed=f"heights in {', '.join(LENGTHS)}")
+        header.state("z unit", statement, LENGTHS[unit], unit)
+    elif lateral and spoken & {"unit", "units"} and unit in LENGTHS:
+        header.state("xy unit", statement, LENGTHS[unit], unit)
+
+
+def _counts(words: set[str]) -> bool:
+    return bool(words & COUNT_WORDS or words & {"nx", "ny", "xres", "yres"})
+
+
+def column_units(titles: Iterable[tuple[int, str]]) -> tuple[tuple[str, str, str], str] | None:
+    """Return the units of three columns x, y, z that a title names, 'X [mm]; Y [mm]; Z [um]' or 'mm; mm; um', and the
+    title; None where none does. One unit stands for all three only in a title that says 'units'."""
+    for _, text in titles:
+        if len(text) > LONGEST:
+            continue
+        marked = _MARKED.sub(lambda match: f" {_UNIT}{match[1] or match[2]} ", text)
+        tokens = [token.lstrip(_UNIT).lower() for token in _BETWEEN.split(marked) if token]
+        units = [UNIT_WORDS[token] for token in tokens if token in UNIT_WORDS]
+        if len(units) == 3 and not any(_NUMBER.fullmatch(token) for token in tokens):
+            return (units[0], units[1], units[2]), text
+        if len(units) == 1 and {"units", "unit"} & set(tokens) and not {"x", "y", "z"} & set(tokens):
+            return (units[0], units[0], units[0]), text
+    return None
+
+
+def _square(words: set[str]) -> bool:
+    """Whether the words name a step of the lateral grid, not of time or of heights."""
+    return bool(words & {"pixel", "pixelsize", "cellsize", "spacing", "pitch", "lateral"})
+
+
+def _whole(value: float) -> bool:
+    return value == int(value) and value >= 1 if math.isfinite(value) else False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Grid:
+    """How a table of ``lines`` x ``columns`` numbers lies in the plane.
+
+    ``across``: True where x runs along a line of the file, so that the table has to be turned. ``steps``: (dx, dy) [m],
+    None where no line states them. ``either``: the steps hold, but not which of them is along the lines.
+    """
+
+    across: bool
+    steps: tuple[float, float] | None
+    either: bool
+    notes: tuple[str, ...]
+
+
+def grid_of(header: Header, lines: int, columns: int) -> Grid:
+    """Return how a table lies in the plane, by its ``header``. Raise `InputError` where they contradict each other."""
+    _agree(header, "columns", columns, "numbers in a line")
+    _agree(header, "lines", lines, "lines")
+    across, known = _direction(header, lines, columns)
+    counts = (columns, lines) if across else (lines, columns)
+    steps: list[float | None] = []
+    for axis, extent, count in zip("xy", ("width", "height"), counts):
+        step = header.value("d" + axis)
+        length = header.value(extent)
+        if length is not None:
+            by_extent = length / count
+            if step is None:
+                step = by_extent
+            elif not by_extent * (1 - SAME) <= step <= length / max(count - 1, 1) * (1 + SAME):
+                parts = f"{header.stated['d' + axis].worded()} and {header.stated[extent].worded()}"
+                said = f"file {header.name}: {count} points along {axis} do not go with {parts}"
+                raise InputError(said, way_out="remove the wrong line")
+        steps.append(step)
+    dx, dy = steps
+    if dx is None or dy is None:
+        return Grid(across=across and known, steps=None, either=False, notes=())
+    either = not known and not math.isclose(dx, dy, rel_tol=1e-9)
+    notes = []
+    if across and known:
+        notes.append("x runs along the lines of the file")
+    if header.program:
+        notes.append(f"header of {header.program}")
+    pair = validate.spacing("spacing in the header", (dx, dy))
+    return Grid(across=across and known, steps=pair, either=either, notes=tuple(notes))
+
+
+def _direction(header: Header, lines: int, columns: int) -> tuple[bool, bool]:
+    """Return whether x runs along a line of the file, and whether the header decides that."""
+    nx = header.value("nx")
+    ny = header.value("ny")
+    if nx is not None or ny is not None:
+        along = (nx in (None, columns)) and (ny in (None, lines))
+        down = (nx in (None, lines)) and (ny in (None, columns))
+        if not along and not down:
+            where = " and ".join(header.stated[q].worded() for q in ("nx", "ny") if q in header.stated)
+            said = f"file {header.name}: the table has {lines} lines of {columns} numbers, and its header {where}"
+            raise InputError(said, way_out="give the whole file, or remove the wrong lines")
+        if along != down:
+            return along, True
+        if header.program:
+            return True, True
+    if header.program or {"width", "height"} <= set(header.stated) or {"columns", "lines"} & set(header.stated):
+        return True, True
+    return False, False
+
+
+def _agree(header: Header, quantity: str, count: int, what: str) -> None:
+    stated = header.stated.get(quantity)
+    if stated is not None and stated.value != count:
+        said = f"file {header.name}: the table has {count} {what}, and its header {stated.worded()}"
+        raise InputError(said, way_out="give the whole file, or remove the wrong line")

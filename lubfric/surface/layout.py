@@ -1,0 +1,177 @@
+"""What a table of numbers is: a map of heights, a list of points, or a profile; and rows or columns of coordinates."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import InputError
+from .header import LENGTHS, UNITS, Header
+from .points import grid_lines
+
+PROFILE_LINES = 8  # lines from which a table of one or two columns is a profile
+POINT_LINES = 9  # lines from which a table of three columns may be a list of points (3 x 3)
+LONG = 30  # lines of three columns that cannot be a map
+MOST_COLUMNS = 6  # a list of points may have columns beside x, y, z
+EVEN_PRINTED = 0.02  # of a step: coordinates are printed to few digits
+EVEN_EXACT = 1e-6
+FEWEST = 4  # coordinates along one side; from `SURE` on they may be rounded
+SURE = 6
+
+
+@dataclass(frozen=True, kw_only=True)
+class Border:
+    """Coordinates in the first row (along a line of the file) and in the first column (from line to line), None where
+    there are none: their steps in the unit of the file."""
+
+    steps: tuple[float | None, float | None]
+
+    def worded(self) -> str:
+        """Return where the coordinates stand."""
+        along, down = self.steps
+        if along is not None and down is not None:
+            return "first row and first column are coordinates"
+        return f"first {'row is' if down is None else 'column is'} coordinates"
+
+
+def kind_of_table(name: str, table: np.ndarray) -> str:
+    """Return "map", "points" or "profile". Raise `InputError` for a table that looks like none of them."""
+    lines, columns = table.shape
+    if min(lines, columns) == 1 and max(lines, columns) >= PROFILE_LINES:
+        return "profile"
+    if lines < columns and lines <= 3 and columns >= LONG:
+        said = f"file {name} has {lines} lines of {columns} numbers, which is no map"
+        if _rises(table[0]):
+            said += ": the first line rises like a coordinate"
+        raise InputError(said, way_out="give points as three columns x y z, a profile as generate_surface says")
+    if columns == 2 and lines >= PROFILE_LINES:
+        if _rises(table[:, 0]):
+            return "profile"
+        if lines >= LONG:
+            raise InputError(
+                f"file {name} has {lines} lines of two numbers, which is no map", allowed="a map of heights"
+            )
+    if columns >= 3 and columns <= MOST_COLUMNS and lines >= POINT_LINES:
+        for first in range(columns - 2):
+            if _is_grid(table[:, first], table[:, first + 1]):
+                if columns == 3:
+                    return "points"
+                said = f"file {name} has {columns} columns, of which two are coordinates of a grid"
+                raise InputError(said, way_out="leave only the three columns x y z")
+        if columns == 3 and lines >= LONG:
+            if _rises(table[:, 0]):
+                return "profile"
+            _explain_points(name, table)
+    return "map"
+
+
+def _explain_points(name: str, table: np.ndarray) -> None:
+    """Raise `InputError` for three columns that are neither a map nor points on a grid."""
+    try:
+        for axis, column in zip("xy", range(2)):
+            grid_lines(axis, table[:, column])
+    except InputError as problem:
+        said = f"file {name} has three columns, and they are no points x y z on a grid: {problem.said}"
+        raise InputError(said, allowed=problem.allowed) from None
+    said = f"file {name} has {len(table)} lines of three numbers, and they are no points x y z on a grid"
+    raise InputError(said, allowed="each point of the grid once, with most of them")
+
+
+def _is_grid(x: np.ndarray, y: np.ndarray) -> bool:
+    """Whether two columns are the coordinates of points on a uniform grid, each given once, most of them given."""
+    if not (np.isfinite(x).all() and np.isfinite(y).all()):
+        return False
+    try:
+        i, nx, _, _ = grid_lines("x", x)
+        j, ny, _, _ = grid_lines("y", y)
+    except InputError:
+        return False
+    if nx < 2 or ny < 2 or nx * ny > 2 * x.size or nx * ny < 0.9 * x.size:
+        return False
+    return np.unique(i * ny + j).size == x.size
+
+
+def _rises(values: np.ndarray) -> bool:
+    """Whether values rise or fall all the way, as a coordinate does."""
+    steps = np.diff(values)
+    return bool(values.size >= FEWEST and ((steps > 0).all() or (steps < 0).all()))
+
+
+def _step(values: np.ndarray) -> float | None:
+    """Return the step of values that rise or fall evenly, None of others."""
+    if values.size < FEWEST or not np.isfinite(values).all():
+        return None
+    step = (values[-1] - values[0]) / (values.size - 1)
+    limit = EVEN_PRINTED if values.size >= SURE else EVEN_EXACT
+    off = np.abs(values - (values[0] + step * np.arange(values.size))).max()
+    return abs(float(step)) if step and off <= limit * abs(step) else None
+
+
+def border_of(table: np.ndarray) -> tuple[Border | None, np.ndarray]:
+    """Return the coordinates around a table of heights, and the heights without them. A plane, whose every row is even,
+    has none."""
+    if min(table.shape) < FEWEST:
+        return None, table
+    along = _step(table[0, 1:])
+    down = _step(table[1:, 0])
+    if along is not None and _step(table[1, 1:]) is not None:
+        along = None
+    if down is not None and _step(table[1:, 1]) is not None:
+        down = None
+    if along is None and down is None:
+        return None, table
+    if along is not None and down is None and _step(table[0]) is None and math.isfinite(table[0, 0]):
+        return None, table  # a row that is even but for its first number
+    if down is not None and along is None and _step(table[:, 0]) is None and math.isfinite(table[0, 0]):
+        return None, table
+    heights = table[1 if along is not None else 0 :, 1 if down is not None else 0 :]
+    return Border(steps=(along, down)), heights
+
+
+def refuse_profile(name: str, table: np.ndarray, header: Header | None, units) -> None:
+    """Raise `InputError` for a profile, with the statistics that make a surface of it."""
+    values = table.ravel() if min(table.shape) == 1 else table[:, 1]
+    said = f"file {name} holds a profile of {values.size} points, not a map of heights"
+    way_out = (
+        "measure a map; or generate a surface with the statistics of the profile: [surface] sq and correlation_length = "
+        "[along, across the motion] in place of file"
+    )
+    z = values[np.isfinite(values)]
+    if z.size >= PROFILE_LINES:
+        place = np.linspace(-1.0, 1.0, z.size)
+        z = z - np.polyval(np.polyfit(place, z, 1), place)
+        unit = ""
+        stated = None if header is None else header.stated.get("z unit")
+        if stated is not None:
+            unit = stated.unit or ""
+        elif units is not None:
+            unit = units[2]
+        scale = LENGTHS.get(unit) or UNITS.get(unit)
+        sq = float(z.std())
+        said += f" (Sq {sq:.4g} {unit or 'in the unit of the file'} about its mean line"
+        if scale is not None:
+            said = f"{said[: said.rindex('(')]}(Sq {sq * scale:.4e} m about its mean line"
+        length = _correlation_steps(z)
+        if length is not None:
+            x = table[:, 0] if min(table.shape) > 1 else None
+            step = None if x is None else abs(float(x[-1] - x[0])) / (x.size - 1)
+            said += f", correlation length {length:.3g} steps" if step is None else ""
+            said += "" if step is None else f", correlation length {length * step:.4g} in the unit of its first column"
+        said += ")"
+    raise InputError(said, way_out=way_out)
+
+
+def _correlation_steps(z: np.ndarray) -> float | None:
+    """Return the first lag, in steps, at which the autocorrelation of a levelled profile falls to 1/e."""
+    from scipy.signal import correlate
+
+    n = z.size
+    acf = correlate(z, z, mode="full", method="fft")[n - 1 : n - 1 + n // 2] / (n - np.arange(n // 2))
+    if acf.size < 2 or acf[0] <= 0:
+        return None
+    acf = acf / acf[0]
+    below = np.flatnonzero(acf <= math.exp(-1))
+    if below.size == 0:
+        return None
+    k = int(below[0])
+    return float(k - 1 + (acf[k - 1] - math.exp(-1)) / (acf[k - 1] - acf[k]))
