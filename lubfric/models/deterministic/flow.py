@@ -107,7 +107,7 @@ class Balance:
 
 def balance(problem: Problem, pressure, gap, fill=1.0, carried=False) -> Balance:
     """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny); ``carried``: without the
-    Couette flow, of cells that move with it (`state.Past`)."""
+    Couette flow, of cells that move with it (`state.TimeHistory`)."""
     dx, dy = problem.spacing
     film = np.maximum(gap, problem.floor)
     fluid = cell_fluid(problem.lubricant, np.maximum(pressure, 0.0))
