@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .flow import Balance, balance
+from .flow import MassBalance, mass_balance
 from .problem import Problem
 
 FLUID = 0
@@ -54,7 +54,7 @@ class Iterate:
     problem: Problem
     state: State
     gap: np.ndarray
-    balance: Balance
+    balance: MassBalance
     history: TimeHistory | None
     residual: np.ndarray
 
@@ -101,7 +101,7 @@ def evaluated(problem: Problem, state: State, history: TimeHistory | None = None
     """Return gap and mass balance of ``state``, steady or (with a ``history``) of an implicit step in time."""
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
     follows = history is not None and history.follows_lubricant
-    flows = balance(problem, state.pressure, gap, state.fill, follows)
+    flows = mass_balance(problem, state.pressure, gap, state.fill, follows)
     at = Iterate(problem, state, gap, flows, history, flows.residual)
     return at if history is None else replace(at, residual=flows.residual + stored(at.mass, history)[0])
 
