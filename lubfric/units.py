@@ -8,7 +8,16 @@ import math
 import re
 import tomllib
 from collections.abc import Iterable
-from decimal import Decimal
+from decimal import (
+    MAX_EMAX,
+    MIN_EMIN,
+    ROUND_HALF_EVEN,
+    Context,
+    Decimal,
+    DivisionByZero,
+    InvalidOperation,
+    localcontext,
+)
 from importlib.resources import files
 from statistics import median
 from typing import Any
@@ -21,7 +30,12 @@ UNITS: dict[str, dict[str, float]] = _TABLE["units"]
 PEOPLE: dict[str, list[str]] = _TABLE["people"]
 SANE: dict[str, list[float]] = _TABLE["sane"]
 HV = UNITS["Pa"]["HV"]
-NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)(?![\d.,])\s*(.*?)\s*")
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+LONGEST = 200  # characters of a number with its unit
+# of conversions: that of the host may have any precision, and traps
+_EXACT = Context(
+    prec=60, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX, traps=[DivisionByZero, InvalidOperation]
+)
 MICRO = "\N{MICRO SIGN}\N{GREEK SMALL LETTER MU}"
 RAISED = str.maketrans("23", "²³")
 SPELLINGS = str.maketrans(f"{MICRO}\N{MINUS SIGN}\N{SUPERSCRIPT MINUS}¹²³·⋅*", "uu--123   ", "^")
@@ -59,8 +73,20 @@ def converted(value: Any, unit: str, to: str) -> Any:
     exact = isinstance(value, Decimal)
     first, second = (Decimal(repr(row[name])) if exact else row[name] for name in (unit, to))
     shift = CELSIUS if exact else float(CELSIUS)
-    in_si = value * first + (shift if unit == "°C" else 0)
-    return (in_si - (shift if to == "°C" else 0)) / second
+    with localcontext(_EXACT):
+        in_si = value * first + (shift if unit == "°C" else 0)
+        return (in_si - (shift if to == "°C" else 0)) / second
+
+
+def number_and_unit(text: str) -> tuple[str, str] | None:
+    """Return the number and the unit (perhaps none) of a text such as "12 mm"; None where it does not begin with a
+    number, has a decimal comma, or is too long."""
+    text = text.strip().replace("\N{MINUS SIGN}", "-")
+    found = _NUMBER.match(text) if len(text) <= LONGEST else None
+    if found is None:
+        return None
+    unit = text[found.end() :]
+    return None if unit[:1].isdigit() or unit[:1] in (".", ",") else (found[0], unit.strip())
 
 
 def unit_for(values: Any, unit: str) -> str:
@@ -109,40 +135,58 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         return value
     if value.strip().lower() == "inf":
         return math.inf
-    found = NUMBER.fullmatch(value.replace("\N{MINUS SIGN}", "-"))
+    found = number_and_unit(value)
     row = UNITS[kind_of(unit)]
     shown = value if len(value) < 40 else f"{value[:40]} ..."
     examples = [f"'20{other if other == '%' else ' ' + other}'" for other in row if other not in ("", "-")][:5]
     plain = "a plain number" if unit == "-" else f"a plain number in {unit}"
     allowed = f"{plain}, or one with a unit in quotes: {', '.join(examples)}"
     allowed += f", or a range [low, high], or a name: {', '.join(named)}" if named else ""
-    if found is None or not found[2]:
+    if found is None or not found[1]:
         none = " is no number with a unit, and no name that is known" if named else " is no number with a unit"
+        none += ": write a point in decimals, 1.5" if re.match(r"\s*[+-]?\d{1,40},\d", value) else ""
         said = " has no unit: leave the quotes out, or add one" if found else none
         raise InputError(f" = {shown!r}{said}", name, allowed)
-    given = spelled(found[2])
+    (digits, written) = found
+    given = spelled(written)
     if given not in row:
         other = next((si for si, units in UNITS.items() if given in units), "")
         hrc = given == "HRC" and "HV" in row
-        said = f"is in {found[2]}, a unit of another kind ({other})" if other else f"has an unknown unit, {found[2]!r}"
+        said = f"is in {written}, a unit of another kind ({other})" if other else f"has an unknown unit, {written!r}"
         said = "is no pressure: give HV; 57 HRC is 633 HV, 60: 697, 63: 772" if hrc else said
         raise InputError(f" = {shown!r} {said}", name, allowed)
     try:
-        return float(converted(Decimal(found[1]), given, unit))
-    except ArithmeticError:
+        return float(converted(Decimal(digits, _EXACT), given, unit))
+    except (ArithmeticError, ValueError):
         raise InputError(f" = {shown!r} is out of range", name, allowed) from None
+
+
+def numbers_of(name: str, words: list[str], units: list[str]) -> list[float]:
+    """Return the numbers in ``units`` that the ``words`` of a command line give. Raise `InputError` where some have a
+    unit and others, of the same kind, have none: "1,5 mm/s", split at its comma, is 1 and 5 mm/s."""
+    bare: dict[str, str] = {}
+    with_unit: dict[str, str] = {}
+    for word, unit in zip(words, units):
+        parts = number_and_unit(word)
+        if parts is not None:
+            (with_unit if parts[1] else bare).setdefault(unit, word.strip())
+    for unit in bare.keys() & with_unit.keys():
+        said = f" has {with_unit[unit][:40]!r} with a unit and {bare[unit][:40]!r} without one"
+        raise InputError(said, name, way_out="give each its unit, or none; write a point in decimals, 1.5")
+    return [number_of(name, word, unit) for word, unit in zip(words, units)]
 
 
 def in_si(name: str, text: str) -> tuple[float, str]:
     """The number that ``text`` with a unit gives, in SI, and that SI unit. Raises `InputError`, as `without_unit`."""
-    found = NUMBER.fullmatch(text)
-    unit = next((si for si, row in UNITS.items() if found and spelled(found[2]) in row), "-")
+    found = number_and_unit(text)
+    unit = next((si for si, row in UNITS.items() if found and spelled(found[1]) in row), "-")
     return without_unit(name, text, unit), unit
 
 
 def number_of(name: str, text: str, unit: str) -> float:
     """The number in ``unit`` that ``text`` of a command line gives, alone ("0.01") or with a unit ("1 cm")."""
-    try:
+    if _NUMBER.fullmatch(text.strip()) and len(text) <= LONGEST:
         return float(text)
-    except ValueError:
-        return without_unit(name, text, unit)
+    if text.strip().lower() in ("nan", "inf", "+inf", "-inf", "infinity", "-infinity"):
+        return float(text)  # refused with its name by what takes the number
+    return without_unit(name, text, unit)

@@ -2,6 +2,7 @@
 root."""
 
 from .files import FolderLock, OwnFiles, clear_checked, clear_parts, read_checked, write_checked, write_whole
+from .host import with_default_errors
 from .records import FieldsOnly, FrozenArrays, Renamed, Shown, changed
 from .roots import Root, increasing_root
 from .tables import packaged, plain, read_columns, read_json, read_table, table_bytes, text_of

@@ -4,10 +4,10 @@ import difflib
 import math
 import os
 import re
-import warnings
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from decimal import Decimal
+from fractions import Fraction
 from importlib import import_module
 from numbers import Real
 from pathlib import Path
@@ -39,13 +39,22 @@ def shown(value: Any) -> str:
 
 
 def python_value(value: Any, depth: int = DEEPEST) -> Any:
-    """A number of NumPy as a Python one, an array as a tuple, also inside lists and tuples, nested up to ``depth``
-    times; anything else as it is."""
-    if isinstance(value, np.ma.MaskedArray):
+    """Return a number of NumPy, a `Decimal` or a `Fraction` as one of Python, an array as a tuple, also inside lists and
+    tuples, nested up to ``depth`` times; anything else as it is."""
+    if isinstance(value, np.ma.MaskedArray) or type(value) in (float, int, str, bool):
         return value
+    if isinstance(value, np.floating):
+        return float(value)  # tolist() leaves a longdouble as it is
     if isinstance(value, (np.generic, np.ndarray)):
         given = value.tolist()
         return tuple(python_value(part) for part in given) if isinstance(given, list) else given
+    if isinstance(value, (Decimal, Fraction)):
+        try:
+            return float(value)
+        except OverflowError:
+            return math.inf  # refused with its name
+        except ValueError:  # a signalling NaN
+            return math.nan
     if type(value) in (list, tuple) and depth > 0:
         return type(value)(python_value(part, depth - 1) for part in value)
     return value
@@ -255,7 +264,7 @@ def choice(name: str, value: Any, options: Iterable) -> Any:
     """One of ``options``; the error names the nearest valid one."""
     options = tuple(options)
     if isinstance(value, (str, int, np.integer)) and not isinstance(value, bool) and value in options:
-        return value
+        return options[options.index(value)]
     raise InputError(f" = {shown(value)} is not known{nearest(value, options)}", name, ", ".join(map(repr, options)))
 
 
@@ -269,9 +278,7 @@ def nearest(word: Any, options: Iterable, cutoff: float = 0.4) -> str:
 def installed(name: str, extra: str) -> Any:
     """The optional package ``name``, imported, of that ``extra``; `InputError` where it is not installed."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of other packages, at their import
-            return import_module(name)
+        return import_module(name)
     except ImportError as problem:
         said = f"this needs the package {name}: pip install 'lubfric[{extra}]' ({problem})"
         raise InputError(said) from None

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._base import increasing_root, validate
+from .._base import increasing_root, validate, with_default_errors
 from ..errors import CONVERGED, STAGNATED, InputError, Report, returned
 from .asperity_find import FINDERS
 from .problem import on_grid
@@ -89,6 +89,7 @@ def find_asperities(
     return at
 
 
+@with_default_errors
 def asperity_contact(
     heights, spacing, e_prime, *, separation, definition="summits", hardness=None, periodic=True
 ) -> AsperityResult:
@@ -124,6 +125,7 @@ def asperity_contact(
     return found(field if np.ndim(separation) else separation)
 
 
+@with_default_errors
 def separation_for_load(
     heights,
     spacing,

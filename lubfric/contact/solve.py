@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base import increasing_root, validate
+from .._base import increasing_root, validate, with_default_errors
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, returned
 from .problem import ContactProblem, contact_problem, rescaled, shifted, starting_pressure
 from .refinement import ContactResult, SearchResult, TrialContact, contact_result, refine, trial_contact
@@ -15,6 +15,7 @@ HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than
 FLATTENED = 10.0  # times E' height/spacing: 1.1 would do for a periodic ripple
 
 
+@with_default_errors
 def solve_contact(
     gap0,
     spacing,

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base import validate
+from .._base import validate, with_default_errors
 from ..errors import ConvergenceError, InputError
 from ..models.shared import (
     Prepared,
@@ -28,6 +28,7 @@ from .result import FrictionResult
 from .sample import SampleSolution, sampled
 
 
+@with_default_errors
 def friction(
     scene: Scene | Prepared,
     speed: float | None = None,

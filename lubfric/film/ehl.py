@@ -7,7 +7,7 @@
 import math
 from dataclasses import replace
 
-from .._base import increasing_root, validate
+from .._base import increasing_root, validate, with_default_errors
 from ..errors import returned
 from ..oil import Lubricant
 from .assemble import assemble
@@ -25,6 +25,7 @@ ROUGH = Effort(5e-3)  # on the way
 FURTHEST = 300.0  # of the length on which a flooded film builds up: an inlet beyond it is a flooded one
 
 
+@with_default_errors
 def solve_ehl(
     *,
     load_per_width: float,

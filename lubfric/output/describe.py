@@ -197,7 +197,8 @@ def _laps(history: History, duration: float) -> float:
 def _course(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> tuple[str, list[str]]:
     """Steps and time of a run, whose film is judged at the ``speeds`` [m/s], and its sample; by what runs of the
     paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
-    assert (plan := scene.transient) is not None
+    plan = scene.transient
+    assert plan is not None
     found = [forecast(scene, strips, surface, speed) for speed in speeds]
     cells = surface.heights.size
     sample = []

@@ -19,7 +19,7 @@ from ..models.shared import (
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
-from ..units import number_of
+from ..units import numbers_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import Estimate
 from .fields import fields_bytes, vtk_bytes
@@ -262,7 +262,8 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
     words = text.split(":" if ranged else ",")
     if not ranged and any(re.match(r"[+-]?0\d", word.strip()) for word in words):
         raise InputError(f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, 0.01")
-    numbers = [number_of(option, word, "-" if i == 2 and ranged else unit) for i, word in enumerate(words)]
+    units = ["-" if i == 2 and ranged else unit for i in range(len(words))]
+    numbers = numbers_of(option, words, units)
     for speed in numbers[:2] if ranged else numbers:
         validate.number(option, speed, unit, minimum=-most, maximum=most)
     if not ranged:

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from .._base import validate
+from .._base import validate, with_default_errors
 from ..errors import CONVERGED, STAGNATED, InputError, Report, returned
 from ..film import (
     Effort,
@@ -34,6 +34,7 @@ RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pr
 STATE_CELLS = 96  # of the graded grid from which `lubfric.solve_ehl` may start
 
 
+@with_default_errors
 def solve_differential_deflection(
     *,
     load_per_width: float,

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import FrozenArrays, Shown, figures, validate
+from .._base import FrozenArrays, Shown, figures, validate, with_default_errors
 from ..contact import dent_by_pass, operator_under
 from ..errors import InputError
 from ..samples import contact_maps, cylinder_of, measured, whole_maps
@@ -80,6 +80,7 @@ class RunIn(FrozenArrays, Shown):
         }
 
 
+@with_default_errors
 def run_in(
     scene: Scene,
     surface: Surface | None = None,

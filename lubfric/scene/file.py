@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 
-from .._base import validate, write_whole
+from .._base import validate, with_default_errors, write_whole
 from ..errors import InputError
 from ..surface import PER_SQ
 from .roughness import GENERATED, check_fields, named
@@ -17,6 +17,7 @@ from .transient import HISTORIES, UNITS, Transient, history
 SCENES = resources.files(__package__) / "scenes"
 
 
+@with_default_errors
 def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
     """Read a scene from a TOML file, from a dict of its tables, or one of the two built in.
 

@@ -60,7 +60,7 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
         given = known[given]
     if not known or not isinstance(given, (list, tuple)):
         return given, None
-    if len(given) not in (2, 3) or not all(isinstance(v, (int, float)) for v in given):
+    if len(given) not in (2, 3) or not all(type(v) in (int, float) for v in given):
         raise InputError(f" = {validate.shown(value)}", name, "a number, [low, high], or [value, low, high]")
     low, high = given[-2:]
     return (given[0] if len(given) == 3 else 0.5 * (low + high)), (float(low), float(high))

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .._base import figures, read_columns, validate
+from .._base import figures, read_columns, validate, with_default_errors
 from ..errors import InputError
 from ..scene import Scene
 from .vary import FITTED, Between, check_key, check_temperature, unit_of
@@ -73,6 +73,7 @@ class Measured:
             axes.set_xlabel("slide-roll ratio (-)")
 
 
+@with_default_errors
 def read_measured(
     path,
     *,

@@ -8,7 +8,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from .._base import FieldsOnly, validate
+from .._base import FieldsOnly, validate, with_default_errors
 from ..errors import InputError
 from ..scene import Scene, load_scene, read_toml, speeds_of_range
 from .choose import CHOSEN, MOST, asked_speeds
@@ -59,6 +59,7 @@ def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> tuple[Scene, ...]:
     return tuple(replace(scene.with_keys(values), transient=None) for values in varied)
 
 
+@with_default_errors
 def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
     """Plan a study without solving anything.
 

@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from .._base import Shown, validate
+from .._base import Shown, validate, with_default_errors
 from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import Scene
@@ -177,6 +177,7 @@ class StudyResult(Shown):
             return None
 
 
+@with_default_errors
 def study(
     scene: Scene | StudyPlan, vary=None, speeds=None, *, executor=None, store=None, on_progress=None
 ) -> StudyResult:
@@ -247,6 +248,7 @@ def _carried_out(plan: StudyPlan, executor, store: Store, on_progress: Callable 
     return rows, ended
 
 
+@with_default_errors
 def open_study(folder) -> StudyResult:
     """Read the result of a study from its folder, whether it is finished or not.
 

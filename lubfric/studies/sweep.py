@@ -5,7 +5,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from .._base import validate, write_whole
+from .._base import validate, with_default_errors, write_whole
 from ..errors import ITERATION_LIMIT, InputError, Report
 from ..estimate import FrictionResult
 from ..models.shared import (
@@ -113,6 +113,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         write_whole(path, csv_bytes(self))
 
 
+@with_default_errors
 def stribeck(
     scene: Scene | Prepared,
     speeds=None,
@@ -235,6 +236,7 @@ class TractionResult(CurveResult):
         return self["coefficient"]
 
 
+@with_default_errors
 def traction(
     scene: Scene | Prepared,
     ratios,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import validate
+from .._base import validate, with_default_errors
 from ..errors import InputError
 from ..quantities import KEYS
 from ..scene import SOURCES, Roughness, Scene, short_keys, typical
@@ -104,6 +104,7 @@ def axes_of(scene: Scene, vary) -> tuple[Axis, ...]:
     return tuple(axes)
 
 
+@with_default_errors
 def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tuple[float, ...]]:
     """Points of a box, as values for keys that `lubfric.study` varies together.
 

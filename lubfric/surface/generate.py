@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base import validate
+from .._base import validate, with_default_errors
 from ..errors import InputError
 from ..units import worded
 from .height_map import Surface
@@ -21,6 +21,7 @@ NEGLIGIBLE = 37.0  # exp(-37) is below rounding
 ROUNDING = 1e-13  # of the largest power: what the transform leaves where the spectrum is zero
 
 
+@with_default_errors
 def generate_surface(
     shape, spacing, *, sq, correlation_length, acf="exponential", decay_level=INVERSE_E, seed, cutoff=None
 ) -> Surface:

@@ -275,7 +275,7 @@ def _whole(value: float) -> bool:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Grid:
+class TablePlacement:
     """How a table of ``lines`` x ``columns`` numbers lies in the plane.
 
     ``across``: True where x runs along a line of the file, so that the table has to be turned. ``steps``: (dx, dy) [m],
@@ -288,7 +288,7 @@ class Grid:
     notes: tuple[str, ...]
 
 
-def grid_of(header: Header, lines: int, columns: int) -> Grid:
+def grid_of(header: Header, lines: int, columns: int) -> TablePlacement:
     """Return how a table lies in the plane, by its ``header``. Raise `InputError` where they contradict each other."""
     _agree(header, "columns", columns, "numbers in a line")
     _agree(header, "lines", lines, "lines")
@@ -309,7 +309,7 @@ def grid_of(header: Header, lines: int, columns: int) -> Grid:
         steps.append(step)
     dx, dy = steps
     if dx is None or dy is None:
-        return Grid(across=across and known, steps=None, either=False, notes=())
+        return TablePlacement(across=across and known, steps=None, either=False, notes=())
     either = not known and not math.isclose(dx, dy, rel_tol=1e-9)
     notes = []
     if across and known:
@@ -317,7 +317,7 @@ def grid_of(header: Header, lines: int, columns: int) -> Grid:
     if header.program:
         notes.append(f"header of {header.program}")
     pair = validate.spacing("spacing in the header", (dx, dy))
-    return Grid(across=across and known, steps=pair, either=either, notes=tuple(notes))
+    return TablePlacement(across=across and known, steps=pair, either=either, notes=tuple(notes))
 
 
 def _direction(header: Header, lines: int, columns: int) -> tuple[bool, bool]:

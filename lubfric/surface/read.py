@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from .._base import validate
+from .._base import validate, with_default_errors
 from ..errors import InputError
 from .header import UNITS
 from .height_map import Surface
@@ -34,6 +34,7 @@ INSTRUMENTS = (
 HINT = "pip install 'lubfric[formats]'"
 
 
+@with_default_errors
 def read_surface(
     path: Any,
     *,

@@ -42,7 +42,7 @@ Lines = list[tuple[int, str]]  # (line number in the file, text without blanks a
 
 
 @dataclass(frozen=True, kw_only=True)
-class Table:
+class NumberTable:
     """The numbers of a file of text as they stand, and what its titles and comments say of them."""
 
     numbers: np.ndarray
@@ -93,7 +93,7 @@ def read_text(
 # --- a matrix ----------------------------------------------------------------------------------
 
 
-def _matrix(path, table: Table, units, spacing) -> TextMap:
+def _matrix(path, table: NumberTable, units, spacing) -> TextMap:
     """Return the map of a table of heights: turned so that x is axis 0, without rows and columns of coordinates."""
     header = table.header
     scale, notes = _height_scale(path, table, units)
@@ -162,7 +162,7 @@ def _same_spacing(path, given, steps, *, either: bool) -> None:
     raise InputError(said, way_out="leave spacing out, or remove the wrong line from the file")
 
 
-def _height_scale(path, table: Table, units) -> tuple[float, tuple[str, ...]]:
+def _height_scale(path, table: NumberTable, units) -> tuple[float, tuple[str, ...]]:
     """Return the unit [m] of the heights, by the caller or by the file. Raise `InputError` where they differ."""
     header = table.header
     stated = header.stated.get("z unit")
@@ -178,7 +178,7 @@ def _height_scale(path, table: Table, units) -> tuple[float, tuple[str, ...]]:
     return UNITS[units[2]] * factor, ()
 
 
-def _refuse_unit_words(path, table: Table) -> None:
+def _refuse_unit_words(path, table: NumberTable) -> None:
     """Raise `InputError` for a title that names a unit which nobody has assigned: the heights may be in it."""
     for number, text in table.titles:
         if number in table.header.lines_read:
@@ -193,7 +193,7 @@ def _refuse_unit_words(path, table: Table) -> None:
 # --- a list of points --------------------------------------------------------------------------
 
 
-def _points(path, table: Table, units, spacing) -> TextMap:
+def _points(path, table: NumberTable, units, spacing) -> TextMap:
     """Return the map of a table of three columns x y z."""
     numbers = table.numbers
     if numbers.shape[1] != 3:
@@ -219,7 +219,7 @@ def _points(path, table: Table, units, spacing) -> TextMap:
     return TextMap(heights=heights, height_scale=scales[2], spacing=steps, missing_value=missing, notes=(*notes, *said))
 
 
-def _stated_scales(path, table: Table, units) -> list[float]:
+def _stated_scales(path, table: NumberTable, units) -> list[float]:
     """Return the units [m] of x, y, z by separate lines of the header, for both of which there must be one."""
     stated = [table.header.stated.get(name) for name in ("xy unit", "xy unit", "z unit")]
     scales = []
@@ -325,7 +325,7 @@ def _block_lines(rows: list[str], before: int) -> Lines:
     return lines
 
 
-def _table(path, text: str, decimal: str | None) -> Table:
+def _table(path, text: str, decimal: str | None) -> NumberTable:
     """Return the numbers of a file, NaN where a cell is empty or marked as missing, and what stands around them.
 
     A point is always a decimal mark. A comma separates values, or it is the decimal mark. It is read where the lines
@@ -371,7 +371,7 @@ def _table(path, text: str, decimal: str | None) -> Table:
     if marked:
         notes.append(f"{counted(marked, 'marks')} of missing points taken for unmeasured")
     numbers = _numbers(path, lines, separator)
-    return Table(numbers=numbers, header=header, titles=titles, own_spacing=own, notes=tuple(notes))
+    return NumberTable(numbers=numbers, header=header, titles=titles, own_spacing=own, notes=tuple(notes))
 
 
 def _numbers(path, lines: Lines, separator) -> np.ndarray:

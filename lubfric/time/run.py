@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from .._base import with_default_errors
 from ..errors import InputError
 from ..models.deterministic import State
 from ..models.shared import (
@@ -33,6 +34,7 @@ CLASSES = classes_of(Progress, Output, Contact, Validity, State)  # that a state
 STATE = tuple[int, Progress]  # what is kept of a run: how many outputs there are, and its progress
 
 
+@with_default_errors
 def transient(
     scene: Scene | Prepared, times=None, *, checkpoint=None, on_step=None, raise_on_failure: bool = True
 ) -> TransientResult:

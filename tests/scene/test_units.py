@@ -135,8 +135,15 @@ def test_what_is_no_such_number_is_told_with_what_is(key, given, words):
 
 def test_the_command_line_takes_units():
     assert parse_speeds("--speeds", "1 mm/s:1 m/s:4") == pytest.approx([0.001, 0.01, 0.1, 1.0])
-    assert parse_speeds("--speeds", "0.001,2cm/s") == [0.001, 0.02]
-    assert parse_speeds("--ratios", "1 %,0.1", "-") == [0.01, 0.1]
+    assert parse_speeds("--speeds", "1mm/s,2cm/s") == [0.001, 0.02]
+    assert parse_speeds("--ratios", "1 %,10 %", "-") == [0.01, 0.1]
+    for option, text, unit in (
+        ("--speeds", "0.001,2cm/s", "m/s"),
+        ("--ratios", "1,5 %", "-"),
+        ("--speeds", "1:5 m/s:9", "m/s"),
+    ):
+        with pytest.raises(lubfric.InputError, match="without one"):
+            parse_speeds(option, text, unit)
     with pytest.raises(lubfric.InputError, match="--speeds .*is in N"):
         parse_speeds("--speeds", "1 N")
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..._base import FieldsOnly, Shown, validate
+from ..._base import FieldsOnly, Shown, validate, with_default_errors
 from ...contact import (
     BOUNDARY,
     AsperityContact,
@@ -90,6 +90,7 @@ class Prepared(FieldsOnly, Shown):
         return {"": self.scene.name, "map": self.surface.describe()}
 
 
+@with_default_errors
 def prepare(
     scene: Scene,
     surface: Surface | None = None,
