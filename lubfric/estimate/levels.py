@@ -20,8 +20,8 @@ from ..models.deterministic import MovingStrip, Strip, change_by_flow, thinned_l
 from ..models.shared import Prepared
 from ..samples import Strips
 from ..scene import Numerics
-from .line import Line, line_of
-from .pair import Pair, numbers_of, solve_pair
+from .line import ControlVariate, line_of
+from .pair import StripOnTwoGrids, numbers_of, solve_pair
 from .sample import SampleSolution, required_strips
 from .scatter import BlockError, add_errors, block_error
 from .shorter import changed, on_shorter_cells
@@ -62,7 +62,7 @@ class Levels:
     by_flow: float
     by_inlet: float
     line: int
-    pairs: tuple[Pair, ...]
+    pairs: tuple[StripOnTwoGrids, ...]
     pieces: tuple[tuple[Strip, ...], ...]
     shortest: tuple[Strip, ...]
     sampling: BlockError
@@ -72,7 +72,7 @@ class Levels:
 
 
 @dataclass(frozen=True)
-class Sum:
+class TwoLevelEstimate:
     """The first two levels: ``line``, ``numbers`` as in `Levels`; standard errors of f: ``whole``, and the part of it
     that is the ``difference`` between the models; ``between``: standard deviation of f between strips."""
 
@@ -126,7 +126,9 @@ def levels_of(prepared: Prepared, speed: float, found: SampleSolution | None) ->
     return Levels(numbers, errors, films, flow, inlet, *parts, *of_f, length)
 
 
-def _first_levels(prepared: Prepared, speed: float, found: SampleSolution | None) -> tuple[list[Pair], Sum]:
+def _first_levels(
+    prepared: Prepared, speed: float, found: SampleSolution | None
+) -> tuple[list[StripOnTwoGrids], TwoLevelEstimate]:
     """The strips of the second level, as many as it takes, and the sum of the first two."""
     strips = prepared.strips
     numerics = prepared.scene.numerics
@@ -140,17 +142,17 @@ def _first_levels(prepared: Prepared, speed: float, found: SampleSolution | None
     if found is not None and same and not strips.is_single_patch and math.isfinite(found.sampling):
         line = line_of(prepared, found)
     while True:
-        sums = [_sum(prepared, pairs, one) for one in (line, None) if one is None or len(pairs) <= one.count]
-        sums = [one for one in sums if not one.line or 0 <= one.numbers["contact_load"] <= load]
-        counts = [one.wanted(numerics, len(pairs), most) for one in sums]
-        best = next(k for k, one in enumerate(sums) if not one.line or counts[k] <= min(counts[-1], one.line))
+        estimates = [_sum(prepared, pairs, one) for one in (line, None) if one is None or len(pairs) <= one.count]
+        estimates = [one for one in estimates if not one.line or 0 <= one.numbers["contact_load"] <= load]
+        counts = [one.wanted(numerics, len(pairs), most) for one in estimates]
+        best = next(k for k, one in enumerate(estimates) if not one.line or counts[k] <= min(counts[-1], one.line))
         if counts[best] <= len(pairs):
             break
         pairs += [solve_pair(prepared, speed, i, first.slope) for i in range(len(pairs), counts[best])]
-    return pairs, sums[best]
+    return pairs, estimates[best]
 
 
-def _sum(prepared: Prepared, pairs: Sequence[Pair], line: Line | None) -> Sum:
+def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVariate | None) -> TwoLevelEstimate:
     """The first two levels; ``line``: the first (None: without it)."""
     assert prepared.strips is not None
     rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
@@ -158,14 +160,14 @@ def _sum(prepared: Prepared, pairs: Sequence[Pair], line: Line | None) -> Sum:
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     if line is None:
         whole = _scatter(pairs, prepared.strips)
-        return Sum(0, numbers, whole, BlockError(0.0, 1), whole.error * math.sqrt(count))
+        return TwoLevelEstimate(0, numbers, whole, BlockError(0.0, 1), whole.error * math.sqrt(count))
     for name, differences in line.numbers.items():
         numbers[name] -= mean(differences[:count])
     rest = 1 - count / line.count
     others = replace(line.sampling, error=math.sqrt(rest) * line.sampling.error * abs(numbers["coefficient"]))
     whole = add_errors(_scatter(pairs, prepared.strips, line, rest), others)
     between = float(np.std(line.numbers["coefficient"]))
-    return Sum(line.count, numbers, whole, _scatter(pairs, prepared.strips, line, 1.0), between)
+    return TwoLevelEstimate(line.count, numbers, whole, _scatter(pairs, prepared.strips, line, 1.0), between)
 
 
 def mean(values) -> float:
@@ -173,7 +175,7 @@ def mean(values) -> float:
     return float(np.mean(list(values)))
 
 
-def _errors(prepared: Prepared, pairs: Sequence[Pair], numbers: dict[str, float]) -> dict[str, float]:
+def _errors(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], numbers: dict[str, float]) -> dict[str, float]:
     """Relative standard errors of the ``numbers`` by their scatter between strips."""
     if len(pairs) < FEWEST:
         return {}
@@ -182,7 +184,9 @@ def _errors(prepared: Prepared, pairs: Sequence[Pair], numbers: dict[str, float]
     return {name: errors[name] / abs(value) for name, value in numbers.items() if value}
 
 
-def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, share: float = 0.0) -> BlockError:
+def _scatter(
+    pairs: Sequence[StripOnTwoGrids], strips: Strips, line: ControlVariate | None = None, share: float = 0.0
+) -> BlockError:
     """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the differences of
     these strips from the ``line``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
     n/N: Eq. (8) on the pairs is part of the line.)
@@ -208,7 +212,7 @@ def _scatter(pairs: Sequence[Pair], strips: Strips, line: Line | None = None, sh
     return BlockError(math.sqrt(pooled / count), FREEDOM + count - 1)
 
 
-def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: Pair) -> BlockError:
+def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: StripOnTwoGrids) -> BlockError:
     """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
     kept = values[0].size // (2 if pair.mirrored else 1)
     places = np.concatenate([one[:kept] for one in values])

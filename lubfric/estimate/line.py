@@ -22,7 +22,7 @@ from .uncertainty import ORDER
 
 
 @dataclass(frozen=True)
-class Line:
+class ControlVariate:
     """The differences of its strips: ``by_place`` (count, rows), of f at every place; ``numbers`` (count,) of the whole
     strip, by name. ``sampling``: relative standard error of f on the line."""
 
@@ -41,8 +41,8 @@ class Line:
         return values - values.mean()
 
 
-def line_of(prepared: Prepared, found: SampleSolution) -> Line:
-    """The `Line` of ``found``, a sample of the strips of ``prepared``. Where nothing touches, strips do not differ."""
+def line_of(prepared: Prepared, found: SampleSolution) -> ControlVariate:
+    """The `ControlVariate` of ``found``, a sample of the strips of ``prepared``. Where nothing touches, strips do not differ."""
     solved = found.solved
     response = found.response
     load = prepared.scene.bodies.load
@@ -57,7 +57,7 @@ def line_of(prepared: Prepared, found: SampleSolution) -> Line:
     places = of_strips(solved.forces.coefficient * friction_influence(prepared.scene, contact, solved))
     numbers = {"coefficient": places.mean(axis=1)}
     if response is None or response.rates is None:
-        return Line(places, numbers, BlockError(found.sampling, ORDER))
+        return ControlVariate(places, numbers, BlockError(found.sampling, ORDER))
     gap, loads = (of(contact, solved.contact) for of in (strip_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
@@ -72,4 +72,4 @@ def line_of(prepared: Prepared, found: SampleSolution) -> Line:
         numbers[name] = value * response.rates[name] * moved
     numbers["shear_force"] = load * numbers["coefficient"] - numbers["boundary_force"]
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
-    return Line(places, numbers, BlockError(found.sampling, found.friction_error.freedom))
+    return ControlVariate(places, numbers, BlockError(found.sampling, found.friction_error.freedom))

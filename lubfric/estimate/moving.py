@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from ..contact import HalfSpaceContact
-from ..models.deterministic import RoughBody, Strip, moving_work, reach, solve_moving_strip, solve_strip
+from ..models.deterministic import RoughBody, Strip, effort_for, moving_work, reach, solve_moving_strip, solve_strip
 from ..models.shared import (
     Prepared,
     on_strip,
@@ -64,9 +64,11 @@ def moving_strip_work(scene: Scene, strips: Strips, sq: float, speed: float, fac
     (fx, fy) = factors
     (dx, dy) = strips.cells.coarse
     line = scene.line_contact(abs(speed))
-    cells = sum(reach(line, sq)) / (fx * dx) * strips.length / (fy * dy)
+    effort = effort_for(line, sq)
+    ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
+    cells = sum(ends) / (fx * dx) * strips.length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
-    return (1 + ON_LONGER) * moving_work(line, fx * dx, fastest, strips.cells.count * dx, cells)
+    return (1 + ON_LONGER) * moving_work(line, sq, fx * dx, fastest, strips.cells.count * dx, cells)
 
 
 def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:

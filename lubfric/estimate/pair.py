@@ -19,7 +19,7 @@ MOVING = 4.0  # the former along x where roughness moves (docs/levels.md)
 
 
 @dataclass(frozen=True)
-class Pair:
+class StripOnTwoGrids:
     """One strip of the sample.
 
     ``resolved``: by the deterministic model; ``longer``: on longer cells (`longer_than`), from which it started;
@@ -60,7 +60,7 @@ def longer_than(surface: Surface, factors: tuple[int, int], moving: bool = False
     return along, factors[1] if surface.shape[1] % (2 * factors[1]) else 2 * factors[1]
 
 
-def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> Pair:
+def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> StripOnTwoGrids:
     """Strip ``index`` at ``speed`` [m/s], not 0. The deterministic model begins on longer cells. ``slope``:
     of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`."""
     assert prepared.strips is not None
@@ -68,7 +68,7 @@ def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None
     first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors, moves(prepared.scene)))
     strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
-    return Pair(strip, first, prepared.strips.is_single_patch and mirrored(surface.heights))
+    return StripOnTwoGrids(strip, first, prepared.strips.is_single_patch and mirrored(surface.heights))
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:

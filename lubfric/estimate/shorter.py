@@ -19,7 +19,7 @@ from ..models.shared import (
 from ..samples import Strips
 from ..scene import moves
 from .moving import MOST_WORK, map_of
-from .pair import Pair, cells_of, longer_than, numbers_of, strip_of
+from .pair import StripOnTwoGrids, cells_of, longer_than, numbers_of, strip_of
 from .sample import speed_of
 from .scatter import BlockError, block_error
 
@@ -43,7 +43,7 @@ Piece = tuple[Strip, ...]  # on shorter and shorter cells
 
 
 def on_shorter_cells(
-    prepared: Prepared, speed: float, pairs: Sequence[Pair]
+    prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
 ) -> tuple[tuple[Piece, ...], Piece, BlockError, float]:
     """Solve the third and fourth level beside ``pairs``, as far as needed, if the roughness rests: the pieces of both,
     the standard error of the mean relative change of f on those of the third, and the relative error that the last
@@ -150,7 +150,7 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
     return found or _pieces(prepared, speed, None)
 
 
-def _pieces(prepared: Prepared, speed: float, first: Pair | None) -> tuple[tuple[Piece, ...], BlockError]:
+def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> tuple[tuple[Piece, ...], BlockError]:
     """Pieces at ``speed`` [m/s] until the standard error of their mean relative change of f is small; ``first``: the
     strip that is the first of them (None: all are pieces)."""
     strips = prepared.strips
@@ -170,7 +170,7 @@ def _refined(
     prepared: Prepared,
     speed: float,
     index: int,
-    first: Pair | None,
+    first: StripOnTwoGrids | None,
     slope: float | None = None,
     *,
     times: int = 2,

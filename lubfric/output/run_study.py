@@ -4,6 +4,7 @@ Both write to a folder."""
 import json
 import sys
 import time
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -130,17 +131,19 @@ def run_fit(arguments) -> None:
     columns = {"speed": arguments.speed, "slide_roll_ratio": arguments.ratio, "deviation": arguments.deviation}
     rolling = not arguments.without_rolling
     measured = studies.read_measured(arguments.measured, coefficient=arguments.coefficient, rolling=rolling, **columns)
-    say(studies.explain_fit(scene, measured, bounds))
+    say(studies.explain_fit(scene, measured, bounds, starts=arguments.starts))
 
     def on_progress(done: int, total: int, left: float, misfit: float, values: dict[str, float]) -> None:
         if due(done == 1):
             off = f"{100 * misfit:.2g} % of f" if measured.deviation is None else f"{misfit:.3g} deviations"
             best = ", ".join(f"{key} = {value:.4g}" for key, value in values.items())
             passed = f"{time.perf_counter() - begun:.0f} s, about {studies.in_words(left)} left"
-            say(f"curve {done} of about {total}: nearest so far {off} off at {best}; {passed}")
+            say(f"curve {done} of about {total}: least deviation so far {off}, at {best}; {passed}")
 
     with keeping(lambda: f"the points solved so far are kept in {arguments.out}"):
-        found = studies.fit(scene, measured, bounds, store=arguments.out, on_progress=on_progress)
+        found = studies.fit(
+            scene, measured, bounds, starts=arguments.starts, store=arguments.out, on_progress=on_progress
+        )
     say(found.explain())
     with run_folder(arguments.out, begun) as folder:
         folder.contents["fitted.toml"] = found.scene.to_toml().encode()
@@ -164,12 +167,14 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, ...]]:
 
 def _record(found: studies.FitResult) -> dict:
     names = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
+    names = (*names, "describes_data", "other_minima", "starts")
     return {name: getattr(found, name) for name in names} | {
         "parameters": list(found.parameters),
         "x": found.measured.x,
         "measured": found.measured.coefficient,
         "fitted": found.predicted,
         "report": found.report.as_dict(),
+        "residual_tests": None if found.tests is None else asdict(found.tests),
     }
 
 

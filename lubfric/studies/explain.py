@@ -17,6 +17,8 @@ from .choose import CHOSEN, first_speeds
 from .points import stored_rows
 from .store import Store
 
+# Factor within which times are estimated, about.
+WITHIN = 3.0
 SAMPLED = 8  # scenes of a study that are made ready to count their cells
 LISTED = 4  # values of a key that are named one by one
 

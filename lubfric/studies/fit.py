@@ -1,53 +1,77 @@
 """`fit`: bounded least squares of a scene to a measured curve, and how well the data determine its parameters."""
 
-import time
-from functools import partial
+from collections.abc import Callable
 from itertools import product
 from typing import Any
 
 import numpy as np
 
 from .._base import validate, with_default_errors
-from ..errors import CONVERGED, ITERATION_LIMIT, InputError, LubfricError, Report, returned
-from ..estimate import FrictionResult
-from ..models.shared import (
-    Prepared,
-    prepare,
-)
+from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
 from ..quantities import counted, worded_value
 from ..scene import Scene
-from .curve import without_rolling
-from .executor import checked_executor, spread
-from .explain import curve_seconds, in_words
-from .fit_input import SLIP, SPEED, Measured, parameters_of, values_at
+from .executor import checked_executor
+from .explain import WITHIN, in_words
+from .fit_checks import residual_tests
+from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance
+from .fit_input import SLIP, Measured, parameters_of, values_at
 from .fit_result import FitResult
-from .points import at_ratios, key_of, solved
+from .fit_search import INSIDE, Candidate, estimated_curves, search_minima, sobol_count
 from .store import opened
 from .vary import Between, unit_of
 
-STEP = 0.04  # of the bounds, of the differences, which are believed as far away: above the scatter of the solves
-CLOSE = 2e-3  # of the bounds: a last move of the parameters that ends the search
-RATIO = {"motion.slide_roll_ratio", "motion.slip_percent"}
-# of f, relative, that may be stated; and by a parameter, over its bounds
+# Last move of the parameters, as a share of the bounds, that ends the search.
+CLOSE = 2e-3
+
+# Relative change of the sum of squares that ends the search.
+FLAT = 1e-4
+
+# Most curves of the search, beside those of the differences.
+MOST_CURVES = 30
+
+# Curves of the search by the scene's own model, about, beside two for each parameter.
+USUAL_CURVES = 5
+
+# Minima of the coarse search from which the scene's own model is fitted, where the first does not describe the data.
+MOST_MINIMA = 3
+
+# Corners of the bounds at which the work of a curve is counted.
+CORNERS = 16
+
+# Smallest relative error of f that may be stated.
 LEAST_ERROR = 1e-6
+
+# Smallest change of the residuals over the bounds of a parameter that determines it.
 LEAST_SLOPE = 1e-9
-MOST = 30  # curves on the way, beside those of the differences
-STEPS = 5  # curves of a search, about, beside two for each parameter
-CORNERS = 16  # of the ranges, at which the work of a curve is counted
+
+# Keys that a traction curve is measured over.
+OF_SLIP = {"motion.slide_roll_ratio", "motion.slip_percent"}
 
 
 @with_default_errors
 def fit(
-    scene: Scene, measured: Measured, parameters, *, start=None, executor=None, store=None, on_progress=None
+    scene: Scene,
+    measured: Measured,
+    parameters: dict[str, tuple[float, float]],
+    *,
+    start: dict[str, float] | None = None,
+    starts: int | None = None,
+    executor=None,
+    store=None,
+    on_progress: Callable | None = None,
 ) -> FitResult:
     """Find the values of ``parameters`` with which the friction of a scene is nearest to a measured curve.
 
-    The fit minimises ``sum ((f - measured)/deviation)²``, with relative deviations if none are given. The method is a
-    trust region within the bounds (`scipy.optimize.least_squares`, "trf"). Its derivatives are differences over 4 % of
-    the bounds, which stay above the tolerance on f. They are computed anew when the parameters have moved by more than
-    4 % of their bounds. The search stops when a step moves the parameters by <= 0.2 % of their bounds, or changes the
-    sum by <= 1e-4 of it. `FitResult` says how sure the values are, and `lubfric.explain_fit` says beforehand how long a
-    fit will take.
+    The fit minimises ``sum ((f - measured)/deviation)²``, with relative deviations if none are given. It first searches
+    the whole bounds with the load-sharing model, loose tolerances and at most 8 of the points
+    (`lubfric.studies.fit_search`): from the start and from the points of a Sobol sequence. From the lowest minimum,
+    a trust region within the bounds (`scipy.optimize.least_squares`, "trf") goes on with all points and the scene's own
+    model; from the next ones too, while the fit does not describe the data. Derivatives are differences over 4 % of the
+    bounds, which stay above the tolerance on f. The search stops when a step moves the parameters by <= 0.2 % of their
+    bounds, or changes the sum by <= 1e-4 of it.
+
+    `FitResult` says how sure the values are, and whether the fit describes the data at all.
+    `lubfric.explain_fit` says beforehand how long a fit will take.
 
     Parameters
     ----------
@@ -56,11 +80,13 @@ def fit(
     parameters : {"section.key": (lowest, highest)}, numbers of the scene to be found between bounds, in SI units
     start : {"section.key": value} to begin with; default: the scene's own if they lie within the bounds, else the
         middle
+    starts : number of further starts, spread over the bounds: 0, or a power of two; None: 8 for one parameter, 16 for
+        two, 32 for three to five
     executor : any `concurrent.futures.Executor`, for the points of a curve; the same bits on each
     store : folder that receives every point at once; the same fit goes on from there
     on_progress : called as on_progress(done, total, left, misfit, values) after each curve: ``done`` of about ``total``
-        curves, about ``left`` seconds to go on one core at the rate so far, and the least root mean square misfit so
-        far (relative, or in deviations if these are given) with the ``values`` {"section.key": value} that have it
+        curves, about ``left`` seconds to go on one core, and the least root mean square misfit so far (relative, or in
+        deviations if these are given) with the ``values`` {"section.key": value} that have it
 
     Returns a `FitResult`.
 
@@ -69,25 +95,34 @@ def fit(
     InputError : before any work
     ConvergenceError : the search does not end, or a curve fails; carries the result
     """
-    from scipy.optimize import least_squares
-
-    found = _checked(scene, measured, parameters)
-    begin = _begin(scene, found, {} if start is None else start)
-    ends: dict[str, Any] = {"bounds": (0.0, 1.0), "xtol": CLOSE, "ftol": 1e-4, "gtol": 1e-12, "max_nfev": MOST}
+    bounds = _checked(scene, measured, parameters)
+    begin = _start(scene, bounds, {} if start is None else start)
+    starts = _checked_starts(starts, len(bounds))
     with opened(store) as kept:
-        search = Search(scene, measured, found, checked_executor(executor), kept.root, on_progress)
-        end = least_squares(search.residuals, begin, lambda unit: search.slopes(unit) / measured.scale[:, None], **ends)
-        return returned(_result(search, end))
+        coarse, fine = _curves(scene, measured, bounds, checked_executor(executor), kept.root)
+        if on_progress:
+            progress = _Progress(coarse, fine, begin, starts, on_progress)
+            coarse.on_curve = lambda: progress.report(coarse)
+            fine.on_curve = lambda: progress.report(fine)
+        minima = search_minima(coarse, begin, starts)
+        results: list[FitResult] = []
+        for minimum in minima[:MOST_MINIMA]:
+            results.append(_fitted(fine, minimum.unit, starts=starts, minima=minima))
+            if results[-1].describes_data and results[-1].report.converged:
+                break
+        return returned(min(results, key=lambda result: result.report.residuals["sum of squares"]))
 
 
 @with_default_errors
-def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
-    """What a fit will do and about how long it will take, in words: by the work counted where it may begin and at the
-    corners of the ranges. Maps are made, and no point is solved.
+def explain_fit(scene: Scene, measured: Measured, parameters, *, starts: int | None = None) -> str:
+    """Return what a fit will do and about how long it will take, in words.
+
+    The time is that of the work counted where the fit may begin and at the corners of the bounds. Maps are made, and no
+    point is solved.
 
     Parameters
     ----------
-    scene, measured, parameters : as for `lubfric.fit`
+    scene, measured, parameters, starts : as for `lubfric.fit`
 
     Returns
     -------
@@ -97,170 +132,168 @@ def explain_fit(scene: Scene, measured: Measured, parameters) -> str:
     ------
     InputError : a parameter is not one
     """
-    found = _checked(scene, measured, parameters)
-    count = counted(len(found), "parameters")
+    bounds = _checked(scene, measured, parameters)
+    starts = _checked_starts(starts, len(bounds))
+    count = counted(len(bounds), "parameters")
     lines = [f"fit of {count} of {scene.name} to {counted(measured.x.size, 'points')} of {measured.source}"]
-    for key, bounds in found.items():
-        logarithmic = ", sought in its logarithm" if bounds.scale == "log" else ""
-        lines.append(f"  {key}: {worded_value(key, bounds.low)} to {worded_value(key, bounds.high)}{logarithmic}")
+    for key, ends in bounds.items():
+        logarithmic = ", searched in its logarithm" if ends.scale == "log" else ""
+        lines.append(f"  {key}: {worded_value(key, ends.low)} to {worded_value(key, ends.high)}{logarithmic}")
     if measured.over == SLIP:
-        held = "they hold" if measured.rolling else "they do not hold"
-        lines.append(f"  {held} the rolling part of the friction, which averaging over both signs of slip takes out")
-    search = Search(scene, measured, found)
-    corners = list(product((0.0, 1.0), repeat=len(found)))
-    places = [_begin(scene, found, {}), *map(np.array, corners[:: -(-len(corners) // CORNERS)])]
-    curves = 2 * len(found) + STEPS
-    work = [search.seconds(unit) for unit in places]
-    seconds = in_words(curves * 0.5 * (float(np.mean(work)) + max(work)))
-    return "\n".join([*lines, f"  time: about {seconds} on one core (within a factor of about 4): {curves} curves"])
+        held = "include" if measured.rolling else "do not include"
+        lines.append(f"  the coefficients {held} rolling friction, which averaging over both signs of slip takes out")
+    coarse, fine = _curves(scene, measured, bounds)
+    begin = _start(scene, bounds, {})
+    searched = estimated_curves(len(bounds), starts)
+    fitted = 2 * len(bounds) + USUAL_CURVES
+    seconds = in_words(searched * _usual_seconds(coarse, begin) + fitted * _usual_seconds(fine, begin))
+    lines.append(f"  search: about {counted(searched, 'curves')} of {counted(coarse.measured.x.size, 'points')} ")
+    lines[-1] += "by the load-sharing model, over the whole bounds" if starts else "by the load-sharing model"
+    lines.append(f"  fit: about {counted(fitted, 'curves')} of {counted(measured.x.size, 'points')}")
+    return "\n".join([*lines, f"  time: about {seconds} on one core (within a factor of about {WITHIN:g})"])
+
+
+def _curves(
+    scene: Scene, measured: Measured, bounds: dict[str, Between], executor=None, folder: str | None = None
+) -> tuple[FitCurves, FitCurves]:
+    """Return the curves of the search by the coarse model, and those of the fit by the scene's own."""
+    fine = scene.with_(numerics={"tolerance": fit_tolerance(scene, measured)})
+    return (
+        FitCurves(coarse_scene(fine), coarse_measured(measured), bounds, executor, folder),
+        FitCurves(fine, measured, bounds, executor, folder),
+    )
 
 
 def _checked(scene: Scene, measured: Measured, parameters) -> dict[str, Between]:
-    """What is sought, if data and scene can tell it."""
+    """Return the bounds of ``parameters`` if scene and data can determine them; raises `InputError`."""
     validate.instance("scene", scene, Scene, "a scene to change: what lubfric.load_scene returned, not lubfric.prepare")
     validate.instance("measured", measured, Measured, "lubfric.read_measured(...) or lubfric.Measured(x, coefficient)")
-    found = parameters_of(scene, parameters)
-    if measured.over == SLIP and (given := RATIO.intersection(found)):
+    bounds = parameters_of(scene, parameters)
+    if measured.over == SLIP and (given := OF_SLIP.intersection(bounds)):
         raise InputError(f"parameters: {', '.join(given)} is measured, not fitted; name another number of the scene")
-    if measured.x.size <= len(found):
+    if measured.x.size <= len(bounds):
         points = counted(measured.x.size, "measured points")
-        sought = counted(len(found), "parameters")
-        raise InputError(f"{points} for {sought}; give more points")
-    return found
+        raise InputError(f"{points} for {counted(len(bounds), 'parameters')}; give more points")
+    return bounds
 
 
-def _begin(scene: Scene, found: dict[str, Between], start: dict) -> np.ndarray:
-    """Where the search begins, as positions between the bounds."""
+def _checked_starts(starts: int | None, parameters: int) -> int:
+    """Return the number of starts of the search; raises `InputError`."""
+    if starts is None:
+        return sobol_count(parameters)
+    starts = validate.integer("starts", starts, minimum=0, maximum=2**12)
+    if starts & (starts - 1):
+        raise InputError(f" = {starts} of a Sobol sequence", "starts", "0, or a power of two")
+    return starts
+
+
+def _start(scene: Scene, bounds: dict[str, Between], start: dict[str, float]) -> np.ndarray:
+    """Return where the search begins, as positions between the bounds."""
     for key in start:
-        if key not in found:
-            raise InputError(f"start holds {key!r}, which is no parameter; allowed: {', '.join(found)}")
-    unit = np.full(len(found), 0.5)
-    for i, (key, bounds) in enumerate(found.items()):
+        if key not in bounds:
+            raise InputError(f"start holds {key!r}, which is no parameter; allowed: {', '.join(bounds)}")
+    unit = np.full(len(bounds), 0.5)
+    for i, (key, ends) in enumerate(bounds.items()):
         section, _, name = key.partition(".")
-        own = vars(getattr(scene, section)).get(name)  # a short form has none there
+        value = vars(getattr(scene, section)).get(name)  # a short form has none there
         if key in start:
-            own = validate.number(f"start[{key!r}]", start[key], unit_of(key), minimum=bounds.low, maximum=bounds.high)
-        if isinstance(own, (int, float)) and bounds.low <= own <= bounds.high:
-            unit[i] = bounds.share(own)
-    return np.clip(unit, 0.02, 0.98)
+            value = validate.number(f"start[{key!r}]", start[key], unit_of(key), minimum=ends.low, maximum=ends.high)
+        if isinstance(value, (int, float)) and ends.low <= value <= ends.high:
+            unit[i] = ends.share(value)
+    return np.clip(unit, INSIDE, 1.0 - INSIDE)
 
 
-class Search:
-    """f of ``scene`` at the points of ``measured``, and its slopes, for any positions of ``parameters`` between their
-    bounds, each computed once."""
-
-    def __init__(self, scene: Scene, measured: Measured, parameters, executor=None, folder=None, on_progress=None):
-        self.scene = scene
-        self.measured = measured
-        self.parameters = parameters
-        told = measured.deviation is not None
-        scatter = float(np.median(measured.scale / np.abs(measured.coefficient))) if told else 0.05
-        self.tolerance = min(scene.numerics.tolerance, max(0.2 * scatter, 1e-3))  # as tight as the measurement requires
-        self._executor = executor
-        self._folder = folder
-        self._on_progress = on_progress
-        self._curves: dict[bytes, tuple[FrictionResult, ...]] = {}
-        self._nearest = np.inf, np.empty(0)  # the least misfit, and where
-        self._base = np.full(len(parameters), np.inf)
-        self._slopes = np.empty((0, 0))
-        self._ready: Prepared | None = None
-
-    def at(self, unit: np.ndarray) -> tuple[FrictionResult, ...]:
-        """The points there. Raises `ConvergenceError` when one of them fails."""
-        if unit.tobytes() not in self._curves:
-            prepared = self.ready(unit)
-            x = self.measured.x.tolist()
-            if self.measured.over == SPEED:
-                key = key_of(prepared)
-                places = [(prepared, key, speed) for speed in x]
-            else:
-                speed = prepared.scene.motion.entrainment_speed
-                places = [(model, key_of(model), speed) for model in at_ratios(prepared, x)]
-            jobs = [partial(solved, model, key, (u,), folder=self._folder) for model, key, u in places]
-            outcomes = {(key, u): outcome for key, u, outcome in spread(self._executor, jobs)}
-            points = tuple(outcomes[key, u] for _, key, u in places)
-            for failed in (outcome for outcome in points if isinstance(outcome, LubfricError)):
-                raise failed
-            self._curves[unit.tobytes()] = points
-            if self._on_progress:
-                self._tell(unit)
-        return self._curves[unit.tobytes()]
-
-    def coefficient(self, unit: np.ndarray) -> np.ndarray:
-        """f (n,), with the rolling part of the film's force or without it, as was measured."""
-        points = self.at(unit)
-        return np.array([p.coefficient if self.measured.rolling else without_rolling(p) for p in points])
-
-    def residuals(self, unit: np.ndarray) -> np.ndarray:
-        """The misfits of the points over their scale, (n,)."""
-        return (self.coefficient(unit) - self.measured.coefficient) / self.measured.scale
-
-    def slopes(self, unit: np.ndarray) -> np.ndarray:
-        """df/d(unit), (n, p), by differences at the curve there, or the last ones if these were computed near by."""
-        if np.abs(unit - self._base).max() <= STEP:
-            return self._slopes
-        columns = []
-        for i in range(unit.size):
-            moved = unit.copy()
-            moved[i] += STEP if moved[i] + STEP <= 1.0 else -STEP  # within the bounds
-            columns.append((self.coefficient(moved) - self.coefficient(unit)) / (moved[i] - unit[i]))
-        self._base = unit.copy()
-        self._slopes = np.stack(columns, axis=1)
-        return self._slopes
-
-    def ready(self, unit: np.ndarray) -> Prepared:
-        """The scene made ready there, with the map of the last one where that is the same."""
-        scene = self.scene.with_keys(values_at(self.parameters, np.clip(unit, 0.0, 1.0)))
-        scene, last = scene.with_(numerics={"tolerance": self.tolerance}), self._ready
-        maps = [(s.surface, s.counterface, s.contact, s.bodies.e_prime) for s in (scene, last.scene if last else scene)]
-        self._ready = prepare(scene, like=last if maps[0] == maps[1] else None)
-        return self._ready
-
-    def seconds(self, unit: np.ndarray) -> float:
-        """The processor seconds of a curve there, by its counted work, with those of the map."""
-        begun = time.process_time()
-        x = self.measured.x.tolist()
-        speeds = x if self.measured.over == SPEED else [self.scene.motion.entrainment_speed] * len(x)
-        return curve_seconds(self.ready(unit), speeds) + time.process_time() - begun
-
-    def _tell(self, unit: np.ndarray) -> None:
-        """Tell ``on_progress`` of the curve that was solved last."""
-        misfit = float(np.sqrt(np.mean(self.residuals(unit) ** 2)))
-        self._nearest = min(self._nearest, (misfit, unit.copy()), key=lambda one: one[0])
-        done = len(self._curves)
-        (least, nearest) = self._nearest
-        total = max(2 * len(self.parameters) + STEPS, done + 1)
-        spent = sum(point.seconds for curve in self._curves.values() for point in curve)
-        self._on_progress(done, total, (total - done) * spent / done, least, values_at(self.parameters, nearest))
+def _usual_seconds(curves: FitCurves, begin: np.ndarray) -> float:
+    """Return the estimated processor seconds of one of the ``curves``: between their mean and the longest of those at
+    ``begin`` and at corners of the bounds."""
+    corners = list(product((0.0, 1.0), repeat=begin.size))
+    places = [begin, *map(np.array, corners[:: -(-len(corners) // CORNERS)])]
+    seconds = [curves.estimated_seconds(unit) for unit in places]
+    return 0.5 * (float(np.mean(seconds)) + max(seconds))
 
 
-def _result(search: Search, end) -> FitResult:
-    """The result of a ``search`` whose derivatives were computed where it ended (``end``, of SciPy), or near by."""
-    measured = search.measured
-    points = search.at(end.x)
-    predicted = search.coefficient(end.x)
+class _Progress:
+    """Reports of the curves of a fit, with the least misfit and the time left."""
+
+    def __init__(self, coarse: FitCurves, fine: FitCurves, begin: np.ndarray, starts: int, on_progress: Callable):
+        parameters = begin.size
+        self.curves = {
+            id(coarse): (coarse, estimated_curves(parameters, starts) if starts else 0, _usual_seconds(coarse, begin)),
+            id(fine): (fine, 2 * parameters + USUAL_CURVES, _usual_seconds(fine, begin)),
+        }
+        self.fine = fine
+        self.on_progress = on_progress
+        self.least: dict[int, tuple[float, np.ndarray]] = {}
+
+    def report(self, curves: FitCurves) -> None:
+        """Report the last of ``curves``."""
+        unit = curves.last
+        misfit = curves.misfit(unit)
+        if misfit < self.least.get(id(curves), (np.inf, unit))[0]:
+            self.least[id(curves)] = (misfit, unit)
+        done = sum(kind.count for kind, _, _ in self.curves.values())
+        total = done
+        left = 0.0
+        for kind, expected, estimated in self.curves.values():
+            ended = kind is not self.fine and self.fine.count > 0
+            remaining = 0 if ended else max(expected - kind.count, 1 if kind is self.fine else 0)
+            each = kind.spent / kind.count if kind.count else estimated
+            total += remaining
+            left += remaining * each
+        least, nearest = self.least[id(self.fine if self.fine.count else curves)]
+        self.on_progress(done, total, left, least, values_at(curves.parameters, nearest))
+
+
+def _fitted(curves: FitCurves, begin: np.ndarray, *, starts: int, minima: list[Candidate]) -> FitResult:
+    """Return the result of a trust region that begins at ``begin`` (p,)."""
+    from scipy.optimize import least_squares
+
+    measured = curves.measured
+    limits: dict[str, Any] = {"xtol": CLOSE, "ftol": FLAT, "gtol": 1e-12, "max_nfev": MOST_CURVES}
+    end = least_squares(
+        curves.residuals,
+        begin,
+        lambda unit: curves.slopes(unit) / measured.scale[:, None],
+        bounds=(0.0, 1.0),
+        **limits,
+    )
+    points = curves.points(end.x)
+    predicted = curves.coefficient(end.x)
     n, p = end.jac.shape
     squares = float(end.fun @ end.fun)
-    variance = squares / (n - p) if measured.deviation is None else 1.0
-    f, stated = np.array([(point.coefficient, point.uncertainty.numerical) for point in points]).T
-    known = np.maximum(np.where(np.isfinite(stated), stated, search.tolerance), LEAST_ERROR)
-    variance += float(np.mean((known * f / measured.scale) ** 2))  # what changes f by less is hidden from the data
+    stated = measured.deviation is not None
+    coefficient = np.array([point.coefficient for point in points])
+    errors = np.array([point.uncertainty.numerical for point in points])
+    relative = np.maximum(np.where(np.isfinite(errors), errors, curves.tolerance), LEAST_ERROR)
+    numerical = np.abs(relative * coefficient / measured.scale)
+    variance = 1.0 if stated else squares / (n - p)
+    variance += float(np.mean(numerical**2))  # the data do not see a change of f below its numerical error
     _, singular, axes = np.linalg.svd(end.jac, full_matrices=False)
-    known = np.maximum(singular, max(1e-8 * singular[0], LEAST_SLOPE))  # a direction without effect: a huge variance
+    effect = np.maximum(singular, max(1e-8 * singular[0], LEAST_SLOPE))  # a direction without effect: a huge variance
     status = CONVERGED if end.status > 0 else ITERATION_LIMIT
-    coarse = "give start = {...} closer to the answer, narrower bounds, or fewer parameters"
-    left, advice = (0.0, "") if status == CONVERGED else (1.0, coarse)
-    found = {"sum of squares": squares}
-    report = Report("fit, trust region", status, int(end.nfev), left, CLOSE, found, advice=advice)
+    advice = "give start = {...} closer to the answer, narrower bounds, or fewer parameters"
+    report = Report(
+        "fit, trust region",
+        status,
+        int(end.nfev),
+        0.0 if status == CONVERGED else 1.0,
+        CLOSE,
+        {"sum of squares": squares},
+        evaluations=curves.count,
+        advice="" if status == CONVERGED else advice,
+    )
     return FitResult(
-        base=search.scene,
+        base=curves.scene,
         measured=measured,
-        parameters=search.parameters,
+        parameters=curves.parameters,
         unit=np.clip(end.x, 0.0, 1.0),
-        unit_covariance=variance * (axes.T / known**2) @ axes,
+        unit_covariance=variance * (axes.T / effect**2) @ axes,
         predicted=predicted,
         slopes=end.jac * measured.scale[:, None],
         report=report,
         entries=tuple(point.validity for point in points),
         sampling=np.array([point.uncertainty.sampling for point in points]),
+        tests=residual_tests(measured.x, end.fun, p, numerical, stated=stated),
+        starts=starts,
+        minima=tuple(minima),
     )

@@ -14,20 +14,28 @@ from ..models.shared import (
 )
 from ..quantities import counted, worded_value
 from ..scene import Scene
+from .fit_checks import ResidualTests
 from .fit_input import SPEED, Measured, values_at
+from .fit_search import SAME_MINIMUM, Candidate
 from .vary import Between
 
+# Probability of the intervals.
 LEVEL = 0.95
-AT_BOUND = 5e-3  # of the bounds
+
+# Distance from a bound, as a share of the bounds, below which a parameter is said to lie on it.
+AT_BOUND = 5e-3
+
+# Correlation of two parameters, without sign, above which it is reported.
+CORRELATED = 0.9
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class FitResult(Shown):
-    """Parameters found by `lubfric.fit`, and how well the data determine them.
+    """Parameters found by `lubfric.fit`, how well the data determine them, and whether the fit describes the data.
 
     The covariance is ``s² (JᵀJ)⁻¹``, with s² the sum over n - p if no deviations are given, else 1, and in both cases
     the mean square of the numerical error of f beside it. The data cannot determine a parameter whose 95 % interval is
-    as wide as its bounds.
+    as wide as its bounds. No interval holds where ``describes_data`` is False.
 
     Attributes
     ----------
@@ -40,6 +48,10 @@ class FitResult(Shown):
     slopes : df/d(unit) at the measured points, (n, p)
     entries : the assumptions that do not hold at each of the points (`lubfric.Validity`). A severe one is there only
         where it was accepted; ``validity`` gathers them
+    tests : what the residuals say of the fit (`lubfric.studies.fit_checks.ResidualTests`)
+    starts : number of starts that were spread over the bounds
+    minima : minima of the search by the load-sharing model, the least first, as far as their residuals compare with it
+        (`lubfric.studies.fit_search.Candidate`)
     sampling : relative standard error of f at the points because a finite surface stands for all of it, (n,); NaN where
         it is not known. It is not in the covariance; ``moved_by_surface`` is its effect
     """
@@ -54,6 +66,9 @@ class FitResult(Shown):
     report: Report
     entries: tuple[tuple[Validity, ...], ...] = ()
     sampling: np.ndarray = field(default_factory=lambda: np.empty(0))
+    tests: ResidualTests | None = None
+    starts: int = 0
+    minima: tuple[Candidate, ...] = ()
 
     @property
     def values(self) -> dict[str, float]:
@@ -122,21 +137,43 @@ class FitResult(Shown):
         moved = np.maximum(np.abs(effects.sum(axis=1)), np.sqrt((effects**2).sum(axis=1)))
         return dict(zip(self.parameters, (moved * self._slopes).tolist()))
 
-    def _misfit(self) -> str:
-        """In words that the points lie farther from the fit than their deviations allow (chi-squared, 95 %); "" if
-        they do not, or have none."""
-        if self.measured.deviation is None:
-            return ""
-        from scipy.stats import chi2
+    @property
+    def describes_data(self) -> bool:
+        """False where the residuals are systematic, or larger than the stated deviations allow. Such a fit has no
+        meaningful intervals."""
+        return self.tests is None or not self.tests.text
 
-        squares = self.report.residuals["sum of squares"]
-        freedom = self.predicted.size - self.unit.size
-        if squares <= chi2.ppf(LEVEL, freedom):
-            return ""
-        times = np.sqrt(squares / freedom)
-        return f"the points lie {times:.2g} times as far off as their deviations say: the intervals are too narrow"
+    @property
+    def other_minima(self) -> tuple[dict[str, float], ...]:
+        """Values of the parameters at other minima of the search, whose residuals are at most 1.5 times as large."""
+        apart = (one for one in self.minima if np.abs(one.unit - self.unit).max() >= SAME_MINIMUM)
+        return tuple(values_at(self.parameters, one.unit) for one in apart)
 
-    def _of_surface(self) -> str:
+    @property
+    def effects(self) -> dict[str, float]:
+        """Largest relative change of f at the measured points by each parameter over its bounds, to first order."""
+        relative = np.abs(self.slopes / self.predicted[:, None]).max(axis=0)
+        return dict(zip(self.parameters, relative.tolist()))
+
+    def _identifiability(self) -> list[str]:
+        """What the data do not tell of the parameters, one sentence each."""
+        lines = []
+        for key in self.undetermined:
+            change = 100 * self.effects[key]
+            lines.append(f"the data do not determine {key}: over its bounds it changes f by {change:.2g} %, linearised")
+        keys = [*self.parameters]
+        correlation = self.correlation
+        for i in range(len(keys)):
+            for j in range(i):
+                if abs(correlation[i, j]) > CORRELATED:
+                    pair = f"{keys[j]} and {keys[i]}"
+                    lines.append(f"the data hardly separate {pair}: correlation {correlation[i, j]:.3f}")
+        for values in self.other_minima:
+            at = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
+            lines.append(f"by the load-sharing model, {at} describe the data about as well")
+        return lines
+
+    def _surface_note(self) -> str:
         """What the intervals leave out, in words; "" for a surface that leaves nothing open."""
         if not np.isfinite(self.sampling).any():
             if self.base.surface.sq == 0 or not self.sampling.size:
@@ -151,27 +188,25 @@ class FitResult(Shown):
         )
 
     def explain(self) -> str:
-        """Values, intervals, correlations, the parameters that the data cannot determine, and the assumptions that do
-        not hold."""
+        """Return whether the fit describes the data, the values with their intervals, what the data do not determine,
+        and the assumptions that do not hold."""
         lines = [f"fit to {counted(self.predicted.size, 'points')} of {self.measured.source}"]
+        if self.tests is not None and self.tests.text:
+            lines.append(f"  WARNING: {self.tests.text}")
         for key, (low, high) in self.intervals.items():
-            note = " - the data do not determine it" if key in self.undetermined else ""
-            note += " - on its bound" if key in self.at_bounds else ""
+            note = " (not determined)" if key in self.undetermined else ""
+            note += " (on its bound)" if key in self.at_bounds else ""
             value, *ends = (worded_value(key, v) for v in (self.values[key], low, high))
             lines.append(f"  {key} = {value}, 95 % interval {' to '.join(ends)}{note}")
-        keys = [*self.parameters]
-        correlation = self.correlation
-        for i in range(len(keys)):
-            for j in range(i):
-                if abs(correlation[i, j]) > 0.9:
-                    lines.append(f"  {keys[j]} and {keys[i]} go together: correlation {correlation[i, j]:.3f}")
         scatter = float(np.sqrt(np.mean((self.predicted / self.measured.coefficient - 1) ** 2)))
-        cautions = [f"  {text}" for text in (self._misfit(), self._of_surface(), *self.validity) if text]
-        return "\n".join([*lines, f"  scatter about the fit {100 * scatter:.2g} % of f", *cautions])
+        lines.append(f"  root mean square deviation of the points from the fit: {100 * scatter:.2g} % of f")
+        warnings = (*self._identifiability(), self._surface_note(), *self.validity)
+        return "\n".join([*lines, *(f"  {text}" for text in warnings if text)])
 
     def _facts(self) -> dict[str, str]:
         facts = {k: f"{self.values[k]:.4g}, 95 % interval {a:.4g} to {b:.4g}" for k, (a, b) in self.intervals.items()}
-        return facts | {"undetermined": ", ".join(self.undetermined) or "none"}
+        facts |= {"undetermined": ", ".join(self.undetermined) or "none"}
+        return facts if self.describes_data else {"": "does not describe the data"} | facts
 
     def plot(self, ax=None):
         """Measured points, fitted curve and its 95 % band; returns the axes."""

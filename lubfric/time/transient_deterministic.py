@@ -21,9 +21,9 @@ from ..models.deterministic import (
     STEPS,
     TOUCHING,
     Iterate,
-    Past,
     Problem,
     State,
+    TimeHistory,
     Work,
     assemble,
     dry_contact,
@@ -144,15 +144,17 @@ class TransientDeterministic:
     def solve(self, time: float, memory: Memory, z: np.ndarray, payload: State) -> Step:
         """The step that ends at ``time`` [s]; the payload is its state."""
         back = self.back(time)
-        past = Past(memory.film[::back], 1.0 / memory.rate)
+        film = memory.film[::back]
+        history = TimeHistory(extrapolated=film, step=1.0 / memory.rate)
         if memory.then is not None:
-            then = memory.then[::back]
+            last = memory.then[::back]
             part = memory.rate * memory.step - 1.0
-            left = np.maximum((1.0 + part) * past.kept - part * then, 0.5 * then)
-            past = Past(left, memory.step, (then, part))
+            extrapolated = np.maximum((1.0 + part) * film - part * last, 0.5 * last)
+            history = TimeHistory(extrapolated=extrapolated, step=memory.step, last=last, part=part)
         start = _turned(replace(payload, approach=float(z[0])), back)
-        found = newton(self.problem_at(time), start, Work(MOST), tolerance=EXACT, most=MOST, past=past)
-        return self._step(found.at, back, CONVERGED if found.residual <= EXACT else ITERATION_LIMIT)
+        solution = newton(self.problem_at(time), start, Work(MOST), tolerance=EXACT, most=MOST, history=history)
+        status = CONVERGED if solution.residual <= EXACT else ITERATION_LIMIT
+        return self._step(solution.at, back, status)
 
     def error_of(self, step: Step, difference: np.ndarray) -> float:
         """Root mean square, over the pressurised film, of the mean over y of a ``difference`` of masses, over the mean

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from lubfric.contact import half_space
 from lubfric.film import LineContact
 from lubfric.models.deterministic import Problem, lay_out, solve_point
-from lubfric.models.deterministic.flow import balance, derivatives
+from lubfric.models.deterministic.flow import derivatives, mass_balance
 from lubfric.models.deterministic.inlet import inlet
 from lubfric.models.deterministic.linear import Patterns
 from lubfric.models.deterministic.rheology import mean_fluidity, thinning
@@ -59,11 +59,11 @@ def test_derivatives_are_those_of_the_residual(name):
     p[0] *= 0.1
     h[0] = problem.x[0] ** 2 / (2 * RADIUS)
     by_p, by_h, _ = (
-        Patterns.of(*shape).rows(d) for d in derivatives(problem, balance(problem, p, h), np.ones(shape, bool))
+        Patterns.of(*shape).rows(d) for d in derivatives(problem, mass_balance(problem, p, h), np.ones(shape, bool))
     )
     for matrix, base, step, at in (
-        (by_p, p, 10.0, lambda v: balance(problem, v, h).residual),
-        (by_h, h, 1e-14, lambda v: balance(problem, p, v).residual),
+        (by_p, p, 10.0, lambda v: mass_balance(problem, v, h).residual),
+        (by_h, h, 1e-14, lambda v: mass_balance(problem, p, v).residual),
     ):
         d = random.standard_normal(shape)
         numerical = (at(base + step * d) - at(base - step * d)) / (2 * step)
@@ -211,7 +211,7 @@ def test_a_wave_of_pressure_drives_its_flow_along_its_own_axis(axis, waves):
     places = np.arange(SHAPE[axis])
     line = 1e7 * (2 + np.sin(2 * np.pi * waves * places / SHAPE[axis]))
     p = np.broadcast_to(line[:, None] if axis == 0 else line[None, :], SHAPE)
-    found = balance(even(), p, np.full(SHAPE, h)).residual[2:-1]
+    found = mass_balance(even(), p, np.full(SHAPE, h)).residual[2:-1]
     second = (np.roll(line, -1) - 2 * line + np.roll(line, 1)) / step**2
     expected = -(h**3) / (12 * ETA) * (second[2:-1, None] if axis == 0 else second[None, :])
     everywhere = np.broadcast_to(expected, found.shape)
@@ -223,9 +223,9 @@ def test_a_wedge_takes_in_what_it_is_dragged():
     """U dh/dx without pressure, for a gap that falls in a straight line; across the motion a slope drags nothing."""
     x = np.arange(SHAPE[0]) * DX
     h = 4e-7 - 1e-3 * np.broadcast_to(x[:, None], SHAPE)
-    np.testing.assert_allclose(balance(even(), np.zeros(SHAPE), h).residual[3:], -U * 1e-3, rtol=1e-9)
+    np.testing.assert_allclose(mass_balance(even(), np.zeros(SHAPE), h).residual[3:], -U * 1e-3, rtol=1e-9)
     across = np.broadcast_to(3e-7 + 1e-8 * np.arange(SHAPE[1])[None, :], SHAPE)
-    np.testing.assert_allclose(balance(even(), np.zeros(SHAPE), across).residual[3:], 0.0, atol=1e-12)
+    np.testing.assert_allclose(mass_balance(even(), np.zeros(SHAPE), across).residual[3:], 0.0, atol=1e-12)
 
 
 def test_the_narrowest_place_limits_the_flow():
@@ -234,7 +234,7 @@ def test_the_narrowest_place_limits_the_flow():
     h = np.full(SHAPE, 4e-7)
     p[:, 5] = 3e7
     h[:, 5] = 1e-7
-    flow = balance(even(), p, h).across.flow
+    flow = mass_balance(even(), p, h).across.flow
     mean = (1e-7 + 4e-7) / (2 * 1e-14 * 16e-14)
     np.testing.assert_allclose(flow[:, 5], 2e7 / DY / (12 * ETA * mean), rtol=1e-9)
     np.testing.assert_allclose(flow[:, 4], -2e7 / DY / (12 * ETA * mean), rtol=1e-9)

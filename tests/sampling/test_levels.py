@@ -11,8 +11,8 @@ import scipy.stats
 
 import lubfric
 from lubfric.estimate import levels, sampled, shorter
-from lubfric.estimate.line import Line, line_of
-from lubfric.estimate.pair import Pair, cells_of, solve_pair, strip_of
+from lubfric.estimate.line import ControlVariate, line_of
+from lubfric.estimate.pair import StripOnTwoGrids, cells_of, solve_pair, strip_of
 from lubfric.estimate.scatter import BlockError
 from lubfric.models.deterministic import change_by_flow, solve_strip
 from lubfric.models.load_sharing import solve_balance
@@ -84,7 +84,7 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
     """f = .05 (1 + (dx/18 µm)^p) on every strip and piece, on cells from 7.2 to 0.9 µm; the scene's own are .45 µm."""
     prepared = lubfric.prepare(FINE)
     solved = solve_strip(FINE, prepared.strips.strip(0), 0.1, factors=(4, 4))
-    pair = Pair(solved, solved, None)
+    pair = StripOnTwoGrids(solved, solved, None)
     for order, most in ((3.0, 0.01), (1.0, 0.06), (0.5, 0.13)):
 
         def on(dx, order=order):
@@ -258,11 +258,11 @@ def synthetic(rng, strips, places=40, between=0.0):
         result = type("Result", (), {"coefficient": float(resolved.mean()), "load": 1.0})()
         problem = type("Problem", (), {"spacing": (18e-6, 18e-6)})()
         strip = type("Strip", (), {"result": result, "deviations": resolved - resolved.mean(), "problem": problem})()
-        pairs.append(Pair(strip, strip))
+        pairs.append(StripOnTwoGrids(strip, strip))
     differences = common - common.mean()
     of_strips = differences.mean(axis=1)
     error = BlockError(np.std(of_strips, ddof=1) / math.sqrt(strips), strips - 1)
-    return pairs, Line(differences, {"coefficient": of_strips}, error)
+    return pairs, ControlVariate(differences, {"coefficient": of_strips}, error)
 
 
 @pytest.mark.parametrize(
@@ -283,9 +283,9 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
         pairs, of_line = synthetic(rng, 24, between=between)
         with_line, without = (levels._sum(model, pairs[:n], one) for one in (of_line, None))
         sums.append(with_line.numbers["coefficient"])
-        stated.append(with_line.is_single_patch.error)
+        stated.append(with_line.whole.error)
         means.append(without.numbers["coefficient"])
-        alone.append(without.is_single_patch.error)
+        alone.append(without.whole.error)
     assert math.sqrt(np.mean(np.square(stated))) == pytest.approx(np.std(sums), rel=0.15)
     assert 0.85 < math.sqrt(np.mean(np.square(alone))) / np.std(means) < 1.35
 

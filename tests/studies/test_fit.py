@@ -50,11 +50,11 @@ def fitted(timed):
     return timed[0]
 
 
-def test_the_time_of_a_fit_is_foretold_within_a_factor_of_four(timed):
+def test_the_time_of_a_fit_is_estimated_within_a_factor_of_three(timed):
     words = lubfric.explain_fit(SCENE, timed[0].measured, BOUNDS)
     number, unit = words.split("time: about ")[1].split()[:2]
-    assert unit == "s" and 0.25 < float(number) / timed[1] < 4, (number, timed[1])
-    assert "bodies.boundary_friction_coefficient: 0.05 to 0.2" in words and "sought in its logarithm" in words
+    assert unit == "s" and 1 / 3 < float(number) / timed[1] < 3, (number, timed[1])
+    assert "bodies.boundary_friction_coefficient: 0.05 to 0.2" in words and "searched in its logarithm" in words
     with pytest.raises(lubfric.InputError, match="unknown key 'numerics' in parameters"):
         lubfric.explain_fit(SCENE, timed[0].measured, {"numerics.tolerance": (0.01, 0.1)})
 
@@ -98,7 +98,7 @@ def test_independent_data_of_eyring_are_found_within_their_intervals():
     curve = lubfric.traction(found.scene, slips[::5])
     np.testing.assert_allclose(found.predicted[::5], curve.without_rolling, rtol=2e-3)
     assert np.all(found.predicted[::5] < curve.coefficient)
-    assert "they do not hold the rolling part" in lubfric.explain_fit(scene, measured, {alpha: (1.2e-8, 2.8e-8)})
+    assert "do not include rolling friction" in lubfric.explain_fit(scene, measured, {alpha: (1.2e-8, 2.8e-8)})
 
 
 def test_the_true_values_are_in_the_region(fitted):
@@ -192,7 +192,7 @@ def test_data_that_fit_exactly_tell_nothing_of_a_parameter_without_effect(noise)
     curve = lubfric.stribeck(scene.with_(lubricant={"limiting_stress_coefficient": 0.4}), SPEEDS[:5]).coefficient
     exact = lubfric.Measured(SPEEDS[:5], curve * (1 + noise * np.array([1, -1, 1, 0, -1])))
     found = lubfric.fit(scene, exact, {key: (0.3, 0.6), "bodies.boundary_friction_coefficient": (0.05, 0.2)})
-    assert found.undetermined == (key,) and "the data do not determine it" in found.explain()
+    assert found.undetermined == (key,) and f"the data do not determine {key}" in found.explain()
     low, high = found.intervals[key]
     assert low < 0.4 < high
     low, high = found.intervals["bodies.boundary_friction_coefficient"]
@@ -297,24 +297,25 @@ def test_the_command_says_the_cost_first_and_writes_the_scene_that_an_executor_f
     (tmp_path / "scene.toml").write_text(SCENE.to_toml())
     named = ["--measured", str(tmp_path / "rig.csv"), "--speed", "U [mm/s]", "--coefficient", "mu"]
     sought = ["--parameter", "bodies.boundary_friction_coefficient=0.05:0.2"]
-    command = ["fit", str(tmp_path / "scene.toml"), *named, "--out", str(tmp_path / "out")]
+    command = ["fit", str(tmp_path / "scene.toml"), *named, "--out", str(tmp_path / "out"), "--starts", "4"]
     assert main([*command, *sought]) == 0
     said = capsys.readouterr().err
-    assert said.index("time: about") < said.index("curve 1 of about 7: nearest so far") < said.index("95 % interval")
+    assert said.index("time: about") < said.index("curve 1 of about ") < said.index("95 % interval")
     read = lubfric.read_measured(tmp_path / "rig.csv", speed="U [mm/s]", coefficient="mu")
     bounds = {"bodies.boundary_friction_coefficient": (0.05, 0.2)}
     with ThreadPoolExecutor(2) as executor:
-        found = lubfric.fit(SCENE, read, bounds, executor=executor, on_progress=lambda *what: told.append(what))
+        record_progress = {"on_progress": lambda *what: told.append(what)}
+        found = lubfric.fit(SCENE, read, bounds, starts=4, executor=executor, **record_progress)
     done, total, left, misfit, values = zip(*told)
     assert done == tuple(range(1, len(told) + 1)) and len(told) >= 2
     assert all(n < of for n, of in zip(done, total)) and all(seconds > 0 for seconds in left)
-    assert list(misfit) == sorted(misfit, reverse=True) and misfit[-1] < misfit[0]
+    assert misfit[-1] < misfit[0]
     squares = found.report.residuals["sum of squares"]
     assert misfit[-1] == pytest.approx(np.sqrt(squares / read.x.size), rel=0.05)
     assert values[-1] == pytest.approx(found.values, rel=0.05) and values[0] != values[-1]
     record = json.loads((tmp_path / "out" / "fit.json").read_text())
     fitted = lubfric.load_scene(tmp_path / "out" / "fitted.toml")
-    assert record["values"] == found.values
+    assert record["values"] == found.values and record["starts"] == 4 and record["describes_data"]
     assert fitted.bodies.boundary_friction_coefficient == pytest.approx(list(found.values.values())[0])
     assert (tmp_path / "out" / "fit.png").stat().st_size > 10_000
     assert main([*command, "--parameter", "lubricant.viscosity"]) == 2
@@ -344,5 +345,5 @@ def test_points_farther_off_than_their_deviations_say_are_told(stated, told):
     f = lubfric.stribeck(SCENE, speeds).coefficient
     off = 0.03 * f * np.array([1, -1, -1, 1, 1, -1])
     found = lubfric.fit(SCENE, lubfric.Measured(speeds, f + off, stated * np.abs(off)), {key: (0.05, 0.2)})
-    assert ("times as far off as their deviations say" in found.explain()) == told
-    assert not told or "lie 11 times" in found.explain()  # sqrt(6/5) of ten, one parameter
+    assert ("times as large as the stated deviations" in found.explain()) == told
+    assert not told or "are 11 times" in found.explain()  # sqrt(6/5) of ten, one parameter

@@ -1,6 +1,20 @@
 """One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .moving import KRYLOV, STEPS, Moment, MovingStrip, RoughBody, moments, moving_work, solve_moving_strip, travelling
+from .moving import (
+    ECONOMICAL,
+    KRYLOV,
+    STEPS,
+    TIGHT,
+    Moment,
+    MovingEffort,
+    MovingStrip,
+    RoughBody,
+    effort_for,
+    moments,
+    moving_work,
+    solve_moving_strip,
+    travelling,
+)
 from .newton import Work, newton
 from .pictures import animate_moments, plot_moments, plot_passing
 from .point import (
@@ -17,4 +31,4 @@ from .point import (
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
 from .solve import dry_contact, solve_point
-from .state import RUPTURED, TOUCHING, Iterate, Past, State, evaluated, residuals
+from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals

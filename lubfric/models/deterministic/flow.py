@@ -88,7 +88,7 @@ def couette_flow(problem: Problem, mass, fill, U: float) -> CouetteFlow:
 
 
 @dataclass(frozen=True)
-class Balance:
+class MassBalance:
     """Outflow minus inflow of each cell, ``residual`` [m/s] (nx, ny), and its parts.
 
     film: the gap for the flow, at least the floor [m]. ``end``: the pressure flow out of the last cells, beyond which
@@ -105,16 +105,16 @@ class Balance:
     inlet: Inlet
 
 
-def balance(problem: Problem, pressure, gap, fill=1.0, carried=False) -> Balance:
-    """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny); ``carried``: without the
-    Couette flow, of cells that move with it (`state.Past`)."""
+def mass_balance(problem: Problem, pressure, gap, fill=1.0, follows_lubricant=False) -> MassBalance:
+    """Steady mass balance of the cells at pressure [Pa], gap [m] and filled part [-] (nx, ny); ``follows_lubricant``: without the
+    Couette flow, of cells that move with it (`state.TimeHistory`)."""
     dx, dy = problem.spacing
     film = np.maximum(gap, problem.floor)
     fluid = cell_fluid(problem.lubricant, np.maximum(pressure, 0.0))
     along, across = (pressure_flow(problem, fluid, pressure, film, axis) for axis in (0, 1))
     last = np.stack([np.maximum(pressure[-1], 0.0), np.zeros_like(pressure[-1])])
     end = pressure_flow(problem, cell_fluid(problem.lubricant, last), last, np.stack([film[-1]] * 2), 0)
-    couette = couette_flow(problem, fluid.density * film, fill, 0.0 if carried else problem.speed)
+    couette = couette_flow(problem, fluid.density * film, fill, 0.0 if follows_lubricant else problem.speed)
     upstream = inlet(problem, pressure[0], film[0])
     residual = couette.flow.copy()
     residual[1:] -= couette.flow[:-1]
@@ -124,7 +124,7 @@ def balance(problem: Problem, pressure, gap, fill=1.0, carried=False) -> Balance
     residual[1:] -= along.flow
     residual /= dx
     residual += (across.flow - np.roll(across.flow, 1, axis=1)) / dy
-    return Balance(residual, film, fluid, along, across, end, couette, upstream)
+    return MassBalance(residual, film, fluid, along, across, end, couette, upstream)
 
 
 class Stencil:
@@ -152,7 +152,7 @@ class Stencil:
         return found
 
 
-def derivatives(problem: Problem, at: Balance, open_) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def derivatives(problem: Problem, at: MassBalance, open_) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """d residual/dp [m/(s Pa)], /dh [1/s] and /dfill [m/s] as the data of a `Stencil` each; by h of ``open_`` cells
     (bool) (nx, ny) only."""
     dx, dy = problem.spacing

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from .linear import Change, System
+from .linear import ACCURACY, Change, System
 from .problem import Problem
-from .state import TOUCHING, Iterate, Past, State, evaluated, residuals, settled
+from .state import TOUCHING, Iterate, State, TimeHistory, evaluated, residuals, update_active_sets
 
 # of h that a step must leave, and floors it may go below that
 KEEP = 0.2
@@ -53,7 +53,7 @@ class Work:
 
 
 @dataclass(frozen=True)
-class Found:
+class NewtonResult:
     """The end of Newton's method, and its residuals."""
 
     at: Iterate
@@ -65,40 +65,43 @@ class Found:
         return max(self.residuals.values())
 
 
-def newton(problem: Problem, state: State, work: Work, *, tolerance, most, least=0.0, past=None) -> Found:
+def newton(
+    problem: Problem, state: State, work: Work, *, tolerance, most, least=0.0, history=None, linear_accuracy=ACCURACY
+) -> NewtonResult:
     """At most ``most`` steps from ``state``, until the largest of `residuals` is <= ``tolerance``.
 
-    Before every step each cell gets the equation that its state asks for (`settled`). A step leaves every cell at least
+    Before every step each cell gets the equation that its state asks for (`update_active_sets`). A step leaves every cell at least
     a fifth of its gap, and is halved while the mass residual of the fluid cells grows. The method gives up after a step
     shorter than ``least`` of the whole; when a number is not finite; or when for `PATIENCE` steps neither the residual
     has fallen nor the residual that the whole step would have led to. (The latter falls first, while a heavily loaded
-    film finds its shape in short steps.)
+    film finds its shape in short steps.) ``history``: of an implicit step in time (None: the film is steady);
+    ``linear_accuracy``: of the linear system of a step (`System.solve`).
     """
-    history: list[float] = []
+    residual_history: list[float] = []
     promised: list[float] = []
     most = min(most, work.left)
-    at = evaluated(problem, state, past)
+    at = evaluated(problem, state, history)
     while True:
-        at = settled(at)
-        found = Found(at, residuals(at))
-        history.append(found.residual)
-        work.history.append(found.residual)
-        if not math.isfinite(found.residual) or found.residual <= tolerance or len(history) > most:
-            return found
-        if _stalled(history) and _stalled(promised):
-            return found
+        at = update_active_sets(at)
+        result = NewtonResult(at, residuals(at))
+        residual_history.append(result.residual)
+        work.history.append(result.residual)
+        if not math.isfinite(result.residual) or result.residual <= tolerance or len(residual_history) > most:
+            return result
+        if _stalled(residual_history) and _stalled(promised):
+            return result
         try:
-            step, iterations = System(at).solve()
+            step, iterations = System(at).solve(linear_accuracy)
         except RuntimeError:  # the LU is singular
-            return found
+            return result
         work.factorisations += 1
         work.krylov += iterations
         if not np.all(np.isfinite(step.gap)):
-            return found
+            return result
         at, whole, length = _advanced(at, step)
         promised.append(whole)
         if length < least:
-            return found
+            return result
 
 
 def _stalled(history) -> bool:
@@ -113,7 +116,7 @@ def _advanced(at: Iterate, step: Change) -> tuple[Iterate, float, float]:
     before = _merit(at, apart)
     merits: list[float] = []
     for _ in range(HALVINGS):
-        new = evaluated(at.problem, step.added(at.state, length), at.past)
+        new = evaluated(at.problem, step.added(at.state, length), at.history)
         merits.append(_merit(new, apart))
         if merits[-1] <= (GROWTH if length > SHORTEST else SURGE) * before:
             break
@@ -146,16 +149,17 @@ def march(problem: Problem, state: State, work: Work, *, most: int) -> State:
     last = work.factorisations + min(most, work.left)
     at = evaluated(problem, state)
     while work.factorisations < last and LEAST * unit <= step <= LAST * unit:
-        left = residuals(settled(at))["mass"]
+        left = residuals(update_active_sets(at))["mass"]
         if left <= SETTLED:
             break
         goal = max(SETTLED, min(LOOSE, PART * left))
         begun = work.factorisations
         most = min(INNER, last - begun)
-        found = newton(problem, at.state, work, tolerance=goal, most=most, past=Past(at.mass, step))
+        history = TimeHistory(extrapolated=at.mass, step=step)
+        result = newton(problem, at.state, work, tolerance=goal, most=most, history=history)
         work.steps += 1
-        if found.residual <= goal:
-            at = evaluated(problem, found.at.state)
+        if result.residual <= goal:
+            at = evaluated(problem, result.at.state)
             step *= GROW[work.factorisations - begun > EASY]
         else:
             step *= SHRINK

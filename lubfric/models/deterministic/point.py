@@ -68,6 +68,7 @@ def solve_strip(
     slope: bool = False,
     tolerance: float = ENOUGH,
     upper: Surface | None = None,
+    ends: tuple[float, float] | None = None,
 ) -> Strip:
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
 
@@ -76,18 +77,19 @@ def solve_strip(
     these cells or on longer ones. Without it, strip and speed alone decide the result; many cells then start from
     cells twice as long. ``slope``: solve it a second
     time, for `Strip.slope`. ``tolerance``: of the residuals (`lubfric.models.deterministic.state.residuals`). ``upper``: the
-    part of ``surface`` that is surface 2, where both bodies are rough.
+    part of ``surface`` that is surface 2, where both bodies are rough. ``ends`` [m]: of the grid, up and down stream
+    (None: `reach`).
 
     Raises `InputError` and `ConvergenceError`.
     """
     check_resolved_gap(scene)
-    problem = problem_of(scene, surface, speed, factors, upper)
+    problem = problem_of(scene, surface, speed, factors, upper, ends)
     work = 0.0
     rise = math.nan
     longer = (2 * factors[0], 2 * factors[1])
     if start is None and problem.heights.size > FIRST and surface.shape[1] % longer[1] == 0:
         with suppress(ConvergenceError):
-            start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE, upper=upper)
+            start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE, upper=upper, ends=ends)
             work = start.work
     near, least = (None, 0.0) if start is None else refined_start(start.problem, problem, start.result)
     result = solve_point(problem, start=near, least=least, tolerance=tolerance)
@@ -129,9 +131,14 @@ def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
 
 
 def problem_of(
-    scene: Scene, surface: Surface, speed: float, factors: tuple[int, int] = (1, 1), upper: Surface | None = None
+    scene: Scene,
+    surface: Surface,
+    speed: float,
+    factors: tuple[int, int] = (1, 1),
+    upper: Surface | None = None,
+    ends: tuple[float, float] | None = None,
 ) -> Problem:
-    """``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
+    """Return the problem of ``surface`` under the bodies of ``scene`` at ``speed`` [m/s], not 0, on its own cells or on cells ``factors``
     times as long (`lay_out`). For a negative speed the maps are turned. ``upper``: the part of it that is surface 2
     (all of it where only the counterface is rough). The lubricant flows with the viscosity of its heated inlet."""
     film = scene.bodies.boundary_film
@@ -151,6 +158,7 @@ def problem_of(
         hardness=scene.bodies.hardness,
         boundary_film=BOUNDARY_FILM if film is None else film,
         factors=factors,
+        ends=ends,
     )
     heights = None if upper is None else shifted(found, turned(upper))(0.0)
     return replace(

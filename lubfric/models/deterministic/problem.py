@@ -118,18 +118,21 @@ class Problem(HasLineContact):
         return replace(self, contact=faster, sliding=self.sliding * speed / self.speed)
 
 
-def reach(contact: LineContact, sq: float) -> tuple[float, float]:
-    """Lengths [m] of the grid upstream and downstream of the line of contact.
+def reach(
+    contact: LineContact, sq: float, *, inlet: float = HERTZ_INLET, outlet: float = HERTZ_OUTLET
+) -> tuple[float, float]:
+    """Return the lengths [m] of the grid upstream and downstream of the line of contact.
 
     The grid ends where the roughness is small compared with the gap (its effect on the flow, 6 (Sq/h)², is below some 3
-    %) and where there is no pressure. Upstream of the grid the film continues in closed form.
+    %) and where there is no pressure. Upstream of the grid the film continues in closed form. ``inlet``, ``outlet``: the lengths, at least, in Hertz
+    half-widths.
     """
     radius = contact.radius
     b = contact.half_width
     film = min(contact.moes_film, contact.rigid_film) if contact.L == 0 else contact.moes_film
     thick = math.sqrt(2 * radius * film)
     rough_in, rough_out = (math.sqrt(2 * radius * n * sq) for n in (ROUGH_INLET, ROUGH_OUTLET))
-    return max(rough_in, HERTZ_INLET * b, FILM_INLET * thick), max(rough_out, HERTZ_OUTLET * b, FILM_OUTLET * thick)
+    return max(rough_in, inlet * b, FILM_INLET * thick), max(rough_out, outlet * b, FILM_OUTLET * thick)
 
 
 def lay_out(

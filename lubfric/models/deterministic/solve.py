@@ -8,7 +8,7 @@ import numpy as np
 
 from ...contact import ContactResult, solve_contact
 from ...errors import CONVERGED, DIVERGED, ITERATION_LIMIT, Report, returned
-from .newton import Found, Work, march, newton
+from .newton import NewtonResult, Work, march, newton
 from .problem import Problem
 from .result import DeterministicResult, assemble
 from .state import FLUID, RUPTURED, State, evaluated, residuals
@@ -57,7 +57,7 @@ def solve_point(
     result.
     """
     work = Work(most)
-    tried: list[tuple[str, Found]] = []
+    tried: list[tuple[str, NewtonResult]] = []
     for attempt in _attempts(problem, start, least, tolerance, work):
         tried.append(attempt)
         if attempt[1].residual <= tolerance:
@@ -84,7 +84,9 @@ def solve_point(
     return returned(assemble(found.at, report))
 
 
-def _attempts(problem: Problem, start: State | None, least, tolerance, work: Work) -> Iterator[tuple[str, Found]]:
+def _attempts(
+    problem: Problem, start: State | None, least, tolerance, work: Work
+) -> Iterator[tuple[str, NewtonResult]]:
     if start is not None:
         near = newton(problem, start, work, tolerance=tolerance, most=NEAR, least=least)
         yield "from a neighbouring state", near
@@ -136,7 +138,7 @@ def dry_start(problem: Problem, dry: ContactResult) -> State:
     return State(p.copy(), np.ones_like(p), dent, kind, p >= problem.hardness, film - dry.approach)
 
 
-def _from_faster(problem: Problem, state: State, times: float, tolerance, work: Work) -> Found:
+def _from_faster(problem: Problem, state: State, times: float, tolerance, work: Work) -> NewtonResult:
     """To ``problem`` from a solution at so many ``times`` its speed, through speeds in between."""
     left = math.log(times)
     step = left / 2
@@ -152,7 +154,7 @@ def _from_faster(problem: Problem, state: State, times: float, tolerance, work: 
             return found
 
 
-def _in_time(problem: Problem, state: State, tolerance, work: Work) -> Found:
+def _in_time(problem: Problem, state: State, tolerance, work: Work) -> NewtonResult:
     settled = march(problem, state, work, most=MARCHED)
     return newton(problem, settled, work, tolerance=tolerance, most=DIRECT)
 

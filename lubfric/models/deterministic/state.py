@@ -1,11 +1,10 @@
 """The unknowns of an iteration, and the equation that each cell obeys."""
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
-from .flow import Balance, balance
+from .flow import MassBalance, mass_balance
 from .problem import Problem
 
 FLUID = 0
@@ -14,15 +13,22 @@ TOUCHING = 2
 PULL = 0.01  # of U times the floor over dx: suction in a touching cell, below which it is left alone
 
 
-class Past(NamedTuple):
-    """Of an implicit step in time: the mass that was ``kept`` before it [m], its length [s]; and, if it is of second
-    order (BDF2), the mass then [m], and the part of the change since then that is kept. ``carried``: both masses are
-    those of the cell before, since in a step the lubricant moves by one; so nothing more flows with U."""
+@dataclass(frozen=True, kw_only=True)
+class TimeHistory:
+    """What an implicit step in time takes over from the moments before it.
 
-    kept: np.ndarray
+    ``step`` [s]: its length. ``extrapolated`` [m] (nx, ny): the mass that the moments before leave to it. Of an
+    implicit Euler step that is the mass of the last moment. Of a step of second order (BDF2) it is
+    `extrapolated_mass` of the last two, and ``last`` [m] is the mass of the last one, ``part`` the part of its change
+    by which a mass is extrapolated. ``follows_lubricant``: these masses are those of the cell upstream, because in a
+    step the lubricant moves by one cell; then nothing more flows with U.
+    """
+
+    extrapolated: np.ndarray
     step: float
-    then: tuple[np.ndarray, float] | None = None
-    carried: bool = False
+    last: np.ndarray | None = None
+    part: float = 0.5
+    follows_lubricant: bool = False
 
 
 @dataclass(frozen=True)
@@ -42,14 +48,14 @@ class State:
 
 @dataclass(frozen=True)
 class Iterate:
-    """A state with its gap h [m] (nx, ny) and the mass balance of its cells. ``past``: of an implicit step in time.
+    """A state with its gap h [m] (nx, ny) and the mass balance of its cells. ``history``: of an implicit step in time.
     residual [m/s]: outflow minus inflow plus, in time, what the cell stores (`stored`)."""
 
     problem: Problem
     state: State
     gap: np.ndarray
-    balance: Balance
-    past: Past | None
+    balance: MassBalance
+    history: TimeHistory | None
     residual: np.ndarray
 
     @property
@@ -69,34 +75,40 @@ class Iterate:
         return float(carried + self.balance.inlet.load.mean() - self.problem.load)
 
 
-def stored(mass: np.ndarray, past: Past) -> tuple[np.ndarray, np.ndarray]:
-    """What cells of this ``mass`` rho h [m] have stored in a step [m/s], and its derivative [1/s]."""
-    before, step, then, _ = past
-    if then is None:
-        return (mass - before) / step, np.full_like(mass, 1 / step)
-    now = kept(mass, *then)
-    free = then[1] * (then[0] - mass) < 0.5 * mass
-    return (now - before) / step, np.where(free, 1.0 + then[1], 0.5) / step
+def stored(mass: np.ndarray, history: TimeHistory) -> tuple[np.ndarray, np.ndarray]:
+    """Return what cells of this ``mass`` rho h [m] have stored in a step [m/s], and its derivative [1/s]."""
+    step = history.step
+    last = history.last
+    part = history.part
+    if last is None:
+        return (mass - history.extrapolated) / step, np.full_like(mass, 1 / step)
+    now = extrapolated_mass(mass, last, part)
+    free = part * (last - mass) < 0.5 * mass
+    return (now - history.extrapolated) / step, np.where(free, 1.0 + part, 0.5) / step
 
 
-def kept(mass: np.ndarray, then: np.ndarray, part: float = 0.5) -> np.ndarray:
-    """The mass [m] that is kept at a moment, of cells of this ``mass`` that had another ``then``, a step before: with
-    a ``part`` of the change (a half where steps are equal), and half of their mass at least. (So is the Couette flow
-    limited in space. Without, a cell that a summit closes would give off more than it has.)"""
-    return np.maximum(mass + part * (mass - then), 0.5 * mass)
+def extrapolated_mass(mass: np.ndarray, before: np.ndarray, part: float = 0.5) -> np.ndarray:
+    """Return ``mass`` [m] of cells extrapolated by a ``part`` of its change since the moment ``before`` (a half where
+    steps are equal), and half of it at least.
+
+    So the Couette flow is limited in space. Without the limit a cell that a summit closes would give off more than it
+    has.
+    """
+    return np.maximum(mass + part * (mass - before), 0.5 * mass)
 
 
-def evaluated(problem: Problem, state: State, past: Past | None = None) -> Iterate:
-    """Gap and mass balance of ``state``; with ``past``, of an implicit step in time."""
+def evaluated(problem: Problem, state: State, history: TimeHistory | None = None) -> Iterate:
+    """Return gap and mass balance of ``state``, steady or (with a ``history``) of an implicit step in time."""
     gap = problem.rigid_gap + problem.operator.apply(state.pressure) + state.dent + state.approach
-    found = balance(problem, state.pressure, gap, state.fill, past is not None and past.carried)
-    at = Iterate(problem, state, gap, found, past, found.residual)
-    return at if past is None else replace(at, residual=found.residual + stored(at.mass, past)[0])
+    follows = history is not None and history.follows_lubricant
+    flows = mass_balance(problem, state.pressure, gap, state.fill, follows)
+    at = Iterate(problem, state, gap, flows, history, flows.residual)
+    return at if history is None else replace(at, residual=flows.residual + stored(at.mass, history)[0])
 
 
-def settled(at: Iterate) -> Iterate:
-    """``at``, with every cell given the equation that its state asks for."""
-    new = evaluated(at.problem, _resorted(at), at.past)
+def update_active_sets(at: Iterate) -> Iterate:
+    """Return ``at`` with the equation in every cell that its state asks for."""
+    new = evaluated(at.problem, _resorted(at), at.history)
     fluid = (new.state.kind == FLUID) & (at.state.kind == FLUID)  # cells that just opened begin at the floor
     closed = fluid & (new.gap < at.problem.floor)  # by a pressure that was cut to P_u
     kind = np.where(closed, TOUCHING, new.state.kind).astype(np.int8)

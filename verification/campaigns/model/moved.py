@@ -48,7 +48,7 @@ def passed(scene, bodies: Sequence[RoughBody], speed: float) -> dict[str, Any]:
         step,
         start=rest.result.state,
         tolerance=EXACT * problem.x.size,
-        carried=int(line.half_width > 8 * dx),
+        shift=int(line.half_width > 8 * dx),
     )
     result, sources = zip(*((moment.result, given(moment.at)) for moment in islice(moving, start, start + count + 1)))
     rows = [row(problem, *both) for both in zip(result[1:], sources[1:])]

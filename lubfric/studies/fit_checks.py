@@ -1,0 +1,139 @@
+"""Whether a fit describes its data: the size of the residuals against the stated noise, and their signs and order."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+# Probability of the residuals, if the fit describes the data, below which it is said not to.
+SIGNIFICANCE = 0.01
+
+# Random orders of the residuals, where these are too many for all orders; fixed, so that a fit is repeatable.
+ORDERS = 9999
+
+# Residuals below this multiple of the numerical error of f are no sign of anything.
+ABOVE_NUMERICAL = 2.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ResidualTests:
+    """What the residuals of a fit say of it. A probability is that of residuals such as these or farther off, if the
+    fit describes the data; NaN where the test does not apply.
+
+    Attributes
+    ----------
+    size : probability of the sum of squares by the stated deviations (chi-square with n - p degrees of freedom)
+    times_stated : root mean square residual over the stated deviations, with n - p degrees of freedom
+    runs : probability of so few runs of one sign over the measured range (Wald and Wolfowitz)
+    order : probability that neighbouring residuals are so alike, among all orders of the residuals (von Neumann's
+        ratio, by permutations)
+    small : whether the residuals are within the numerical error of f, so that their signs mean nothing
+    """
+
+    size: float
+    times_stated: float
+    runs: float
+    order: float
+    small: bool
+
+    @property
+    def systematic(self) -> bool:
+        """Whether the signs or the order of the residuals are not those of chance."""
+        return not self.small and min(_known(self.runs), _known(self.order)) < SIGNIFICANCE
+
+    @property
+    def too_large(self) -> bool:
+        """Whether the residuals are larger than the stated deviations allow."""
+        return _known(self.size) < SIGNIFICANCE
+
+    @property
+    def text(self) -> str:
+        """What the tests found, in a sentence; "" if the fit describes the data as far as they tell."""
+        how = []
+        if self.systematic:
+            least, which = min((_known(self.runs), "signs"), (_known(self.order), "order"))
+            how.append(f"the residuals are systematic (their {which} has a probability of {least:.1g} by chance)")
+        if self.too_large:
+            how.append(f"they are {self.times_stated:.2g} times as large as the stated deviations")
+        if not how:
+            return ""
+        said = " and ".join(how) if self.systematic else how[0].replace("they are", "the residuals are")
+        return (
+            f"the fit does not describe the data: {said}. The intervals do not hold. Choose other parameters, wider "
+            "bounds or another model, or check the data"
+        )
+
+
+def residual_tests(
+    x: np.ndarray, residuals: np.ndarray, parameters: int, numerical: np.ndarray, *, stated: bool
+) -> ResidualTests:
+    """Return the tests of ``residuals`` (n,) over ``x`` (n,), left by a fit of so many ``parameters``.
+
+    ``numerical`` (n,): numerical error of f in the unit of the residuals; ``stated``: whether the residuals are in
+    stated deviations.
+    """
+    from scipy.stats import chi2
+
+    order = np.argsort(x)
+    freedom = residuals.size - parameters
+    variance = 1.0 + numerical**2
+    squares = float(np.sum(residuals**2 / variance))
+    signs = residuals[order] > 0
+    return ResidualTests(
+        size=float(chi2.sf(squares, freedom)) if stated else math.nan,
+        times_stated=math.sqrt(squares / freedom) if stated else math.nan,
+        runs=probability_of_runs(signs),
+        order=probability_of_order(residuals[order]),
+        small=bool(np.sqrt(np.mean(residuals**2)) <= ABOVE_NUMERICAL * np.sqrt(np.mean(numerical**2))),
+    )
+
+
+def probability_of_runs(signs: np.ndarray) -> float:
+    """Return the probability of as few runs of equal ``signs`` (n,) as these, or fewer, if all orders are alike.
+
+    A. Wald and J. Wolfowitz, Ann. Math. Statist. 11 (1940) 147-162, doi:10.1214/aoms/1177731909.
+    """
+    positive = int(np.count_nonzero(signs))
+    negative = signs.size - positive
+    if not positive or not negative:
+        return 1.0
+    runs = 1 + int(np.count_nonzero(signs[1:] != signs[:-1]))
+    ways = sum(_ways(count, positive, negative) for count in range(2, runs + 1))
+    return ways / math.comb(signs.size, positive)
+
+
+def _ways(runs: int, positive: int, negative: int) -> int:
+    """Return the number of orders of so many signs with so many ``runs``."""
+    half, odd = divmod(runs, 2)
+    if not odd:
+        return 2 * math.comb(positive - 1, half - 1) * math.comb(negative - 1, half - 1)
+    more = math.comb(positive - 1, half) * math.comb(negative - 1, half - 1)
+    return more + math.comb(positive - 1, half - 1) * math.comb(negative - 1, half)
+
+
+def probability_of_order(residuals: np.ndarray) -> float:
+    """Return the probability that the sum of the products of neighbouring ``residuals`` (n,) is as large as this one,
+    if all orders of them are alike (J. von Neumann, Ann. Math. Statist. 12 (1941) 367-395)."""
+    from scipy.stats import permutation_test
+
+    def neighbours(values: np.ndarray, axis: int = -1):
+        values = np.moveaxis(values, axis, -1)
+        return np.sum(values[..., 1:] * values[..., :-1], axis=-1)
+
+    if residuals.size < 4:
+        return 1.0
+    result = permutation_test(
+        (residuals,),
+        neighbours,
+        permutation_type="pairings",
+        alternative="greater",
+        n_resamples=ORDERS,
+        vectorized=True,
+        random_state=np.random.default_rng(0),
+    )
+    return float(result.pvalue)
+
+
+def _known(probability: float) -> float:
+    """Return ``probability``, or 1 where it is not known."""
+    return 1.0 if math.isnan(probability) else probability

@@ -1,0 +1,141 @@
+"""Where the minima of a fit lie: a search over the whole bounds by curves of the coarse model.
+
+The first curves are those at the start and at the points of a Sobol sequence. Their residuals are interpolated by
+radial basis functions over the parameters. The minima of the interpolated sum of squares are solved for, each new curve
+improves the interpolation, and the search ends when its minima are curves that are known. (Surrogate optimisation: R.
+G. Regis and C. A. Shoemaker, INFORMS J. Comput. 19 (2007) 497-509, doi:10.1287/ijoc.1060.0182. Here the residuals are
+interpolated instead of their sum of squares, which keeps the Gauss-Newton structure.)
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import LubfricError
+from .fit_curves import FitCurves
+
+# Points of the Sobol sequence for each parameter, before rounding up to a power of two; and at most.
+SOBOL_PER_PARAMETER = 6
+MOST_SOBOL = 64
+
+# Curves at minima of the interpolation: for each parameter, beside two.
+REFINEMENTS_PER_PARAMETER = 3
+
+# Starts of the minimisation of the interpolation, in a power of two: it costs no solve.
+SURROGATE_STARTS = 16
+
+# Distance of two positions, as a share of the bounds, below which they are one minimum.
+SAME_MINIMUM = 0.1
+
+# The same below which a curve adds nothing to the interpolation.
+KNOWN = 0.01
+
+# A start at a bound is moved inside by this share of the bounds, for the differences.
+INSIDE = 0.02
+
+# Root mean square residual over the least one up to which another minimum is reported.
+COMPARABLE = 1.5
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A position between the bounds, (p,), and the root mean square residual of the coarse curve there."""
+
+    unit: np.ndarray
+    misfit: float
+
+
+def sobol_count(parameters: int) -> int:
+    """Return the number of points of the Sobol sequence for so many ``parameters``."""
+    return min(2 ** math.ceil(math.log2(SOBOL_PER_PARAMETER * parameters)), MOST_SOBOL)
+
+
+def estimated_curves(parameters: int, starts: int) -> int:
+    """Return about how many coarse curves `search_minima` computes, from so many ``starts`` of a Sobol sequence."""
+    return 1 + starts + (2 + REFINEMENTS_PER_PARAMETER * parameters if starts else 0)
+
+
+def search_minima(curves: FitCurves, start: np.ndarray, starts: int) -> list[Candidate]:
+    """Return the minima of the residuals of the coarse ``curves``, the least first, each more than `SAME_MINIMUM` from
+    the others. ``starts``: number of points of the Sobol sequence (0: only ``start`` is returned).
+
+    A curve with a point that cannot be solved is left out. Raises `ConvergenceError` if there is no other.
+    """
+    from scipy.stats import qmc
+
+    if not starts:
+        return [Candidate(start, math.nan)]
+    first = [start, *qmc.Sobol(start.size, seed=0).random(starts)]
+    units: list[np.ndarray] = []
+    residuals: list[np.ndarray] = []
+    failure: LubfricError | None = None
+
+    def add(unit: np.ndarray) -> None:
+        nonlocal failure
+        unit = np.clip(unit, INSIDE, 1.0 - INSIDE)
+        try:
+            residuals.append(curves.residuals(unit))
+            units.append(unit)
+        except LubfricError as error:
+            failure = error
+
+    for unit in first:
+        add(unit)
+    if failure is not None and not units:
+        raise failure
+    tried = list(units)
+    for _ in range(2 + REFINEMENTS_PER_PARAMETER * start.size):
+        if len(units) <= start.size + 1:
+            break
+        new = _next_position(np.array(units), np.array(residuals), np.array(tried))
+        if new is None:
+            break
+        tried.append(new)
+        add(new)
+    misfits = [float(np.sqrt(np.mean(row**2))) for row in residuals]
+    return distinct([Candidate(unit, misfit) for unit, misfit in zip(units, misfits)])
+
+
+def distinct(candidates: list[Candidate]) -> list[Candidate]:
+    """Return the ``candidates`` that lie lower than all others within `SAME_MINIMUM`, the least first, as far as they
+    compare with the least."""
+    kept: list[Candidate] = []
+    for candidate in sorted(candidates, key=lambda one: one.misfit):
+        near = any(np.abs(candidate.unit - other.unit).max() < SAME_MINIMUM for other in kept)
+        if not near and (not kept or candidate.misfit <= COMPARABLE * kept[0].misfit):
+            kept.append(candidate)
+    return kept
+
+
+def _next_position(units: np.ndarray, residuals: np.ndarray, tried: np.ndarray) -> np.ndarray | None:
+    """Return the lowest minimum of the interpolated sum of squares that is no curve yet; None if there is none.
+
+    ``units`` (m, p) and ``residuals`` (m, n): of the curves; ``tried`` (k, p): all positions that were asked of the
+    model.
+    """
+    from scipy.interpolate import RBFInterpolator
+    from scipy.optimize import least_squares
+    from scipy.stats import qmc
+
+    surrogate = RBFInterpolator(units, residuals, kernel="cubic", degree=1)
+    spread = qmc.Sobol(units.shape[1], seed=1).random(SURROGATE_STARTS)
+    order = np.argsort(np.mean(residuals**2, axis=1))
+    minima = []
+    for begin in (*units[order[:4]], *np.clip(spread, INSIDE, 1.0 - INSIDE)):
+        end = least_squares(
+            lambda unit: surrogate(unit[None, :])[0],
+            np.clip(begin, INSIDE + 1e-6, 1.0 - INSIDE - 1e-6),
+            bounds=(INSIDE, 1.0 - INSIDE),
+            xtol=1e-4,
+            ftol=1e-4,
+            max_nfev=40,
+        )
+        minima.append((end.cost, end.x))
+    least = float(np.min(np.sum(residuals**2, axis=1))) / 2
+    for cost, unit in sorted(minima, key=lambda pair: pair[0]):
+        if cost > COMPARABLE**2 * least:
+            return None
+        if np.abs(tried - unit).max(axis=1).min() > KNOWN:
+            return unit
+    return None

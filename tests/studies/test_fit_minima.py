@@ -1,0 +1,124 @@
+"""Fits find the lowest minimum of several, leave starts without a gradient, and say where they do not describe the
+data."""
+
+from itertools import permutations
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.studies.fit_checks import ResidualTests, probability_of_order, probability_of_runs, residual_tests
+from lubfric.studies.fit_search import search_minima
+
+STRESS = "lubricant.eyring_stress"
+LIMIT = "lubricant.limiting_stress_coefficient"
+BOUNDS = {STRESS: (1e6, 2e7), LIMIT: (0.02, 0.1)}
+SLIPS = np.geomspace(2e-3, 0.3, 12)
+
+
+def traction_scene(stress, limit):
+    """A smooth contact of 1 GPa with an oil that is limited by an Eyring stress and by a limiting stress."""
+    return lubfric.load_scene("paper").with_(
+        bodies={"radius": 0.01, "width": 0.01, "e_prime": 2.3e11, "load": 2 * np.pi * 0.01 * 1e18 / 2.3e11 * 0.01},
+        lubricant={"viscosity": 0.05, "pressure_viscosity_coefficient": 2e-8, "eyring_stress": stress}
+        | {"limiting_stress_coefficient": limit, "limiting_stress_offset": 1e6},
+        motion={"entrainment_speed": 2.0},
+        surface={"sq": 0.0, "correlation_length": 3e-5},
+        contact={"shape": (64, 64), "spacing": 1e-5},
+    )
+
+
+def measured_traction(stress, limit, seed, noise=0.02):
+    f = lubfric.traction(traction_scene(stress, limit), SLIPS, tolerance=2e-3).coefficient
+    f = f * (1 + noise * np.random.default_rng(seed).standard_normal(SLIPS.size))
+    return lubfric.Measured(SLIPS, f, over="slide_roll_ratio")
+
+
+@pytest.mark.parametrize("stress, limit, start", [(6e6, 0.035, (4e6, 0.06)), (8e6, 0.03, (2e6, 0.095))])
+def test_a_start_in_a_wrong_minimum_or_without_a_gradient_is_left(stress, limit, start):
+    """Where the limiting stress is nowhere reached, f does not change with it, and a search from there stays."""
+    measured = measured_traction(stress, limit, 3)
+    begin = dict(zip(BOUNDS, start))
+    result = lubfric.fit(traction_scene(5e6, 0.05), measured, BOUNDS, start=begin)
+    for key, truth, width in ((STRESS, stress, 0.2), (LIMIT, limit, 0.15)):
+        low, high = result.intervals[key]
+        assert low < truth < high and (high - low) / truth < width
+    assert result.describes_data and not result.undetermined and "does not describe" not in result.explain()
+
+
+def test_a_model_that_cannot_follow_the_data_is_said_to():
+    """An oil without a limiting stress, for data that have one: the curve bends where no Eyring stress makes it."""
+    measured = measured_traction(6e6, 0.035, 4, noise=0.005)
+    result = lubfric.fit(traction_scene(5e6, 0.5), measured, {STRESS: (1e6, 2e7)})
+    assert not result.describes_data and result.tests.systematic
+    first = result.explain().splitlines()[1]
+    assert "WARNING: the fit does not describe the data: the residuals are systematic" in first
+    assert "does not describe the data" in repr(result)
+
+
+class NarrowWell:
+    """Residuals of two parameters with a minimum of 0 near one corner of the bounds, and none but a slight slope away
+    from it in most of the rest."""
+
+    def __init__(self):
+        self.units = []
+
+    def residuals(self, unit):
+        self.units.append(unit)
+        x, y = unit - np.array([0.84, 0.77])
+        return np.array([0.3 * np.tanh(5 * x), 0.3 * np.tanh(5 * y), 0.05 * (unit[0] - 0.84)])
+
+
+def test_the_search_finds_a_minimum_far_from_a_start_without_a_gradient():
+    wells = NarrowWell()
+    start = np.array([0.05, 0.05])
+    (lowest, *others) = search_minima(wells, start, 16)
+    np.testing.assert_allclose(lowest.unit, [0.84, 0.77], atol=0.03)
+    assert len(wells.units) <= 26 and all(other.misfit <= 1.5 * lowest.misfit for other in others)
+    (only,) = search_minima(NarrowWell(), start, 0)
+    np.testing.assert_array_equal(only.unit, start)
+
+
+@pytest.mark.parametrize("starts, words", [(3, "0, or a power of two"), (-1, "starts")])
+def test_the_number_of_starts_is_checked(starts, words):
+    measured = lubfric.Measured(SLIPS, np.full(12, 0.03), over="slide_roll_ratio")
+    with pytest.raises(lubfric.InputError, match=words):
+        lubfric.fit(traction_scene(5e6, 0.05), measured, BOUNDS, starts=starts)
+
+
+@pytest.mark.parametrize("signs", ["++--", "+-+-+", "+++---", "++-+--+", "+++++-"])
+def test_runs_have_the_probability_of_all_orders(signs):
+    def runs(order):
+        return sum(a != b for a, b in zip(order, order[1:]))
+
+    orders = set(permutations(signs))
+    fewer = sum(runs(order) <= runs(signs) for order in orders)
+    assert probability_of_runs(np.array([sign == "+" for sign in signs])) == pytest.approx(fewer / len(orders))
+
+
+def test_the_order_has_the_probability_of_all_orders():
+    values = np.array([0.3, 0.1, -0.2, -0.5, 0.4])
+
+    def product(order):
+        return sum(a * b for a, b in zip(order, order[1:]))
+
+    orders = list(permutations(values.tolist()))
+    share = sum(product(order) >= product(values) - 1e-12 for order in orders) / len(orders)
+    assert probability_of_order(values) == pytest.approx(share, abs=0.02)
+
+
+def test_noise_is_seldom_taken_for_a_system_and_a_wave_is():
+    rng = np.random.default_rng(5)
+    x = np.linspace(0.0, 1.0, 12)
+
+    def tests(residuals) -> ResidualTests:
+        return residual_tests(x, residuals, 2, np.zeros(12), stated=True)
+
+    wrong = sum(bool(tests(rng.standard_normal(12)).text) for _ in range(200))
+    assert wrong <= 12  # three tests of 1 %, each
+    wave = 0.7 * np.sin(2 * np.pi * x) + 0.1 * rng.standard_normal(12)
+    assert tests(wave).systematic and not tests(wave).too_large
+    large = tests(3.0 * rng.standard_normal(12))
+    assert large.too_large and large.times_stated == pytest.approx(3.0, rel=0.5)
+    within = residual_tests(x, wave, 2, np.full(12, 1.0), stated=False)
+    assert within.small and not within.text

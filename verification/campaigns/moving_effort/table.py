@@ -1,0 +1,130 @@
+"""The table: each random rolling contact followed over the same first steps in time, with several efforts.
+
+One change of the economical effort at a time, then all of them. Every variant starts from the film at rest and meets
+the same roughness at the same times, so that differences are by the effort alone.
+"""
+
+import csv
+import math
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import lubfric
+from lubfric.models.deterministic import ECONOMICAL, TIGHT, MovingEffort, solve_moving_strip
+
+from ..calibration.case import Case, drawn
+from ..calibration.solve import limited
+
+TABLE = Path(__file__).parent / "table.csv"
+STEPS = 40  # moments in time that count, after the lubricant has travelled 1.6 half-widths
+SECONDS = 60.0  # processor time of one variant of a case, at most
+STARVED = 0.7  # of the smooth film: what arrives in every eighth case
+DIGITS = 6  # of a number in the table
+
+_STARTED = replace(TIGHT, discarded=ECONOMICAL.discarded)
+VARIANTS: dict[str, MovingEffort] = {
+    "tight": _STARTED,
+    "grid": replace(_STARTED, inlet=ECONOMICAL.inlet, outlet=ECONOMICAL.outlet),
+    "residual": replace(_STARTED, residual=ECONOMICAL.residual),
+    "imbalance": replace(_STARTED, residual=ECONOMICAL.residual, carries_imbalance=True),
+    "linear": replace(_STARTED, linear=ECONOMICAL.linear),
+    "half": replace(ECONOMICAL, residual=0.5 * ECONOMICAL.residual),
+    "economical": ECONOMICAL,
+}
+FACTS = ("fluid", "lay", "pressure", "ratio", "slip", "rough", "nx", "ny", "sq", "friction", "limit", "eyring")
+COLUMNS = (
+    *("seed", "variant", "starved", *FACTS, "half_width", "film"),
+    *("f", "share", "f_early", "steps", "columns", "work", "seconds", "failure"),
+)
+
+
+def case_of(seed: int) -> tuple[Case, bool]:
+    """Return the random rolling contact number ``seed``, and whether it is starved: every eighth is."""
+    case = drawn("rolling", seed)
+    starved = seed % 8 == 5
+    if starved:
+        film = STARVED * case.scene.line_contact(case.speed).moes_film
+        case = replace(case, scene=case.scene.with_(lubricant={"inlet_film": film}))
+    return case, starved
+
+
+def followed(seed: int, variant: str) -> dict[str, Any]:
+    """Return the row of contact number ``seed`` with the effort ``variant``."""
+    case, starved = case_of(seed)
+    line = case.scene.line_contact(case.speed)
+    row = {name: case.facts.get(name, "") for name in FACTS}
+    row |= {"seed": seed, "variant": variant, "starved": int(starved)}
+    row |= {"half_width": line.half_width, "film": line.moes_film}
+    begun = time.process_time()
+    try:
+        with limited(SECONDS):
+            strip = solve_moving_strip(case.scene, case.bodies, case.speed, effort=VARIANTS[variant], most_steps=STEPS)
+        f = strip.series["coefficient"]
+        row |= {
+            "f": float(f[strip.discarded :].mean()),
+            "share": float(strip.series["share"][strip.discarded :].mean()),
+            "f_early": float(f[: strip.discarded].mean()) if strip.discarded else math.nan,
+            "steps": f.size,
+            "columns": strip.problem.x.size,
+            "work": strip.work,
+            "failure": "",
+        }
+    except lubfric.LubfricError as error:
+        row["failure"] = f"{type(error).__name__}: {error}".replace("\n", " ")[:120]
+    return row | {"seconds": time.process_time() - begun}
+
+
+def rows(file: Path = TABLE) -> list[dict[str, str]]:
+    """Return the rows of the table as text."""
+    if not file.is_file():
+        return []
+    with file.open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def extend(
+    count: int, budget: float, variants: Sequence[str] = tuple(VARIANTS), file: Path = TABLE
+) -> Iterator[dict[str, Any]]:
+    """Solve what the table has not of the ``variants`` of the contacts below number ``count``, as long as the processor
+    time of this process is below ``budget`` [s], and append each row as it is solved."""
+    known = {(int(row["seed"]), row["variant"]) for row in rows(file)}
+    for seed in range(count):
+        for variant in variants:
+            if (seed, variant) in known:
+                continue
+            if time.process_time() > budget:
+                return
+            row = followed(seed, variant)
+            new = not file.is_file()
+            with file.open("a", newline="") as stream:
+                writer = csv.DictWriter(stream, COLUMNS)
+                if new:
+                    writer.writeheader()
+                writer.writerow({name: _as_text(row.get(name, "")) for name in COLUMNS})
+            yield row
+
+
+def differences(file: Path = TABLE) -> Iterator[dict[str, Any]]:
+    """Yield the difference of each variant from the tight one, of each contact that has both: of f relative, of the
+    asperity load ratio absolute, and the ratio of their processor times."""
+    table = {(row["seed"], row["variant"]): row for row in rows(file) if not row["failure"]}
+    for (seed, variant), row in table.items():
+        tight = table.get((seed, "tight"))
+        if variant == "tight" or tight is None:
+            continue
+        yield {
+            **{name: row[name] for name in ("seed", "variant", "starved", *FACTS, "half_width", "film")},
+            "f": float(row["f"]) / float(tight["f"]) - 1,
+            "share": float(row["share"]) - float(tight["share"]),
+            "faster": float(tight["seconds"]) / float(row["seconds"]),
+        }
+
+
+def _as_text(value: Any) -> Any:
+    """Return a number with `DIGITS` digits; None as an empty cell."""
+    if isinstance(value, float):
+        return f"{value:.{DIGITS}g}"
+    return "" if value is None else value
