@@ -88,19 +88,29 @@ class Quantities(Generic[T]):
     real_contact_area_fraction: T = quantity("-", "real contact area over nominal area", "A_c/A", error="area")
     real_contact_area: T = quantity("m2", "real contact area", "A_c", error="area", note="on the whole line")
     plastic_area_fraction: T = quantity("-", "plastic area over nominal area", "A_p/A", error="spots")
-    min_film: T = quantity("m", "smallest film thickness", "h_min", error="film", note="smooth film; NaN at U = 0")
-    central_film: T = quantity("m", "central film thickness", "h_c", error="film", note="smooth film; NaN at U = 0")
-    mean_gap: T = quantity("m", "mean gap of the rough surfaces", error="film", note="the film where they are apart")
-    film_to_roughness_ratio: T = quantity("-", "central film over Sq", "lambda", error="film")
-    inlet_film_factor: T = quantity("-", "film thinner by the heat of its inlet", error="heat", note="1 without heat")
+    min_film: T = quantity(
+        "m", "smallest film thickness", "h_min", error="film", note="under the load F_H; NaN at U = 0"
+    )
+    central_film: T = quantity(
+        *("m", "central separation", "h_c"),
+        error="film",
+        note="film at the centre under the load F_H: the central film thickness where F_C = 0; NaN at U = 0",
+    )
+    mean_gap: T = quantity("m", "mean separation", error="film", note="mean gap of the rough surfaces over A")
+    film_to_roughness_ratio: T = quantity("-", "central separation over Sq", "h_c/Sq", error="film")
+    inlet_film_factor: T = quantity(
+        *("-", "factor on the film by the heat of its inlet"),
+        error="heat",
+        note="1 where it is too small to matter; NaN where it was not computed",
+    )
     flash_temperature_rise: T = quantity(
-        "K", "largest temperature rise of the surfaces", error="heat", note="0 without heat"
+        "K", "largest temperature rise of the surfaces", error="heat", note="NaN where it was not computed"
     )
     film_temperature_rise: T = quantity(
         "K",
         "largest mean temperature rise of the film over the surfaces",
         error="heat",
-        note="mean across the film; 0 where heat is left out",
+        note="mean across the film; NaN where it was not computed",
     )
     power_loss: T = quantity(
         "W",
@@ -130,7 +140,11 @@ class PointQuantities(Quantities[T]):
     steepness: T = quantity(
         "-", "d ln(film_load/contact_load) over d ln(speed)", note="NaN where film and contact do not share the load"
     )
-    seconds: T = quantity("s", "processing time")
+    seconds: T = quantity("s", "time of the solve", note="wall-clock time of this point in its process")
+    full_load_film: T = quantity(
+        "m", "full-load film thickness", "h_F", note="central film of smooth surfaces under F_T, by Moes' formula"
+    )
+    lambda_ratio: T = quantity("-", "lambda ratio", "Λ", note="full-load film thickness over Sq")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,6 +6,7 @@ interval. `friction` is the entry; `answer` and `answer_deterministic` are the t
 """
 
 from .friction import friction
+from .full_load import full_load_numbers
 from .heated import strip_heat
 from .moving import MOST_WORK, maps_of
 from .outlook import forecast

@@ -99,6 +99,8 @@ def _numbers(prepared: Prepared, speed: float, found: SampleSolution) -> dict[st
     numbers = quantities(balance.forces, film, loads, contact.mean_film if separated else contact.mean_gap)
     return numbers | {
         "power_loss": math.nan,  # by `with_power_loss`
+        "full_load_film": math.nan,  # by `full_load_numbers`
+        "lambda_ratio": math.nan,
         "speed": speed,
         "real_contact_area_fraction": contact.real_contact_area_fraction,
         "real_contact_area": touched * scene.bodies.width,

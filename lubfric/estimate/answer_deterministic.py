@@ -75,7 +75,7 @@ def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None
         notes=_sample_notes(prepared, sampling, levels.length),
     )
     decision = _decision(scene, results, levels, heat)
-    of_heat = dict.fromkeys(depending_on("heat"), ONE_HEAT)
+    of_heat = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
     entries = (
         *_entries(prepared, numbers, results, heat),
         *of_error(levels.numerical, numerics.tolerance, _way_out(prepared)),

@@ -20,7 +20,6 @@ from .uncertainty import (
     too_few,
 )
 
-NO_HEAT = "heat was left out"
 PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
 NO_CELLS = "not known: this contact has no places along y to compare"
 TOO_SHORT = (
@@ -82,7 +81,7 @@ def errors_of(scene: Scene, found: SampleSolution) -> tuple[Uncertainty, FieldEr
         model=max(of_model),
         notes=(*notes, *unknown),
     )
-    left_out = dict.fromkeys(depending_on("heat"), NO_HEAT) if balance.film is not None else {}
+    left_out = dict.fromkeys(depending_on("heat"), forces.heat.reason(scene)) if balance.film is not None else {}
     return known, field_errors_of(errors | {"coefficient": both}, why, left_out)
 
 

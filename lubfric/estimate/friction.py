@@ -19,6 +19,7 @@ from ..scene import FASTEST, Scene, gap_not_resolved, told_doubts
 from .answer import limits_passed, load_sharing_answer
 from .answer_deterministic import strips_answer
 from .errors_of import model_error
+from .full_load import full_load_numbers
 from .heated import too_hot
 from .methods import with_methods
 from .moving import too_costly
@@ -80,6 +81,8 @@ def friction(
         )
     known = result.boundary_force / prepared.scene.bodies.load, result.coefficient
     result = with_power_loss(prepared.scene, result)
+    film = full_load_numbers(prepared.scene, speed, prepared.surface.sq, result.inlet_film_factor)
+    result = replace(result, full_load_film=film["full_load_film"], lambda_ratio=film["lambda_ratio"])
     result = replace(result, unmodelled_effects=unmodelled_effects(prepared.scene, prepared.surface.sq, speed, known))
     if raise_on_failure:
         result.report.raise_if_failed(result)

@@ -50,7 +50,7 @@ def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, flo
         "coefficient": f - lost / scene.bodies.load,
         "shear_force": numbers["shear_force"] - lost,
         "couette_force": numbers["couette_force"] - lost,
-        "inlet_film_factor": heat.film_factor,
+        "inlet_film_factor": heat.inlet_film_factor,
         "flash_temperature_rise": heat.flash,
         "film_temperature_rise": heat.film,
     }

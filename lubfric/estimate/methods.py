@@ -78,7 +78,7 @@ def _heat(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     lubricant = prepared.scene.lubricant
     warm = result.film_temperature_rise > 0
     return {
-        "inlet heat": result.inlet_film_factor != 1.0,
+        "inlet heat": result.inlet_film_factor < 1.0,
         "film heat": warm,
         "flash": result.flash_temperature_rise > 0,
         "hot Eyring stress": warm and lubricant.flow_law is not None,

@@ -94,8 +94,5 @@ def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, flo
         "central_film": result.central_gap,
         "mean_gap": result.mean_gap,
         "film_to_roughness_ratio": result.central_gap / sq if sq > 0 else math.inf,
-        "inlet_film_factor": 1.0,
-        "flash_temperature_rise": 0.0,
-        "film_temperature_rise": 0.0,
         "load_residual": result.report.residuals["load"],
     }

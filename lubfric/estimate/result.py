@@ -64,7 +64,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         return replace(self, balance=None, heights=None, deterministic=None)
 
     def _facts(self) -> dict[str, str]:
-        facts = in_words(self, ("speed", "coefficient", "contact_load", "film_load", "film_to_roughness_ratio"))
+        facts = in_words(self, ("speed", "coefficient", "contact_load", "film_load", "lambda_ratio"))
         facts["f"] = f"{self.coefficient:.5g}{_interval(self.uncertainty.interval)}"
         facts[""] = self.report.status
         if self.validity:

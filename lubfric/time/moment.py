@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ..estimate import moment_error, power_of_forces
+from ..estimate import full_load_numbers, moment_error, power_of_forces
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
 from ..models.shared import (
     Heat,
@@ -58,7 +58,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
     sense = np.sign(sliding) or np.sign(speed) or 1.0
     inlet, _ = inlet_at(scene, speed)
     heated_inlet = setting.contact.viscosity.before(time) != scene.lubricant.viscosity
-    film_factor = inlet.factor if inlet is not None and heated_inlet else 1.0
+    film_factor = math.nan if inlet is None else inlet.factor if heated_inlet else 1.0
     length = model.correlation_length
     thinning = film_thinning(scene, film_load)
     finite = moment_error(model.patch, state, loads, contact.softness, scene.bodies.width, length, parts, thinning)
@@ -84,7 +84,7 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "inlet_film_factor": film_factor,
         "flash_temperature_rise": heat.flash,
         "film_temperature_rise": heat.film,
-        "heat_change": heat.change,
+        "heat_change": heat.change if heat.evaluated else math.nan,
         "min_film": smallest(setting.grid.x, t.H) * p.film_unit,
         "central_film": t.H[setting.grid.n // 2] * p.film_unit,
         "mean_film": state.mean_film,
@@ -94,9 +94,10 @@ def load_sharing_moment(model: LoadSharingSolver, now: Progress) -> tuple[dict[s
         "wet_to": wet[-1] if wet.size else math.nan,
         "real_contact_area_fraction": state.real_contact_area_fraction * model.area if touches else 0.0,
         "plastic_area_fraction": state.plastic_area_fraction and state.plastic_area_fraction * model.plastic,
-        "edge_load": model.patch.on_the_ends(state) if touches else 0.0,
+        "edge_load": model.patch.on_the_ends(state) if touches else math.nan,
         "load_residual": (film_load + contact.load) / total - 1.0,
-        "volume_residual": state.volume_residual if touches else 0.0,
+        "volume_residual": state.volume_residual if touches else math.nan,
+        **full_load_numbers(scene, speed, model.prepared.surface.sq, film_factor),
         **_mass(model, solution),
         "steps": now.steps,
     }

@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
-from ..estimate import block_error, maps_of, numbers_of, power_of_forces, strip_heat, strip_of
+from ..estimate import block_error, full_load_numbers, maps_of, numbers_of, power_of_forces, strip_heat, strip_of
 from ..models.deterministic import (
     BOUNDARY_FILM,
     KRYLOV,
@@ -304,10 +304,8 @@ def deterministic_moment(
         "friction_force": sense * f * total,
         "power_loss": power_of_forces(sense * f * total, along * numbers["rolling_resistance"], speed, sliding),
         "sampling_error": scatter / abs(f) if f and math.isfinite(scatter) else math.nan,
-        "shear_error": 0.0,
         "time_error": now.error,
-        "heat_change": 0.0,
-        "volume_residual": 0.0,
+        **full_load_numbers(scene, speed, solver.prepared.surface.sq, math.nan),
         "mass_residual": left["mass"] if now.steps else 0.0,
         "steps": now.steps,
         "mean_film": result.mean_gap,

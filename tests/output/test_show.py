@@ -175,3 +175,25 @@ def test_an_oil_is_written_as_it_was_given(keys):
     assert warm == pytest.approx(same, rel=1e-12) and warm < 0.9 * scene.lubricant.viscosity
     thicker, same = (s.with_(lubricant={"viscosity_index": 120}).lubricant.viscosity for s in (scene, again))
     assert thicker == pytest.approx(same, rel=1e-12)
+
+
+def test_the_lambda_ratio_is_that_of_the_full_load_whatever_the_asperities_carry():
+    """By the regression of Nijenbanning et al. (1994) written out again; the separation under load sharing stays above
+    it where asperities carry load."""
+    speed = 0.01
+    point = lubfric.friction(MODEL, speed)
+    bodies = SCENE.bodies
+    oil = SCENE.lubricant
+    viscous = 2 * oil.viscosity * speed / (bodies.e_prime * bodies.radius)
+    m = bodies.load / bodies.width / (bodies.e_prime * bodies.radius * viscous**0.5)
+    l = oil.pressure_viscosity_coefficient * bodies.e_prime * viscous**0.25
+    rigid_iso, rigid_piezo = 3.0 / m, 1.287 * l ** (2 / 3)
+    elastic_iso, elastic_piezo = 2.621 * m**-0.2, 1.311 * m ** (-1 / 8) * l ** (3 / 4)
+    s = 0.2 * (7 + 8 * np.exp(-2 * elastic_iso / rigid_iso))
+    low = (rigid_iso ** (7 / 3) + elastic_iso ** (7 / 3)) ** (3 / 7 * s)
+    high = (rigid_piezo**-3.5 + elastic_piezo**-3.5) ** (-2 / 7 * s)
+    film = (low + high) ** (1 / s) * bodies.radius * viscous**0.5
+    assert point.full_load_film == pytest.approx(film, rel=1e-9)
+    assert point.lambda_ratio == pytest.approx(film / MODEL.surface.sq, rel=1e-9)
+    assert point.contact_load > 0 and point.central_film > point.full_load_film
+    assert np.isnan(lubfric.friction(MODEL, 0.0).lambda_ratio)

@@ -45,7 +45,7 @@ def test_steady_motion_is_as_hot_in_time_as_without(speed, ratio):
     assert found.flash_temperature_rise[-1] == pytest.approx(steady.flash_temperature_rise, rel=0.05)
     assert found.central_film[-1] == pytest.approx(steady.central_film, rel=0.01)
     off = in_time(scene.with_(numerics={"heat": "off"}))
-    assert off.coefficient[-1] == pytest.approx(cold.coefficient, rel=5e-3) and off.flash_temperature_rise[-1] == 0
+    assert off.coefficient[-1] == pytest.approx(cold.coefficient, rel=5e-3) and np.isnan(off.flash_temperature_rise[-1])
 
 
 @pytest.mark.parametrize("speed, ratio", [(5.0, 20.0), (-20.0, -2.0)])
@@ -90,7 +90,7 @@ def test_a_reversal_is_warm_on_both_sides_and_cold_at_rest():
     assert np.all(np.isfinite(found.coefficient))
     fast = np.abs(found.entrainment_speed) > 1.9
     still = np.abs(found.entrainment_speed) < 1e-9
-    assert np.all(found.inlet_film_factor[fast] < 0.96) and np.all(found.inlet_film_factor[still] == 1)
+    assert np.all(found.inlet_film_factor[fast] < 0.96) and np.isnan(found.inlet_film_factor[still]).all()
     assert np.all(found.flash_temperature_rise[fast] > 0.2) and still.sum() == 2 and fast.sum() == 3
     assert any("slide-roll ratio" in text and "times" in text for text in found.validity)
 

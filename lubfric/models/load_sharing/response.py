@@ -153,7 +153,7 @@ def quantities(found: Forces, film: EHLResult | None, loads: tuple[float, float]
         "min_film": math.nan if film is None else film.min_film,
         "central_film": math.nan if film is None else film.central_film,
         "mean_gap": mean_gap,
-        "inlet_film_factor": found.heat.film_factor,
+        "inlet_film_factor": found.heat.inlet_film_factor,
         "flash_temperature_rise": found.heat.flash,
         "film_temperature_rise": found.heat.film,
     }

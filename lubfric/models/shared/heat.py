@@ -49,13 +49,37 @@ class Heat:
 
     @property
     def flash(self) -> float:
-        """Largest rise of the surfaces [K]; 0 if it is left out."""
-        return self.heated.flash if self.heated else 0.0
+        """Largest rise of the surfaces [K]; NaN if it was not computed."""
+        return self.heated.flash if self.heated else math.nan
 
     @property
     def film(self) -> float:
-        """Largest mean rise of the film over the surfaces [K]; 0 if it is left out."""
-        return self.heated.film if self.heated else 0.0
+        """Largest mean rise of the film over the surfaces [K]; NaN if it was not computed."""
+        return self.heated.film if self.heated else math.nan
+
+    @property
+    def inlet_film_factor(self) -> float:
+        """`film_factor`, but NaN where the heat of the inlet is not known."""
+        return math.nan if self.inlet is None else self.film_factor
+
+    @property
+    def evaluated(self) -> bool:
+        """Whether the change of f by the temperatures was evaluated."""
+        return math.isfinite(self.peclet)
+
+    def reason(self, scene) -> str:
+        """Why the temperatures were not computed, in words; "" if they were."""
+        if self.heated is not None:
+            return ""
+        if scene.numerics.heat == "off":
+            return "not computed: numerics.heat = 'off'"
+        if not scene.lubricant.heats:
+            return "not computed: how the viscosity falls with the temperature is not given (lubricant.grade gives it)"
+        if self.inlet is None:
+            return "not computed: without entrainment there is no film"
+        if not self.evaluated:
+            return "not computed: nothing slides, or the film is far outside its range"
+        return f"not computed: heat changes f by at most {100 * self.change:.2g} %, less than the tolerance allows"
 
     @property
     def left_out(self) -> float:
