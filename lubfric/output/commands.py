@@ -29,7 +29,7 @@ from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
 from ..studies import Law, Store, fingerprint, fits
 from ..surface import rms_slope
-from .describe import Estimate, estimate_scene
+from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
 from .report import report_page
 
@@ -113,7 +113,7 @@ OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
 @contextmanager
 def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], str] | None, *key, **places):
     """Begin a run of ``scene``, which writes files with these ``names``: its `RunFolder`, known again by ``key``, the
-    scene made ready, and what is estimated of it (`Estimate`) at ``places``. On an interrupt ``kept()`` is said, if anything is.
+    scene made ready, and what is estimated of it (`SceneEstimate`) at ``places``. On an interrupt ``kept()`` is said, if anything is.
 
     The folder is touched last, and what an earlier run left in it stays until `RunFolder.complete`.
     """
@@ -234,7 +234,14 @@ class RunFolder:
         }
 
     def complete(
-        self, prepared: Prepared, estimate: Estimate, result, units, law: Law | str = "", doubts=(), **numbers: object
+        self,
+        prepared: Prepared,
+        estimate: SceneEstimate,
+        result,
+        units,
+        law: Law | str = "",
+        doubts=(),
+        **numbers: object,
     ) -> None:
         """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run in the place
         of an earlier one; its record, which names the files, last as result.json. Then violated assumptions, ``doubts``

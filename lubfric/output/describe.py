@@ -43,7 +43,7 @@ TABLE_CAPTION = "film of the whole load by closed forms, and whether it clears t
 
 
 @dataclass(frozen=True)
-class Estimate:
+class SceneEstimate:
     """What is known of a scene before it is solved.
 
     Attributes
@@ -76,7 +76,7 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
 
 def estimate_scene(
     scene: Scene, strips: Strips | None, surface: Surface, speeds: Sequence[float] | str = (), ratios=()
-) -> Estimate:
+) -> SceneEstimate:
     """What is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own speed
     and the slide-roll ``ratios``. ``strips`` and ``surface``: as `lubfric.prepare` makes them."""
     own = scene.motion.entrainment_speed
@@ -109,7 +109,7 @@ def estimate_scene(
         "left out": left_out if lacks else ["nothing that would change f by its tolerance"],
         "validity": _doubts(at) or ["no assumption of the model fails by what is known before the solve"],
     }
-    return Estimate(sections, cost, _speed_table(scene, strips, surface, speeds), refusals)
+    return SceneEstimate(sections, cost, _speed_table(scene, strips, surface, speeds), refusals)
 
 
 def _doubts(at) -> list[str]:

@@ -19,7 +19,7 @@ from ..quantities import COLUMNS, counted
 from ..scene import Scene
 from ..studies import KNOWN, CurveResult, Law, StribeckResult
 from ..units import converted, printed, unit_for, worded
-from .describe import TABLE_CAPTION, Estimate
+from .describe import TABLE_CAPTION, SceneEstimate
 from .inputs import FACTS, SECTIONS, inputs
 
 OF_POINT = ["coefficient", "contact_load", "film_load", "central_film", "film_to_roughness_ratio"]
@@ -36,7 +36,7 @@ UNKNOWN = "the error of the model is not known, and not in it"
 
 
 def report_page(
-    prepared: Prepared, result, record: dict, contents: dict[str, bytes], estimate: Estimate, law: Law | str = ""
+    prepared: Prepared, result, record: dict, contents: dict[str, bytes], estimate: SceneEstimate, law: Law | str = ""
 ) -> bytes:
     """The page of ``result``, a curve or a run in time. ``record``: what result.json holds; ``contents``: of the files
     of the run, its pictures among them; ``estimate``: before it was solved; ``law``: of a curve, or why it has none."""
@@ -144,7 +144,7 @@ def _law(law: Law | str, curve: CurveResult | None) -> str:
     return f"<h2>The curve as a formula</h2>{said}" if law else ""
 
 
-def _lacks(scene: Scene, curve: CurveResult | None, estimate: Estimate) -> str:
+def _lacks(scene: Scene, curve: CurveResult | None, estimate: SceneEstimate) -> str:
     """What is left out, and by how much f would change by it; of a curve at its point nearest to the scene's own."""
     if curve is None or (nearest := _nearest(scene, curve)) is None:
         return _list(estimate.sections["left out"])

@@ -21,7 +21,7 @@ from ..samples import takes_strips
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
 from ..units import numbers_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
-from .describe import Estimate
+from .describe import SceneEstimate
 from .fields import fields_bytes, vtk_bytes
 from .pictures import plot_contact, plot_history, plot_stribeck, plot_traction
 
@@ -85,7 +85,7 @@ def _write(
     prepared: Prepared,
     curve: studies.CurveResult,
     arguments,
-    estimate: Estimate,
+    estimate: SceneEstimate,
     chosen: list[float],
 ) -> None:
     """The table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what was asked for beside.
