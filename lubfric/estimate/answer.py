@@ -57,7 +57,7 @@ def load_sharing_answer(
         decision=decision,
         validity=validity,
         balance=replace(found.balance, contact=replace(found.balance.contact, fields=found.solved.contact.fields)),
-        heights=None if found.strips is None else found.contact.heights,  # type: ignore[attr-defined]
+        heights=found.contact.heights if found.sample.is_resolved else None,  # type: ignore[attr-defined]
     )
     return with_ranges(prepared, result)
 
@@ -70,8 +70,8 @@ def limits_passed(found: SampleSolution, prepared: Prepared, speed: float) -> tu
 def _cells(found: SampleSolution) -> tuple[tuple[int, int], float]:
     """Length of the cells that were solved, in cells of the map, along each axis; and the share of the load on the edge
     columns, on the map's own cells."""
-    factors = (1, 1) if found.strips is None else found.strips.cells.coarsening
-    if found.strips is not None and found.strips.is_single_patch and factors != (1, 1):
+    factors = found.sample.cells.coarsening
+    if found.sample.is_single_patch and factors != (1, 1):
         return factors, found.effect.edge_load_ratio
     return factors, found.contact.on_the_ends(found.solved.contact) / factors[0]
 

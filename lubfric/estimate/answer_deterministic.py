@@ -52,8 +52,7 @@ def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None
     any. ``begun``: the starting time, by `time.perf_counter`. Raises `ConvergenceError`."""
     scene = prepared.scene
     levels = levels_of(prepared, speed, found)
-    strips = prepared.strips
-    assert strips is not None
+    sample = prepared.sample
     numerics = scene.numerics
     results = [pair.resolved.result for pair in levels.pairs]
     heat = strip_heat(scene, results[0])
@@ -81,7 +80,7 @@ def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None
         *of_error(levels.numerical, numerics.tolerance, _way_out(prepared)),
         *_of_model(model, numerics.model_tolerance),
     )
-    finest = levels.pieces[0][-1] if strips.is_single_patch and levels.pieces else levels.pairs[0].resolved
+    finest = levels.pieces[0][-1] if sample.is_single_patch and levels.pieces else levels.pairs[0].resolved
     result = FrictionResult(
         **(numbers | {"seconds": time.perf_counter() - begun}),
         report=replace(results[0].report, notes=(decision.text, *(e.text for e in entries), known.text)),
@@ -89,8 +88,8 @@ def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None
         errors=field_errors_of(levels.errors | dict.fromkeys(of_heat, math.nan), FEW_STRIPS, of_heat),
         decision=decision,
         validity=entries,
-        balance=None if found is None or strips.is_single_patch else found.balance,
-        heights=None if found is None or strips.is_single_patch else found.contact.heights,  # type: ignore[attr-defined]
+        balance=None if found is None or sample.is_single_patch else found.balance,
+        heights=None if found is None or sample.is_single_patch else found.contact.heights,  # type: ignore[attr-defined]
         deterministic=finest.result,
     )
     return with_ranges(prepared, result, levels.pairs[0].longer if moves(scene) else finest)
@@ -116,9 +115,8 @@ def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
 def _way_out(prepared: Prepared) -> str:
     """What makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
-    strips = prepared.strips
-    assert strips is not None
-    if not strips.cells.is_native and (moves(scene) or not strips.is_single_patch):
+    sample = prepared.sample
+    if not sample.cells.is_native and (moves(scene) or not sample.is_single_patch):
         return f"numerics.grid = 'given' for shorter cells, or {LOOSER}"
     if prepared.given or measured(scene):
         return f"{LOOSER}, or a map with shorter cells"
@@ -127,11 +125,10 @@ def _way_out(prepared: Prepared) -> str:
 
 def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:
     """What a reader should know of the ``sampling`` error of strips of this ``length`` [m]."""
-    strips = prepared.strips
+    sample = prepared.sample
     asked = prepared.scene.numerics.sampling_tolerance
-    assert strips is not None
     if math.isnan(sampling):
-        return TOO_SHORT.format(length / strips.lengths[1]), BIASED
+        return TOO_SHORT.format(length / sample.lengths[1]), BIASED
     return (f"the surface leaves more than the {percent(asked)} asked",) if sampling > asked else ()
 
 

@@ -25,7 +25,7 @@ from ..models.shared import (
     Prepared,
     on_piece,
 )
-from ..samples import Strips
+from ..samples import Sample
 from ..scene import budget
 from .scatter import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
 
@@ -90,18 +90,18 @@ class CellEffect:
         return replace(self, remaining_change=rest, area_error=self.area_error + abs(1 - self.area) * moved)
 
 
-def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> CellEffect:
-    """Compare pieces of ``strips`` until the scatter between them is a small part of the sampling tolerance."""
+def effect_of_cells(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> CellEffect:
+    """Compare pieces of ``sample`` until the scatter between them is a small part of the sampling tolerance."""
     response = balance.response
     numerics = prepared.scene.numerics
-    if strips.cells.is_native or balance.film is None or response is None:
+    if sample.cells.is_native or balance.film is None or response is None:
         return CellEffect()
     enough = response.gap_for("coefficient", budget.CONTACT_GRID * numerics.tolerance)
     scatter = response.gap_for("coefficient", PIECE_SHARE * numerics.sampling_tolerance)
     steps: list[CellStep] = []
-    while not _settled(steps, min(MOST_PIECES, strips.pieces), scatter):
-        steps.append(_step(prepared, point, balance, strips, len(steps), enough))
-    error = BlockError(0.0, 1) if strips.is_single_patch else mean_error(steps)
+    while not _settled(steps, min(MOST_PIECES, sample.pieces), scatter):
+        steps.append(_step(prepared, point, balance, sample, len(steps), enough))
+    error = BlockError(0.0, 1) if sample.is_single_patch else mean_error(steps)
 
     def mean(name: str) -> float:
         return sum(getattr(step, name) for step in steps) / len(steps)
@@ -128,20 +128,20 @@ def _settled(steps: Sequence[CellStep], most: float, scatter: float) -> bool:
     return len(steps) > 0 and (short or len(steps) >= most or mean_error(steps).error <= scatter)
 
 
-def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, index: int, enough: float) -> CellStep:
+def _step(prepared: Prepared, point: Point, balance: Balance, sample: Sample, index: int, enough: float) -> CellStep:
     """Piece number ``index`` on finer and finer cells. Where that takes more than `MOST_CELLS` cells, it ends when the
     rest is within ``enough`` [m]. The change is averaged over blocks along y, each with its influence on the mean
     gap."""
     assert balance.film is not None and balance.response is not None
     slope = balance.response.slopes.gap
-    ladder = strips.cells.ladder()
-    coarse = strips.cells
+    ladder = sample.cells.ladder()
+    coarse = sample.cells
     places: list[tuple[np.ndarray, np.ndarray]] = []
     changes: list[float] = []
     states: list[ContactState] = []
     rest = math.inf
     for factors in ladder:
-        contact = on_piece(prepared, strips, index, factors)
+        contact = on_piece(prepared, sample, index, factors)
         if rest <= enough and contact.heights.size > MOST_CELLS:
             break
         start = states[-1] if states else None
@@ -152,10 +152,10 @@ def _step(prepared: Prepared, point: Point, balance: Balance, strips: Strips, in
             rest = remaining(changes)
     own = len(places) == len(ladder)
     step = coarse.coarse[1]
-    length = strips.lengths[1]
+    length = sample.lengths[1]
     difference = places[-1][0] - places[0][0]
     area, area_error = _ratio(places[-1][1], places[0][1], step, length)
-    if strips.is_single_patch:
+    if sample.is_single_patch:
         area_error = 0.0
     if not own:
         area_error = math.hypot(area_error, _ratio(places[-1][1], places[-2][1], step, length)[0] - 1)
@@ -226,12 +226,12 @@ def predicted_next_change(changes: Sequence[float]) -> float:
     return max(d1 * ratio, d2 / 32)
 
 
-def lost_summits(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> float:
-    """Height [m] that the cells of ``strips`` take from the highest summit of the first piece, measured by its distance
+def lost_summits(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> float:
+    """Height [m] that the cells of ``sample`` take from the highest summit of the first piece, measured by its distance
     to the film above it."""
     assert balance.film is not None
     own, coarse = (
-        point.pressed(on_piece(prepared, strips, 0, factors), balance.film, 0.0, None).mean_gap
-        for factors in ((1, 1), strips.cells.coarsening)
+        point.pressed(on_piece(prepared, sample, 0, factors), balance.film, 0.0, None).mean_gap
+        for factors in ((1, 1), sample.cells.coarsening)
     )
     return own - coarse

@@ -178,7 +178,7 @@ def model_error(scene: Scene, found: SampleSolution) -> tuple[tuple[float, float
     balance = found.balance
     if balance.film is None:
         return (NONE, ()) if scene.lubricant.inlet_film is None else (UNKNOWN, (EMPTY,))
-    if found.strips is None:
+    if not found.sample.is_resolved:
         return UNKNOWN, (NOT_STUDIED,)
     if why := gap_not_resolved(scene):
         return UNKNOWN, (MODEL_UNKNOWN.format(why),)
@@ -194,23 +194,23 @@ def model_error(scene: Scene, found: SampleSolution) -> tuple[tuple[float, float
 
 def _area_needed(found: SampleSolution, scene: Scene) -> float:
     """How many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not known)."""
-    strips = found.strips
-    ends = strips is not None and strips.windows and found.count == strips.available
+    sample = found.sample
+    ends = sample.windows and found.count == sample.available
     needed = (found.sampling / scene.numerics.sampling_tolerance) ** 2 if ends else 1.0
     return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
 
 
 def _notes(found: SampleSolution, scene: Scene, sampling: float) -> tuple[str, ...]:
     asked = scene.numerics.sampling_tolerance
-    strips = found.strips
+    sample = found.sample
     notes = []
     needed = _area_needed(found, scene)
     if not math.isfinite(sampling):
-        if strips is None:
+        if not sample.is_resolved:
             return (NO_CELLS,)
         if found.response is None:
             return (MISSED,)
-        return (TOO_SHORT.format(found.scatter.length / strips.lengths[1]),)
+        return (TOO_SHORT.format(found.scatter.length / sample.lengths[1]),)
     if sampling > asked and needed > 1:
         times = float(f"{needed:.2g}")
         notes.append(f"the map ends before the {percent(asked)} asked: that would take about {times:g} times its area")

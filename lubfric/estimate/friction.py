@@ -94,15 +94,15 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
     """By the cheapest model that is good enough: Eq. (8), without entrainment, where its own error is within
     ``numerics.model_tolerance``, and where the deterministic model has no answer; that model otherwise."""
     scene = prepared.scene
-    strips = prepared.strips
+    sample = prepared.sample
     asked = scene.numerics.model
-    if asked == "load-sharing" or speed == 0 or strips is None or prepared.surface.sq == 0:
+    if asked == "load-sharing" or speed == 0 or not sample.is_resolved or prepared.surface.sq == 0:
         return load_sharing_answer(sampled(prepared, speed, own_cells=fields), prepared, speed, begun)
-    if asked == "deterministic" and strips.is_single_patch:
+    if asked == "deterministic" and sample.is_single_patch:
         return strips_answer(prepared, speed, None, begun)
     found = sampled(prepared, speed, own_cells=fields)
     if asked == "auto":
-        why = _enough(prepared, found) or too_costly(prepared, speed, cells_of(strips, scene.bodies.half_width))
+        why = _enough(prepared, found) or too_costly(prepared, speed, cells_of(scene, sample))
         if why or any(entry.severe for entry in limits_passed(found, prepared, speed)):
             return load_sharing_answer(found, prepared, speed, begun, why)
     try:

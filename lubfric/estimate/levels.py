@@ -18,7 +18,7 @@ import numpy as np
 
 from ..models.deterministic import MovingStrip, Strip, change_by_flow, thinned_less
 from ..models.shared import Prepared
-from ..samples import Strips
+from ..samples import Sample
 from ..scene import Numerics
 from .line import ControlVariate, line_of
 from .pair import StripOnTwoGrids, numbers_of, solve_pair
@@ -102,7 +102,6 @@ def levels_of(prepared: Prepared, speed: float, found: SampleSolution | None) ->
     more are solved than `MOST_WORK` allows. Finer cells follow if the change of f from longer cells is not within
     ``numerics.tolerance``. Raises `ConvergenceError`.
     """
-    assert prepared.strips is not None
     pairs, both = _first_levels(prepared, speed, found)
     pieces, shortest, by_cells, numerical = on_shorter_cells(prepared, speed, pairs)
     numbers = changed(prepared, both.numbers, [(piece[1], piece[-1]) for piece in pieces])
@@ -116,7 +115,7 @@ def levels_of(prepared: Prepared, speed: float, found: SampleSolution | None) ->
     films = tuple(mean(getattr(one, name) - one.coefficient for one in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
-    length = prepared.strips.length * max(both.line, len(pairs))
+    length = prepared.sample.length * max(both.line, len(pairs))
     first = pairs[0].resolved
     rest = first.rest if isinstance(first, MovingStrip) else first
     oil = prepared.scene.lubricant
@@ -130,16 +129,15 @@ def _first_levels(
     prepared: Prepared, speed: float, found: SampleSolution | None
 ) -> tuple[list[StripOnTwoGrids], TwoLevelEstimate]:
     """The strips of the second level, as many as it takes, and the sum of the first two."""
-    strips = prepared.strips
+    sample = prepared.sample
     numerics = prepared.scene.numerics
     load = prepared.scene.bodies.load
-    assert strips is not None
     pairs = [solve_pair(prepared, speed, 0, None)]
     first = pairs[0].resolved
-    most = max(1, min(strips.available, int(MOST_WORK / first.work)))
-    same = found is not None and found.strips is not None and found.strips.cells == strips.cells
+    most = max(1, min(sample.available, int(MOST_WORK / first.work)))
+    same = found is not None and found.sample.cells == sample.cells
     line = None
-    if found is not None and same and not strips.is_single_patch and math.isfinite(found.sampling):
+    if found is not None and same and not sample.is_single_patch and math.isfinite(found.sampling):
         line = line_of(prepared, found)
     while True:
         estimates = [_sum(prepared, pairs, one) for one in (line, None) if one is None or len(pairs) <= one.count]
@@ -154,20 +152,19 @@ def _first_levels(
 
 def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVariate | None) -> TwoLevelEstimate:
     """The first two levels; ``line``: the first (None: without it)."""
-    assert prepared.strips is not None
     rows = [numbers_of(prepared, pair.resolved.result) for pair in pairs]
     count = len(pairs)
     numbers = {name: mean(row[name] for row in rows) for name in rows[0]}
     if line is None:
-        whole = _scatter(pairs, prepared.strips)
+        whole = _scatter(pairs, prepared.sample)
         return TwoLevelEstimate(0, numbers, whole, BlockError(0.0, 1), whole.error * math.sqrt(count))
     for name, differences in line.numbers.items():
         numbers[name] -= mean(differences[:count])
     rest = 1 - count / line.count
     others = replace(line.sampling, error=math.sqrt(rest) * line.sampling.error * abs(numbers["coefficient"]))
-    whole = add_errors(_scatter(pairs, prepared.strips, line, rest), others)
+    whole = add_errors(_scatter(pairs, prepared.sample, line, rest), others)
     between = float(np.std(line.numbers["coefficient"]))
-    return TwoLevelEstimate(line.count, numbers, whole, _scatter(pairs, prepared.strips, line, 1.0), between)
+    return TwoLevelEstimate(line.count, numbers, whole, _scatter(pairs, prepared.sample, line, 1.0), between)
 
 
 def mean(values) -> float:
@@ -185,7 +182,7 @@ def _errors(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], numbers: dict[
 
 
 def _scatter(
-    pairs: Sequence[StripOnTwoGrids], strips: Strips, line: ControlVariate | None = None, share: float = 0.0
+    pairs: Sequence[StripOnTwoGrids], sample: Sample, line: ControlVariate | None = None, share: float = 0.0
 ) -> BlockError:
     """Standard error of the mean over ``pairs`` of f by the deterministic model less ``share`` times the differences of
     these strips from the ``line``. (On a line of N strips, of which n are pairs, all of the sum scatters as with 1 -
@@ -201,19 +198,19 @@ def _scatter(
     if line is not None:
         places = [one - share * line.deviations(k, one.size) for k, one in enumerate(places)]
         f -= share * line.numbers["coefficient"][:count]
-    within = _block_error(places, strips, pairs[0])
+    within = _block_error(places, sample, pairs[0])
     by_blocks = count * (within.error * (LINED if line else ALONE)) ** 2
     if count == 1:
         return BlockError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
     by_strips = float(np.var(f, ddof=1))
     pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
-    if strips.windows and count >= FEWEST and by_strips > pooled:
+    if sample.windows and count >= FEWEST and by_strips > pooled:
         return BlockError(math.sqrt(by_strips / count), count - 1)
     return BlockError(math.sqrt(pooled / count), FREEDOM + count - 1)
 
 
-def _block_error(values: Sequence[np.ndarray], strips: Strips, pair: StripOnTwoGrids) -> BlockError:
+def _block_error(values: Sequence[np.ndarray], sample: Sample, pair: StripOnTwoGrids) -> BlockError:
     """Standard error of the mean of ``values`` along strips such as ``pair``; of a mirrored map only half counts."""
     kept = values[0].size // (2 if pair.mirrored else 1)
     places = np.concatenate([one[:kept] for one in values])
-    return block_error(places, pair.resolved.problem.spacing[1], strips.lengths[1])
+    return block_error(places, pair.resolved.problem.spacing[1], sample.lengths[1])

@@ -47,8 +47,7 @@ def line_of(prepared: Prepared, found: SampleSolution) -> ControlVariate:
     response = found.response
     load = prepared.scene.bodies.load
     contact: Any = found.contact  # of cells, as there are strips
-    assert prepared.strips is not None
-    rows = on_strip(prepared, prepared.strips, 0).heights.shape[1]
+    rows = on_strip(prepared, prepared.sample, 0).heights.shape[1]
     starts = np.arange(found.count) * contact.heights.shape[1] // found.count  # a measured line may have some more
 
     def of_strips(places: np.ndarray) -> np.ndarray:

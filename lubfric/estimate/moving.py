@@ -9,8 +9,7 @@ from ..models.shared import (
     on_strip,
 )
 from ..samples import (
-    Strips,
-    alone,
+    Sample,
 )
 from ..scene import Scene, moves, moving_bodies
 from ..surface import Surface
@@ -28,10 +27,9 @@ def solved_strip(prepared: Prepared, index: int, speed: float, **how) -> Strip:
 
 def strip_surface(prepared: Prepared, index: int) -> Surface:
     """The map of strip ``index``; of a patch at rest all of it, on its own cells."""
-    assert prepared.strips is not None
-    if prepared.strips.is_single_patch and not moves(prepared.scene):
+    if prepared.sample.is_single_patch and not moves(prepared.scene):
         return prepared.surface
-    return map_of(prepared, on_strip(prepared, prepared.strips, index))
+    return map_of(prepared, on_strip(prepared, prepared.sample, index))
 
 
 def map_of(prepared: Prepared, contact: HalfSpaceContact) -> Surface:
@@ -51,32 +49,30 @@ def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
 def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
     """Of strip ``index`` the map of each rough body, by its section."""
     found = [name for name, _ in moving_bodies(prepared.scene)]
-    strips = prepared.strips
-    assert strips is not None
+    sample = prepared.sample
     if len(found) < 2 or prepared.joint:  # of a joint map all is that of surface 1
         return dict.fromkeys(found[:1], strip_surface(prepared, index))
-    return {name: alone(strips, k).strip(index) for k, name in enumerate(found)}
+    return {name: sample.of_body(k).strip(index) for k, name in enumerate(found)}
 
 
-def moving_strip_work(scene: Scene, strips: Strips, sq: float, speed: float, factors: tuple[int, int]) -> float:
-    """Counted work [s] of one strip of moving roughness on cells ``factors`` times as long as those of ``strips``, and
+def moving_strip_work(scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[int, int]) -> float:
+    """Counted work [s] of one strip of moving roughness on cells ``factors`` times as long as those of ``sample``, and
     on cells twice as long, about; ``sq`` [m]: of the surface."""
     (fx, fy) = factors
-    (dx, dy) = strips.cells.coarse
+    (dx, dy) = sample.cells.coarse
     line = scene.line_contact(abs(speed))
     effort = effort_for(line, sq)
     ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
-    cells = sum(ends) / (fx * dx) * strips.length / (fy * dy)
+    cells = sum(ends) / (fx * dx) * sample.length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
-    return (1 + ON_LONGER) * moving_work(line, sq, fx * dx, fastest, strips.cells.count * dx, cells)
+    return (1 + ON_LONGER) * moving_work(line, sq, fx * dx, fastest, sample.cells.count * dx, cells)
 
 
 def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:
     """Why moving roughness is left to Eq. (8) under "auto", in words; "" if it is not."""
     scene = prepared.scene
-    strips = prepared.strips
-    assert strips is not None
-    work = moving_strip_work(scene, strips, prepared.surface.sq, speed, factors) if moves(scene) else 0.0
+    sample = prepared.sample
+    work = moving_strip_work(scene, sample, prepared.surface.sq, speed, factors) if moves(scene) else 0.0
     if work <= MOST_WORK:
         return ""
     return (

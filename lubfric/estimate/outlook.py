@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from ..film import LineContact, flooded_inlet
 from ..models.deterministic import reach, work_of_steps
 from ..oil import shear_stress
-from ..samples import Strips
+from ..samples import Sample
 from ..scene import FRICTION, Scene, gap_not_resolved, moves
 from ..surface import Surface
 from .levels import DIFFERENCE
@@ -57,7 +57,7 @@ class Forecast:
     moving: float = 0.0
 
 
-def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float) -> Forecast:
+def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Forecast:
     """What a point at ``speed`` [m/s] will take. ``surface``: that is solved first; ``strips``: None for a contact
     without cells.
 
@@ -70,14 +70,14 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
     summit = float(surface.heights.max() - surface.heights.mean())
     seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
     touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
-    if strips is None or strips.is_single_patch:
+    if sample.is_single_patch:
         if touching != "none":
             seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
-        patch = (0, 0.0, 0.0) if strips is None else _resolved(scene, strips, surface, speed, film, 0.0)
+        patch = (0, 0.0, 0.0) if not sample.is_resolved else _resolved(scene, sample, surface, speed, film, 0.0)
         resolved, work, moving = patch
         return Forecast(speed, touching, math.nan, 1, math.nan, resolved, seconds + work, moving)
-    (lx, ly) = strips.lengths
-    first = strips.first * strips.length
+    (lx, ly) = sample.lengths
+    first = sample.first * sample.length
     asked = scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR * sq:
@@ -85,50 +85,50 @@ def forecast(scene: Scene, strips: Strips | None, surface: Surface, speed: float
         share = min(film / gap, 1.0)
         scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
         error = scatter / gap * share / (1 - share + FLOOR)
-    count = math.ceil(strips.first * max(1.0, SAFETY * (error / asked) ** 2 if error > asked else 1.0))
-    count = min(count, strips.available)
-    cells = strips.cells
+    count = math.ceil(sample.first * max(1.0, SAFETY * (error / asked) ** 2 if error > asked else 1.0))
+    count = min(count, sample.available)
+    cells = sample.cells
     (fx, fy) = cells.coarsening
     (_, dy) = cells.coarse
-    piece = 0.0 if cells.is_native else cells.count * fx * fy * strips.length / dy / 2
+    piece = 0.0 if cells.is_native else cells.count * fx * fy * sample.length / dy / 2
     if touching != "none":
-        seconds += CELL_SECONDS * cells.count * count * strips.length / dy + PIECE_SECONDS * piece
-    resolved, work, moving = _resolved(scene, strips, surface, speed, film, error * math.sqrt(strips.first))
-    length = count * strips.length
+        seconds += CELL_SECONDS * cells.count * count * sample.length / dy + PIECE_SECONDS * piece
+    resolved, work, moving = _resolved(scene, sample, surface, speed, film, error * math.sqrt(sample.first))
+    length = count * sample.length
     return Forecast(speed, touching, error, count, length, resolved, seconds + work, moving)
 
 
 def _resolved(
-    scene: Scene, strips: Strips, surface: Surface, speed: float, film: float, scatter: float
+    scene: Scene, sample: Sample, surface: Surface, speed: float, film: float, scatter: float
 ) -> tuple[int, float, float]:
     """Number of strips of the deterministic model, all their work [s], and that of one if its roughness moves, else 0.
     ``film`` [m]: expected; ``scatter``: of f between strips, relative."""
     numerics = scene.numerics
     sq = surface.sq
-    both = cells_of(strips, scene.bodies.half_width)
-    moving = moving_strip_work(scene, strips, sq, speed, both) if speed and moves(scene) else 0.0
+    both = cells_of(scene, sample)
+    moving = moving_strip_work(scene, sample, sq, speed, both) if speed and moves(scene) else 0.0
     if speed == 0 or scene.transient is not None or numerics.model == "load-sharing" or gap_not_resolved(scene):
         return 0, 0.0, moving
     rolling = rolling_share(scene.line_contact(speed), scene.bodies.mean_hertz_pressure) if moving else 0.0
     if sq == 0 or load_sharing_error(film / sq, 0.0, 0.0, 1.0, rolling)[1] <= numerics.model_tolerance:
         return 0, 0.0, 0.0
     allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
-    count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), strips.available)
+    count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), sample.available)
     ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
     if moving and moving > MOST_WORK and numerics.model == "auto":
         return 0, 0.0, moving
     if moving:
         return count, IN_MOTION * (count + ON_LONGER * (ends + 2 * (ends > 0))) * moving, moving
     (fx, fy) = both
-    (dx, dy) = strips.cells.coarse
-    (ux, uy) = strips.cells.coarsening
-    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * strips.length / (fy * dy)
+    (dx, dy) = sample.cells.coarse
+    (ux, uy) = sample.cells.coarsening
+    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.length / (fy * dy)
     finer = (
-        0.5 * cells * fx * fy * (ux * uy if strips.is_single_patch else 1)
+        0.5 * cells * fx * fy * (ux * uy if sample.is_single_patch else 1)
     )  # a patch may be solved down to its own cells
-    short = not strips.is_single_patch and strips.length < SHORT * strips.lengths[1] and fx * ux >= 4 <= fy * uy
+    short = not sample.is_single_patch and sample.length < SHORT * sample.lengths[1] and fx * ux >= 4 <= fy * uy
     work = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
-    again = work_of_steps(finer if strips.is_single_patch else cells, AGAIN) * (ends + (ends > 0))
+    again = work_of_steps(finer if sample.is_single_patch else cells, AGAIN) * (ends + (ends > 0))
     return count, count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again + work, 0.0
 
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from ..models.deterministic import DeterministicResult, Strip
 from ..models.shared import Prepared
 from ..quantities import NUMBERS
-from ..samples import Strips
-from ..scene import moves
+from ..samples import Sample
+from ..scene import Scene, moves
 from ..surface import Surface
 from .moving import solved_strip, strip_surface
 from .scatter import mirrored
@@ -31,25 +31,24 @@ class StripOnTwoGrids:
     mirrored: bool = False
 
 
-def cells_of(strips: Strips, half_width: float) -> tuple[int, int]:
-    """Length of the cells of the deterministic model in cells of the ``strips``, along x and y: 2, or 1 where 2 would
-    leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in the ``half_width`` [m], or
+def cells_of(scene: Scene, sample: Sample) -> tuple[int, int]:
+    """Length of the cells of the deterministic model in cells of the ``sample``, along x and y: 2, or 1 where 2 would
+    leave less than `PER_LENGTH` (or `MOVING`) in a correlation length or `PER_HALF_WIDTH` in half the Hertz strip, or
     does not divide the rows of a strip."""
-    (lx, ly) = strips.lengths
-    (dx, dy) = strips.cells.coarse
-    longest = min(lx / (MOVING if moves(strips.scene) else PER_LENGTH), half_width / PER_HALF_WIDTH)
+    (lx, ly) = sample.lengths
+    (dx, dy) = sample.cells.coarse
+    longest = min(lx / (MOVING if moves(scene) else PER_LENGTH), scene.bodies.half_width / PER_HALF_WIDTH)
     along = longest >= 2 * dx * (1 - 1e-9)
-    across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and strips.rows % 2 == 0
+    across = ly / PER_LENGTH >= 2 * dy * (1 - 1e-9) and sample.rows % 2 == 0
     return 1 + along, 1 + across
 
 
 def strip_of(prepared: Prepared, index: int) -> tuple[Surface, tuple[int, int]]:
     """Strip ``index`` and the length of the cells of the deterministic model in its own; of a patch at rest all of it,
     on the map's own cells."""
-    strips = prepared.strips
-    assert strips is not None
-    fx, fy = cells_of(strips, prepared.scene.bodies.half_width)
-    ux, uy = strips.cells.coarsening if strips.is_single_patch and not moves(prepared.scene) else (1, 1)
+    sample = prepared.sample
+    fx, fy = cells_of(prepared.scene, sample)
+    ux, uy = sample.cells.coarsening if sample.is_single_patch and not moves(prepared.scene) else (1, 1)
     return strip_surface(prepared, index), (fx * ux, fy * uy)
 
 
@@ -63,12 +62,11 @@ def longer_than(surface: Surface, factors: tuple[int, int], moving: bool = False
 def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> StripOnTwoGrids:
     """Strip ``index`` at ``speed`` [m/s], not 0. The deterministic model begins on longer cells. ``slope``:
     of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`."""
-    assert prepared.strips is not None
     surface, factors = strip_of(prepared, index)
     first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors, moves(prepared.scene)))
     strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
-    return StripOnTwoGrids(strip, first, prepared.strips.is_single_patch and mirrored(surface.heights))
+    return StripOnTwoGrids(strip, first, prepared.sample.is_single_patch and mirrored(surface.heights))
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:

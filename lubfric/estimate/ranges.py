@@ -10,6 +10,7 @@ from ..models.deterministic import Strip, solve_strip
 from ..models.load_sharing import solve_balance
 from ..models.shared import (
     Prepared,
+    contact_on,
     on_stack,
     prepare,
 )
@@ -101,17 +102,19 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | s
 def _load_sharing(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], float]:
     """Return f of scenes that differ from the prepared one in inputs only, by load sharing on the first strips of
     ``prepared``, or on its only contact."""
-    strips = prepared.strips
+    sample = prepared.sample
     surface = prepared.surface
-    stack = None if strips is None else on_stack(prepared, strips, strips.first)
-    contact = prepared.contact if stack is None else stack
+    contact = contact_on(prepared, sample, sample.first)
     start = solve_balance(prepared.scene, result.speed, contact, surface.sq)
 
     def f(scene: Scene) -> float:
         there: RoughContact = contact
         if scene.bodies.hardness != prepared.scene.bodies.hardness:
             hardness = scene.bodies.hardness
-            there = prepare(scene, surface).contact if stack is None else replace(stack, hardness=hardness)
+            if sample.is_resolved:
+                there = replace(on_stack(prepared, sample, sample.first), hardness=hardness)
+            else:
+                there = prepare(scene, surface).contact
         return solve_balance(scene, result.speed, there, surface.sq, start).forces.coefficient
 
     return f

@@ -23,10 +23,12 @@ from ..models.load_sharing import (
 )
 from ..models.shared import (
     Prepared,
+    ReferenceKey,
+    contact_on,
     on_piece,
     on_stack,
 )
-from ..samples import Strips
+from ..samples import Sample
 from ..scene import budget
 from .cells import CellEffect, effect_of_cells, lost_summits
 from .scatter import BlockError, Scatter, add_errors, scatter_of
@@ -50,7 +52,7 @@ class SampleSolution:
     """The balance of a sample, corrected for its cells, and what is known of its error.
 
     - ``balance``: with the division of the load that the scene's own cells demand; ``solved``: as it was solved on
-      ``contact``, a stack of ``count`` ``strips`` (None: a contact without cells).
+      ``contact``, the first ``count`` strips of ``sample``.
     - ``effect``: of the cells; ``scatter``: from place to place; ``missed``: contact that the sample may have missed by
       chance where none was found: its relative effect on f.
     """
@@ -59,8 +61,8 @@ class SampleSolution:
     solved: Balance
     contact: RoughContact
     scatter: Scatter
+    sample: Sample
     effect: CellEffect = CellEffect()
-    strips: Strips | None = None
     count: int = 1
     undetected: float = 0.0
 
@@ -97,7 +99,7 @@ class SampleSolution:
     def corrected(self) -> float:
         """Change of the gap [m] for which f is corrected to first order: by the cells, and by what the root left. On
         the scene's own cells nothing is corrected, so that loads and fields belong together."""
-        if self.strips is None or self.strips.cells.is_native:
+        if self.sample.cells.is_native:
             return 0.0
         return self.effect.gap + self.left_by_root
 
@@ -121,59 +123,52 @@ def sampled(prepared: Prepared, speed: float, *, own_cells: bool = False) -> Sam
     """Solve ``prepared`` at ``speed`` [m/s]: on more strips until the standard error of f is within
     ``numerics.sampling_tolerance``, on cells so fine that their effect can be corrected for. ``own_cells``: on those of
     the scene, where one patch is all that there is. Raises `ConvergenceError`."""
-    strips = prepared.strips
-    if strips is None:
-        return _without_cells(prepared, speed)
-    while own_cells and strips.is_single_patch and not strips.cells.is_native:
-        strips = strips.halved()
+    sample = prepared.sample
+    if own_cells and sample.is_single_patch:
+        sample = sample.native()
     while True:
-        found = _on_cells(prepared, speed, strips)
-        if strips.cells.is_native or not _too_coarse(prepared, speed, found):
+        found = _on_cells(prepared, speed, sample)
+        if sample.cells.is_native or not _too_coarse(prepared, speed, found):
             return _corrected(prepared, speed, found)
-        strips = strips.halved()
+        sample = sample.halved()
 
 
-def _without_cells(prepared: Prepared, speed: float) -> SampleSolution:
-    contact = prepared.contact
-    solved = solve_balance(prepared.scene, speed, contact, prepared.surface.sq)
-    length = prepared.surface.size[1]
-    return _corrected(prepared, speed, SampleSolution(solved, solved, contact, Scatter(length), undetected=math.nan))
-
-
-def _on_cells(prepared: Prepared, speed: float, strips: Strips) -> SampleSolution:
+def _on_cells(prepared: Prepared, speed: float, sample: Sample) -> SampleSolution:
     scene = prepared.scene
-    count = strips.first
-    start = _reference(prepared, speed, strips)
+    count = sample.first
+    start = _reference(prepared, speed, sample)
     effect: CellEffect | None = None
     while True:
-        contact = on_stack(prepared, strips, count)
-        coarse = not strips.cells.is_native
+        contact = contact_on(prepared, sample, count)
+        coarse = not sample.cells.is_native
         solved = solve_balance(scene, speed, contact, prepared.surface.sq, start, correctable=coarse)
-        line = Scatter(contact.heights.shape[1] * contact.spacing[1])
-        found = SampleSolution(solved, solved, contact, line, strips=strips, count=count)
+        line = Scatter(sample.rows_of(count) * sample.cells.coarse[1])
+        found = SampleSolution(solved, solved, contact, line, sample=sample, count=count)
+        if not sample.is_resolved:  # it has no places along y to compare, and no cells to correct for
+            return replace(found, undetected=math.nan)
         if solved.response is None:
-            missed = undetected_contact(scene, contact, solved.film, solved.forces, strips.lengths[1])
+            missed = undetected_contact(scene, contact, solved.film, solved.forces, sample.lengths[1])
             found = replace(found, undetected=missed)
         else:
-            scatter = scatter_of(scene, contact, solved, strips, count)
+            scatter = scatter_of(scene, on_stack(prepared, sample, count), solved, sample, count)
             if effect is None and solved.film is not None:
-                effect = _effect(prepared, _point(prepared, speed, found), solved, strips)
+                effect = _effect(prepared, _point(prepared, speed, found), solved, sample)
             found = replace(found, scatter=scatter, effect=(effect or CellEffect()).at_load(solved.contact_load))
-        more = _wanted(prepared, found, strips)
-        grazing = count == strips.first and solved.response is not None and found.scatter.spots < FEW
+        more = _wanted(prepared, found, sample)
+        grazing = count == sample.first and solved.response is not None and found.scatter.spots < FEW
         if more <= count or (not grazing and _too_coarse(prepared, speed, found)):
             return found  # where few spots graze each other, more strips are cheaper than shorter cells
         start = None if solved.response is None else replace(solved, contact=replace(solved.contact, fields=None))
         count = more
 
 
-def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | None:
+def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | None:
     """A balance on the first strips to start from: that of the nearest of three fixed speeds (None where a given film
     arrives, at any speed). It depends on scene and cells alone, so that no result depends on which speeds were solved
     before."""
     scene = prepared.scene
     sq = prepared.surface.sq
-    if speed == 0 or strips.is_single_patch or sq == 0 or scene.lubricant.inlet_film is not None:
+    if speed == 0 or sample.is_single_patch or sq == 0 or scene.lubricant.inlet_film is not None:
         return None
     film = scene.line_contact(speed).expected_film / sq
     nearest = min(REFERENCES, key=lambda reference: abs(math.log(film / reference)))
@@ -181,31 +176,33 @@ def _reference(prepared: Prepared, speed: float, strips: Strips) -> Balance | No
     def make() -> Balance | None:
         there = speed_of(scene, nearest * sq) * math.copysign(1.0, speed)
         try:
-            return solve_balance(scene, there, on_stack(prepared, strips, strips.first), sq)
+            return solve_balance(scene, there, on_stack(prepared, sample, sample.first), sq)
         except LubfricError:
             return None
 
-    found = prepared.remembered(("reference", strips.cells.coarsening, nearest, speed > 0), make)
+    found = prepared.memo.get(ReferenceKey(sample.cells.coarsening, "balance", nearest, speed > 0), make)
     return found if found is not None and found.response is not None else None
 
 
-def _effect(prepared: Prepared, point: Point, balance: Balance, strips: Strips) -> CellEffect:
+def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> CellEffect:
     """The effect of the cells at ``balance``: that at the reference point, if the load on the contact is so near that
     the difference hardly moves f, else its own."""
-    reference = _reference(prepared, point.speed, strips)
+    reference = _reference(prepared, point.speed, sample)
     response = balance.response
     if reference is not None and abs(math.log(balance.contact_load / reference.contact_load)) < NEAR_LOAD:
         assert response is not None and reference.film is not None and reference.settings is not None
         there = replace(point, speed=reference.film.entrainment_speed, settings=reference.settings)
 
         def make() -> CellEffect:
-            return effect_of_cells(prepared, there, reference, strips)
+            return effect_of_cells(prepared, there, reference, sample)
 
-        found = prepared.remembered(("reference", strips.cells.coarsening, there.speed, "cells"), make)
+        found = prepared.memo.get(
+            ReferenceKey(sample.cells.coarsening, "effect of cells", there.speed, there.speed > 0), make
+        )
         more = found.at_load(balance.contact_load).remaining_change - found.remaining_change
         if response.relative("coefficient", more) <= REFERENCED * prepared.scene.numerics.tolerance:
             return found
-    return effect_of_cells(prepared, point, balance, strips)
+    return effect_of_cells(prepared, point, balance, sample)
 
 
 def speed_of(scene, film: float) -> float:
@@ -221,7 +218,7 @@ def speed_of(scene, film: float) -> float:
     return speed
 
 
-def _wanted(prepared: Prepared, found: SampleSolution, strips: Strips) -> int:
+def _wanted(prepared: Prepared, found: SampleSolution, sample: Sample) -> int:
     """Number of strips that ``numerics.sampling_tolerance`` needs, at least as many as there are."""
     asked = prepared.scene.numerics.sampling_tolerance
     spots = found.scatter.spots
@@ -229,8 +226,8 @@ def _wanted(prepared: Prepared, found: SampleSolution, strips: Strips) -> int:
     few = touching and too_few(spots, found.sampling, asked)
     enough = min(FEW / spots, (found.sampling / (MATTERS * asked)) ** 2) if few else 0.0
     error = BlockError(found.sampling, found.friction_error.freedom if touching else 0)
-    more = required_strips(found.count, strips.first, strips.available, error, asked, enough)
-    return more if more == found.count else min(strips.available, fft.next_fast_len(more, real=True))  # 90, not 89
+    more = required_strips(found.count, sample.first, sample.available, error, asked, enough)
+    return more if more == found.count else min(sample.available, fft.next_fast_len(more, real=True))  # 90, not 89
 
 
 def required_strips(
@@ -267,9 +264,9 @@ def _too_coarse(prepared: Prepared, speed: float, found: SampleSolution) -> bool
     allowed beyond first order; where the film clears the summits, whether the cells cut off a summit that would
     touch."""
     response = found.response
-    strips = found.strips
+    sample = found.sample
     scene = prepared.scene
-    if strips is None or strips.cells.is_native or found.solved.film is None:
+    if sample.cells.is_native or found.solved.film is None:
         return False
     allowed = budget.CONTACT_GRID * scene.numerics.tolerance
     if response is not None:
@@ -279,16 +276,16 @@ def _too_coarse(prepared: Prepared, speed: float, found: SampleSolution) -> bool
         there = found.solved.forces
         load = found.solved.contact_load
         spots = max(there.boundary / max(there.total, 1e-300), load / scene.bodies.load)  # of friction, or of the load
-        if found.count == strips.available or found.scatter.spots >= FEW:  # else it is known to a factor anyway
+        if found.count == sample.available or found.scatter.spots >= FEW:  # else it is known to a factor anyway
             spots = math.inf
         if moved > FARTHEST and spots * math.expm1(min(moved, 30.0)) > allowed:
             return True
         return response.relative("coefficient", found.second_order) > allowed
     clearance = found.solved.contact.mean_film - found.solved.contact.mean_gap
-    if found.count > strips.first or clearance > CLOSE * prepared.surface.sq:
+    if found.count > sample.first or clearance > CLOSE * prepared.surface.sq:
         return False
-    depth = lost_summits(prepared, _point(prepared, speed, found), found.solved, strips) - clearance
-    own = on_piece(prepared, strips, 0, (1, 1))
+    depth = lost_summits(prepared, _point(prepared, speed, found), found.solved, sample) - clearance
+    own = on_piece(prepared, sample, 0, (1, 1))
     return depth > 0 and hidden_contact(scene, own, found.solved.forces, depth) > allowed
 
 

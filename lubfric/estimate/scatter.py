@@ -16,7 +16,7 @@ from ..contact import HalfSpaceContact
 from ..film import EHLResult
 from ..models.load_sharing import Balance
 from ..oil import shear_stress
-from ..samples import Strips
+from ..samples import Sample
 from ..scene import Scene
 
 FEWEST_WINDOWS = 3
@@ -114,21 +114,21 @@ class Scatter:
     spots: float = 0.0
 
 
-def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips: Strips, count: int) -> Scatter:
-    """The `Scatter` of ``contact``, a stack of ``count`` ``strips``, in ``balance``. Of a mirrored map only half
+def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, sample: Sample, count: int) -> Scatter:
+    """The `Scatter` of ``contact``, a stack of ``count`` strips of ``sample``, in ``balance``. Of a mirrored map only half
     counts."""
     state = balance.contact
     response = balance.response
     assert state.fields is not None and response is not None
     slopes = response.slopes
-    rows = slice(0, contact.heights.shape[1] // (2 if strips.is_single_patch and mirrored(contact.heights) else 1))
+    rows = slice(0, contact.heights.shape[1] // (2 if sample.is_single_patch and mirrored(contact.heights) else 1))
     by_place = line_load(contact, state)[rows]
     step = contact.spacing[1]
     touching = state.fields.pressure[:, rows] > 0
-    squares = np.square(contact.heights[:, rows]).mean(axis=0) if strips.exact_sq else None
+    squares = np.square(contact.heights[:, rows]).mean(axis=0) if sample.exact_sq else None
 
     def error(influence) -> BlockError:
-        return place_error(influence, step, strips, count, squares)
+        return place_error(influence, step, sample, count, squares)
 
     def at_given_load(values, slope: float) -> BlockError:
         return error(gap_influence(values, by_place, slope))
@@ -142,7 +142,7 @@ def scatter_of(scene: Scene, contact: HalfSpaceContact, balance: Balance, strips
         at_given_load(contact.weight @ touching / contact.weight.sum(), slopes.area),
         at_given_load(touching.sum(axis=0) * contact.spacing[0], slopes.touched),
         of_friction,
-        effective_spots(by_place, step, strips.lengths[1]),
+        effective_spots(by_place, step, sample.lengths[1]),
     )
 
 
@@ -164,12 +164,12 @@ def friction_influence(scene: Scene, contact: HalfSpaceContact, balance: Balance
     return gap_influence(values, line_load(contact, state), slope)
 
 
-def place_error(influence, step: float, strips: Strips, count: int, exact=None) -> BlockError:
+def place_error(influence, step: float, sample: Sample, count: int, exact=None) -> BlockError:
     """Standard error of the mean of the ``influence`` of places along ``count`` strips, on cells of ``step`` [m]: from
     blocks (`block_error`). If there are three windows of a measured map or more, it is the larger of that and the one
     from windows, which show whether a surface differs from place to place."""
-    blocks = block_error(influence, step, strips.lengths[1], exact)
-    if not strips.windows or count < FEWEST_WINDOWS:
+    blocks = block_error(influence, step, sample.lengths[1], exact)
+    if not sample.windows or count < FEWEST_WINDOWS:
         return blocks
     means = _means(influence, count)
     windows = BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)

@@ -14,9 +14,10 @@ from ..errors import LubfricError
 from ..models.deterministic import Strip, changes_of, estimate, solve_strip
 from ..models.shared import (
     Prepared,
+    ReferenceKey,
     on_piece,
 )
-from ..samples import Strips
+from ..samples import Sample
 from ..scene import moves
 from .moving import MOST_WORK, map_of
 from .pair import StripOnTwoGrids, cells_of, longer_than, numbers_of, strip_of
@@ -53,21 +54,20 @@ def on_shorter_cells(
     tells from one short piece may be off by half.
     """
     scene = prepared.scene
-    strips = prepared.strips
-    assert strips is not None
+    sample = prepared.sample
     by_longer = sum(changes_of((pair.longer, pair.resolved))[0] for pair in pairs) / len(pairs)
-    factors = zip(cells_of(strips, scene.bodies.half_width), strips.cells.coarsening)
+    factors = zip(cells_of(scene, sample), sample.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED, MOVING * _coarse(prepared) ** 2 if moves(scene) else 0.0)
-    enough = left <= scene.numerics.tolerance and not (strips.is_single_patch and scene.numerics.grid == "given")
-    enough = enough and (strips.is_single_patch or _smooth(strips))
-    own = strips.cells.is_native and cells_of(strips, scene.bodies.half_width) == (1, 1)
+    enough = left <= scene.numerics.tolerance and not (sample.is_single_patch and scene.numerics.grid == "given")
+    enough = enough and (sample.is_single_patch or _smooth(sample))
+    own = sample.cells.is_native and cells_of(scene, sample) == (1, 1)
     if enough or own or moves(scene):
         return (), (), BlockError(0.0, 1), left
-    if strips.is_single_patch:
+    if sample.is_single_patch:
         patch = _refined(prepared, speed, 0, pairs[0])
         return (patch,), (), BlockError(0.0, 1), max(estimate(changes_of(patch)), SOLVED)
-    if strips.length < SHORT * strips.lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
+    if sample.length < SHORT * sample.lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
         pieces, error = _pieces(prepared, speed, pairs[0])
     else:
         pieces, error = _at_fixed_speed(prepared, speed)
@@ -75,7 +75,7 @@ def on_shorter_cells(
     change = abs(float(np.mean(changes)))  # its error is told
     left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
-    short = SHORTEST * strips.lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
+    short = SHORTEST * sample.lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
     dear = spent + 4 * min(short, 1.0) * pieces[0][-1].work > MOST_WORK  # a short map is all of both pieces
     if left <= scene.numerics.tolerance or halvings < 2 or dear:
         return pieces, (), error, left
@@ -89,15 +89,14 @@ def on_shorter_cells(
 
 def _coarse(prepared: Prepared) -> float:
     """Length along x of the cells of the deterministic model over the correlation length."""
-    strips = prepared.strips
-    assert strips is not None
-    return cells_of(strips, prepared.scene.bodies.half_width)[0] * strips.cells.coarse[0] / strips.lengths[0]
+    sample = prepared.sample
+    return cells_of(prepared.scene, sample)[0] * sample.cells.coarse[0] / sample.lengths[0]
 
 
-def _smooth(strips: Strips) -> bool:
-    """Whether the heights are smooth over a cell of ``strips``: then they change over two cells twice as much as over
+def _smooth(sample: Sample) -> bool:
+    """Whether the heights are smooth over a cell of ``sample``: then they change over two cells twice as much as over
     one. Of an exponential autocorrelation it is sqrt(2), and one change of f says nothing of what shorter cells do."""
-    z = strips.strip(0).heights
+    z = sample.strip(0).heights
     one, two = (float(np.mean(np.square(z - np.roll(z, k, axis=1)))) for k in (1, 2))
     return two >= SMOOTH * one
 
@@ -129,9 +128,8 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
     """The pieces at the nearest fixed speed; at ``speed`` itself where a given film arrives at any speed, or where they
     cannot be solved there."""
     scene = prepared.scene
-    strips = prepared.strips
+    sample = prepared.sample
     sq = prepared.surface.sq
-    assert strips is not None
     if scene.lubricant.inlet_film is not None:
         return _pieces(prepared, speed, None)
     step = round(math.log(scene.line_contact(abs(speed)).expected_film / sq, FIXED))
@@ -146,23 +144,24 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
     def cells(made) -> int:
         return sum(one.problem.heights.size for piece in made[0] for one in piece) if made else 0
 
-    found = prepared.remembered(("reference", strips.cells.coarsening, "pieces", step, speed > 0), make, cells)
+    found = prepared.memo.get(
+        ReferenceKey(sample.cells.coarsening, "change by shorter cells", step, speed > 0), make, cells
+    )
     return found or _pieces(prepared, speed, None)
 
 
 def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> tuple[tuple[Piece, ...], BlockError]:
     """Pieces at ``speed`` [m/s] until the standard error of their mean relative change of f is small; ``first``: the
     strip that is the first of them (None: all are pieces)."""
-    strips = prepared.strips
+    sample = prepared.sample
     asked = CELLS * prepared.scene.numerics.sampling_tolerance
-    assert strips is not None
     pieces: list[Piece] = []
     error = BlockError(math.inf, 0)
     spent = 0.0
-    while len(pieces) < min(strips.pieces, MOST_PIECES) and not (error.error <= asked or spent > PIECES_WORK):
+    while len(pieces) < min(sample.pieces, MOST_PIECES) and not (error.error <= asked or spent > PIECES_WORK):
         slope = pieces[0][1].slope if pieces else None
         pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))
-        error, spent = _error(pieces, strips), spent + sum(strip.work for strip in pieces[-1])
+        error, spent = _error(pieces, sample), spent + sum(strip.work for strip in pieces[-1])
     return tuple(pieces), error
 
 
@@ -182,17 +181,16 @@ def _refined(
     (with ``numerics.grid = "given"`` always) on the map's own. ``slope``: of friction over load [-] (None: found by a
     second solve)."""
     scene = prepared.scene
-    strips = prepared.strips
-    assert strips is not None
+    sample = prepared.sample
     surface, factors = strip_of(prepared, index)
-    enough = scene.numerics.tolerance if strips.is_single_patch and scene.numerics.grid != "given" else 0.0
+    enough = scene.numerics.tolerance if sample.is_single_patch and scene.numerics.grid != "given" else 0.0
     if first is not None:
         ladder = [first.longer, first.resolved]
     else:
-        cells = tuple(f * n for f, n in zip(factors, strips.cells.coarsening))
+        cells = tuple(f * n for f, n in zip(factors, sample.cells.coarsening))
         last = max(1, cells[0] // times), max(1, cells[1] // times)
         factors = cells[0] // last[0], cells[1] // last[1]
-        surface = map_of(prepared, on_piece(prepared, strips, index, last, length=length))
+        surface = map_of(prepared, on_piece(prepared, sample, index, last, length=length))
         ladder = [solve_strip(scene, surface, speed, factors=longer_than(surface, factors))]
         ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[0], slope=slope is None))
     while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
@@ -202,7 +200,7 @@ def _refined(
     return tuple(replace(one, slope=slope) for one in ladder)
 
 
-def _error(pieces: Sequence[Piece], strips: Strips) -> BlockError:
+def _error(pieces: Sequence[Piece], sample: Sample) -> BlockError:
     """Standard error of the mean relative change of f from the cells of the second level to the last ones, from place
     to place."""
     changes = []
@@ -211,4 +209,4 @@ def _error(pieces: Sequence[Piece], strips: Strips) -> BlockError:
         last = piece[-1]
         places = last.deviations.reshape(base.result.load_at.size, -1).mean(axis=1) - base.deviations
         changes.append((places + last.result.coefficient - base.result.coefficient) / abs(base.result.coefficient))
-    return block_error(np.concatenate(changes), pieces[0][1].problem.spacing[1], strips.lengths[1])
+    return block_error(np.concatenate(changes), pieces[0][1].problem.spacing[1], sample.lengths[1])

@@ -122,7 +122,7 @@ def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], 
     check_outputs(arguments, arguments.out, names, OUTPUTS)
     say(f"{scene.name}: preparing the height map and the contact")
     prepared = prepare(scene)
-    estimate = estimate_scene(scene, prepared.strips, prepared.surface, **places)
+    estimate = estimate_scene(scene, prepared.sample, prepared.surface, **places)
     for row in (
         *estimate.sections["surface"],
         *(f"estimate: {text}" for text in (estimate.cost, *estimate.refusals) if text),

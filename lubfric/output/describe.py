@@ -17,8 +17,7 @@ from ..models.shared import (
 )
 from ..quantities import counted
 from ..samples import (
-    MeasuredStrips,
-    Strips,
+    Sample,
     check_grid,
     sample_of,
     takes_strips,
@@ -64,9 +63,10 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved.
     ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
     with told_doubts(scene):
-        surface, strips = sample_of(scene)
+        sample = sample_of(scene)
+        surface = sample.first_map()
         check_grid(scene, surface)
-    estimate = estimate_scene(scene, strips, surface, speeds)
+    estimate = estimate_scene(scene, sample, surface, speeds)
     sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | estimate.sections
     rows = [f"  {'' if i else name:<14} {text}" for name, texts in sections.items() for i, text in enumerate(texts)]
     widths = [max(map(len, column)) for column in zip(*estimate.table)]
@@ -75,10 +75,10 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
 
 
 def estimate_scene(
-    scene: Scene, strips: Strips | None, surface: Surface, speeds: Sequence[float] | str = (), ratios=()
+    scene: Scene, sample: Sample, surface: Surface, speeds: Sequence[float] | str = (), ratios=()
 ) -> SceneEstimate:
     """What is known of a ``scene`` before it is solved at ``speeds`` [m/s], as `describe_scene`; or at its own speed
-    and the slide-roll ``ratios``. ``strips`` and ``surface``: as `lubfric.prepare` makes them."""
+    and the slide-roll ``ratios``. ``sample`` and ``surface``: as `lubfric.prepare` makes them."""
     own = scene.motion.entrainment_speed
     chosen = np.geomspace(*span(scene, surface.sq), CHOSEN).tolist() if isinstance(speeds, str) else speeds
     speeds = [own] if len(ratios) else list(chosen) or list(scene.motion.speeds) or [own]
@@ -88,28 +88,28 @@ def estimate_scene(
         speeds = list(speeds_of_run(scene)) or [0.0]
         over = "a run in time"
         own = max(speeds)
-    model, cost = _model(scene, strips, surface, speeds, ratios)
+    model, cost = _model(scene, sample, surface, speeds, ratios)
     cost = cost and f"about {cost} of processor time for {over} (an order of magnitude)"
     if scene.transient is not None:
-        cost, sample = _course(scene, strips, surface, speeds)
-        changing = [*_histories(scene), cost, *sample]
+        cost, lines = _course(scene, sample, surface, speeds)
+        changing = [*_histories(scene), cost, *lines]
     elif cost:
         model.append(f"cost: {cost}")
     at = expected(scene, surface, sorted(set(speeds)))
     refusals = _doubts([(speed, entry) for speed, entry in at if entry.severe])
-    whole = map_of(surface, strips)
+    whole = sample.map
     notes = [note for note in whole.notes if "nm as it is" in note]
     lacks = unmodelled_effects(scene, whole.sq, own)
     left_out = [f"likely changes of f at {own:g} m/s, by closed forms:", *map(effect_in_words, lacks)]
     sections = {
         "transient": changing,
-        "surface": [*map_in_words(surface, strips), *notes, slopes_in_words(whole)],
+        "surface": [*map_in_words(surface, sample), *notes, slopes_in_words(whole)],
         "contact": [f"{_plan(scene, surface)}; {over}"],
         "model": model,
         "left out": left_out if lacks else ["nothing that would change f by its tolerance"],
         "validity": _doubts(at) or ["no assumption of the model fails by what is known before the solve"],
     }
-    return SceneEstimate(sections, cost, _speed_table(scene, strips, surface, speeds), refusals)
+    return SceneEstimate(sections, cost, _speed_table(scene, sample, surface, speeds), refusals)
 
 
 def _doubts(at) -> list[str]:
@@ -126,7 +126,7 @@ def _plan(scene: Scene, surface: Surface) -> str:
     return f"{what} on {on}; f within {100 * scene.numerics.tolerance:g} % by the numerics"
 
 
-def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds, ratios) -> tuple[list[str], str]:
+def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tuple[list[str], str]:
     """Which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the time that all of them cost
     (`lubfric.estimate.friction`)."""
     asked = scene.numerics.model
@@ -141,7 +141,7 @@ def _model(scene: Scene, strips: Strips | None, surface: Surface, speeds, ratios
     points = [(scene, speed) for speed in moving[:: max(1, len(moving) // SOME)]]
     if len(ratios):
         points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
-    found = [forecast(at, strips, surface, speed) for at, speed in points]
+    found = [forecast(at, sample, surface, speed) for at, speed in points]
     resolved = [one.speed for one in found if one.resolved]
     strip = max((one.moving for one in found), default=0.0)
     if asked == "deterministic":
@@ -194,19 +194,19 @@ def _laps(history: History, duration: float) -> float:
     return duration / history.times[-1] if isinstance(history, Table) and history.repeat else 0.0
 
 
-def _course(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> tuple[str, list[str]]:
+def _course(scene: Scene, sample: Sample, surface: Surface, speeds) -> tuple[str, list[str]]:
     """Steps and time of a run, whose film is judged at the ``speeds`` [m/s], and its sample; by what runs of the
     paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
     plan = scene.transient
     assert plan is not None
-    found = [forecast(scene, strips, surface, speed) for speed in speeds]
+    found = [forecast(scene, sample, surface, speed) for speed in speeds]
     cells = surface.heights.size
-    sample = []
-    if strips is not None and not strips.is_single_patch and scene.numerics.model != "deterministic":
+    lines = []
+    if not sample.is_single_patch and scene.numerics.model != "deterministic":
         most = max(found, key=lambda one: one.strips)
-        cells = round(strips.cells.count * most.length / strips.cells.coarse[1])
+        cells = round(sample.cells.count * most.length / sample.cells.coarse[1])
         asked = f"f within {100 * scene.numerics.sampling_tolerance:g} % at {most.speed:.3g} m/s, which needs most"
-        sample = [f"sample: {counted(most.strips, 'strips')} of the roughness, at all times: for {asked}"]
+        lines = [f"sample: {counted(most.strips, 'strips')} of the roughness, at all times: for {asked}"]
     if scene.numerics.model == "deterministic":
         steps, seconds = work_of_run(scene)
     else:
@@ -216,43 +216,38 @@ def _course(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> tu
         seconds = sum(one.seconds for one in found) + steps * (FILM_STEP + CELL_STEP * cells)
     top = f"top speed {max(speeds):.4g} m/s" if max(speeds) else "no entrainment"
     course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
-    return f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", sample
+    return f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", lines
 
 
-def _speed_table(scene: Scene, strips: Strips | None, surface: Surface, speeds) -> list[tuple[str, ...]]:
+def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds) -> list[tuple[str, ...]]:
     """At some of the ``speeds`` [m/s]: Moes numbers and the expected film under the whole load, whether the summits
     touch, and, unless a run in time has one sample for all, what the sample costs."""
     steady = scene.transient is None
-    sampled = steady and strips is not None
+    sampled = steady and sample.is_resolved
     table: list[tuple[str, ...]] = [("U (m/s)", "M", "L", "h (nm)", "lambda", "summits")]
     table[0] += ("strips", "one gap", "length (mm)", "time (s)") * sampled
     own = (scene.motion.entrainment_speed,) if steady else ()
     for speed in sorted({*speeds[:: max(1, len(speeds) // SHOWN)], *own, speeds[-1]}):
-        one = forecast(scene, strips, surface, speed)
+        one = forecast(scene, sample, surface, speed)
         film = ("", "", "0", "0", "no entrainment" + ": all contact" * steady)
         if speed != 0:
             line = scene.line_contact(abs(speed))
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
             numbers = f"{line.M:.3g}", f"{line.L:.3g}", f"{line.expected_film * 1e9:.4g}", f"{ratio:.3g}"
             film = *numbers, one.touching
-        sample = f"{one.strips}", f"{one.resolved}", f"{1e3 * one.length:.2g}".replace("nan", "-"), f"{one.seconds:.1g}"
-        table.append((f"{speed:.4g}", *film, *sample * sampled))
+        counts = f"{one.strips}", f"{one.resolved}", f"{1e3 * one.length:.2g}".replace("nan", "-"), f"{one.seconds:.1g}"
+        table.append((f"{speed:.4g}", *film, *counts * sampled))
     return table
 
 
-def map_of(surface: Surface, strips: Strips | None) -> Surface:
-    """The map that the scene has: measured, the whole of it; else ``surface``, which is solved first."""
-    return strips.surface if isinstance(strips, MeasuredStrips) else surface
-
-
-def map_in_words(surface: Surface, strips: Strips | None) -> list[str]:
-    """The map that the scene has; and where ``strips`` of it are solved, ``surface``, the first of them."""
-    if strips is None or strips.is_single_patch:
+def map_in_words(surface: Surface, sample: Sample) -> list[str]:
+    """The map that the scene has; and where strips of it are solved, ``surface``, the first of them."""
+    if sample.is_single_patch:
         return [surface.describe()]
-    made = "" if strips.windows else f"{surface.source}: as many strips as are needed"
+    made = "" if sample.windows else f"{surface.source}: as many strips as are needed"
     first = replace(surface, source="").describe()
-    joined = f"{counted(strips.first, 'strips')} of it, joined along the line" if strips.first > 1 else "a strip of it"
-    return [made or map_of(surface, strips).describe(), f"solved first: {joined}: {first}"]
+    joined = f"{counted(sample.first, 'strips')} of it, joined along the line" if sample.first > 1 else "a strip of it"
+    return [made or sample.map.describe(), f"solved first: {joined}: {first}"]
 
 
 def slopes_in_words(surface: Surface) -> str:

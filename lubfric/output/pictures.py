@@ -11,7 +11,6 @@ from .._base import figures
 from ..studies import friction_over_speed, interval_band
 from ..time import friction_over_time, time_scale
 from ..units import worded
-from .describe import map_of
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
 FRAMES = 150  # of an animation at most, spread over the run
@@ -219,7 +218,7 @@ def _section(axes, micro, surface, smooth, contact, row: int) -> None:
 def plot_surface(path: Path, prepared) -> None:
     """The map that the scene of ``prepared`` has, to scale, of a long line the beginning; and the bearing
     (Abbott-Firestone) curve of the whole of it."""
-    surface = map_of(prepared.surface, prepared.strips)
+    surface = prepared.sample.map
     x, y = (np.arange(count) * step for count, step in zip(surface.shape, surface.spacing))
     part = _part(x, y, 0)
     higher = np.linspace(0.0, 1.0, QUANTILES)

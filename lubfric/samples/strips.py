@@ -1,22 +1,19 @@
-"""The sample of a rough surface: strips of it, each some 90 correlation lengths long across the motion.
+"""Samples of strips, each some 90 correlation lengths long across the motion: of an endless generated surface, or
+windows of a measured map.
 
-Strip number k of a scene on given cells is always the same. `Strips.stack` joins the first strips to one line, which is
-solved as one contact with one film and one approach. Strips come from an endless generated surface, from windows of a
-measured map, or there is one only: the patch that a scene asks for, or a map that was given.
+`Sample.stack` joins the first strips to one line, which is solved as one contact with one film and one approach.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from .._base import FieldsOnly, validate
-from ..contact.rough_contract import centred_axis
 from ..errors import InputError
 from ..quantities import counted
 from ..scene import ROUGH, Roughness, Scene, moves
@@ -34,6 +31,7 @@ from .cells import (
     stacked,
     starts_of,
 )
+from .contract import PIECE, Sample
 from .maps import (
     extended,
     measured,
@@ -42,79 +40,43 @@ from .maps import (
     whole_maps,
 )
 
-# correlation lengths: of a strip, of a piece on the scene's own cells
-STRIP = 90.0
-PIECE = 42.0
-WIDE = 5.0  # correlation lengths along x in b: from there a strip half as long has spots enough, and where roughness
-PASSING = 30.0  # moves, one of so many
+STRIP = 90.0  # correlation lengths along y of a strip
+WIDE = 5.0  # correlation lengths along x in b from which a strip half as long has asperity contacts enough
+PASSING = 30.0  # correlation lengths along y of a strip whose roughness moves, where b is as wide as WIDE
 FIRST = 180.0  # correlation lengths that are solved first
 MOST = 46080.0  # correlation lengths, at most
 MOST_CELLS = 3_000_000  # of a stack: memory
 KEPT_CELLS = 2_000_000  # of the strips from which a longer stack goes on
 APART = 4.0  # correlation lengths along the motion between windows that are independent
 ENOUGH = 8  # windows for an honest standard error
-# streams of seeds
-STRIPS = 0
-PIECES = 1
+STRIPS = 0  # stream of seeds: of strips
+PIECES = 1  # stream of seeds: of pieces
 
 
-@dataclass(frozen=True)
-class Strips:
-    """Strips of the surface of ``scene`` on ``cells``.
+@dataclass(frozen=True, kw_only=True)
+class GeneratedStrips(FieldsOnly, Sample):
+    """Strips of one endless generated surface, or of two whose heights are added.
 
-    ``lengths`` [m]: correlation lengths at 1/e along x and y; ``length`` [m]: what one strip adds to a stack;
-    ``first``, ``available``: number of strips that are solved first, and that there are; ``pieces``: number of pieces.
-    ``windows``: whether each strip is a window of a measured map, which may differ from place to place. ``exact_sq``:
-    whether every strip has the Sq of the surface; ``whole``: whether a piece is all that there is. ``bodies``: of a
-    measured map, or of a patch, that two bodies make up, the part of each.
+    ``roughness``: of each rough body, with its section of the scene.
     """
 
-    scene: Scene
     cells: Cells
     lengths: tuple[float, float]
     length: float
-    first: int = 1
-    available: int = 1
-    pieces: int = 1
+    first: int
+    available: int
+    pieces: int
+    exact_sq: bool
     windows: bool = False
-    exact_sq: bool = False
-    is_single_patch: bool = False
-    bodies: tuple[Surface, ...] = ()
+    roughness: tuple[tuple[Roughness, str], ...]
 
-    @property
-    def rows(self) -> int:
-        """The number of cells along y of one strip."""
-        raise NotImplementedError
+    def rows_of(self, count: int) -> int:
+        return count * self.cells.rows(self.length)
 
-    def joined(self, indices: Sequence[int]) -> Surface:
-        """The strips of these numbers joined along y, the last to the first: periodic, on ``cells``."""
-        raise NotImplementedError
-
-    def stack(self, count: int) -> Surface:
-        """The first ``count`` strips joined."""
-        return self.joined(range(count))
-
-    def strip(self, index: int) -> Surface:
-        """Strip number ``index`` alone, its last rows passing into its first."""
-        return self.joined([index])
-
-    def piece(self, index: int, length: float = PIECE) -> Surface:
-        """A piece on the scene's own cells, some ``length`` correlation lengths long: number ``index`` of ``pieces``.
-        Every n-th of its cells, in each direction, gives the coarse cells to compare it with."""
-        raise NotImplementedError
-
-    def halved(self) -> Strips:
-        """The same strips on cells half as long."""
-        return replace(self, cells=self.cells.halved())
-
-
-@dataclass(frozen=True)
-class GeneratedStrips(FieldsOnly, Strips):
-    """Strips of one endless generated surface, or of two whose heights are added."""
-
-    @property
-    def rows(self) -> int:
-        return self.cells.rows(self.length)
+    def of_body(self, body: int) -> GeneratedStrips:
+        smooth = ROUGH[1 - body]
+        parts = ((replace(rough, sq=0.0) if name == smooth else rough, name) for rough, name in self.roughness)
+        return replace(self, roughness=tuple(parts))
 
     def joined(self, indices: Sequence[int]) -> Surface:
         blend = blend_of(self.lengths[1], self.cells.coarse[1])
@@ -137,7 +99,7 @@ class GeneratedStrips(FieldsOnly, Strips):
 
     def _generator(self, stream: int, spacing, shape) -> Callable[[int], Surface]:
         """The function that makes a map of the ``stream`` from its number."""
-        bodies = [_one_body(rough, name, stream, spacing, shape) for rough, name in rough_bodies(self.scene)]
+        bodies = [_one_body(rough, name, stream, spacing, shape) for rough, name in self.roughness]
 
         def made(index: int) -> Surface:
             first, *others = (body(index) for body in bodies)
@@ -157,20 +119,34 @@ def _one_body(rough: Roughness, name: str, stream: int, spacing, shape) -> Calla
     return made
 
 
-@dataclass(frozen=True)
-class MeasuredStrips(Strips):
+@dataclass(frozen=True, kw_only=True)
+class MeasuredStrips(Sample):
     """Windows of a measured ``surface``, on its own cells or on every second, fourth, ... of them.
 
     ``starts``: first columns of the windows that the map holds independently. They are used in this order, so that any
     number of them is spread over the map. Beyond its ends the map is continued by its mirror image.
     """
 
-    surface: Surface = field(kw_only=True)
-    starts: tuple[int, ...] = field(kw_only=True)
+    cells: Cells
+    lengths: tuple[float, float]
+    length: float
+    first: int
+    available: int
+    pieces: int
+    surface: Surface
+    starts: tuple[int, ...]
+    bodies: tuple[Surface, ...] = ()
+    windows: bool = True
+
+    def rows_of(self, count: int) -> int:
+        return self._rows(count * (self.surface.shape[1] - self._blend))
+
+    def of_body(self, body: int) -> MeasuredStrips:
+        return replace(self, surface=self.bodies[body])
 
     @property
-    def rows(self) -> int:
-        return self._rows(self.surface.shape[1] - self._blend)
+    def map(self) -> Surface:
+        return self.surface
 
     def joined(self, indices: Sequence[int]) -> Surface:
         fx, fy = self.cells.coarsening
@@ -210,39 +186,10 @@ class MeasuredStrips(Strips):
         return replace(self.surface, mask=None, **new)
 
 
-@dataclass(frozen=True)
-class OnePatch(Strips):
-    """One patch, ``surface``, of which there is no more."""
-
-    surface: Surface = field(kw_only=True)
-
-    @property
-    def rows(self) -> int:
-        return self.surface.shape[1] // self.cells.coarsening[1]
-
-    def joined(self, indices: Sequence[int]) -> Surface:
-        heights = self.cells.thinned(self.surface.heights, self.cells.coarsening)
-        return replace(self.surface, heights=heights, spacing=self.cells.coarse, mask=None)
-
-    def piece(self, index: int, length: float = PIECE) -> Surface:
-        return self.surface
-
-
-def strips_of(scene: Scene) -> Strips:
-    """Strips of the scene's surface, generated or measured; on the scene's own cells if ``numerics.grid`` is given."""
-    found: Strips = measured_strips(scene, *whole_maps(scene)) if measured(scene) else generated_strips(scene)
-    while scene.numerics.grid == "given" and not found.cells.is_native:
-        found = found.halved()
-    return found
-
-
-def alone(strips: Strips, body: int) -> Strips:
-    """The same strips of one of two rough bodies, number 0 or 1, with the other one flat."""
-    if isinstance(strips, (MeasuredStrips, OnePatch)):
-        return replace(strips, surface=strips.bodies[body])
-    other = ROUGH[1 - body]
-    smooth = replace(getattr(strips.scene, other), sq=0.0)
-    return replace(strips, scene=replace(strips.scene, **{other: smooth}))
+def strips_of(scene: Scene) -> Sample:
+    """Return strips of the scene's surface, generated or measured; on native cells if ``numerics.grid`` is given."""
+    strips: Sample = measured_strips(scene, *whole_maps(scene)) if measured(scene) else generated_strips(scene)
+    return strips.native() if scene.numerics.grid == "given" else strips
 
 
 def generated_strips(scene: Scene) -> GeneratedStrips:
@@ -269,7 +216,16 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
     length = min(long * lengths[1], MOST_CELLS / 2 / cells.count * cells.coarse[1])
     available = int(min(MOST / long, MOST_CELLS / (cells.count * cells.rows(length))))
     first = min(round(FIRST / long), available)
-    return GeneratedStrips(scene, cells, lengths, length, first, available, available, exact_sq=len(bodies) == 1)
+    return GeneratedStrips(
+        cells=cells,
+        lengths=lengths,
+        length=length,
+        first=first,
+        available=available,
+        pieces=available,
+        exact_sq=len(bodies) == 1,
+        roughness=tuple(rough_bodies(scene)),
+    )
 
 
 def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> MeasuredStrips:
@@ -313,15 +269,14 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
     most = max(1, min(count, int(MOST_CELLS * cells.coarse[1] / (cells.count * length))))
     first = min(most, max(1, math.ceil(FIRST * lengths[1] / length * (1 - 1e-9))))
     starts = [starts[i] for i in spread(count)]
-    own: dict[str, Any] = {"surface": surface, "bodies": tuple(parts), "starts": tuple(starts), "windows": True}
-    return MeasuredStrips(scene, cells, lengths, length, first, most, count, **own)
-
-
-def one_patch(scene: Scene, lengths: tuple[float, float], surface: Surface, *bodies: Surface) -> OnePatch:
-    """The patch ``surface`` of ``scene``, of correlation ``lengths`` [m], on cells that divide its own. ``bodies``: the
-    part of each of two."""
-    first = float(centred_axis(surface.shape[0], surface.spacing[0])[0])
-    cells = cells_of_a_box(surface.spacing, lengths, scene.bodies.half_width, surface.shape, first)
-    while scene.numerics.grid == "given" and not cells.is_native:
-        cells = cells.halved()
-    return OnePatch(scene, cells, lengths, surface.size[1], is_single_patch=True, surface=surface, bodies=bodies)
+    return MeasuredStrips(
+        cells=cells,
+        lengths=lengths,
+        length=length,
+        first=first,
+        available=most,
+        pieces=count,
+        surface=surface,
+        starts=tuple(starts),
+        bodies=tuple(parts),
+    )

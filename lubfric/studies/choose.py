@@ -77,7 +77,7 @@ def tolerance_between(prepared: Prepared) -> float:
     points may be solved on different numbers of them; there it is the root sum of squares of the tolerance on f and the
     sampling tolerance."""
     numerics = prepared.scene.numerics
-    if prepared.strips is None or prepared.given or numerics.sampling == "patch":
+    if not prepared.sample.is_resolved or prepared.given or numerics.sampling == "patch":
         return numerics.tolerance
     return math.hypot(numerics.tolerance, numerics.sampling_tolerance)
 

@@ -27,7 +27,7 @@ def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
     """Processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a factor
     of about 4."""
     at = speeds or first_speeds(prepared.scene, prepared.surface.sq)
-    found = [forecast(prepared.scene, prepared.strips, prepared.surface, speed).seconds for speed in at]
+    found = [forecast(prepared.scene, prepared.sample, prepared.surface, speed).seconds for speed in at]
     return sum(found) * (1.0 if speeds else CHOSEN / len(at))
 
 

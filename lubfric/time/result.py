@@ -188,8 +188,8 @@ def collect(
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
     report = report_of("transient, BDF2", plan, progress, f"{model.cells}; surface: {surface}", residuals)
-    if prepared.strips is not None and not prepared.strips.is_single_patch:
-        renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.strips.lengths[0]
+    if not prepared.sample.is_single_patch:
+        renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.sample.lengths[0]
     return TransientResult(
         columns=columns,
         x=model.x,

@@ -17,8 +17,7 @@ from ..models.shared import (
     scene_of,
 )
 from ..samples import (
-    Strips,
-    length_or_half,
+    Sample,
 )
 from ..scene import Constant, Scene
 from .film_setting import FINER, ContactHistory, make_setting, steady_start
@@ -187,33 +186,31 @@ def strip_of_run(prepared: Prepared) -> RunStrip:
     speeds, or are the scene's own: a run in time is not corrected for them. The factors of areas are means over the
     speeds.
     """
-    strips = prepared.strips
+    sample = prepared.sample
     speeds = speeds_of_run(prepared.scene)
-    if strips is None:
-        return RunStrip(prepared=prepared, correlation_length=length_or_half(prepared.surface, 1))
-    if strips.is_single_patch:
-        while not strips.cells.is_native:
-            strips = strips.halved()
-        return RunStrip(prepared=_made(prepared, strips, 1), correlation_length=strips.lengths[1])
+    if not sample.is_resolved:
+        return RunStrip(prepared=prepared, correlation_length=sample.lengths[1])
+    if sample.is_single_patch:
+        return RunStrip(prepared=_made(prepared, sample.native(), 1), correlation_length=sample.lengths[1])
     if not speeds:
-        known = 1.0 if strips.cells.is_native else math.nan
-        return RunStrip(prepared=prepared, correlation_length=strips.lengths[1], area=known, plastic=known)
-    needs = _needs(prepared, strips, speeds)
-    while not strips.cells.is_native and max(needs[1]) > prepared.scene.numerics.tolerance:
-        strips = strips.halved()
-        needs = _needs(prepared, strips, speeds)
+        known = 1.0 if sample.cells.is_native else math.nan
+        return RunStrip(prepared=prepared, correlation_length=sample.lengths[1], area=known, plastic=known)
+    needs = _needs(prepared, sample, speeds)
+    while not sample.cells.is_native and max(needs[1]) > prepared.scene.numerics.tolerance:
+        sample = sample.halved()
+        needs = _needs(prepared, sample, speeds)
     return RunStrip(
-        prepared=_made(prepared, strips, min(int(max(needs[0])), strips.available)),
-        correlation_length=strips.lengths[1],
+        prepared=_made(prepared, sample, min(int(max(needs[0])), sample.available)),
+        correlation_length=sample.lengths[1],
         area=_mean(needs[2]),
         plastic=_mean(needs[3]),
     )
 
 
-def _made(prepared: Prepared, strips: Strips, count: int) -> Prepared:
-    contact = on_stack(prepared, strips, count)
+def _made(prepared: Prepared, sample: Sample, count: int) -> Prepared:
+    contact = on_stack(prepared, sample, count)
     surface = replace(prepared.surface, heights=contact.heights, spacing=contact.spacing, mask=None)
-    return replace(prepared, surface=surface, contact=contact, strips=strips)
+    return replace(prepared, surface=surface, contact=contact, sample=sample)
 
 
 def speeds_of_run(scene: Scene) -> list[float]:
@@ -227,21 +224,20 @@ def speeds_of_run(scene: Scene) -> list[float]:
     return np.unique(np.geomspace(fastest, slowest, SPEEDS)).tolist() if slowest < fastest else [fastest]
 
 
-def _needs(prepared: Prepared, strips: Strips, speeds: list[float]) -> np.ndarray:
+def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarray:
     """What each steady speed needs, in rows: the number of strips, the relative change of f by their cells (infinite if
     finer ones were needed), and the factors of `TransientLoadSharing`. A speed without a steady solution needs the first strips."""
     found = []
     for speed in speeds:
         try:
-            one = sampled(replace(prepared, strips=strips), speed)
+            one = sampled(replace(prepared, sample=sample), speed)
         except LubfricError:
-            found.append((strips.first, 0.0, math.nan, math.nan))
+            found.append((sample.first, 0.0, math.nan, math.nan))
             continue
-        assert one.strips is not None
         plastic = one.solved.contact.plastic_area_fraction
         corrected = one.balance.contact.plastic_area_fraction
         area = one.effect.area if one.response is not None else math.nan
-        same = one.strips.cells.coarsening == strips.cells.coarsening
+        same = one.sample.cells.coarsening == sample.cells.coarsening
         by_cells = one.change("gap") if same else math.inf
         found.append((one.count, by_cells, area, corrected / plastic if plastic else math.nan))
     return np.array(found, dtype=float).T

@@ -245,8 +245,8 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     prepared = scene if isinstance(scene, Prepared) else prepare(scene)
     scene = prepared.scene
     plan = transient_of(prepared.scene)
-    strips = prepared.strips
-    if strips is None:
+    sample = prepared.sample
+    if not sample.is_resolved:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
     if scene.numerics.heat == "on":
         raise InputError(" = 'on': a run with one gap has none", "numerics.heat", "'auto', which cautions, or 'off'")
@@ -273,7 +273,7 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     base = replace(base, least_flow=LEAST_FLOW * line.entrainment_speed * line.moes_film)
     of_strip = replace(prepared, surface=surface)
     heights = {name: shifted(base, one) for name, one in maps.items()}
-    return TransientDeterministic(of_strip, base, heights, strips.lengths[1])
+    return TransientDeterministic(of_strip, base, heights, sample.lengths[1])
 
 
 def deterministic_moment(

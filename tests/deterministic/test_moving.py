@@ -164,7 +164,7 @@ def test_two_measured_maps_are_together_what_the_contact_sees(two_files, samplin
     scene, maps = two_files
     prepared = lubfric.prepare(scene.with_(numerics={"model": "deterministic", "sampling": sampling}))
     found = maps_of(prepared, 0)
-    whole = prepared.strips.strip(0)
+    whole = prepared.sample.strip(0)
     heights = sum(one.heights - one.heights.mean() for one in found.values())
     np.testing.assert_allclose(heights, whole.heights - whole.heights.mean(), atol=1e-14)
     assert min(one.sq for one in found.values()) > 0.3 * whole.sq

@@ -84,7 +84,7 @@ def sharp(tmp_path):
 def test_summits_that_long_cells_hide_are_found_on_shorter_ones(sharp):
     """On the cells chosen first, 8 x 2 of the map's, few cells touch, under pressures that no steel bears."""
     found, own = both(sharp)
-    assert lubfric.prepare(sharp).strips.cells.coarsening == (8, 2) and found.decision.coarsening == (4, 1)
+    assert lubfric.prepare(sharp).sample.cells.coarsening == (8, 2) and found.decision.coarsening == (4, 1)
     assert found.coefficient == pytest.approx(own.coefficient, rel=1e-3)
     assert 0 < found.contact_load == pytest.approx(own.contact_load, rel=0.05)
 
@@ -127,7 +127,7 @@ def test_where_cells_change_more_than_to_first_order_shorter_ones_are_solved(sce
     """A correction to first order was off by 7 % of f, and by 16 % of F_C."""
     numerics = {"model": "load-sharing", "sampling": "patch", "tolerance": 0.2}
     scene = lubfric.load_scene(scene | {"numerics": numerics})
-    assert lubfric.prepare(scene).strips.cells.coarsening == (2, 2)
+    assert lubfric.prepare(scene).sample.cells.coarsening == (2, 2)
     coarse, own = both(scene)
     assert coarse.coefficient == pytest.approx(own.coefficient, rel=1e-6)
     assert coarse.contact_load == pytest.approx(own.contact_load, rel=1e-6)
@@ -151,7 +151,7 @@ def test_no_piece_of_a_map_is_compared_twice(tmp_path):
         surface={"file": str(tmp_path / "map.npy"), "spacing": 0.5e-6, "extension": "mirror"},
         contact={"shape": None, "spacing": None},
     )
-    strips = lubfric.prepare(scene).strips
+    strips = lubfric.prepare(scene).sample
     pieces = {strips.piece(index).heights.tobytes() for index in range(strips.pieces)}
     assert len(pieces) == strips.pieces
     with pytest.raises(IndexError):

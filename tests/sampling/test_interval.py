@@ -166,7 +166,7 @@ def test_a_forecast_is_right_to_a_factor_of_four():
     """And it knows from where on the film is so thick that load sharing is enough, near pure rolling later."""
     prepared = lubfric.prepare(PAPER)
     for speed in (0.003, 0.01, 0.03):
-        told = forecast(PAPER, prepared.strips, prepared.surface, speed)
+        told = forecast(PAPER, prepared.sample, prepared.surface, speed)
         found = lubfric.friction(prepared, speed).uncertainty
         assert 0.25 < told.length / found.length < 4
         assert speed > 0.02 or 0.3 < told.error / found.sampling < 3
@@ -174,7 +174,7 @@ def test_a_forecast_is_right_to_a_factor_of_four():
     for ratio, speed in ((0.02, 0.3), (0.02, 0.7), (1.0, 0.3), (1.0, 0.5), (2.0, 0.15), (2.0, 0.2)):
         scene = PAPER.with_(motion={"slide_roll_ratio": ratio}, numerics={"model": "auto"})
         error = lubfric.friction(scene, speed, model="load-sharing").uncertainty.model
-        assert (forecast(scene, prepared.strips, prepared.surface, speed).resolved > 0) == (error > 0.05)
+        assert (forecast(scene, prepared.sample, prepared.surface, speed).resolved > 0) == (error > 0.05)
 
 
 @pytest.mark.parametrize("sampling, speeds", [("strips", [0.003, 0.03]), ("patch", [0.01, 0.03])])
@@ -183,7 +183,7 @@ def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(samp
     prepared = lubfric.prepare(PAPER.with_(numerics={"sampling": sampling, "model": "auto"}))
     told = counted = 0.0
     for speed in speeds:
-        one = forecast(prepared.scene, prepared.strips, prepared.surface, speed)
+        one = forecast(prepared.scene, prepared.sample, prepared.surface, speed)
         levels = levels_of(prepared, speed, sampled(prepared, speed))
         solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]
         counted += sum(strip.work for strip in [*solved, *(strip for piece in levels.pieces for strip in piece)])

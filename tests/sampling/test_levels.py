@@ -59,7 +59,7 @@ def test_interval_holds_numerical_sampling_and_model(found):
 
 def test_f_is_that_of_other_strips_one_by_one(prepared, found):
     """Eight strips of another seed, each by itself on the same cells."""
-    strips = lubfric.prepare(SCENE.with_(surface={"seed": 77})).strips
+    strips = lubfric.prepare(SCENE.with_(surface={"seed": 77})).sample
     f = [solve_strip(SCENE, strips.strip(k), 0.01).result.coefficient for k in range(8)]
     error = np.std(f, ddof=1) / math.sqrt(8) / np.mean(f)
     assert abs(found.coefficient / np.mean(f) - 1) < math.hypot(half(found), 2 * error)
@@ -71,11 +71,11 @@ def test_the_effect_of_shorter_cells_is_that_on_other_strips():
     alone = np.mean([pair.resolved.result.coefficient for pair in found.pairs])
     changes = []
     for k in range(3):
-        surface = lubfric.prepare(FINE.with_(surface={"seed": 90 + k})).strips.strip(0)
+        surface = lubfric.prepare(FINE.with_(surface={"seed": 90 + k})).sample.strip(0)
         coarse, own = (solve_strip(FINE, surface, 0.1, factors=n).result.coefficient for n in ((2, 2), (1, 1)))
         changes.append(own / coarse - 1)
     shift = found.numbers["coefficient"] / alone - 1
-    assert len(found.pieces) >= 1 and prepared.strips.cells.coarsening == (4, 4)
+    assert len(found.pieces) >= 1 and prepared.sample.cells.coarsening == (4, 4)
     assert shift == pytest.approx(np.mean(changes), abs=2 * np.std(changes, ddof=1) + 2 * found.sampling.error)
     assert found.numerical < FINE.numerics.tolerance
 
@@ -83,7 +83,7 @@ def test_the_effect_of_shorter_cells_is_that_on_other_strips():
 def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
     """f = .05 (1 + (dx/18 µm)^p) on every strip and piece, on cells from 7.2 to 0.9 µm; the scene's own are .45 µm."""
     prepared = lubfric.prepare(FINE)
-    solved = solve_strip(FINE, prepared.strips.strip(0), 0.1, factors=(4, 4))
+    solved = solve_strip(FINE, prepared.sample.strip(0), 0.1, factors=(4, 4))
     pair = StripOnTwoGrids(solved, solved, None)
     for order, most in ((3.0, 0.01), (1.0, 0.06), (0.5, 0.13)):
 
@@ -156,7 +156,7 @@ def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correla
     """On twice as long ones, the waves that the film carries die away: f was 34 % lower at film/Sq 1."""
     for motion, most in ((ROLLING, 0.25), ({}, 0.5)):
         prepared = lubfric.prepare(FINE.with_(motion=motion))
-        strips = prepared.strips
+        strips = prepared.sample
         factors = strip_of(prepared, 0)[1]
         along, across = (f * cell / one for f, cell, one in zip(factors, strips.cells.coarse, strips.lengths))
         assert most / 2 < along <= most and 0.25 < across <= 0.5
@@ -165,11 +165,11 @@ def test_where_roughness_moves_cells_along_the_motion_are_a_quarter_of_a_correla
 def test_cells_along_y_are_twice_as_long_where_the_rows_of_a_strip_allow_it():
     """The nominal length of a strip may be an odd number of cells; the rows of which it is made are what counts."""
     for scene in (FINE, FINE.with_(contact={"spacing": 0.48e-6}), FINE.with_(contact={"spacing": 0.53e-6}), PATCH):
-        strips = lubfric.prepare(scene).strips
+        strips = lubfric.prepare(scene).sample
         assert strips.rows == strips.strip(0).shape[1]
-        assert strips.is_single_patch or cells_of(strips, scene.bodies.half_width)[1] == 2
-    odd = lubfric.prepare(PATCH.with_(contact={"shape": (40, 33)})).strips
-    assert odd.rows == odd.strip(0).shape[1] == 33 and cells_of(odd, PATCH.bodies.half_width)[1] == 1
+        assert strips.is_single_patch or cells_of(scene, strips)[1] == 2
+    odd = lubfric.prepare(PATCH.with_(contact={"shape": (40, 33)})).sample
+    assert odd.rows == odd.strip(0).shape[1] == 33 and cells_of(PATCH, odd)[1] == 1
 
 
 def test_a_tighter_tolerance_takes_more_strips(prepared, found):
@@ -272,8 +272,8 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
     """What is stated of the sum of the first two levels is its scatter; without a line, that of the mean (by 1.3 if
     places alone tell it). Windows of a measured map may differ by more than their places tell."""
     monkeypatch.setattr(levels, "numbers_of", lambda _, result: {"coefficient": result.coefficient})
-    strips = replace(prepared.strips, lengths=(8e-6, 8e-6), windows=windows)
-    model = replace(prepared, strips=strips)
+    sample = replace(prepared.sample, lengths=(8e-6, 8e-6), windows=windows)
+    model = replace(prepared, sample=sample)
     rng = np.random.default_rng(5)
     sums = []
     means = []
@@ -300,7 +300,7 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
     scene = prepared.scene
     assert line.count > 6 and line.deviations(1, 24).mean() == pytest.approx(0.0, abs=1e-12)
     for index in range(line.count):
-        strip = on_strip(prepared, prepared.strips, index)
+        strip = on_strip(prepared, prepared.sample, index)
         one = solve_balance(scene, 0.005, strip, prepared.surface.sq)
         loads = one.contact_load, one.film_load
         rows.append((one.forces.coefficient, *loads, one.contact.mean_gap, one.forces.boundary))

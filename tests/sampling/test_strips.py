@@ -11,7 +11,7 @@ PAPER = paper_scene()
 
 
 def test_a_strip_is_always_the_same_and_like_no_other():
-    strips = lubfric.prepare(PAPER).strips
+    strips = lubfric.prepare(PAPER).sample
     one = strips.stack(1)
     both = strips.stack(2)
     length = one.shape[1]
@@ -23,7 +23,7 @@ def test_a_strip_is_always_the_same_and_like_no_other():
     second = both.heights[:, length:].ravel()
     assert abs(np.corrcoef(first, second)[0, 1]) < 0.1
     assert both.sq == pytest.approx(PAPER.surface.sq, rel=0.03)
-    other = lubfric.prepare(PAPER.with_(surface={"seed": 2})).strips.stack(1)
+    other = lubfric.prepare(PAPER.with_(surface={"seed": 2})).sample.stack(1)
     assert abs(np.corrcoef(one.heights.ravel(), other.heights.ravel())[0, 1]) < 0.1
 
 
@@ -56,7 +56,7 @@ def test_a_prepared_scene_is_used_again_or_made_again():
     same = lubfric.prepare(PAPER.with_(motion={"slide_roll_ratio": 1.0}), like=model)
     assert same.surface is model.surface and same.contact.operator is model.contact.operator
     patch = lubfric.prepare(PAPER.with_(numerics={"sampling": "patch"}), like=model)
-    assert patch.strips.is_single_patch and patch.surface.shape == PAPER.contact.shape
+    assert patch.sample.is_single_patch and patch.surface.shape == PAPER.contact.shape
     back = lubfric.prepare(PAPER, like=patch)
     np.testing.assert_array_equal(back.surface.heights, model.surface.heights)
     with pytest.raises(lubfric.InputError, match="surface = .* is not that of the prepared scene"):

@@ -80,7 +80,7 @@ def test_a_run_in_time_takes_cells_that_do_not_move_its_friction():
     assert lubfric.friction(fine).decision.change_by_cells <= scene.numerics.tolerance
     assert fine.surface.spacing[0] < coarse.surface.spacing[0]
     kept = strip_of_run(lubfric.prepare(scene.with_(numerics={"tolerance": 0.1}))).prepared
-    assert kept.strips.cells == coarse.strips.cells
+    assert kept.sample.cells == coarse.sample.cells
 
 
 def test_contact_areas_of_a_run_are_those_on_the_cells_of_the_scene(held):
@@ -115,9 +115,9 @@ def test_a_run_on_one_patch_takes_the_cells_of_the_patch():
     scene = HELD.with_(numerics={"sampling": "patch"})
     spacing = tuple(np.broadcast_to(scene.contact.spacing, 2).tolist())
     prepared = lubfric.prepare(scene)
-    assert max(prepared.strips.cells.coarsening) > 1
+    assert max(prepared.sample.cells.coarsening) > 1
     strip = strip_of_run(prepared).prepared
-    assert strip.strips.cells.is_native and strip.surface.spacing == strip.contact.spacing == pytest.approx(spacing)
+    assert strip.sample.cells.is_native and strip.surface.spacing == strip.contact.spacing == pytest.approx(spacing)
     assert strip.surface.shape == strip.contact.heights.shape == scene.contact.shape
     run = lubfric.transient(scene)
     own = scene.with_(numerics={"grid": "given", "film_deflection": "hydrodynamic"})

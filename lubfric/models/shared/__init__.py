@@ -19,6 +19,7 @@ from .checks import (
 )
 from .checks_before import expected
 from .heat import Heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
-from .prepared import Prepared, at_speed, at_tolerance, on_piece, on_stack, on_strip, prepare, scene_of
+from .memo import Key, Memo, ReferenceKey
+from .prepared import Prepared, at_speed, at_tolerance, contact_on, on_piece, on_stack, on_strip, prepare, scene_of
 from .unmodelled import UnmodelledEffect, effect_in_words, unmodelled_effects
 from .validity import Validity, entries_of, gathered, in_a_cell, refused

@@ -1,9 +1,7 @@
 """A scene made ready: all that its speeds share."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -18,7 +16,8 @@ from ...contact import (
 )
 from ...errors import InputError
 from ...samples import (
-    Strips,
+    PIECE,
+    Sample,
     flat_contact_of,
     half_space_contact_of,
     independent_asperities_of,
@@ -29,17 +28,16 @@ from ...samples import check_grid as check_map
 from ...scene import Bodies, Scene, check_resolved_gap, told_doubts
 from ...surface import Surface
 from .checks_before import beforehand
+from .memo import Memo, OperatorKey, PieceKey, PieceMapKey, StackKey, StripKey
 from .validity import Validity
 
 OWN = HalfSpaceContact, FlatContact, AsperityContact
-# strips, pieces, operators and reference points; cells of all but the last
-REMEMBERED = 64
-MOST_CELLS = 8_000_000
 
 
 @dataclass(frozen=True, repr=False)
 class Prepared(FieldsOnly, Shown):
-    """A scene made ready by `prepare`. It is accepted wherever a scene is, and safe to share: nothing in it changes.
+    """A scene made ready by `prepare`. It is accepted wherever a scene is, and safe to share: only what it
+    remembers (`Memo`) changes, and that changes no result.
 
     Attributes
     ----------
@@ -47,15 +45,15 @@ class Prepared(FieldsOnly, Shown):
     surface : the height map that is solved first
     contact : the rough contact on it
     known : assumptions of the model that bodies and map violate
-    strips : the sample of the surface; None for a contact that has no cells under a cylinder
+    sample : what stands for the endless rough line
     given : True: the map was given to `prepare`, and there is no more of it
     """
 
     scene: Scene
     surface: Surface
     contact: RoughContact
+    sample: Sample
     known: tuple[Validity, ...] = ()
-    strips: Strips | None = None
     given: bool = False
 
     @property
@@ -66,25 +64,12 @@ class Prepared(FieldsOnly, Shown):
     @property
     def joint(self) -> bool:
         """Whether one map was given for all bodies, and nobody knows what of it is whose."""
-        return self.given and not (self.strips and self.strips.bodies)
+        return self.given and not self.sample.bodies
 
     @cached_property
-    def memo(self) -> dict[Any, Any]:
-        """What was `remembered`; neither compared nor pickled."""
-        return {}
-
-    def remembered(self, key: Any, make: Callable[[], Any], cells: Callable[[Any], int] = lambda made: 0) -> Any:
-        """What ``make`` gives, made once for ``key`` and kept as long as there is room for it and its ``cells``. It
-        depends on scene and key alone, so that results do not depend on what is kept."""
-        try:
-            return self.memo[key][0]
-        except KeyError:
-            made = make()
-        self.memo[key] = made, cells(made)
-        kept = list(self.memo.items())
-        while len(kept) > REMEMBERED or sum(size for _, (_, size) in kept[:-1]) > MOST_CELLS:
-            self.memo.pop(kept.pop(0)[0], None)
-        return made
+    def memo(self) -> Memo:
+        """What is remembered between speeds; neither compared nor pickled."""
+        return Memo()
 
     def _facts(self) -> dict[str, str]:
         return {"": self.scene.name, "map": self.surface.describe()}
@@ -128,24 +113,22 @@ def prepare(
         validate.instance("like", like, Prepared, "what lubfric.prepare returned")
         _check_likeness(scene, like.scene, maps, contact)
         if _same_contact(scene, like.scene):
-            kept = {key: value for key, value in like.memo.items() if key[0] != "reference"}
-            strips = None if like.strips is None else replace(like.strips, scene=scene)
-            made = replace(like, scene=scene, known=beforehand(scene, like.surface), strips=strips)
-            made.memo.update(kept)
-            return made
-        maps = (like.surface, *(like.strips.bodies if like.strips else ())) if like.given else ()
+            prepared = replace(like, scene=scene, known=beforehand(scene, like.surface))
+            prepared.memo.keep_surface_of(like.memo)
+            return prepared
+        maps = (like.surface, *like.sample.bodies) if like.given else ()
         contact = None if like.own else like.contact
     given = bool(maps) or contact is not None
     with told_doubts(scene):
-        surface, strips = sample_of(scene, maps, own=contact is None)
-        if strips is not None:
-            return _on_strips(scene, surface, strips, given)
-        if contact is not None:
-            return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
-        heights = surface.heights - surface.heights.mean()
-        flat = scene.contact.geometry == "flat"
-        contact = (flat_contact_of if flat else independent_asperities_of)(scene, heights, surface.spacing)
-        return Prepared(scene, surface, contact, beforehand(scene, surface), given=given)
+        sample = sample_of(scene, maps, is_given=contact is not None)
+        if sample.is_resolved:
+            return _on_cells(scene, sample, is_given=given)
+        surface = sample.first_map()
+        if contact is None:
+            heights = surface.heights - surface.heights.mean()
+            flat = scene.contact.geometry == "flat"
+            contact = (flat_contact_of if flat else independent_asperities_of)(scene, heights, surface.spacing)
+        return Prepared(scene, surface, contact, sample, beforehand(scene, surface), given=given)
 
 
 def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -> tuple[Surface, ...]:
@@ -160,57 +143,67 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
     return together(surface, counterface)
 
 
-def on_stack(prepared: Prepared, strips: Strips, count: int) -> HalfSpaceContact:
-    """The contact on the first ``count`` of ``strips``."""
+def contact_on(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
+    """Return the contact on the first ``count`` strips of ``sample``; of an unresolved one the only contact."""
+    return on_stack(prepared, sample, count) if sample.is_resolved else prepared.contact
+
+
+def on_stack(prepared: Prepared, sample: Sample, count: int) -> HalfSpaceContact:
+    """Return the contact on the first ``count`` strips of ``sample``, joined."""
 
     def make() -> HalfSpaceContact:
-        surface = strips.stack(count)
-        return _contact(prepared, surface.heights, surface.spacing, strips.cells.axis())
+        surface = sample.stack(count)
+        return _contact(prepared, surface.heights, surface.spacing, sample.cells.axis())
 
-    return prepared.remembered(("stack", strips.cells.coarsening, count), make, lambda made: made.heights.size)
-
-
-def on_strip(prepared: Prepared, strips: Strips, index: int) -> HalfSpaceContact:
-    """The contact on number ``index`` of ``strips`` alone."""
-
-    def make() -> HalfSpaceContact:
-        surface = strips.strip(index)
-        return _contact(prepared, surface.heights, surface.spacing, strips.cells.axis())
-
-    return prepared.remembered(("strip", strips.cells.coarsening, index), make, lambda made: made.heights.size)
+    return prepared.memo.get(StackKey(sample.cells.coarsening, count), make, lambda contact: contact.heights.size)
 
 
-def on_piece(prepared: Prepared, strips: Strips, index: int, factors: tuple[int, int], **length) -> HalfSpaceContact:
-    """The contact on every ``factors``-th cell of a piece of ``strips`` (`Strips.piece`)."""
-    own = "piece", strips.cells.coarsening, index, *length.values()
+def on_strip(prepared: Prepared, sample: Sample, index: int) -> HalfSpaceContact:
+    """Return the contact on strip ``index`` of ``sample`` alone."""
 
     def make() -> HalfSpaceContact:
-        surface = prepared.remembered(own, lambda: strips.piece(index, **length))
-        heights = strips.cells.thinned(surface.heights, factors)
-        spacing = surface.spacing[0] * factors[0], surface.spacing[1] * factors[1]
-        return _contact(prepared, heights, spacing, strips.cells.axis(factors))
+        surface = sample.strip(index)
+        return _contact(prepared, surface.heights, surface.spacing, sample.cells.axis())
 
-    return prepared.remembered((*own, factors), make, lambda made: made.heights.size)
+    return prepared.memo.get(StripKey(sample.cells.coarsening, index), make, lambda contact: contact.heights.size)
 
 
-def _contact(prepared: Prepared, heights: np.ndarray, spacing, x: np.ndarray) -> HalfSpaceContact:
+def on_piece(
+    prepared: Prepared, sample: Sample, index: int, cells: tuple[int, int], length: float = PIECE
+) -> HalfSpaceContact:
+    """Return the contact on piece ``index`` of ``sample`` (`Sample.piece`), on ``cells`` so many native ones long."""
+    coarsening = sample.cells.coarsening
+
+    def make() -> HalfSpaceContact:
+        surface = prepared.memo.get(PieceMapKey(coarsening, index, length), lambda: sample.piece(index, length))
+        heights = sample.cells.thinned(surface.heights, cells)
+        spacing = surface.spacing[0] * cells[0], surface.spacing[1] * cells[1]
+        return _contact(prepared, heights, spacing, sample.cells.axis(cells))
+
+    return prepared.memo.get(PieceKey(coarsening, index, length, cells), make, lambda contact: contact.heights.size)
+
+
+def _contact(prepared: Prepared, heights: np.ndarray, spacing: tuple[float, float], x: np.ndarray) -> HalfSpaceContact:
     scene = prepared.scene
-    operator = prepared.remembered(
-        ("operator", heights.shape, tuple(spacing)),
+    operator = prepared.memo.get(
+        OperatorKey(heights.shape, (spacing[0], spacing[1])),
         lambda: half_space(heights.shape, spacing, scene.bodies.e_prime, BOUNDARY, workers=scene.numerics.workers),
     )
     return half_space_contact_of(scene, heights - heights.mean(), spacing, operator=operator, x=x)
 
 
-def _on_strips(scene: Scene, surface: Surface, strips: Strips, given: bool) -> Prepared:
+def _on_cells(scene: Scene, sample: Sample, *, is_given: bool) -> Prepared:
+    """Return ``scene`` made ready on the first strips of ``sample``; of a patch its map is the native one."""
+    surface = sample.first_map()
     check_map(scene, surface)
-    first = strips.stack(strips.first) if strips.is_single_patch else surface
+    first = surface if sample.cells.is_native else sample.stack(sample.first)
     heights = first.heights - first.heights.mean()
-    contact = half_space_contact_of(scene, heights, first.spacing, x=strips.cells.axis())
-    made = Prepared(scene, surface, contact, beforehand(scene, surface), strips, given)
-    made.memo[("stack", strips.cells.coarsening, strips.first)] = contact, contact.heights.size
-    made.memo[("operator", first.heights.shape, tuple(first.spacing))] = contact.operator, contact.operator.symbol.size
-    return made
+    contact = half_space_contact_of(scene, heights, first.spacing, x=sample.cells.axis())
+    prepared = Prepared(scene, surface, contact, sample, beforehand(scene, surface), given=is_given)
+    prepared.memo.put(StackKey(sample.cells.coarsening, sample.first), contact, contact.heights.size)
+    operator = contact.operator
+    prepared.memo.put(OperatorKey(heights.shape, (first.spacing[0], first.spacing[1])), operator, operator.symbol.size)
+    return prepared
 
 
 def scene_of(scene: Scene | Prepared) -> Scene:

@@ -95,7 +95,7 @@ def _features(prepared, result) -> Iterator[str]:
     yield "asperities" if scene.contact.model != "half-space" else "height map"
     yield "separated" if share == 0 else "contact below 1 %" if share < 0.01 else "contact above 1 %"
     features = {
-        "strips": prepared.strips is not None and not prepared.strips.is_single_patch,
+        "strips": not prepared.sample.is_single_patch,
         "plastic limit": scene.bodies.hardness,
         "cells yielded": result.plastic_area_fraction > 0,
         "two rough bodies": scene.counterface,
@@ -103,7 +103,7 @@ def _features(prepared, result) -> Iterator[str]:
         "heat of the inlet": result.inlet_film_factor < 1,
         "heat of film and surfaces": result.film_temperature_rise > 0,
         "pure rolling": scene.motion.slide_roll_ratio == 0,
-        "more strips than at first": prepared.strips is not None and result.decision.strips > prepared.strips.first,
+        "more strips than at first": result.decision.strips > prepared.sample.first,
         "corrected for its cells": result.decision.coarsening != (1, 1) and share > 0,
     }
     yield from (name for name, holds in features.items() if holds)

@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 
 from lubfric import LubfricError, solve_contact, solve_differential_deflection, solve_ehl
 from lubfric.models.shared import Prepared
-from lubfric.samples import Strips
+from lubfric.samples import Sample
 
 from ...fem.parts import case_of_scene
 from .soak_force import friction_force
@@ -154,18 +154,18 @@ def judge_of(prepared: Prepared, result) -> Judge:
     newtonian = oil.eyring_stress is None and oil.limiting_stress_coefficient is None  # whose spike f feels
     tolerance = TIGHT if cancels or newtonian or scene.motion.slide_roll_ratio == 0 else LOOSE
     scaled = scene.numerics.film_deflection == "scaled"
-    strips = prepared.strips
+    sample = prepared.sample
     pairs: tuple[tuple[MappedStrip, MappedStrip], ...] = ()
-    if strips is None or strips.is_single_patch:
+    if sample.is_single_patch:
         n = prepared.surface.shape[0]
         dx = prepared.surface.spacing[0]
         strip = _strip(prepared.surface, (np.arange(n) - 0.5 * (n - 1)) * dx)
     else:
-        while strips.cells.coarsening != result.decision.coarsening:
-            strips = strips.halved()
-        strip = _strip(strips.stack(result.decision.strips), strips.cells.axis())
-        if not strips.cells.is_native:
-            pairs = tuple(_pair(strips, i) for i in range(min(PIECES, strips.pieces)))
+        while sample.cells.coarsening != result.decision.coarsening:
+            sample = sample.halved()
+        strip = _strip(sample.stack(result.decision.strips), sample.cells.axis())
+        if not sample.cells.is_native:
+            pairs = tuple(_pair(sample, i) for i in range(min(PIECES, sample.pieces)))
     return Judge(prepared, result.speed, scaled, strip, pairs, tolerance)
 
 
@@ -173,10 +173,10 @@ def _strip(surface, x) -> MappedStrip:
     return MappedStrip(surface.heights - surface.heights.mean(), surface.spacing, x)
 
 
-def _pair(strips: Strips, index: int) -> tuple[MappedStrip, MappedStrip]:
+def _pair(sample: Sample, index: int) -> tuple[MappedStrip, MappedStrip]:
     """A piece on its own cells and on those of the strips."""
-    cells = strips.cells
-    piece = strips.piece(index)
+    cells = sample.cells
+    piece = sample.piece(index)
     kept = replace(piece, heights=cells.thinned(piece.heights, cells.coarsening), spacing=cells.coarse)
     return _strip(piece, cells.axis((1, 1))), _strip(kept, cells.axis())
 

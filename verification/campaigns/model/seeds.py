@@ -45,8 +45,7 @@ def plain(speed_and_seed: tuple[float, int]) -> dict:
     """f of one strip, and processor seconds."""
     speed, seed = speed_and_seed
     scene = lubfric.load_scene("paper").with_(surface={"seed": seed})
-    strips = lubfric.prepare(scene).strips
-    assert strips is not None
+    strips = lubfric.prepare(scene).sample
     begun = time.process_time()
     f = solve_strip(scene, strips.strip(0), speed).result.coefficient
     return {"f": f, "seconds": time.process_time() - begun}

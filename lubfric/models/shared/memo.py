@@ -1,0 +1,108 @@
+"""What a prepared scene remembers between speeds: contacts, operators and reference points, by typed keys.
+
+What is remembered depends on the prepared scene and its key alone. So it changes the time that a point takes, never its
+result.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar, Generic, TypeVar
+
+from ...contact import HalfSpace, HalfSpaceContact
+from ...surface import Surface
+
+T = TypeVar("T")
+
+MOST_ENTRIES = 64  # contacts, operators and reference points
+MOST_CELLS = 8_000_000  # of all entries but the last: memory
+
+
+class Key(Generic[T]):
+    """What is remembered: a frozen dataclass. ``T``: the type of what is remembered under it."""
+
+    of_surface_alone: ClassVar[bool] = True  # whether it holds for another speed, lubricant or tolerance
+
+
+@dataclass(frozen=True)
+class StackKey(Key[HalfSpaceContact]):
+    """The contact on the first ``count`` strips, on cells of this ``coarsening``."""
+
+    coarsening: tuple[int, int]
+    count: int
+
+
+@dataclass(frozen=True)
+class StripKey(Key[HalfSpaceContact]):
+    """The contact on strip ``index`` alone."""
+
+    coarsening: tuple[int, int]
+    index: int
+
+
+@dataclass(frozen=True)
+class PieceMapKey(Key[Surface]):
+    """The map of piece ``index``, some ``length`` correlation lengths long, on native cells."""
+
+    coarsening: tuple[int, int]
+    index: int
+    length: float
+
+
+@dataclass(frozen=True)
+class PieceKey(Key[HalfSpaceContact]):
+    """The contact on piece ``index``, on ``cells`` so many native ones long."""
+
+    coarsening: tuple[int, int]
+    index: int
+    length: float
+    cells: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class OperatorKey(Key[HalfSpace]):
+    """The half-space operator of a grid."""
+
+    shape: tuple[int, int]
+    spacing: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class ReferenceKey(Key[Any]):
+    """A solution at a fixed speed, from which others start or take a correction.
+
+    ``what``: of it; ``film``: what the fixed speed is found by; ``forward``: whether that speed is positive.
+    """
+
+    of_surface_alone = False
+    coarsening: tuple[int, int]
+    what: str
+    film: float
+    forward: bool
+
+
+class Memo:
+    """What was made so far, by `Key`; the oldest goes first."""
+
+    def __init__(self) -> None:
+        self._kept: dict[Key[Any], tuple[Any, int]] = {}
+
+    def get(self, key: Key[T], make: Callable[[], T], cells: Callable[[T], int] = lambda value: 0) -> T:
+        """Return what ``make`` gives, made once for ``key``, and kept as long as there is room for its ``cells``."""
+        if key in self._kept:
+            return self._kept[key][0]
+        value = make()
+        self.put(key, value, cells(value))
+        return value
+
+    def put(self, key: Key[T], value: T, cells: int = 0) -> None:
+        """Keep ``value``, which has so many ``cells``."""
+        self._kept[key] = (value, cells)
+        entries = list(self._kept.items())
+        while len(entries) > MOST_ENTRIES or sum(size for _, (_, size) in entries[:-1]) > MOST_CELLS:
+            self._kept.pop(entries.pop(0)[0], None)
+
+    def keep_surface_of(self, other: Memo) -> None:
+        """Take over from ``other`` what depends on the surface and the elastic bodies alone."""
+        self._kept.update((key, entry) for key, entry in other._kept.items() if key.of_surface_alone)

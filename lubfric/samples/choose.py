@@ -1,0 +1,41 @@
+"""Which sample of its rough surface a scene is solved on."""
+
+from ..scene import Scene
+from ..surface import Surface
+from .cells import correlation_lengths, length_or_half
+from .contract import Sample
+from .maps import contact_maps, measured, rough_bodies
+from .patch import UnresolvedSample, single_patch
+from .strips import strips_of
+
+
+def takes_strips(scene: Scene) -> bool:
+    """Return whether ``scene`` is solved on strips: it has a rough half-space under a cylinder, and asks for no
+    patch."""
+    rough = any(rough.sq != 0.0 for rough, _ in rough_bodies(scene))
+    return scene.numerics.sampling != "patch" and _resolved(scene) and rough
+
+
+def sample_of(scene: Scene, maps: tuple[Surface, ...] = (), *, is_given: bool = False) -> Sample:
+    """Return the sample of ``scene``.
+
+    ``maps``: heights given to `lubfric.prepare`, of all and of each body; ``is_given``: whether the contact was given.
+    """
+    if not maps and not is_given and takes_strips(scene):
+        return strips_of(scene)
+    surface, *bodies = contact_maps(scene, maps)
+    if is_given or not _resolved(scene):
+        return UnresolvedSample(surface)
+    return single_patch(scene, _lengths(scene, surface, is_given=bool(maps)), surface, tuple(bodies))
+
+
+def _resolved(scene: Scene) -> bool:
+    return scene.contact.geometry == "cylinder" and scene.contact.model == "half-space"
+
+
+def _lengths(scene: Scene, surface: Surface, *, is_given: bool) -> tuple[float, float]:
+    """Return the correlation lengths [m] of a patch: those of the scene, or of the map itself."""
+    if measured(scene) or is_given:
+        return length_or_half(surface, 0), length_or_half(surface, 1)
+    along_x, along_y = zip(*(correlation_lengths(rough) for rough, _ in rough_bodies(scene)))
+    return max(along_x), max(along_y)
