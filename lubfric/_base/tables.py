@@ -5,7 +5,6 @@ import csv
 import io
 import json
 import math
-import re
 import tomllib
 from collections.abc import Sequence
 from functools import cache
@@ -21,8 +20,11 @@ from .validate import nearest, shown
 
 IN_WORDS = ("validity", "uncertainty")  # columns of a result
 MOST_BYTES = 2**27
-TITLES = 40  # lines among which the headings are looked for
-HEADING = re.compile(r"\s*(?P<name>.*?)\s*(?:[\[(](?P<unit>[^\])]*)[\])]\s*)?")
+TITLES = 1000  # lines of a preamble among which the headings are looked for
+LONGEST_LINE = 10_000  # characters of a line of a table of columns
+LONGEST_HEADING = 200  # characters
+OPEN = {")": "(", "]": "["}
+BLANKS = "  "  # the separator of columns that two or more blanks separate
 
 
 @cache
@@ -88,19 +90,25 @@ def read_table(path: Path, content: bytes | None = None) -> Columns:
 def read_columns(
     path: Path, names: Sequence[str], units: Sequence[str | None], must_say: Sequence[str] = ()
 ) -> list[list[float]]:
-    """Columns in SI units, found by the ``names``, which are headings with or without their units, in the first row
-    that has most of them: titles may stand above.
+    """Return columns in SI units, found by the ``names``, which are headings with or without their units, in the first
+    row that has most of them: a preamble of up to `TITLES` lines may stand above.
 
-    A heading may carry its unit in brackets: ``time [ms]``, ``load (kN)``, and so may the name of one that does not.
-    Without one it is SI, unless its unit is among those that ``must_say`` it; one that ends with another unit without
-    brackets is refused. ``units``: the SI unit to which each column must be convertible (None: any of `UNITS`). Comma,
-    semicolon or tab separate; with one of the latter two, a comma is the decimal mark. UTF-8 (with or without a
-    byte-order mark), UTF-16 with one, or Windows-1252.
+    A heading may carry its unit in brackets: ``time [ms]``, ``load (kN)``, and so may the name of one that does not. A
+    line of units may stand below the headings (``s;mm/s;-``). Without a unit a column is in SI, unless its unit is among
+    those that ``must_say`` it; a heading that ends with another unit without brackets is refused. ``units``: the SI unit
+    to which each column must be convertible (None: any of `UNITS`). Comma, semicolon, tab or two blanks separate; with
+    one of the others, a comma is the decimal mark. UTF-8 (with or without a byte-order mark), UTF-16 with one, or
+    Windows-1252.
 
     Raises `InputError` naming file and line for anything else.
     """
     rows = _rows(path, names)
     headings = [text.strip() for text in rows[0][1]]
+    stated = _line_of_units(path, headings, rows)
+    if stated is not None:
+        rows = [rows[0], *rows[2:]]
+    if len(rows) < 2:
+        raise InputError(f"file {path.name} has no row of numbers below its headings; give some")
     for line, row in rows[1:]:
         if any(field.strip() for field in row[len(headings) :]):
             raise InputError(f"file {path.name}, line {line}: {len(row)} values for {len(headings)} headings")
@@ -115,7 +123,7 @@ def read_columns(
                 f"it has: {', '.join(headings)}"
             )
         heading = headings[places[0]]
-        given = name_and_unit(heading)[1] or name_and_unit(name)[1]
+        given = _unit_of_column(path, heading, name, None if stated is None else stated[places[0]])
         if given is None and unit in must_say:
             raise InputError(f"column {heading!r} of {path} names no unit; write {heading} [{unit}], or ask for that")
         if given is None:
@@ -131,49 +139,102 @@ def read_columns(
     return columns
 
 
+def _line_of_units(path: Path, headings: list[str], rows: list[tuple[int, list[str]]]) -> list[str | None] | None:
+    """Return the units in the line below the headings, None for a column without one; None where that line holds
+    numbers."""
+    if len(rows) < 2:
+        return None
+    line, row = rows[1]
+    cells = [cell.strip() for cell in row]
+    words = [cell[1:-1].strip() if cell[:1] in ("[", "(") and cell[-1:] in ("]", ")") else cell for cell in cells]
+    if any(_is_number(cell) for cell in cells) or not any(words):
+        return None
+    if not any(_is_unit(word) for word in words if len(word) <= LONGEST_HEADING):
+        return None  # refused by `_number` with its line
+    padded = [*words, *([""] * len(headings))]
+    return [word or None for word in padded[: len(headings)]]
+
+
+def _unit_of_column(path: Path, heading: str, name: str, stated: str | None) -> str | None:
+    """Return the unit that the heading, the line below it or the caller names. Raise `InputError` where two differ."""
+    named = [unit for unit in (name_and_unit(heading)[1], stated, name_and_unit(name)[1]) if unit is not None]
+    for unit in named[1:]:
+        if spelled(unit) != spelled(named[0]):
+            said = f"column {heading!r} of {path.name} is in {named[0]!r} and in {unit!r}"
+            raise InputError(said, way_out="name one unit")
+    return named[0] if named else None
+
+
+def _is_unit(word: str) -> bool:
+    return any(spelled(word) in table for table in UNITS.values())
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text.replace(",", "."))
+    except ValueError:
+        return False
+    return True
+
+
 def _places(headings: Sequence[str], name: str) -> list[int]:
-    """Where the column ``name`` stands: that has this heading, this heading less its unit, or this one less that of
-    ``name``."""
+    """Return where the column ``name`` stands: that has this heading, this heading less its unit, or this one less that
+    of ``name``."""
     ways = (lambda text: text == name, lambda text: name_and_unit(text)[0] == name, name_and_unit(name)[0].__eq__)
     found = ([i for i, text in enumerate(headings) if way(text)] for way in ways)
     return next(filter(None, found), [])
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:
-    """The two parts of a heading; the unit is None if it names none."""
-    found = HEADING.fullmatch(heading)
-    return (heading, None) if found is None else (found["name"], found["unit"])
+    """Return the two parts of a heading; the unit, in square or round brackets at its end, is None if it names none."""
+    text = heading.strip()
+    opening = OPEN.get(text[-1:])
+    if opening is None:
+        return text, None
+    depth = 0
+    for place in range(len(text) - 1, -1, -1):
+        depth += (text[place] == text[-1]) - (text[place] == opening)
+        if depth == 0:
+            return text[:place].strip(), text[place + 1 : -1]
+    return text, None
 
 
 def _refuse_bare_unit(path: Path, heading: str, expected: str | None) -> None:
     """Raise `InputError` for a ``heading`` without brackets that ends with a unit other than SI (``time/ms``, ``speed
     mm/s``, ``speed_mm_s``, ``slip %``): its values would be read as SI."""
     text = spelled(heading)
+    while text and not (text[-1].isascii() and text[-1].isalnum() or text[-1] in "%°"):
+        text = text[:-1]
     for si, table in UNITS.items():
         for unit, factor in table.items():
             if expected != si and (expected is not None or unit.isalpha() and len(unit) < 2):  # a letter may be a name
                 continue
-            spellings = {re.escape(spelling) for spelling in (unit, unit.replace("/", "_"), unit.replace(" ", ""))}
-            before = "" if unit == "%" else r"(?:^|[^A-Za-z0-9])"
-            if unit and factor != 1.0 and re.search(rf"{before}(?:{'|'.join(sorted(spellings))})[^A-Za-z0-9%]*$", text):
-                raise InputError(
-                    f"column {heading!r} of {path.name} names {unit} without brackets, and would be read in SI; put "
-                    f"the unit into brackets: 'name [{unit}]', or [{si}] if it is that after all"
-                )
+            for spelling in (unit, unit.replace("/", "_"), unit.replace(" ", "")):
+                before = text[: len(text) - len(spelling)][-1:]
+                apart = unit == "%" or not (before.isascii() and before.isalnum())
+                if unit and factor != 1.0 and text.endswith(spelling) and apart:
+                    raise InputError(
+                        f"column {heading!r} of {path.name} names {unit} without brackets, and would be read in SI; put "
+                        f"the unit into brackets: 'name [{unit}]', or [{si}] if it is that after all"
+                    )
 
 
 def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
-    """(line number, fields) of the rows that are neither empty nor comments, from that on which has most of the
+    """Return (line number, fields) of the rows that are neither empty nor comments, from that on which has most of the
     ``names``; decimal marks made points."""
     every = enumerate(text_of(path).splitlines(), 1)
     lines = [(n, line) for n, line in every if line.strip() and line.lstrip()[0] != "#"]
     if len(lines) < 2:
         raise InputError(f"file {path.name} has {len(lines)} rows; it needs a heading and rows of numbers")
+    for number, line in lines:
+        if len(line) > LONGEST_LINE:
+            said = f"file {path.name}, line {number} has {len(line)} characters"
+            raise InputError(said, allowed=f"up to {LONGEST_LINE}")
     try:
-        heads = [[text.strip() for text in _fields(line)] for _, line in lines[:-1][:TITLES]]
+        heads = [[text.strip()[:LONGEST_HEADING] for text in _fields(line)] for _, line in lines[:-1][:TITLES]]
         known = [sum(map(bool, (_places(head, name) for name in names))) for head in heads]
         lines = lines[known.index(max(known)) :]
-        separator = next((mark for mark in ";\t" if mark in lines[0][1]), ",")
+        separator = _separator(lines[0][1])
         rows = [(n, _fields(line, separator)) for n, line in lines]
     except csv.Error as problem:
         raise InputError(f"file {path.name} is no table ({problem}); give a CSV file") from None
@@ -182,9 +243,19 @@ def _rows(path: Path, names: Sequence[str]) -> list[tuple[int, list[str]]]:
     return rows[:1] + [(n, [field.replace(",", ".") for field in row]) for n, row in rows[1:]]
 
 
+def _separator(line: str) -> str:
+    """Return what separates the fields of a line: a semicolon or tab that it has, two blanks where it has no comma, else
+    a comma."""
+    marks = (";", "\t") if "," in line or BLANKS not in line.strip() else (";", "\t", BLANKS)
+    return next((mark for mark in marks if mark in line.strip(" ")), ",")
+
+
 def _fields(line: str, separator: str = "") -> list[str]:
-    """Those between the ``separator``; "": a semicolon or tab that the line has, else commas."""
-    return next(csv.reader([line], delimiter=separator or next((mark for mark in ";\t" if mark in line), ",")))
+    """Return those between the ``separator`` ("": that of the line)."""
+    mark = separator or _separator(line)
+    if mark == BLANKS:
+        return [field.strip() for field in line.strip().split(BLANKS) if field.strip()]
+    return next(csv.reader([line], delimiter=mark))
 
 
 def _number(path: Path, line: int, row: list[str], place: int) -> float:
@@ -206,14 +277,27 @@ def text_of(path: Path, most: float = MOST_BYTES) -> str:
     one, or in Windows-1252. Raises `InputError` for anything else."""
     try:
         if not path.is_file():
-            raise InputError(f"file {str(path)!r} does not exist; give a CSV file")
+            raise InputError(f"file {shown(str(path))} does not exist; give a CSV file")
         if path.stat().st_size > most:
             raise InputError(f"file {path.name} has {path.stat().st_size:.3g} bytes; allowed: up to {most:.3g}")
-        content = path.read_bytes()
+        with path.open("rb") as file:
+            begin = file.read(4096)
+            wide = begin[:2] in (b"\xff\xfe", b"\xfe\xff")
+            if b"\0" in begin and not wide:
+                raise InputError(f"file {path.name} is not text; give it in UTF-8, UTF-16 or Windows-1252")
+            content = begin + file.read()
     except (OSError, ValueError) as problem:
-        raise InputError(f"file {shown(str(path))} cannot be read ({problem})") from None
-    codes = ("utf-16",) if content[:2] in (b"\xff\xfe", b"\xfe\xff") else ("utf-8-sig", "cp1252")
-    for code in codes:
+        raise (
+            problem
+            if isinstance(problem, InputError)
+            else InputError(f"file {shown(str(path))} cannot be read ({problem})")
+        ) from None
+    except MemoryError:
+        size = path.stat().st_size
+        raise InputError(
+            f"file {path.name} with {size:.3g} bytes does not fit into the memory; give a smaller one"
+        ) from None
+    for code in ("utf-16",) if wide else ("utf-8-sig", "cp1252"):
         try:
             text = content.decode(code)
         except UnicodeDecodeError:

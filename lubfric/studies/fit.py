@@ -136,6 +136,9 @@ def explain_fit(scene: Scene, measured: Measured, parameters, *, starts: int | N
     starts = _checked_starts(starts, len(bounds))
     count = counted(len(bounds), "parameters")
     lines = [f"fit of {count} of {scene.name} to {counted(measured.x.size, 'points')} of {measured.source}"]
+    if len(measured.branches) > 1:
+        apart = f"their coefficients are {100 * measured.hysteresis:.2g} % apart (rms)"
+        lines.append(f"  {counted(len(measured.branches), 'ramps')} of rising and falling {measured.over}: {apart}")
     for key, ends in bounds.items():
         logarithmic = ", searched in its logarithm" if ends.scale == "log" else ""
         lines.append(f"  {key}: {worded_value(key, ends.low)} to {worded_value(key, ends.high)}{logarithmic}")

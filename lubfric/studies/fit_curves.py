@@ -93,7 +93,8 @@ class FitCurves:
             else:
                 speed = prepared.scene.motion.entrainment_speed
                 places = [(model, key_of(model), speed) for model in at_ratios(prepared, x)]
-            jobs = [partial(solved, model, key, (u,), folder=self._folder) for model, key, u in places]
+            once = {(key, u): model for model, key, u in places}  # ramps may have points at one speed
+            jobs = [partial(solved, model, key, (u,), folder=self._folder) for (key, u), model in once.items()]
             outcomes = {(key, u): outcome for key, u, outcome in spread(self._executor, jobs)}
             points = tuple(outcomes[key, u] for _, key, u in places)
             for failure in (outcome for outcome in points if isinstance(outcome, LubfricError)):
@@ -179,4 +180,5 @@ def coarse_measured(measured: Measured) -> Measured:
         over=measured.over,
         source=measured.source,
         rolling=measured.rolling,
+        branch=None if measured.branch is None else measured.branch[kept],
     )

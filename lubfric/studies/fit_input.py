@@ -1,6 +1,6 @@
 """What a fit is given: a measured curve of friction with its units, and the numbers of a scene that are sought."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from .vary import FITTED, Between, check_key, check_temperature, unit_of
 
 SPEED = "speed"
 SLIP = "slide_roll_ratio"
+MARKS = "D^vos"  # of the ramps in a picture
+SHORTEST_RAMP = 2  # points of a ramp
 LOGARITHMIC = 10.0  # ratio of positive bounds from which a parameter is sought in its logarithm
 
 
@@ -24,6 +26,8 @@ class Measured:
     coefficient : friction coefficients [-], (n,)
     deviation : standard deviation of each coefficient, (n,); None: the same share of each, not known
     over : "speed" (a Stribeck curve) or "slide_roll_ratio" (a traction curve, at the speed of the scene)
+    branch : number of the ramp to which each point belongs, (n,), 0, 1, ...: rising and falling speeds measured one
+        after the other. None: one ramp. Points of different ramps may be at one speed
     rolling : whether the coefficients hold the rolling part of the friction of the film, as the force on one body does.
         False: it is taken out, as a rig does that averages over both signs of slip
     """
@@ -34,6 +38,7 @@ class Measured:
     over: str = SPEED
     source: str = "measured"
     rolling: bool = True
+    branch: np.ndarray | None = None
 
     def __post_init__(self):
         validate.choice("over", self.over, (SPEED, SLIP))
@@ -50,8 +55,46 @@ class Measured:
         if self.deviation is None and np.any(self.coefficient <= 0):
             said = " holds values that are not positive, whose relative deviation means nothing"
             raise InputError(said, "coefficient", "> 0, or give a deviation")
-        if np.unique(x).size < x.size:
-            raise InputError("x holds a value twice; average repeated measurements")
+        if self.branch is not None:
+            branch = np.array(self.branch)
+            if branch.shape != x.shape or branch.dtype.kind not in "iu":
+                raise InputError(f" has {branch.size} values", "branch", f"{x.size} whole numbers, one for each of x")
+            object.__setattr__(self, "branch", branch.copy())
+        for number in self.branches:
+            x = self.x if self.branch is None else self.x[self.branch == number]
+            if np.unique(x).size < x.size:
+                raise InputError("x holds a value twice; average repeated measurements")
+
+    @property
+    def branches(self) -> tuple[int, ...]:
+        """The numbers of the ramps."""
+        return (0,) if self.branch is None else tuple(np.unique(self.branch).tolist())
+
+    def of_branch(self, number: int) -> "Measured":
+        """Return the points of one ramp."""
+        validate.choice("branch", number, self.branches)
+        if self.branch is None:
+            return self
+        there = self.branch == number
+        deviation = None if self.deviation is None else self.deviation[there]
+        parts = {"coefficient": self.coefficient[there], "deviation": deviation, "branch": None}
+        return replace(self, x=self.x[there], source=f"{self.source}, ramp {number + 1}", **parts)
+
+    @property
+    def hysteresis(self) -> float:
+        """Root mean square relative difference [-] of the ramps from the first, where they overlap; 0 for one ramp."""
+        if len(self.branches) < 2:
+            return 0.0
+        first = self.of_branch(self.branches[0])
+        parts = [self.of_branch(number) for number in self.branches[1:]]
+        off = []
+        for part in parts:
+            there = (part.x >= first.x.min()) & (part.x <= first.x.max())
+            order = np.argsort(first.x)
+            level = np.interp(part.x[there], first.x[order], first.coefficient[order])
+            off.append(part.coefficient[there] / level - 1.0)
+        every = np.concatenate(off)
+        return float(np.sqrt(np.mean(every**2))) if every.size else 0.0
 
     @property
     def scale(self) -> np.ndarray:
@@ -61,8 +104,13 @@ class Measured:
     def draw(self, axes) -> None:
         """The points on ``axes``, with their 95 % intervals, over the magnitude of what they are over."""
         error = None if self.deviation is None else 1.96 * self.deviation
-        style = {"fmt": "D", "ms": 4, "color": "k", "mfc": "none", "lw": 1, "label": figures.plain_words(self.source)}
-        axes.errorbar(np.abs(self.x), self.coefficient, error, **style)
+        for place, number in enumerate(self.branches):
+            there = slice(None) if self.branch is None else self.branch == number
+            ramp = f", ramp {number + 1}" if len(self.branches) > 1 else ""
+            style = {"fmt": MARKS[place % len(MARKS)], "ms": 4, "color": "k", "mfc": "none", "lw": 1}
+            label = figures.plain_words(self.source) + ramp
+            of_ramp = None if error is None else error[there]
+            axes.errorbar(np.abs(self.x[there]), self.coefficient[there], of_ramp, label=label, **style)
 
     def label(self, axes) -> None:
         """The axis of what they are over."""
@@ -105,7 +153,10 @@ def read_measured(
 
     Notes
     -----
-    A unit in the heading, in square or round brackets, is converted (`lubfric._base.tables`).
+    A unit in the heading, in square or round brackets, or in a line below the headings, is converted
+    (`lubfric._base.tables`). A preamble may stand above. Speeds that rise and then fall (or the other way round, and so
+    on) are ramps: ``measured.branch`` has the number of each point's ramp, `Measured.of_branch` the points of one, and
+    ``measured.hysteresis`` what is between them.
     """
     if (speed is None) == (slide_roll_ratio is None):
         raise InputError("a measured curve has one axis; give the heading of speed, or that of slide_roll_ratio")
@@ -116,9 +167,37 @@ def read_measured(
         validate.instance("heading", name, str, "words, as they stand in the file")
     file = validate.folder("path", path)
     columns = [np.array(c) for c in read_columns(file, names, units, must_say=("m/s",))]
+    branch = ramps(columns[0])
     order = np.argsort(columns[0], kind="stable")
     x, f, *spread = (column[order] for column in columns)
-    return Measured(x, f, spread[0] if spread else None, over, file.name, rolling)
+    deviation = spread[0] if spread else None
+    several = None if branch is None else branch[order]
+    return Measured(x, f, deviation=deviation, over=over, source=file.name, rolling=rolling, branch=several)
+
+
+def ramps(x: np.ndarray) -> np.ndarray | None:
+    """Return the number of the ramp of each of the speeds ``x``, in the order of the measurement; None for one ramp, and
+    for speeds in no order. A ramp rises or falls all the way; where a speed is repeated at the turn, the next ramp
+    begins."""
+    steps = np.diff(x)
+    if x.size < 2 * SHORTEST_RAMP or (steps > 0).all() or (steps < 0).all():
+        return None
+    number = np.zeros(x.size, int)
+    direction = 0.0
+    for place, step in enumerate(steps.tolist(), 1):
+        number[place] = number[place - 1]
+        if step == 0.0:
+            number[place] += 1
+            direction = 0.0
+        elif direction and np.sign(step) != direction:
+            number[place] += 1
+            direction = 0.0
+        else:
+            direction = float(np.sign(step))
+    lengths = np.bincount(number)
+    if lengths.min() < SHORTEST_RAMP or lengths.size > x.size // 3 + 1:
+        return None
+    return number
 
 
 def values_at(parameters: dict[str, Between], unit: np.ndarray) -> dict[str, float]:

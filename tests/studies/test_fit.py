@@ -221,6 +221,86 @@ def test_a_file_is_read_by_the_names_of_its_columns(tmp_path):
     np.testing.assert_allclose(found.coefficient, [0.02, 0.05])
 
 
+PREAMBLE = "Test rig 7; operator: B. Smith\nDate;2026-11-20\n\nOil: A, 70 °C\n# remark\nStep 1 of 1\n"
+
+
+@pytest.mark.parametrize("units", ["mm/s;-;N", "[mm/s];[-];[N]", "(mm/s);;N", "mm/s;-;kgf/furlong"])
+def test_a_line_of_units_below_the_headings(tmp_path, units):
+    """Below a preamble of other widths, with decimal commas; the units are used, and not read as numbers."""
+    path = tmp_path / "rig.csv"
+    path.write_text(f"{PREAMBLE}Speed;mu;Load\n{units}\n1;0,1;5\n100,5;0,05;5\n", encoding="utf-8")
+    measured = lubfric.read_measured(path, speed="Speed", coefficient="mu")
+    np.testing.assert_allclose([measured.x, measured.coefficient], [[1e-3, 0.1005], [0.1, 0.05]])
+    path.write_text(path.read_text(encoding="utf-8").replace("Speed;", "Speed [m/s];"), encoding="utf-8")
+    with pytest.raises(lubfric.InputError, match="is in 'm/s' and in 'mm/s'"):
+        lubfric.read_measured(path, speed="Speed", coefficient="mu")
+    path.write_text("Speed;mu\nrpm;-\n1;0.1\n")
+    with pytest.raises(lubfric.InputError, match="unit 'rpm' is not known"):
+        lubfric.read_measured(path, speed="Speed", coefficient="mu")
+    path.write_text("Speed;mu\nfast;low\n1;0.1\n")
+    with pytest.raises(lubfric.InputError, match="no unit|not a number"):
+        lubfric.read_measured(path, speed="Speed", coefficient="mu")
+
+
+def test_a_long_preamble_and_blanks_between_columns(tmp_path):
+    path = tmp_path / "rig.txt"
+    rows = "  1.0      0.10   5\n  10.0     0.05   5\n"
+    path.write_text(
+        "".join(f"Setting {i}: value {i}\n" for i in range(300)) + "Rolling speed (mm/s)   mu (-)  F (N)\n" + rows
+    )
+    measured = lubfric.read_measured(path, speed="Rolling speed", coefficient="mu")
+    np.testing.assert_allclose([measured.x, measured.coefficient], [[1e-3, 1e-2], [0.1, 0.05]])
+
+
+@pytest.mark.parametrize("turn", ["once", "twice"])
+def test_ramps_up_and_down_are_branches(tmp_path, turn):
+    """Speeds may stand twice in different ramps; a fit of one number has the mean of both ramps as its answer."""
+    up = [10.0, 30.0, 100.0]
+    down = up[::-1] if turn == "twice" else up[-2::-1]
+    f = {u: value for u, value in zip(up, (0.09, 0.07, 0.05))}
+    lines = [f"{u},{f[u]}" for u in up] + [f"{u},{f[u] * 1.1}" for u in down]
+    (tmp_path / "rig.csv").write_text("\n".join(["U [mm/s],mu", *lines]))
+    measured = lubfric.read_measured(tmp_path / "rig.csv", speed="U [mm/s]", coefficient="mu")
+    assert measured.branches == (0, 1) and measured.x.size == 3 + len(down)
+    first, second = (measured.of_branch(number) for number in (0, 1))
+    np.testing.assert_allclose(first.x, [0.01, 0.03, 0.1])
+    np.testing.assert_allclose(second.coefficient, [1.1 * f[u] for u in sorted(down)])
+    assert measured.hysteresis == pytest.approx(0.1)
+    bounds = {"bodies.boundary_friction_coefficient": (0.02, 0.4)}
+    assert "2 ramps of rising and falling speed: their coefficients are 10 % apart" in lubfric.explain_fit(
+        SCENE, measured, bounds
+    )
+    (tmp_path / "dwell.csv").write_text("U [mm/s],mu\n1,0.1\n1,0.11\n2,0.1\n2,0.12\n")
+    with pytest.raises(lubfric.InputError, match="twice"):
+        lubfric.read_measured(tmp_path / "dwell.csv", speed="U [mm/s]", coefficient="mu")
+    shuffled = [lines[i] for i in (1, 0, 2)]
+    (tmp_path / "any.csv").write_text("\n".join(["U [mm/s],mu", *shuffled]))
+    assert lubfric.read_measured(tmp_path / "any.csv", speed="U [mm/s]", coefficient="mu").branch is None
+
+
+def test_points_of_two_ramps_at_one_speed_are_solved_once():
+    speeds = np.array([0.01, 0.01, 0.03, 0.03, 0.1, 0.1])
+    branch = np.array([0, 1] * 3)
+    truth = made_up(2, speeds[::2])
+    measured = lubfric.Measured(speeds, np.repeat(truth.coefficient, 2), branch=branch)
+    bounds = {"bodies.boundary_friction_coefficient": (0.05, 0.2)}
+    doubled = lubfric.fit(SCENE, measured, bounds)
+    single = lubfric.fit(SCENE, lubfric.Measured(speeds[::2], truth.coefficient), bounds)
+    assert doubled.values == pytest.approx(single.values, rel=0.02)
+    assert doubled.predicted.size == 6 and doubled.predicted[0] == doubled.predicted[1]
+
+
+@pytest.mark.parametrize("heading", ["U" + " " * 3000, "(" * 3000, "a [" * 3000, "x " * 4000 + "[m/s]", "mm/s" * 2000])
+def test_headings_of_any_length_are_read_in_no_time(tmp_path, heading):
+    import time
+
+    (tmp_path / "m.csv").write_text(f"{heading},mu\n1,0.1\n2,0.1\n")
+    before = time.process_time()
+    with pytest.raises(lubfric.InputError):
+        lubfric.read_measured(tmp_path / "m.csv", speed="U [m/s]x", coefficient="mu")
+    assert time.process_time() - before < 0.5
+
+
 @pytest.mark.parametrize(
     "text, names, words",
     [
