@@ -92,7 +92,7 @@ def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None
         heights=None if found is None or sample.is_single_patch else found.contact.heights,  # type: ignore[attr-defined]
         deterministic=finest.result,
     )
-    return with_ranges(prepared, result, levels.pairs[0].longer if moves(scene) else finest)
+    return with_ranges(prepared, result, levels.pairs[0].resolved if moves(scene) else finest)
 
 
 def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Levels, heat: Heat) -> Decision:

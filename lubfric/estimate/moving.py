@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from ..contact import HalfSpaceContact
-from ..models.deterministic import RoughBody, Strip, effort_for, moving_work, reach, solve_moving_strip, solve_strip
+from ..models.deterministic import RoughBody, effort_for, moving_work, reach
 from ..models.shared import (
     Prepared,
     on_strip,
@@ -16,13 +16,6 @@ from ..surface import Surface
 
 ON_LONGER = 0.5  # work on cells twice as long along y, over that on the shorter ones
 MOST_WORK = 120.0  # s, counted: beyond it "auto" leaves moving roughness to Eq. (8)
-
-
-def solved_strip(prepared: Prepared, index: int, speed: float, **how) -> Strip:
-    """Strip ``index`` by the deterministic model, its roughness at rest or moving; ``how``: as in `solve_strip`."""
-    if moves(prepared.scene):
-        return solve_moving_strip(prepared.scene, bodies_of(prepared, index, speed), speed, **how)
-    return solve_strip(prepared.scene, strip_surface(prepared, index), speed, **how)
 
 
 def strip_surface(prepared: Prepared, index: int) -> Surface:

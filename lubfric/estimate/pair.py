@@ -3,13 +3,20 @@
 import math
 from dataclasses import dataclass, replace
 
-from ..models.deterministic import DeterministicResult, Strip
+from ..models.deterministic import (
+    DeterministicResult,
+    MovingStrip,
+    Strip,
+    solve_moving_strip,
+    solve_strip,
+    strip_at_rest,
+)
 from ..models.shared import Prepared
 from ..quantities import NUMBERS
 from ..samples import Sample
-from ..scene import Scene, moves
+from ..scene import FRICTION, Scene, moves
 from ..surface import Surface
-from .moving import solved_strip, strip_surface
+from .moving import bodies_of, strip_surface
 from .scatter import mirrored
 
 # cells, at least: in a correlation length, and in b along x
@@ -22,13 +29,21 @@ MOVING = 4.0  # the former along x where roughness moves (docs/levels.md)
 class StripOnTwoGrids:
     """One strip of the sample.
 
-    ``resolved``: by the deterministic model; ``longer``: on longer cells (`longer_than`), from which it started;
-    ``mirrored``: whether the second half along y is the mirror image of the first.
+    ``resolved``: by the deterministic model; ``longer``: on longer cells (`longer_than`), from which it started, its
+    roughness at rest; ``mirrored``: whether the second half along y is the mirror image of the first.
     """
 
     resolved: Strip
     longer: Strip
     mirrored: bool = False
+
+    @property
+    def at_rest(self) -> tuple[Strip, Strip]:
+        """The strip with its roughness at rest, on the longer cells and on its own.
+
+        What shorter cells along y change of f is read off these where the roughness moves, too.
+        """
+        return self.longer, self.resolved.rest if isinstance(self.resolved, MovingStrip) else self.resolved
 
 
 def cells_of(scene: Scene, sample: Sample) -> tuple[int, int]:
@@ -60,13 +75,33 @@ def longer_than(surface: Surface, factors: tuple[int, int], moving: bool = False
 
 
 def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> StripOnTwoGrids:
-    """Strip ``index`` at ``speed`` [m/s], not 0. The deterministic model begins on longer cells. ``slope``:
-    of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`."""
+    """Solve strip ``index`` by the deterministic model at ``speed`` [m/s], not 0, first on longer cells.
+
+    ``slope``: of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`.
+    """
+    scene = prepared.scene
     surface, factors = strip_of(prepared, index)
-    first = solved_strip(prepared, index, speed, factors=longer_than(surface, factors, moves(prepared.scene)))
-    strip = solved_strip(prepared, index, speed, factors=factors, start=first, slope=slope is None)
-    strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + first.work)
-    return StripOnTwoGrids(strip, first, prepared.sample.is_single_patch and mirrored(surface.heights))
+    find_slope = slope is None
+    longer_cells = longer_than(surface, factors, moves(scene))
+    longer: Strip
+    strip: Strip
+    if moves(scene):
+        bodies = bodies_of(prepared, index, speed)
+        continued = index == 0 and solves_ends(scene)
+        longer = strip_at_rest(scene, bodies, speed, factors=longer_cells)
+        strip = solve_moving_strip(
+            scene, bodies, speed, factors=factors, start=longer, slope=find_slope, for_continuation=continued
+        )
+    else:
+        longer = solve_strip(scene, surface, speed, factors=longer_cells)
+        strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=find_slope)
+    strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
+    return StripOnTwoGrids(strip, longer, prepared.sample.is_single_patch and mirrored(surface.heights))
+
+
+def solves_ends(scene: Scene) -> bool:
+    """Return whether an input has a range at whose ends f is solved again: any but f_b, in which f is linear."""
+    return any(name != FRICTION for name, *_ in scene.ranges)
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:

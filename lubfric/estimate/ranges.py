@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ..contact import RoughContact
 from ..errors import ConvergenceError
-from ..models.deterministic import Strip, solve_strip
+from ..models.deterministic import MovingStrip, Strip, continued_strip, solve_strip
 from ..models.load_sharing import solve_balance
 from ..models.shared import (
     Prepared,
@@ -14,9 +14,9 @@ from ..models.shared import (
     on_stack,
     prepare,
 )
-from ..scene import FRICTION, Scene, moves, value_of
+from ..scene import FRICTION, Scene, value_of
 from .heated import strip_heat
-from .moving import solved_strip
+from .moving import bodies_of
 from .pair import strip_of
 from .result import FrictionResult
 from .uncertainty import Uncertainty
@@ -125,20 +125,21 @@ def _deterministic(prepared: Prepared, strip: Strip, speed: float) -> Callable[[
     on the cells of ``strip``, which is solved at the prepared one and from which each begins.
 
     These are the cells of the answer, because the change of f by the stress of an oil is up to three times as large on
-    cells twice as long. Only where roughness moves they are longer along y, for the time that it takes.
+    cells twice as long. Where the roughness moves, each end is a continuation of the strip (`continued_strip`), compared
+    with the same moments of the strip itself.
     """
     surface, _ = strip_of(prepared, 0)
     spacing = strip.problem.spacing
     factors = (round(spacing[0] / surface.spacing[0]), round(spacing[1] / surface.spacing[1]))
 
     def f(scene: Scene) -> float:
-        if scene is prepared.scene:
-            at_end = strip
-        elif moves(scene):
-            there = replace(prepared, scene=scene)
-            at_end = solved_strip(there, 0, speed, factors=factors, start=strip)
+        unchanged = scene is prepared.scene
+        if isinstance(strip, MovingStrip):
+            assert strip.early is not None
+            at_end = strip.early if unchanged else continued_strip(scene, bodies_of(prepared, 0, speed), speed, strip)
         else:
-            at_end = solve_strip(scene, surface, speed, factors=factors, start=strip)
-        return at_end.result.coefficient * (1 - strip_heat(scene, at_end.result).change)
+            solution = strip if unchanged else solve_strip(scene, surface, speed, factors=factors, start=strip)
+            at_end = solution.result
+        return at_end.coefficient * (1 - strip_heat(scene, at_end).change)
 
     return f

@@ -55,7 +55,7 @@ def on_shorter_cells(
     """
     scene = prepared.scene
     sample = prepared.sample
-    by_longer = sum(changes_of((pair.longer, pair.resolved))[0] for pair in pairs) / len(pairs)
+    by_longer = sum(changes_of(pair.at_rest)[0] for pair in pairs) / len(pairs)
     factors = zip(cells_of(scene, sample), sample.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED, MOVING * _coarse(prepared) ** 2 if moves(scene) else 0.0)

@@ -11,8 +11,10 @@ import lubfric
 from lubfric.estimate import maps_of
 from lubfric.film import LineContact
 from lubfric.models.deterministic import (
+    ECONOMICAL,
     RoughBody,
     animate_moments,
+    continued_strip,
     lay_out,
     linear,
     moments,
@@ -222,6 +224,22 @@ def test_a_step_that_newtons_method_does_not_solve_is_taken_in_parts(monkeypatch
     was_part, (first, *_, last, end) = zip(*tried[-5:])
     assert was_part == (True, True, True, True, False)
     assert np.abs(last - end).max() < 1e-15 < 1e-10 < np.abs(first - end).max()
+
+
+def test_a_continuation_with_another_oil_is_that_of_the_same_moments():
+    """Followed from the start with the other oil, the same roughness changes f as much in the same moments."""
+    body = [RoughBody(rough(3, sq=0.2e-6, shape=(28, 12)), 0.3 * 0.75)]
+    scene = scene_of(slide_roll_ratio=0.5)
+    thinner = scene.with_(lubricant={"eyring_stress": 1e7})
+    how = {"effort": ECONOMICAL, "for_continuation": True, "most_steps": 1}
+    strip = solve_moving_strip(scene, body, 0.3, **how)
+    unchanged = continued_strip(scene, body, 0.3, strip)
+    assert unchanged.coefficient == pytest.approx(strip.early.coefficient, rel=2e-3)
+    change = continued_strip(thinner, body, 0.3, strip).coefficient / strip.early.coefficient - 1
+    whole = solve_moving_strip(thinner, body, 0.3, **how)
+    assert change == pytest.approx(whole.early.coefficient / strip.early.coefficient - 1, rel=0.05)
+    assert change > 0.02
+    assert strip.times.size == strip.discarded + 1
 
 
 def test_mass_that_loose_steps_leave_is_not_lost():

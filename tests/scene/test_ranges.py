@@ -116,13 +116,13 @@ def test_only_the_ends_of_ranges_are_solved(motion, monkeypatch):
 
     at_rest = lubfric.models.deterministic.solve_strip
 
-    def without_motion(scene, bodies, speed, **options):
+    def without_motion(scene, bodies, speed, for_continuation, **options):
         """Stand in for the march in time, which takes a minute here: only the number of solves counts."""
         return at_rest(scene, bodies[0].surface, speed, **options)
 
-    for place in ("estimate.moving", "estimate.ranges"):
+    for place in ("estimate.pair", "estimate.ranges"):
         monkeypatch.setattr(f"lubfric.{place}.solve_strip", counted(at_rest))
-    monkeypatch.setattr("lubfric.estimate.moving.solve_moving_strip", counted(without_motion))
+    monkeypatch.setattr("lubfric.estimate.pair.solve_moving_strip", counted(without_motion))
     numerics = {"model": "deterministic", "sampling": "patch", "tolerance": 0.2}
     contact = {"shape": (24, 16), "spacing": (3e-6, 6e-6)}
     surface = {"correlation_length": (8e-6, 14e-6)}

@@ -1,19 +1,18 @@
 """One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
-from .moving import (
+from .moving import Moment, RoughBody, moments, travelling
+from .moving_strip import (
     ECONOMICAL,
     KRYLOV,
     STEPS,
     TIGHT,
-    Moment,
     MovingEffort,
     MovingStrip,
-    RoughBody,
+    continued_strip,
     effort_for,
-    moments,
     moving_work,
     solve_moving_strip,
-    travelling,
+    strip_at_rest,
 )
 from .newton import Work, newton
 from .pictures import animate_moments, plot_moments, plot_passing

@@ -16,9 +16,8 @@ f is that of surface 2, the upper one, against its sliding u2 - u1, or against U
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import islice
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,64 +25,19 @@ from scipy.ndimage import uniform_filter1d
 
 from ...errors import CONVERGED, ITERATION_LIMIT, Report
 from ...film import LineContact
-from ...scene import Scene
 from ...surface import Surface
 from .linear import ACCURACY
 from .newton import Work, newton
-from .point import Strip, solve_strip, work_of_steps
-from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach, shifted
-from .result import DeterministicResult, LoadSplit, assemble
+from .problem import Problem, shifted
+from .result import DeterministicResult, assemble
 from .solve import solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, extrapolated_mass, residuals
 
 EXACT = 1e-3  # the residual of a step (`residuals`), unless another is given
 MOST = 160  # LU factorisations of a step, at most
 PARTS = 4  # Euler steps that lead to a step that Newton's method does not solve
-RESOLVED = 8  # cells in the Hertz half-width, from which on the pressure is moved with the roughness as a start
 SMOOTH = 0.4  # half-widths over which the pressure is smoothed to tell what goes with the roughness
-STEPS = 4.0  # LU factorisations in a step in time, about: for the estimate of the work
-KRYLOV = 25.0  # GMRES iterations in a step in time, about
-SLOW = 0.5  # of U: where all roughness is slower, the fastest passes one cell in a step; else the lubricant does
-FAST = 2.0  # of U: where some roughness is faster, it passes one cell in a step
 SAME = 1e-9  # relative: the lubricant passes one cell in a step
-SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film", "peak_pressure"
-AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
-
-
-@dataclass(frozen=True, kw_only=True)
-class MovingEffort:
-    """How accurately the film under moving roughness is followed (docs/deterministic.md has what each value changes).
-
-    - ``residual``: at which a step ends (`residuals`), for each column of cells along x; ``carries_imbalance``: whether
-      the mass that it leaves out of balance goes into the next step; ``linear``: residual of GMRES, relative.
-    - ``inlet``, ``outlet``: lengths of the grid up and down stream, at least, in Hertz half-widths.
-    - ``discarded``: distance that the lubricant travels before anything counts, in half-widths.
-    """
-
-    residual: float
-    carries_imbalance: bool
-    linear: float
-    inlet: float
-    outlet: float
-    discarded: float
-
-
-TIGHT = MovingEffort(
-    residual=1e-4,
-    carries_imbalance=False,
-    linear=ACCURACY,
-    inlet=HERTZ_INLET,
-    outlet=HERTZ_OUTLET,
-    discarded=2.5,  # from 1.5 half-widths before the middle of the contact to one behind it
-)
-ECONOMICAL = MovingEffort(
-    residual=2e-3,
-    carries_imbalance=True,
-    linear=0.1,
-    inlet=1.8,
-    outlet=1.3,
-    discarded=1.6,
-)
 
 
 @dataclass(frozen=True)
@@ -245,118 +199,6 @@ def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float
     return at
 
 
-@dataclass(frozen=True)
-class MovingStrip(Strip):
-    """A strip whose roughness moved through the film; ``result`` has the means over time, and the fields of the last
-    moment.
-
-    ``rest``: the same strip at rest, from which it started. ``times`` [s] (n,): all moments after it, the first
-    ``discarded`` of which count nothing: the film had not passed the contact yet. ``series``: of each the numbers
-    `SERIES`: ``share``, of the load that rubs with f_b, ``peak_pressure`` [Pa] of any cell.
-    """
-
-    rest: Strip
-    times: np.ndarray
-    discarded: int
-    series: dict[str, np.ndarray] = field(repr=False)
-
-    @property
-    def peak_pressure(self) -> float:
-        return max(self.rest.peak_pressure, float(self.series["peak_pressure"].max()))
-
-
-def solve_moving_strip(
-    scene: Scene,
-    bodies: Sequence[RoughBody],
-    speed: float,
-    *,
-    factors: tuple[int, int] = (1, 1),
-    start: Strip | None = None,
-    slope: bool = False,
-    effort: MovingEffort | None = None,
-    most_steps: int | None = None,
-) -> MovingStrip:
-    """Move the rough ``bodies`` through the film at U = ``speed`` [m/s], by the length of the fastest map. Their speeds
-    are along the motion.
-
-    ``factors``, ``start``, ``slope``: as in `solve_strip`, for the roughness at rest, from which the motion starts.
-    What follows until the film has passed the contact (`MovingEffort.discarded`, in Hertz half-widths, or in those of
-    the smooth film where that is wider) is discarded. ``effort``: None: `effort_for` the contact. ``most_steps``: that
-    count, at most (None: a whole pass of the map). Raises `InputError` and `ConvergenceError`.
-    """
-    heights = np.sum([body.surface.heights for body in bodies], axis=0)
-    surface = replace(bodies[0].surface, heights=heights, mask=None)
-    line = scene.line_contact(abs(speed))
-    effort = effort_for(line, surface.sq) if effort is None else effort
-    ends = reach(line, surface.sq, inlet=effort.inlet, outlet=effort.outlet)
-    near = start.rest if isinstance(start, MovingStrip) else start
-    upper = next((body.surface for body in bodies if body.upper), None)
-    rest = solve_strip(scene, surface, speed, factors=factors, start=near, slope=slope, upper=upper, ends=ends)
-    if speed < 0:
-        bodies = [body._replace(surface=replace(body.surface, heights=body.surface.heights[::-1])) for body in bodies]
-    fastest = max(bodies, key=lambda body: abs(body.speed))
-    cell = rest.problem.spacing[0]
-    step, discarded, count = _steps(line, cell, fastest.speed, fastest.surface.size[0], effort)
-    count = count if most_steps is None else min(count, most_steps)
-    moved = max(1, round(abs(fastest.speed) * step / cell))
-    moving = moments(
-        travelling(rest.problem, bodies),
-        step,
-        start=rest.result.state,
-        tolerance=effort.residual * rest.problem.x.size,
-        carries_imbalance=effort.carries_imbalance,
-        linear_accuracy=effort.linear,
-        shift=moved if line.half_width > RESOLVED * cell else 0,
-    )
-    rows: list[dict[str, Any]] = []
-    for moment in islice(moving, 1, 1 + discarded + count):
-        result = moment.result
-        rows.append({name: getattr(result, name) for name in AVERAGED} | vars(result.split))
-        rows[-1]["share"] = result.split.spots / result.load
-        rows[-1]["peak_pressure"] = float(moment.at.state.pressure.max())
-        rows[-1]["work"] = work_of_steps(moment.at.gap.size, moment.work.factorisations, moment.work.krylov)
-    mean = {name: np.mean([row[name] for row in rows[discarded:]], axis=0) for name in rows[0]}
-    split = LoadSplit(*(float(mean[f.name]) for f in fields(LoadSplit)))
-    parts: dict[str, Any] = {name: mean[name] if mean[name].ndim else float(mean[name]) for name in AVERAGED}
-    speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
-    note = (
-        f"the roughness moved at {speeds} m/s, by {count} steps of {step:.3g} s after {discarded} that do not count; "
-        f"at rest f = {rest.result.coefficient:.4g}"
-    )
-    return MovingStrip(
-        moment.at.problem,
-        replace(result, **parts, split=split, report=replace(result.report, notes=(note,))),
-        rest.slope,
-        rest.work + sum(row["work"] for row in rows),
-        rest,
-        step * np.arange(1, 1 + len(rows)),
-        discarded,
-        {name: np.array([row[name] for row in rows]) for name in SERIES},
-    )
-
-
-def effort_for(contact: LineContact, sq: float) -> MovingEffort:
-    """Return the `MovingEffort` for roughness of ``sq`` [m] in a smooth ``contact``."""
-    return TIGHT
-
-
-def _steps(
-    contact: LineContact, cell: float, fastest: float, length: float, effort: MovingEffort
-) -> tuple[float, int, int]:
-    """Return the length [s] of a step, and the numbers of steps that are discarded and that count, for cells [m] along
-    x and a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
-    speed = contact.entrainment_speed
-    step = cell / (speed if SLOW <= abs(fastest) / speed <= FAST else abs(fastest))
-    discarded = math.ceil(effort.discarded * half_width(contact) / (speed * step))
-    return step, discarded, max(1, round(length / (abs(fastest) * step)))
-
-
 def half_width(contact: LineContact) -> float:
     """Return the half-width of the Hertz strip [m], or that of the smooth film where that is wider."""
     return max(contact.half_width, math.sqrt(2 * contact.radius * contact.moes_film))
-
-
-def moving_work(contact: LineContact, sq: float, cell: float, fastest: float, length: float, cells: float) -> float:
-    """Estimate the counted work [s of a usual core] of so many ``cells`` in all the steps of `solve_moving_strip`."""
-    _, discarded, count = _steps(contact, cell, fastest, length, effort_for(contact, sq))
-    return (discarded + count) * work_of_steps(cells, STEPS, KRYLOV)

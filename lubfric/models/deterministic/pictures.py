@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from ..._base import figures
-from .moving import Moment, MovingStrip, half_width
+from .moving_strip import Moment, MovingStrip, half_width
 
 MOST = 8  # moments side by side
 TIME = "time since the roughness began to move (ms)"

@@ -1,0 +1,299 @@
+"""A strip of surface whose roughness moves through the film: how accurately it is followed, how long, and the means over
+time."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, fields, replace
+from itertools import islice
+from typing import Any
+
+import numpy as np
+
+from ...film import LineContact
+from ...scene import Scene
+from ...surface import Surface
+from .linear import ACCURACY
+from .moving import Moment, RoughBody, half_width, moments, travelling
+from .point import Strip, problem_of, solve_strip, work_of_steps
+from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
+from .result import DeterministicResult, LoadSplit
+from .state import State
+
+RESOLVED = 8  # cells in the Hertz half-width, from which on the pressure is moved with the roughness as a start
+STEPS = 4.0  # LU factorisations in a step in time, about: for the estimate of the work
+KRYLOV = 25.0  # GMRES iterations in a step in time, about
+SLOW = 0.5  # of U: where all roughness is slower, the fastest passes one cell in a step; else the lubricant does
+FAST = 2.0  # of U: where some roughness is faster, it passes one cell in a step
+CONTINUED = 0.4  # half-widths: distance that the lubricant travels in the moments of a continuation that count
+FEWEST = 8  # moments of a continuation that count, at least
+SERIES = "coefficient", "share", "mean_gap", "central_gap", "min_gap", "flow_film", "peak_pressure"
+AVERAGED = tuple(f.name for f in fields(DeterministicResult) if f.type is float) + ("load_at", "friction_at")
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingEffort:
+    """How accurately the film under moving roughness is followed (docs/deterministic.md has what each value changes).
+
+    - ``residual``: at which a step ends (`residuals`), for each column of cells along x; ``carries_imbalance``: whether
+      the mass that it leaves out of balance goes into the next step; ``linear``: residual of GMRES, relative.
+    - ``inlet``, ``outlet``: lengths of the grid up and down stream, at least, in Hertz half-widths.
+    - ``discarded``: distance that the lubricant travels before anything counts, in half-widths.
+    """
+
+    residual: float
+    carries_imbalance: bool
+    linear: float
+    inlet: float
+    outlet: float
+    discarded: float
+
+
+TIGHT = MovingEffort(
+    residual=1e-4,
+    carries_imbalance=False,
+    linear=ACCURACY,
+    inlet=HERTZ_INLET,
+    outlet=HERTZ_OUTLET,
+    discarded=2.5,  # from 1.5 half-widths before the middle of the contact to one behind it
+)
+ECONOMICAL = MovingEffort(
+    residual=2e-3,
+    carries_imbalance=True,
+    linear=0.1,
+    inlet=1.8,
+    outlet=1.3,
+    discarded=1.6,
+)
+
+
+@dataclass(frozen=True)
+class MovingStrip(Strip):
+    """A strip whose roughness moved through the film; ``result`` has the means over time, and the fields of the last
+    moment.
+
+    - ``rest``: the same strip at rest, from which it started. ``times`` [s] (n,): all moments after it, the first
+      ``discarded`` of which count nothing: the film had not passed the contact yet. ``series``: of each the numbers
+      `SERIES`: ``share``, of the load that rubs with f_b, ``peak_pressure`` [Pa] of any cell.
+    - ``settled``: the state of the last moment that is discarded, from which `continued_strip` starts; ``early``: the
+      means over the moments that a continuation counts (None: the strip was not solved for one). ``effort`` and
+      ``ends`` [m], of the grid up and down stream: with which it was solved.
+    """
+
+    rest: Strip
+    times: np.ndarray
+    discarded: int
+    series: dict[str, np.ndarray] = field(repr=False)
+    effort: MovingEffort
+    ends: tuple[float, float]
+    settled: State = field(repr=False)
+    early: DeterministicResult | None = field(default=None, repr=False)
+
+    @property
+    def peak_pressure(self) -> float:
+        return max(self.rest.peak_pressure, float(self.series["peak_pressure"].max()))
+
+
+def solve_moving_strip(
+    scene: Scene,
+    bodies: Sequence[RoughBody],
+    speed: float,
+    *,
+    factors: tuple[int, int] = (1, 1),
+    start: Strip | None = None,
+    slope: bool = False,
+    effort: MovingEffort | None = None,
+    most_steps: int | None = None,
+    for_continuation: bool = False,
+) -> MovingStrip:
+    """Move the rough ``bodies`` through the film at U = ``speed`` [m/s], by the length of the fastest map. Their speeds
+    are along the motion.
+
+    What follows until the film has passed the contact (`MovingEffort.discarded`, in Hertz half-widths, or in those of
+    the smooth film where that is wider) is discarded. Raises `InputError` and `ConvergenceError`.
+
+    Parameters
+    ----------
+    factors, start, slope : as in `solve_strip`, for the roughness at rest, from which the motion starts
+    effort : None: `effort_for` the contact
+    most_steps : moments that count, at most (None: a whole pass of the map)
+    for_continuation : whether `MovingStrip.early` is needed; a short map is followed beyond a pass for it
+    """
+    effort = effort_of(scene, bodies, speed) if effort is None else effort
+    near = start.rest if isinstance(start, MovingStrip) else start
+    rest = strip_at_rest(scene, bodies, speed, factors=factors, start=near, slope=slope, effort=effort)
+    step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
+    count = count if most_steps is None else min(count, most_steps)
+    early = continued_moments(rest.problem.contact, rest.problem.spacing[0], discarded)
+    last = discarded + max(count, sum(early) if for_continuation else 0)
+    passing = _passing(rest.problem, bodies, speed, step, effort, rest.result.state, 0.0)
+    rows: list[dict[str, Any]] = []
+    early_result: DeterministicResult | None = None
+    for number, moment in enumerate(islice(passing, 1, 1 + last), 1):
+        rows.append(_row(moment))
+        if number == discarded:
+            settled = moment.at.state
+        if for_continuation and number == discarded + sum(early):
+            early_result = _mean(rows[-early[1] :], moment.result)
+        if number == discarded + count:
+            counted = moment
+    speeds = " and ".join(f"{body.speed:.4g}" for body in bodies)
+    note = (
+        f"the roughness moved at {speeds} m/s, by {count} steps of {step:.3g} s after {discarded} that do not count; "
+        f"at rest f = {rest.result.coefficient:.4g}"
+    )
+    result = _mean(rows[discarded : discarded + count], counted.result)
+    return MovingStrip(
+        problem=counted.at.problem,
+        result=replace(result, report=replace(result.report, notes=(note,))),
+        slope=rest.slope,
+        work=rest.work + sum(row["work"] for row in rows),
+        rest=rest,
+        times=step * np.arange(1, 1 + discarded + count),
+        discarded=discarded,
+        series={name: np.array([row[name] for row in rows[: discarded + count]]) for name in SERIES},
+        effort=effort,
+        ends=_ends(scene, bodies, speed, effort),
+        settled=settled,
+        early=early_result,
+    )
+
+
+def continued_strip(scene: Scene, bodies: Sequence[RoughBody], speed: float, strip: MovingStrip) -> DeterministicResult:
+    """Return the means over time of ``strip`` with the inputs of another ``scene`` that has the same bodies and motion.
+
+    It goes on from `MovingStrip.settled`, and counts once more when the film has passed the contact: the same moments as
+    `MovingStrip.early`, at which the roughness stands in the same places. So their ratio does not depend on the few
+    places that pass in that time. Raises `ConvergenceError`.
+    """
+    rest = strip.rest
+    cell = rest.problem.spacing[0]
+    factors = (
+        round(cell / bodies[0].surface.spacing[0]),
+        round(rest.problem.spacing[1] / bodies[0].surface.spacing[1]),
+    )
+    surface, upper = _together(bodies)
+    problem = problem_of(scene, surface, speed, factors, upper, strip.ends)
+    step = float(strip.times[0])
+    early = continued_moments(rest.problem.contact, cell, strip.discarded)
+    begun = float(strip.times[strip.discarded - 1])
+    passing = _passing(problem, bodies, speed, step, strip.effort, strip.settled, begun)
+    rows = []
+    for moment in islice(passing, 1, 1 + sum(early)):
+        rows.append(_row(moment))
+    return _mean(rows[-early[1] :], moment.result)
+
+
+def continued_moments(contact: LineContact, cell: float, discarded: int) -> tuple[int, int]:
+    """Return the numbers of moments of a continuation that are discarded, and that count, on cells [m] along x."""
+    return discarded, max(FEWEST, math.ceil(CONTINUED * half_width(contact) / cell))
+
+
+def strip_at_rest(
+    scene: Scene,
+    bodies: Sequence[RoughBody],
+    speed: float,
+    *,
+    factors: tuple[int, int] = (1, 1),
+    start: Strip | None = None,
+    slope: bool = False,
+    effort: MovingEffort | None = None,
+) -> Strip:
+    """Solve the strip of `solve_moving_strip` with its roughness at rest, as it stands at time 0."""
+    surface, upper = _together(bodies)
+    effort = effort_of(scene, bodies, speed) if effort is None else effort
+    ends = _ends(scene, bodies, speed, effort)
+    return solve_strip(scene, surface, speed, factors=factors, start=start, slope=slope, upper=upper, ends=ends)
+
+
+def _together(bodies: Sequence[RoughBody]) -> tuple[Surface, Surface | None]:
+    """Return the sum of the maps, and the part of it that is surface 2 (None: that is smooth)."""
+    heights = np.sum([body.surface.heights for body in bodies], axis=0)
+    upper = next((body.surface for body in bodies if body.upper), None)
+    return replace(bodies[0].surface, heights=heights, mask=None), upper
+
+
+def _ends(scene: Scene, bodies: Sequence[RoughBody], speed: float, effort: MovingEffort) -> tuple[float, float]:
+    """Return the lengths [m] of the grid up and down stream of the line of contact."""
+    line = scene.line_contact(abs(speed))
+    return reach(line, _together(bodies)[0].sq, inlet=effort.inlet, outlet=effort.outlet)
+
+
+def _passing(
+    problem: Problem,
+    bodies: Sequence[RoughBody],
+    speed: float,
+    step: float,
+    effort: MovingEffort,
+    state: State,
+    begun: float,
+) -> Iterator[Moment]:
+    """Yield the moments of ``problem`` from a ``state`` on, with the roughness where it stands at the time ``begun`` [s];
+    for a negative ``speed`` in the mirror."""
+    if speed < 0:
+        bodies = [body._replace(surface=replace(body.surface, heights=body.surface.heights[::-1])) for body in bodies]
+    cell = problem.spacing[0]
+    fastest = max(abs(body.speed) for body in bodies)
+    heights_at = travelling(problem, bodies)
+    return moments(
+        lambda time: heights_at(begun + time),
+        step,
+        start=state,
+        tolerance=effort.residual * problem.x.size,
+        carries_imbalance=effort.carries_imbalance,
+        linear_accuracy=effort.linear,
+        shift=max(1, round(fastest * step / cell)) if problem.contact.half_width > RESOLVED * cell else 0,
+    )
+
+
+def _row(moment: Moment) -> dict[str, Any]:
+    """Return the numbers of a moment, by name, and the counted work that it took."""
+    result = moment.result
+    row = {name: getattr(result, name) for name in AVERAGED} | vars(result.split)
+    return row | {
+        "share": result.split.spots / result.load,
+        "peak_pressure": float(moment.at.state.pressure.max()),
+        "work": work_of_steps(moment.at.gap.size, moment.work.factorisations, moment.work.krylov),
+    }
+
+
+def _mean(rows: Sequence[dict[str, Any]], last: DeterministicResult) -> DeterministicResult:
+    """Return the result of the ``last`` moment with the means over ``rows`` in the place of its numbers."""
+    mean = {name: np.mean([row[name] for row in rows], axis=0) for name in rows[0]}
+    split = LoadSplit(*(float(mean[f.name]) for f in fields(LoadSplit)))
+    parts: dict[str, Any] = {name: mean[name] if mean[name].ndim else float(mean[name]) for name in AVERAGED}
+    return replace(last, **parts, split=split)
+
+
+def effort_of(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> MovingEffort:
+    """Return the `effort_for` the contact of ``scene`` at ``speed`` [m/s]."""
+    return effort_for(scene.line_contact(abs(speed)), _together(bodies)[0].sq)
+
+
+def effort_for(contact: LineContact, sq: float) -> MovingEffort:
+    """Return the `MovingEffort` for roughness of ``sq`` [m] in a smooth ``contact``."""
+    return TIGHT
+
+
+def _steps_of(
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, cell: float, effort: MovingEffort
+) -> tuple[float, int, int]:
+    """Return the `_steps` of ``bodies`` on cells [m] along x."""
+    fastest = max(bodies, key=lambda body: abs(body.speed))
+    return _steps(scene.line_contact(abs(speed)), cell, fastest.speed, fastest.surface.size[0], effort)
+
+
+def _steps(
+    contact: LineContact, cell: float, fastest: float, length: float, effort: MovingEffort
+) -> tuple[float, int, int]:
+    """Return the length [s] of a step, and the numbers of steps that are discarded and that count, for cells [m] along
+    x and a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
+    speed = contact.entrainment_speed
+    step = cell / (speed if SLOW <= abs(fastest) / speed <= FAST else abs(fastest))
+    discarded = math.ceil(effort.discarded * half_width(contact) / (speed * step))
+    return step, discarded, max(1, round(length / (abs(fastest) * step)))
+
+
+def moving_work(contact: LineContact, sq: float, cell: float, fastest: float, length: float, cells: float) -> float:
+    """Estimate the counted work [s of a usual core] of so many ``cells`` in all the steps of `solve_moving_strip`."""
+    _, discarded, count = _steps(contact, cell, fastest, length, effort_for(contact, sq))
+    return (discarded + count) * work_of_steps(cells, STEPS, KRYLOV)
