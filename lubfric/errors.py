@@ -121,6 +121,7 @@ class Report:
     history : largest residual after each iteration
     evaluations : number of expensive kernels (convolutions, linear solves, inner solves)
     advice : what to do about it where the status alone does not tell; in ``message``
+    summary : what happened, in words, where iterations and the largest residual do not tell; in ``message``
     notes : choices the solver made that a reader of the result should know
     """
 
@@ -134,6 +135,7 @@ class Report:
     evaluations: float = 0
     notes: tuple[str, ...] = ()
     advice: str = ""
+    summary: str = ""
 
     def __post_init__(self):
         if self.converged:  # nothing is to be done
@@ -147,7 +149,8 @@ class Report:
     @property
     def message(self) -> str:
         """One line: what happened, how far it got, and what to do about it."""
-        text = (
+        text = self.summary and f"{self.solver}: {self.summary}"
+        text = text or (
             f"{self.solver}: {self.status} after {self.iterations} iteration{'s' * (self.iterations != 1)}, "
             f"residual {self.residual:.2e} (tolerance {self.tolerance:.2e})"
         )

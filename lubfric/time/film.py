@@ -10,7 +10,7 @@ from ..film import smallest
 from ..oil import Lubricant
 from ..scene import checked_history
 from .film_setting import FINER, TIME_SHARE, ContactHistory, Setting, make_setting, steady_start
-from .march import Plan, Step, checked_times, initial_progress, plan_of, report_of, steps
+from .march import Plan, Residual, Step, checked_times, grid_residual, initial_progress, plan_of, report_of, steps
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ def solve_transient_ehl(
     return returned(result, raise_on_failure)
 
 
-def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, dict[str, float]]:
+def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, dict[str, Residual]]:
     """Setting, state at t = 0 and residual of its grid. The grid is refined until a steady start is as accurate as
     asked."""
     if contact.initial_film is not None:
@@ -111,10 +111,10 @@ def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, di
             break
     if start.status != CONVERGED:
         raise ConvergenceError("transient: no steady film on the grid of the run to start from")
-    return setting, start, {"grid": error / tolerance}
+    return setting, start, {"grid": grid_residual(error / tolerance)}
 
 
-def _marched(setting: Setting, start: Step, plan: Plan, residuals: dict[str, float]) -> TransientFilm:
+def _marched(setting: Setting, start: Step, plan: Plan, residuals: dict[str, Residual]) -> TransientFilm:
     now = initial_progress(start, plan)
     outputs = [(0.0, start.terms)] if plan.times[0] == 0.0 else []
     for now in steps(setting, plan, now):

@@ -21,6 +21,7 @@ import numpy as np
 from .._base import validate
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, InputError, Report
 from ..scene import History
+from ..units import worded
 
 # of the step; BDF2 is stable for growth below 2.41
 SAFETY = 0.85
@@ -161,18 +162,58 @@ def steps(solver, plan: Plan, now: Progress) -> Iterator[Progress]:
             yield now
 
 
-def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dict[str, float]) -> Report:
-    """The report of a run: ``residuals``, each over its tolerance, and "step", the largest accepted local error."""
-    residuals = {"step": now.worst} | residuals
-    worst = max(residuals.values())
-    status = CONVERGED if now.time >= plan.end else STAGNATED
-    if status == CONVERGED and not worst <= 1.0:
+@dataclass(frozen=True, kw_only=True)
+class Residual:
+    """A residual of a run, over its tolerance: its ``value``, and in words ``what`` is not balanced, ``where`` the
+    value was found, and the ``advice`` that makes it smaller."""
+
+    value: float
+    what: str
+    where: str = ""
+    advice: str = "set a smaller transient.tolerance"
+
+
+def grid_residual(value: float) -> Residual:
+    """Return the residual of the grid of a steady start, ``value`` over its tolerance."""
+    advice = "set a looser numerics.film_tolerance: the finest grid of a run in time is reached"
+    return Residual(value=value, what="the error of the film by its grid", where="at the start", advice=advice)
+
+
+def report_of(solver: str, plan: Plan, now: Progress, cells: str, residuals: dict[str, Residual]) -> Report:
+    """Return the report of a run with these ``residuals``, and "step", the largest accepted local error. Its summary
+    names what was reached, and of a run that reached its end the largest residual and where it is."""
+    residuals = {"step": Residual(value=now.worst, what="the local error of a step")} | residuals
+    worst = max(residuals.values(), key=lambda residual: residual.value)
+    status = CONVERGED
+    summary = ""
+    advice = ""
+    if now.time < plan.end:
+        status = STAGNATED
+        done = int(np.searchsorted(plan.times, now.time, side="right"))
+        summary = (
+            f"stopped at t = {worded(now.time, 's')} of {worded(plan.end, 's')}, {done} of {plan.times.size} outputs "
+            "are solved. The shortest step did not converge"
+        )
+        advice = "make the histories change less abruptly there, or set a looser transient.tolerance"
+    elif not worst.value <= 1.0:
         status = ITERATION_LIMIT
-    notes = [f"{cells}, {now.rejected} steps rejected"]
-    if status == STAGNATED:
-        notes.append(f"stopped at t = {now.time:.6g} s: the shortest step failed")
-    tried = now.steps + now.rejected
-    return Report(solver, status, now.steps, worst, 1.0, residuals, evaluations=tried, notes=tuple(notes))
+        summary = (
+            f"all {plan.times.size} outputs are solved, but {worst.what} is {worst.value:.3g} times its tolerance"
+            f"{worst.where and ' ' + worst.where}"
+        )
+        advice = worst.advice
+    return Report(
+        solver=solver,
+        status=status,
+        iterations=now.steps,
+        residual=worst.value,
+        tolerance=1.0,
+        residuals={name: residual.value for name, residual in residuals.items()},
+        evaluations=now.steps + now.rejected,
+        notes=(f"{cells}, {now.rejected} steps rejected",),
+        summary=summary,
+        advice=advice,
+    )
 
 
 def advance(now: Progress, until: float, solver, tolerance: float, shortest: float) -> Progress | None:

@@ -15,7 +15,8 @@ from ..models.shared import (
 from ..quantities import OF_MOMENT, axis_label
 from ..scene import FRICTION as FRICTION_KEY
 from ..scene import value_of
-from .march import Plan, Progress, report_of
+from ..units import worded
+from .march import Plan, Progress, Residual, grid_residual, report_of
 from .model import Output, TimeModel
 
 MANY = 30  # blocks less one: of a strip
@@ -67,6 +68,7 @@ class TransientResult(Shown):
     entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
     inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)
     not_in : inputs, in words, whose ranges are not in ``uncertainty``: a run is solved with their values alone
+    requested : the output times [s] of the run, whether or not they were reached
     line_length, width, renewal : length of the line of rough surface, width of the contact, and the distance that a
         surface moves until other spots carry the load (the Hertz strip and a correlation length) [m]; NaN if not known
     """
@@ -82,6 +84,23 @@ class TransientResult(Shown):
     line_length: float = math.nan
     width: float = math.nan
     renewal: float = math.nan
+    requested: np.ndarray | tuple[float, ...] = ()
+
+    @property
+    def status(self) -> str:
+        """What was reached, in sentences; the first words are "Converged", "Not converged" or "Refused"."""
+        times = self.requested if len(self.requested) else self.time
+        count = len(times)
+        end = worded(float(times[-1]), "s")
+        if not self.report.converged:
+            return f"Not converged: {self.report.message.partition(': ')[2]}."
+        severe = [any(entry.severe for entry in entries) for entries in self.entries]
+        if any(severe):
+            return (
+                f"Refused: all {count} outputs to t = {end} are solved, but at {sum(severe)} of them an assumption "
+                "fails so badly that f means nothing (see the warnings)."
+            )
+        return f"Converged: all {count} outputs to t = {end} are solved, and every residual is within its tolerance."
 
     def average(self) -> TimeAverage:
         """The average of f over the time in motion, by trapezes between the outputs (which have to be dense enough to
@@ -174,11 +193,11 @@ def collect(
     columns = {name: np.array([o.numbers.get(name, math.nan) for o in outputs], float) for name in OF_MOMENT}
     shape = (-1, model.x.size)
     residuals = {
-        "mass": _largest(columns["mass_residual"]) / MASS,
-        "volume": _largest(columns["volume_residual"]) / model.tolerance,
+        "mass": _residual(columns, "mass_residual", MASS, "the balance of the lubricant"),
+        "volume": _residual(columns, "volume_residual", model.tolerance, "the balance of gap and film"),
     }
     if not math.isnan(grid_error):
-        residuals["grid"] = grid_error / model.scene.numerics.tolerance_of("film")
+        residuals["grid"] = grid_residual(grid_error / model.scene.numerics.tolerance_of("film"))
     sampling = float(np.max(columns["sampling_error"], initial=0.0))
     surface = "not known" if math.isnan(sampling) else f"standard error of f at most {percent(sampling)}"
     prepared = model.prepared
@@ -187,7 +206,7 @@ def collect(
     by_load = columns["contact_load"] / columns["load"] * (columns["sliding_speed"] != 0)
     low, high = ends.pop(FRICTION_KEY, (0.0, 0.0))
     not_in = tuple(f"{name.partition('.')[2]} in its range: {NOT_IN}" for name in ends)
-    report = report_of("transient, BDF2", plan, progress, f"{model.cells}; surface: {surface}", residuals)
+    report = report_of("run in time", plan, progress, f"{model.cells}; surface: {surface}", residuals)
     if not prepared.sample.is_single_patch:
         renewal = 2 * prepared.scene.bodies.half_width + math.sqrt(math.pi) * prepared.sample.lengths[0]
     return TransientResult(
@@ -202,12 +221,23 @@ def collect(
         line_length=prepared.surface.size[1],
         width=prepared.scene.bodies.width,
         renewal=renewal,
+        requested=plan.times,
     )
 
 
-def _largest(residual: np.ndarray) -> float:
-    """Return the largest magnitude of a ``residual``; 0 where a model has none (NaN)."""
-    return float(np.max(np.abs(residual[~np.isnan(residual)]), initial=0.0))
+def _residual(columns: dict[str, np.ndarray], name: str, tolerance: float, what: str) -> Residual:
+    """Return the largest residual ``name`` of all outputs, over its ``tolerance``; 0 where a model has none (NaN)."""
+    size = np.nan_to_num(np.abs(columns[name]))
+    if not size.any():
+        return Residual(value=0.0, what=what)
+    index = int(size.argmax())
+    where = f"at output {index + 1}, t = {worded(float(columns['time'][index]), 's')}"
+    speed = columns["entrainment_speed"]
+    reversals = np.flatnonzero((speed[1:] * speed[:-1] < 0) | (speed[1:] == 0) & (speed[:-1] != 0)) + 1
+    earlier = reversals[reversals <= index]
+    if earlier.size:
+        where += ", after the motion has reversed" if index > earlier[-1] else ", where the motion reverses"
+    return Residual(value=float(size[index]) / tolerance, what=what, where=where)
 
 
 def in_motion(c: dict[str, np.ndarray]) -> np.ndarray:

@@ -143,7 +143,25 @@ def test_failed_steps_are_reported_with_the_rows_so_far(monkeypatch):
     monkeypatch.setattr(TransientLoadSharing, "solve", failing)
     with pytest.raises(lubfric.ConvergenceError) as caught:
         lubfric.transient(MODEL, [0.0, 1e-3, 2e-3])
-    assert caught.value.result.time.tolist() == [0.0, 1e-3] and "stopped at t" in caught.value.report.notes[-1]
+    found = caught.value.result
+    assert found.time.tolist() == [0.0, 1e-3] and "stopped at t = " in str(caught.value)
+    assert found.status.startswith("Not converged: stopped at t = 1.") and "2 of 3 outputs" in found.status
+    assert lubfric.transient(MODEL, [0.0, 1e-3]).status.startswith("Converged: all 2 outputs to t = 1 ms are solved")
+
+
+def test_a_balance_that_is_lost_after_a_reversal_is_named_with_its_output(monkeypatch):
+    """The largest residual of the lubricant over its tolerance, by the columns of the result."""
+    swing = Transient(0.02, speed=Harmonic(amplitude=0.05, frequency=50.0, phase=np.pi / 2), tolerance=3e-3)
+    times = np.linspace(0.0, 0.02, 9)
+    monkeypatch.setattr("lubfric.time.result.MASS", 1e-9)
+    with pytest.raises(lubfric.ConvergenceError) as caught:
+        run(swing, times)
+    found = caught.value.result
+    index = int(found.mass_residual.argmax())
+    words = f"the balance of the lubricant is {found.mass_residual[index] / 1e-9:.3g} times its tolerance at output"
+    assert words in str(caught.value) and f"output {index + 1}, t = {1e3 * times[index]:.4g} ms" in str(caught.value)
+    assert ("after the motion has reversed" in str(caught.value)) == (index > 2)
+    assert "all 9 outputs are solved, but" in found.status and "max_iterations" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
