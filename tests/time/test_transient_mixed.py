@@ -153,12 +153,12 @@ def test_a_balance_that_is_lost_after_a_reversal_is_named_with_its_output(monkey
     """The largest residual of the lubricant over its tolerance, by the columns of the result."""
     swing = Transient(0.02, speed=Harmonic(amplitude=0.05, frequency=50.0, phase=np.pi / 2), tolerance=3e-3)
     times = np.linspace(0.0, 0.02, 9)
-    monkeypatch.setattr("lubfric.time.result.MASS", 1e-9)
+    monkeypatch.setattr("lubfric.time.result.MASS", 1e-15)
     with pytest.raises(lubfric.ConvergenceError) as caught:
         run(swing, times)
     found = caught.value.result
     index = int(found.mass_residual.argmax())
-    words = f"the balance of the lubricant is {found.mass_residual[index] / 1e-9:.3g} times its tolerance at output"
+    words = f"the balance of the lubricant is {found.mass_residual[index] / 1e-15:.3g} times its tolerance at output"
     assert words in str(caught.value) and f"output {index + 1}, t = {1e3 * times[index]:.4g} ms" in str(caught.value)
     assert ("after the motion has reversed" in str(caught.value)) == (index > 2)
     assert "all 9 outputs are solved, but" in found.status and "max_iterations" not in str(caught.value)
