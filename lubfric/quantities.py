@@ -11,7 +11,7 @@ from inspect import cleandoc
 from typing import Any, Generic, NamedTuple, TypeVar
 
 from .errors import InputError
-from .units import converted, worded
+from .units import converted, printed, worded
 
 T = TypeVar("T")  # float, or an array over operating points
 
@@ -205,6 +205,11 @@ OF_MOMENT = {  # of a run in time, in the order of its table
     "stored": Quantity("m2/s", "growth of the film per unit width"),
     "cavity_growth": Quantity("m2/s", "growth of the cavities per unit width"),
 }
+OF_CYCLE = {  # of operating points: where they lie
+    "position": Quantity("m", "position on the path of contact"),
+    "angle": Quantity("rad", "angle"),
+    "duration": Quantity("s", "duration"),
+}
 _ROWS = tomllib.loads((files(__package__) / "keys.toml").read_text(encoding="utf-8")).items()
 _ROW = {f"{section}.{key}": row for section, rows in _ROWS for key, row in rows.items()}
 CHOICES = {key: row["one_of"] for key, row in _ROW.items() if "one_of" in row}  # keys of a scene that are words
@@ -221,7 +226,15 @@ OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | { 
     "uncertainty_freedom": Quantity("-", "degrees of freedom of the standard error of f"),
     "uncertainty_tolerance": Quantity("-", "relative standard error of f that was asked for"),
 }
-COLUMNS = OF_MOMENT | KEYS | QUANTITIES | INTERVAL | {q.column or n: q for n, q in OF_UNCERTAINTY.items()} | OF_STUDY
+COLUMNS = (
+    OF_MOMENT
+    | OF_CYCLE
+    | KEYS
+    | QUANTITIES
+    | INTERVAL
+    | {q.column or n: q for n, q in OF_UNCERTAINTY.items()}
+    | OF_STUDY
+)
 COLUMNS["ratio"] = KEYS["motion.slide_roll_ratio"]
 
 
@@ -249,9 +262,10 @@ def heading(name: str) -> str:
     return f"{name} [{COLUMNS[name].unit}]" if name in COLUMNS else name
 
 
-def axis_label(name: str) -> str:
-    """The label of an axis: long name, symbol and unit."""
+def axis_label(name: str, in_unit: str = "") -> str:
+    """Return the label of an axis: long name, symbol and unit, its own or ``in_unit``."""
     unit, label, symbol = COLUMNS.get(name, Quantity("", name))[:3]
+    unit = printed(in_unit) or unit
     return " ".join((label, *filter(None, (symbol,)), *([f"({unit})"] if unit else [])))
 
 

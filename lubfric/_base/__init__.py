@@ -5,6 +5,16 @@ from .files import FolderLock, OwnFiles, clear_checked, clear_parts, read_checke
 from .host import with_default_errors
 from .records import FieldsOnly, FrozenArrays, Renamed, Shown, changed
 from .roots import Root, increasing_root
-from .tables import packaged, plain, read_columns, read_json, read_table, table_bytes, text_of
+from .tables import (
+    name_and_unit,
+    packaged,
+    plain,
+    read_columns,
+    read_json,
+    read_table,
+    table_bytes,
+    table_headings,
+    text_of,
+)
 
 __version__ = "0.2.0"

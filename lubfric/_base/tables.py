@@ -177,6 +177,18 @@ def _is_number(text: str) -> bool:
     return True
 
 
+def table_headings(path: Path, names: Sequence[str]) -> list[str]:
+    """Return the headings of a text file, in the first row that has most of the ``names``, as `read_columns` finds it;
+    each with the unit that a line below it may give."""
+    rows = _rows(path, names)
+    headings = [text.strip() for text in rows[0][1]]
+    units = _line_of_units(path, headings, rows) or [None] * len(headings)
+    return [
+        heading if unit is None or name_and_unit(heading)[1] is not None else f"{heading} [{unit}]"
+        for heading, unit in zip(headings, units)
+    ]
+
+
 def _places(headings: Sequence[str], name: str) -> list[int]:
     """Return where the column ``name`` stands: that has this heading, this heading less its unit, or this one less that
     of ``name``."""

@@ -102,7 +102,14 @@ RESULT = "result.json"
 RESOLVED = "resolved.toml"
 UNFINISHED = "unfinished"
 MOST_TOML = 2**20  # bytes: a larger file names no inputs
-INPUTS = ("scene", "surface", "counterface", "study", "measured")  # options of commands that name files they read
+INPUTS = (
+    "scene",
+    "surface",
+    "counterface",
+    "study",
+    "measured",
+    "points",
+)  # options of commands that name files they read
 OUTPUTS = (  # of sweeps and of runs in time, which take each other's place
     *(f"{table}.{kind}" for table in ("stribeck", "traction", "history") for kind in ("csv", "png")),
     *("contact.png", "contact_*.vtk", "sharing.png", "surface.png", "animation.gif", "law.json", "law.c"),

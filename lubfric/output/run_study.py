@@ -13,22 +13,24 @@ from .. import studies
 from .._base import figures, plain, validate
 from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
 from ..quantities import KEYS, axis_label, counted
-from ..units import numbers_of, worded
+from ..units import numbers_of
 from .command_line import scene_of
 from .commands import check_outputs, keeping, made, paced, put, run_folder, say
+from .study_report import answer_lines, study_page
 
 
 def run_study(arguments) -> None:
-    """Plan, solve, write study.csv, study.png (and study.nc, study.parquet), and say the least and the largest f."""
+    """Plan, solve, write study.csv, study.png and report.html (and study.nc, study.parquet), and say the least and the
+    largest f and power loss."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
-    plan = studies.load_study(arguments.study)
+    plan = studies.load_study(arguments.study, arguments.points)
     if arguments.explain:
         put(sys.stdout, plan.explain(arguments.out) + "\n")
         return
     studies.check_tools(arguments.netcdf, arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}
     names = [f"study.{kind}" for kind, given in wanted.items() if given]
-    check_outputs(arguments, arguments.out, [*names, "study.png"])
+    check_outputs(arguments, arguments.out, [*names, "study.png", "report.html"])
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     with keeping(lambda: _kept(arguments.out)), studies.pool(workers) as executor:
@@ -40,8 +42,10 @@ def run_study(arguments) -> None:
             folder.draw("study.png", _picture, result)
         if result.cautioned:
             say(f"cautions at {result.cautioned} of {counted(result.solved, 'points')}: column validity of study.csv")
+        rows = answer_lines(result)
+        folder.contents["report.html"] = study_page(result, folder.contents, rows)
         folder.put()
-    for row in _answer(result):
+    for row in rows:
         say(row)
     if result.failed:
         report = Report("study", ITERATION_LIMIT, result.solved - result.failed, float("inf"), 0.0)
@@ -49,46 +53,55 @@ def run_study(arguments) -> None:
         raise ConvergenceError(said, report, result)
 
 
-def _answer(result: studies.StudyResult) -> list[str]:
-    """The least and the largest f of a study, each with its interval and where it is."""
-    f = result["coefficient"]
-    rows = []
-    ends = {"least": np.nanargmin, "largest": np.nanargmax} if np.isfinite(f).any() else {}
-    for word, find in ends.items():
-        *curve, place = map(int, np.unravel_index(int(find(f)), f.shape))
-        index = (*curve, place)
-        at = [studies.label(result, index), f"speed {worded(float(result.speeds(tuple(curve))[place]), 'm/s')}"]
-        low, high = (result[f"uncertainty_{end}"][index] for end in ("low", "high"))
-        within = f", {low:.3g} to {high:.3g} at 95 %" if np.isfinite(low) else ", error not known"
-        rows.append(f"{word} f = {f[index]:.3g}{within}, at {', '.join(filter(None, at))}")
-    return rows
-
-
 def _picture(path: Path, result: studies.StudyResult) -> None:
-    """f over speed; of one speed over what is varied: one number, or two, as a map; else point by point."""
+    """Draw what a study found: curves over the speed; operating points with their power loss; of one speed, f over what
+    is varied: one number, two as a map, else all points in the order of f."""
     longer = [(key, values) for key, (_, values) in result.coords.items() if values.size > 1]
     numbers = all(values.dtype.kind == "f" and np.unique(values).size == values.size for _, values in longer)
     keys = [key for key, _ in longer]
+    title = figures.plain_words(result.plan.scene.name)
+    if result.paired:
+        figure = figures.new_figure(figsize=(7, 6.5))
+        upper, lower = figure.subplots(2, 1, sharex=True)
+        studies.plot_points(result, "coefficient", upper).set_xlabel("")
+        studies.plot_points(result, "power_loss", lower)
+        figure.suptitle(title)
+        figure.savefig(path, dpi=150)
+        return
     if numbers and len(keys) == 2 and "speed" not in keys and len(result.dims) == 3:
-        studies.plot_map(path, result, keys[0], keys[1], figures.plain_words(result.plan.scene.name))
+        studies.plot_map(path, result, keys[0], keys[1], title)
         return
     figure = figures.new_figure(figsize=(7, 4.5))
     axes = figure.subplots()
     if "speed" in keys or result.chosen:
         result.plot(axes)
-    else:
-        f = result["coefficient"].ravel()
-        one = numbers and len(keys) == 1
-        over, label = (longer[0][1], axis_label(keys[0])) if one else (np.arange(1, f.size + 1), "row of study.csv")
-        low, high = (result[f"uncertainty_{end}"].ravel() for end in ("low", "high"))
-        axes.vlines(over, low, high, color=figures.BLUE, alpha=0.4, lw=4, label="95 %")
-        axes.plot(over, f, "o", color=figures.BLUE, label="friction coefficient")
-        axes.set(xlabel=label, ylabel=figures.FRICTION)
-        figures.log_if_wide(axes, "x", over)
+    elif numbers and len(keys) == 1:
+        _draw_intervals(axes, longer[0][1], result)
+        axes.set_xlabel(axis_label(keys[0]))
+        figures.log_if_wide(axes, "x", longer[0][1])
         figures.plain_ticks(axes.xaxis)
-        figures.key_above(axes)
-        figure.suptitle(figures.plain_words(result.plan.scene.name))
+        figure.suptitle(title)
+    else:
+        order = np.argsort(result["coefficient"], axis=None)  # points without f at the end
+        _draw_intervals(axes, np.arange(1, order.size + 1), result, order)
+        axes.set_xlabel("points, in the order of their f (study.csv says which)")
+        figure.suptitle(title)
     figure.savefig(path, dpi=150)
+
+
+def _draw_intervals(axes, over: np.ndarray, result: studies.StudyResult, order=slice(None)) -> None:
+    """Draw f of a study with its 95 % intervals, each as wide as it is, ``over`` (n,)."""
+    f = result["coefficient"].ravel()[order]
+    low, high = (result[f"uncertainty_{end}"].ravel()[order] for end in ("low", "high"))
+    known = np.isfinite(low) & np.isfinite(high)
+    width = 4 if f.size <= 40 else 1.5
+    axes.vlines(over[known], low[known], high[known], color=figures.BLUE, alpha=0.4, lw=width, label="95 % interval")
+    axes.plot(over, f, "o", ms=5 if f.size <= 40 else 2.5, color=figures.BLUE, label="friction coefficient")
+    axes.set_ylabel(figures.FRICTION)
+    finite = np.concatenate([f[np.isfinite(f)], low[known], high[known]])
+    if finite.size:
+        axes.set_ylim(min(0.0, 1.05 * finite.min()), 1.05 * max(finite.max(), 0.0) or None)
+    figures.key_above(axes)
 
 
 def _kept(folder: Path) -> str:

@@ -9,9 +9,19 @@ from .fit import explain_fit, fit
 from .fit_input import Measured, read_measured
 from .fit_result import FitResult
 from .law import Law
+from .operating_points import OperatingPoints, operating_points
 from .plan import StudyPlan, load_study, plan_study
 from .result import StudyResult, open_study, study
 from .store import Store, digest, fingerprint, opened
 from .sweep import StribeckResult, TractionResult, stribeck, traction
-from .tables import KNOWN, check_tools, friction_over_speed, interval_band, label, plot_map
+from .tables import (
+    KNOWN,
+    check_tools,
+    columns_of_study,
+    friction_over_speed,
+    interval_band,
+    label,
+    plot_map,
+    plot_points,
+)
 from .vary import Between, sample

@@ -1,6 +1,7 @@
 """The speeds that a Stribeck curve chooses, so that few points determine it everywhere."""
 
 import math
+from bisect import bisect_left, insort
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
@@ -17,6 +18,11 @@ from .curve import columns_of
 from .interpolate import FEWEST, Interpolant, through
 
 AUTO = "auto"
+
+# Relative distance of two speeds, or slide-roll ratios, that are one point: f cannot tell them apart, and a curve
+# through both would have any slope.
+ALIKE = 1e-6
+
 # speeds that a curve chooses, about, and at most
 CHOSEN = 12
 MOST = 25
@@ -44,16 +50,34 @@ APART = 1.015  # least ratio of neighbouring speeds
 GRID = 400
 
 
-def asked_speeds(scene: Scene, speeds) -> list[float]:
-    """The speeds [m/s] that were asked for, one or many; those of the scene for None, and none for "auto"."""
+def requested_speeds(scene: Scene, speeds) -> tuple[float, ...]:
+    """Return the requested speeds [m/s], one or many, each once; those of the scene for None, and none for "auto"."""
     if isinstance(speeds, str):
         if speeds == AUTO:
-            return []
+            return ()
         said = f"speeds in m/s, or {AUTO!r}, where each curve chooses its own"
         speeds = without_unit(f"speeds ({said})", speeds, "m/s")
     if speeds is None:
         speeds = scene.motion.speeds or (scene.motion.entrainment_speed,)
-    return validate.numbers("speeds", speeds, "m/s", LARGEST_SPEED).tolist()
+    return each_once(validate.numbers("speeds", speeds, "m/s", LARGEST_SPEED).tolist())
+
+
+def each_once(values: Iterable[float]) -> tuple[float, ...]:
+    """Return ``values`` in their order without those that repeat another to within `ALIKE`."""
+    kept: list[float] = []
+    ordered: list[float] = []
+    for value in values:
+        place = bisect_left(ordered, value)
+        near = ordered[max(place - 1, 0) : place + 1]
+        if not any(abs(value - other) <= ALIKE * max(abs(value), abs(other)) for other in near):
+            insort(ordered, value)
+            kept.append(value)
+    return tuple(kept)
+
+
+def alike(value: float, values: Iterable[float]) -> float:
+    """Return the one of ``values`` that ``value`` repeats to within `ALIKE`, or ``value`` itself."""
+    return next((other for other in values if abs(value - other) <= ALIKE * max(abs(value), abs(other))), value)
 
 
 def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Iterator[tuple[float, Any]]:

@@ -14,6 +14,7 @@ from ..models.shared import (
 )
 from ..quantities import counted, worded_value
 from .choose import CHOSEN, first_speeds
+from .operating_points import POINT
 from .points import stored_rows
 from .store import Store
 
@@ -40,28 +41,32 @@ def in_words(seconds: float) -> str:
 
 
 def explain(plan, store=None) -> str:
-    """The points of a `StudyPlan`, how many of them the folder ``store`` has already, and about how long the rest will
-    take, in words. Some of the maps are made. No point is solved."""
-    lines = [f"study of {plan.scene.name}: {'' if plan.speeds else 'about '}{counted(plan.points, 'points')}"]
+    """Return the points of a `StudyPlan`, how many of them the folder ``store`` has already, and about how long the
+    others will take, in words. Some of the maps are made. No point is solved."""
+    about = "about " if plan.chooses_speeds else ""
+    lines = [f"study of {plan.scene.name}: {about}{counted(plan.points, 'points')}"]
     for axis in plan.axes:
         shown = ", ".join(f"{key} {_range(key, column)}" for key, column in zip(axis.keys, zip(*axis.values)))
+        if axis.name == POINT:
+            shown = ", ".join(filter(None, (shown, f"speed {_range('speed', plan.point_speeds)}")))
         lines.append(f"  {len(axis.values):6d} x {shown}")
     if plan.speeds:
         lines.append(f"  {counted(len(plan.speeds), 'speeds'):>13}: {_range('speed', plan.speeds)}")
-    else:
+    elif plan.chooses_speeds:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
     if plan.scene.transient is not None:
         lines.append("  steady   every point; what changes in time in the scene ([transient]) is left out")
-    rows, ended = stored_rows(Store(store), plan.keys, plan.speeds)
+    requested = plan.requested
+    rows, ended = stored_rows(Store(store), requested)
     left = [
-        (scene, tuple(u for u in plan.speeds if u not in rows[key]))
+        (scene, tuple(u for u in requested[key] if u not in rows[key]))
         for key, scene in dict(zip(plan.keys, plan.scenes)).items()
-        if key not in ended and not (plan.speeds and len(rows[key]) == len(plan.speeds))
+        if key not in ended and not (requested[key] and len(rows[key]) == len(requested[key]))
     ]
-    held = sum(map(len, rows.values())) if plan.speeds else len(ended)
+    held = len(ended) if plan.chooses_speeds else sum(map(len, rows.values()))
     if held:
-        total = len(rows) * max(len(plan.speeds), 1)
-        what = "points" if plan.speeds else "curves"
+        total = len(rows) if plan.chooses_speeds else sum(map(len, requested.values()))
+        what = "curves" if plan.chooses_speeds else "points"
         lines.append(f"  kept     {held} of {total} {what} are in {store} already")
     if not left:
         return "\n".join([*lines, "  time     nothing is left to solve"])

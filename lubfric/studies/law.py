@@ -194,6 +194,8 @@ def law_of(scene: Scene, curves: Iterable[tuple[Any, Interpolant]], f, low, high
 def law_of_study(result) -> Law:
     """Friction of a study over speed and, as far as they were varied, temperature of the oil and load, as a formula for
     system simulations (`lubfric.studies.law`). Raises `InputError` where anything else was varied."""
+    if result.paired:
+        raise InputError("a law is over speed; this study has operating points: give speeds instead of points")
     others = [key for axis in result.plan.axes for key in axis.keys if key not in VARIED]
     if others:
         raise InputError(f"a law is over speed, temperature and load; this study varies {', '.join(others)} as well")

@@ -1,8 +1,9 @@
 """All points of a study, laid out before the first is solved: from arguments, or from a study file, which is read
 strictly."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from itertools import product
 from pathlib import Path
@@ -11,61 +12,101 @@ from typing import Any
 from .._base import FieldsOnly, validate, with_default_errors
 from ..errors import InputError
 from ..scene import Scene, load_scene, read_toml, speeds_of_range
-from .choose import CHOSEN, MOST, asked_speeds
+from .choose import CHOSEN, MOST, requested_speeds
 from .explain import explain
+from .operating_points import operating_points
 from .store import fingerprint
 from .vary import Axis, Between, axes_of, sample, unit_of
 
-KEYS = ("scene", "speeds", "speed_range", "vary", "together", "sample")
+KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample")
 SAMPLE_KEYS = ("count", "sampler", "seed")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class StudyPlan(FieldsOnly):
-    """The plan of a study: curves over the speed, one for each combination of the varied values.
+    """The plan of a study: curves over the speed, or operating points, for each combination of the varied values.
     ``print(plan.explain())`` says what it is and will cost; `lubfric.study` carries it out.
 
-    ``speeds`` [m/s]: none if every curve chooses its own; ``keys`` of the curves: hashes of all that their points
-    depend on beside the speed, the last axis fastest.
+    Attributes
+    ----------
+    scene : that is varied
+    axes : dimensions of the study; the last of them, "point", is that of operating points if there are any
+    speeds : of all curves [m/s]; none if every curve chooses its own, or of operating points
+    point_speeds : of the operating points [m/s], one for each value of the last axis; none of curves
+    coordinates : of the operating points, by name: numbers that say where they lie, such as the position or the time
+    keys : of the curves, the last axis fastest: hashes of all that their points depend on beside the speed
     """
 
     scene: Scene
     axes: tuple[Axis, ...]
     speeds: tuple[float, ...]
     keys: tuple[str, ...]
+    point_speeds: tuple[float, ...] = ()
+    coordinates: dict[str, tuple[float, ...]] = field(default_factory=dict)
 
     @cached_property
     def scenes(self) -> tuple[Scene, ...]:
-        """Those of the curves, in the order of their ``keys``."""
-        return scenes_of(self.scene, self.axes)
+        """The scenes of the curves, in the order of their ``keys``."""
+        return tuple(scenes_of(self.scene, self.axes))
+
+    @property
+    def paired(self) -> bool:
+        """Whether the study has operating points, each with its own speed, instead of curves."""
+        return bool(self.point_speeds)
+
+    @property
+    def chooses_speeds(self) -> bool:
+        """Whether every curve chooses its own speeds."""
+        return not self.speeds and not self.paired
+
+    @property
+    def curve_shape(self) -> tuple[int, ...]:
+        """Number of values along each axis."""
+        return tuple(len(axis.values) for axis in self.axes)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Shape of the results: the axes, then the number of speeds, or the largest number that a curve may choose."""
-        return (*(len(axis.values) for axis in self.axes), len(self.speeds) or MOST)
+        """Shape of the results: the axes, then, of curves, the number of speeds, or the largest number that a curve may
+        choose."""
+        return self.curve_shape if self.paired else (*self.curve_shape, len(self.speeds) or MOST)
 
     @property
     def points(self) -> int:
         """Number of points. Where speeds are chosen it is an estimate."""
-        return len(self.keys) * (len(self.speeds) or CHOSEN)
+        return len(self.keys) * (1 if self.paired else len(self.speeds) or CHOSEN)
+
+    def speeds_at(self, curve: int) -> tuple[float, ...]:
+        """Return the speeds [m/s] that are requested of the curve at place ``curve`` of ``keys``; none if it chooses
+        them."""
+        return (self.point_speeds[curve % len(self.point_speeds)],) if self.paired else self.speeds
+
+    @cached_property
+    def requested(self) -> dict[str, tuple[float, ...]]:
+        """The speeds [m/s] that are requested of each key, each once; none where a curve chooses them."""
+        if not self.paired:
+            return dict.fromkeys(self.keys, self.speeds)
+        found: dict[str, dict[float, None]] = {}
+        for curve, key in enumerate(self.keys):
+            found.setdefault(key, {}).update(dict.fromkeys(self.speeds_at(curve)))
+        return {key: tuple(speeds) for key, speeds in found.items()}
 
     explain = explain
 
 
-def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> tuple[Scene, ...]:
-    """The scenes of all combinations of the values of ``axes``, the last one fastest."""
-    rows = product(*(range(len(axis.values)) for axis in axes))
-    varied = ({k: v for axis, i in zip(axes, row) for k, v in axis.at(i).items()} for row in rows)
-    return tuple(replace(scene.with_keys(values), transient=None) for values in varied)
+def scenes_of(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[Scene]:
+    """Yield the scenes of all combinations of the values of ``axes``, the last one fastest."""
+    for row in product(*(range(len(axis.values)) for axis in axes)):
+        values = {key: value for axis, i in zip(axes, row) for key, value in axis.at(i).items()}
+        yield replace(scene.with_keys(values), transient=None)
 
 
 @with_default_errors
-def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
+def plan_study(scene: Scene, vary=None, speeds=None, points=None) -> StudyPlan:
     """Plan a study without solving anything.
 
     Parameters
     ----------
-    scene, vary, speeds : as in `lubfric.study`
+    scene, vary, speeds, points : as in `lubfric.study`
 
     Returns
     -------
@@ -77,32 +118,58 @@ def plan_study(scene: Scene, vary=None, speeds=None) -> StudyPlan:
     """
     validate.instance("scene", scene, Scene, "a scene to vary: what lubfric.load_scene returned, not lubfric.prepare")
     axes = axes_of(scene, {} if vary is None else vary)
-    keys = []
-    maps: dict[str, str] = {}  # a map is read once, however many scenes it serves
-    for one in scenes_of(scene, axes):
-        rough = repr((one.surface, one.counterface))
+    if points is None:
+        return StudyPlan(
+            scene=scene, axes=axes, speeds=requested_speeds(scene, speeds), keys=tuple(_scene_keys(scene, axes))
+        )
+    if speeds is not None:
+        raise InputError("points and speeds both give speeds; leave speeds out, and give a column speed in points")
+    table = operating_points(scene, points)
+    varied = {key for axis in axes for key in axis.keys}
+    twice = varied.intersection(table.axis.keys)
+    if twice:
+        raise InputError(f"points and vary both give {', '.join(sorted(twice))}; give it in one of them")
+    most = math.prod(len(axis.values) for axis in (*axes, table.axis))
+    validate.integer("points of the study", most, minimum=1, maximum=1_000_000)
+    axes = (*axes, table.axis)
+    return StudyPlan(
+        scene=scene,
+        axes=axes,
+        speeds=(),
+        point_speeds=table.speeds,
+        coordinates=table.coordinates,
+        keys=tuple(_scene_keys(scene, axes)),
+    )
+
+
+def _scene_keys(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[str]:
+    """Yield the keys of the scenes of ``axes``. A height map is read once, however many scenes it serves."""
+    maps: dict[str, str] = {}
+    for varied in scenes_of(scene, axes):
+        rough = repr((varied.surface, varied.counterface))
         if rough not in maps:
-            maps[rough] = fingerprint(one.surface, one.counterface)
-        others = [getattr(one, f.name) for f in fields(one) if f.name not in ("name", "surface", "counterface")]
-        keys.append(fingerprint(maps[rough], *others))
-    asked = asked_speeds(scene, speeds)
-    if len(set(asked)) < len(asked):
-        raise InputError("speeds hold a value twice; give each once, in m/s")
-    return StudyPlan(scene, axes, tuple(asked), tuple(keys))
+            maps[rough] = fingerprint(varied.surface, varied.counterface)
+        others = [getattr(varied, f.name) for f in fields(varied) if f.name not in ("name", "surface", "counterface")]
+        yield fingerprint(maps[rough], *others)
 
 
-def load_study(path) -> StudyPlan:
-    """The plan in a study file.
+def load_study(path, points=None) -> StudyPlan:
+    """Return the plan in a study file.
 
     - ``scene``: a file relative to this one, or a built-in scene.
     - ``speeds`` or ``speed_range``: in m/s.
+    - ``points``: a table of operating points: a text file relative to this one, or [[points]] with a table for each.
     - [vary]: keys with lists of values.
     - [[together]]: keys whose lists go together.
     - [sample]: keys with {low, high, scale}, and count, sampler, seed.
 
+    ``points``: a file of operating points, instead of those of the study file; then ``path`` may also be a scene.
+
     Raises `InputError` for anything else, naming the nearest valid key.
     """
     path = Path(path)
+    if points is not None and (not path.is_file() or "scene" not in read_toml(path, "study")):
+        return plan_study(load_scene(path if path.is_file() else str(path)), points=points)
     table = read_toml(path, "study")
     validate.keys(path.name, table, KEYS)
     name = table.get("scene")
@@ -124,7 +191,17 @@ def load_study(path) -> StudyPlan:
         if speeds is not None:
             raise InputError(f"{path.name} has speeds and speed_range, which say the same thing; give one of them")
         speeds = speeds_of_range("speed_range", table["speed_range"])
-    return plan_study(scene, vary, speeds)
+    if points is None and "points" in table:
+        points = table["points"]
+        points = path.parent / points if isinstance(points, str) else _flat_rows(points)
+    return plan_study(scene, vary, speeds, points)
+
+
+def _flat_rows(rows) -> Any:
+    """Return rows of a study file with dotted keys in place of tables within them."""
+    if isinstance(rows, list):
+        return [_flat(row, lambda value: not isinstance(value, dict)) if isinstance(row, dict) else row for row in rows]
+    return _flat(rows, lambda value: not isinstance(value, dict)) if isinstance(rows, dict) else rows
 
 
 def _add(known: dict, key, values) -> None:

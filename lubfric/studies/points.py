@@ -3,7 +3,7 @@ numbers. A point is a function of its scene and speed alone, so one process or m
 several, give the same bits."""
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ..errors import LubfricError, ValidityError
@@ -15,7 +15,7 @@ from ..models.shared import (
 )
 from ..quantities import NUMBERS
 from ..scene import Scene
-from .choose import chosen, first_speeds
+from .choose import chosen, each_once, first_speeds
 from .store import CHOSEN, OUTCOME, Store, digest, fingerprint, point_key
 
 Outcome = FrictionResult | LubfricError
@@ -50,7 +50,7 @@ def solved(
     model: Prepared | LubfricError
     try:
         model = scene if isinstance(scene, Prepared) else prepare(scene)
-        first = speeds or sorted({*first_speeds(model.scene, model.surface.sq), *kept}, reverse=True)
+        first = speeds or sorted(each_once((*kept, *first_speeds(model.scene, model.surface.sq))), reverse=True)
     except LubfricError as error:
         model = error
         first = speeds or (math.nan,)
@@ -109,23 +109,19 @@ def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
     return {STATUS: outcome.report.status, VALIDITY: in_a_cell(outcome.validity), **numbers}
 
 
-def stored_rows(store: Store, keys: Sequence[str], speeds: Sequence[float]) -> tuple[Rows, set[str]]:
-    """The `Rows` that a store has of the curves ``keys`` at ``speeds`` [m/s], or at those that they chose (none); and
-    the keys of the curves that chose all their speeds."""
-    rows: Rows = {key: {} for key in keys}
+def stored_rows(store: Store, requested: Mapping[str, Sequence[float]]) -> tuple[Rows, set[str]]:
+    """Return the `Rows` that a store has of the ``requested`` speeds [m/s] of each key (none: those that its curve
+    chose), and the keys of the curves that chose all their speeds."""
+    rows: Rows = {key: {} for key in requested}
     ended: set[str] = set()
-    places = {point_key(key, u): (key, u) for key in rows for u in speeds}
-    if not speeds:
-        lists = store.known({digest(key): key for key in rows}, CHOSEN)
-        for key in rows:
-            own, complete = lists.get(digest(key), ((), False))
-            places |= {point_key(key, u): (key, u) for u in own}
-            if complete:
-                ended.add(key)
-    known = store.known(places, OUTCOME)
-    for place, (key, speed) in places.items():
-        if place in known:
-            rows[key][speed] = row_of(speed, known[place])
-        elif not speeds:
-            ended.discard(key)  # a record of it was damaged
+    for key, speeds in requested.items():
+        chosen_so_far, complete = ((), False) if speeds else store.get(digest(key), CHOSEN) or ((), False)
+        if complete:
+            ended.add(key)
+        for speed in speeds or chosen_so_far:
+            outcome = store.get(point_key(key, speed), OUTCOME)
+            if outcome is not None:
+                rows[key][speed] = row_of(speed, outcome)
+            elif not speeds:
+                ended.discard(key)  # a record of it was damaged
     return rows, ended

@@ -15,17 +15,20 @@ from .._base import Shown, validate, with_default_errors
 from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import Scene
+from ..units import worded
+from .choose import MOST
 from .executor import checked_executor, spread
 from .interpolate import Interpolant, through
 from .law import law_of_study
+from .operating_points import DURATION, POINT, mean_over_cycle
 from .plan import StudyPlan, plan_study
 from .points import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, row_of, solved, stored_rows
 from .store import PLANNED, Store, opened
-from .tables import plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
+from .tables import label, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN = "plan"  # its key in the store
+PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates")  # what is stored of it
 TOGETHER = 8  # speeds of a curve that a process of an executor receives at once, with one preparation of the scene
-POINT = "point"  # the last dimension where speeds are chosen
 
 
 @dataclass(frozen=True, repr=False)
@@ -59,36 +62,43 @@ class StudyResult(Shown):
     @classmethod
     def of_rows(cls, plan: StudyPlan, rows: Rows, ended: set[str]) -> StudyResult:
         """The result of the ``rows``, in the order of a plan; ``ended``: as of `stored_rows`."""
-        chosen = not plan.speeds
-        shape = plan.shape
-        table = (len(plan.keys), shape[-1])
+        chosen = plan.chooses_speeds
+        most = MOST if chosen else 1 if plan.paired else len(plan.speeds)
+        table = (len(plan.keys), most)
         columns = {name: np.full(table, np.nan) for name in NUMBERS if chosen or name != SPEED}
         status = np.full(table, UNUSED if chosen else MISSING, dtype=object)
         validity = np.full(table, "", dtype=object)
         words = {STATUS: status, VALIDITY: validity}
         for curve, key in enumerate(plan.keys):
             own = rows[key]
-            for at, speed in enumerate(own if chosen else plan.speeds):
+            for at, speed in enumerate(own if chosen else plan.speeds_at(curve)):
                 for name, value in own.get(speed, {}).items():
                     if name in words:
                         words[name][curve, at] = value
                     elif chosen or name != SPEED:
                         columns.setdefault(name, np.full(table, np.nan))[curve, at] = value
             if chosen and key not in ended:
-                status[curve, min(len(own), shape[-1] - 1)] = MISSING
-        most = 1 + int(np.flatnonzero((status != UNUSED).any(axis=0)).max(initial=0))
-        cut = {name: column.reshape(shape)[..., :most] for name, column in (columns | words).items()}
+                status[curve, min(len(own), most - 1)] = MISSING
+        used = 1 + int(np.flatnonzero((status != UNUSED).any(axis=0)).max(initial=0))
+        shape = plan.curve_shape if plan.paired else (*plan.curve_shape, used)
+        cut = {name: column[:, :used].reshape(shape) for name, column in (columns | words).items()}
         return cls(plan, {name: cut[name] for name in columns}, cut[STATUS], cut[VALIDITY])
 
     @property
     def chosen(self) -> bool:
         """Whether each curve chose its own speeds."""
-        return not self.plan.speeds
+        return self.plan.chooses_speeds
+
+    @property
+    def paired(self) -> bool:
+        """Whether the study has operating points, each with its own speed, instead of curves."""
+        return self.plan.paired
 
     @property
     def dims(self) -> tuple[str, ...]:
         """Names of the axes of the arrays."""
-        return (*(axis.name for axis in self.plan.axes), POINT if self.chosen else SPEED)
+        axes = tuple(axis.name for axis in self.plan.axes)
+        return axes if self.paired else (*axes, POINT if self.chosen else SPEED)
 
     @property
     def coords(self) -> dict[str, tuple[str, np.ndarray]]:
@@ -99,6 +109,9 @@ class StudyResult(Shown):
                 numbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
                 words = [v if isinstance(v, str) else repr(v) if is_dataclass(v) else json.dumps(v) for v in values]
                 found[key] = axis.name, np.array(values, dtype=float) if numbers else np.array(words)
+        if self.paired:
+            coordinates = {name: (POINT, np.array(values)) for name, values in self.plan.coordinates.items()}
+            return coordinates | found | {SPEED: (POINT, np.array(self.plan.point_speeds))}
         return found if self.chosen else found | {SPEED: (SPEED, np.array(self.plan.speeds))}
 
     @property
@@ -142,12 +155,15 @@ class StudyResult(Shown):
 
     def speeds(self, index: tuple[int, ...]) -> np.ndarray:
         """Those [m/s] of the curve at one position along the axes."""
+        if self.paired:
+            return np.array(self.plan.point_speeds[index[-1]])
         return self.columns[SPEED][index] if self.chosen else np.array(self.plan.speeds)
 
     def at(self, speed) -> np.ndarray:
         """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over
         the axes and, for several speeds, over these. NaN outside the speeds for which a curve is known, and in the
         other direction."""
+        self._check_curves()
         speeds = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
         found = np.full((*self.status.shape[:-1], speeds.size), np.nan)
         for index in np.ndindex(*found.shape[:-1]):
@@ -161,13 +177,37 @@ class StudyResult(Shown):
     def lift_off(self) -> np.ndarray:
         """The speed [m/s], over the axes and in the direction of the curves, at which the film lifts the surfaces off
         each other; NaN if a curve does not reach it."""
+        self._check_curves()
         shape = self.status.shape[:-1]
         found = [np.nan if (curve := self.curve(i)) is None else curve.lifted for i in np.ndindex(*shape)]
         return np.array(found).reshape(shape)
 
+    def place(self, index: tuple[int, ...]) -> str:
+        """Return where a point lies, in words: the values of what is varied, and the speed."""
+        speed = float(np.ravel(self.speeds(index if self.paired else index[:-1]))[0 if self.paired else index[-1]])
+        return ", ".join(filter(None, (label(self, index), f"speed {worded(speed, 'm/s')}")))
+
+    def mean(self, name: str) -> np.ndarray | float:
+        """Return the mean of a number over the operating points, weighed by their ``duration`` (or all alike, if they
+        have none): an array over the other axes. ``study.mean("power_loss")`` is the power loss of a duty cycle [W].
+        NaN where a point that counts failed."""
+        if not self.paired:
+            raise InputError("mean is that over operating points; give points = a table")
+        values = self[name]
+        durations = self.plan.coordinates.get(DURATION)
+        weights = np.ones(values.shape[-1]) if durations is None else np.array(durations)
+        means = np.apply_along_axis(mean_over_cycle, -1, values, weights)
+        return float(means) if means.ndim == 0 else means
+
+    def _check_curves(self) -> None:
+        if self.paired:
+            raise InputError("this study has operating points and no curves; give speeds instead of points")
+
     def curve(self, index: tuple[int, ...]) -> Interpolant | None:
         """The curve at one position along the axes, or None if fewer than three of its points are solved, if they run
         both ways, or if no curve goes through their numbers, as those of a store that somebody changed."""
+        if self.paired:
+            return None
         numbers = {name: values[index] for name, values in self.columns.items()} | {SPEED: self.speeds(index)}
         try:
             found = through(numbers)
@@ -179,9 +219,9 @@ class StudyResult(Shown):
 
 @with_default_errors
 def study(
-    scene: Scene | StudyPlan, vary=None, speeds=None, *, executor=None, store=None, on_progress=None
+    scene: Scene | StudyPlan, vary=None, speeds=None, *, points=None, executor=None, store=None, on_progress=None
 ) -> StudyResult:
-    """Friction of a scene at every combination of given values, and at every entrainment speed.
+    """Friction of a scene at every combination of given values, and at every entrainment speed or operating point.
 
     Every point is solved from its scene alone, to the same bits on every executor. A point that fails is a row with
     its error as its status; the others are solved.
@@ -194,6 +234,10 @@ def study(
         whole sections, such as several height maps
     speeds : entrainment speeds [m/s]; None: those of the scene; "auto": each curve chooses its own, as in
         `lubfric.stribeck`, and the result has a dimension "point" instead of "speed"
+    points : a table of operating points in place of speeds: a file, a list of rows, a dict of columns or a DataFrame with
+        load, radius, speed (or u1 and u2), slide_roll_ratio (or sliding_speed), temperature, or any key of a scene; also
+        position, angle, time and duration, which change no number (`lubfric.studies.operating_points`). The result has
+        a dimension "point", and no "speed"; ``vary`` adds dimensions
     executor : None, or any `concurrent.futures.Executor` (process pool, ``dask.distributed.Client.get_executor()``,
         ``mpi4py.futures.MPIPoolExecutor``)
     store : folder that receives every finished point at once. The same study, or a longer one, goes on from there and
@@ -210,31 +254,32 @@ def study(
 
     Faults of the program are raised as they are.
     """
-    plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds)
-    if plan is scene and (vary is not None or speeds is not None):
-        raise InputError("vary and speeds belong to the plan; give a scene with them, or a plan alone")
+    plan = scene if isinstance(scene, StudyPlan) else plan_study(scene, vary, speeds, points)
+    if plan is scene and any(given is not None for given in (vary, speeds, points)):
+        raise InputError("vary, speeds and points belong to the plan; give a scene with them, or a plan alone")
     executor = checked_executor(executor)
     with opened(store) as kept:
-        kept.add(PLAN, (plan.scene, plan.axes, plan.speeds, plan.keys))
+        kept.add(PLAN, tuple(getattr(plan, name) for name in PLAN_FIELDS))
         return StudyResult.of_rows(plan, *_carried_out(plan, executor, kept, on_progress))
 
 
 def _carried_out(plan: StudyPlan, executor, store: Store, on_progress: Callable | None) -> tuple[Rows, set[str]]:
-    rows, ended = stored_rows(store, plan.keys, plan.speeds)
+    requested = plan.requested
+    rows, ended = stored_rows(store, requested)
     scenes = dict(zip(plan.keys, plan.scenes))  # equal scenes once
-    total = len(scenes) * max(len(plan.speeds), 1)
+    total = len(requested) if plan.chooses_speeds else sum(map(len, requested.values()))
 
     def tell() -> None:
         if on_progress:
-            on_progress(sum(map(len, rows.values())) if plan.speeds else len(ended), total)
+            on_progress(len(ended) if plan.chooses_speeds else sum(map(len, rows.values())), total)
 
     tell()
     jobs = []
     for key, scene in scenes.items():
-        left = tuple(u for u in plan.speeds if u not in rows[key])
+        left = tuple(u for u in requested[key] if u not in rows[key])
         size = TOGETHER if executor is not None else max(len(left), 1)
         batches = [left[i : i + size] for i in range(0, len(left), size)]
-        if not plan.speeds and key not in ended:
+        if plan.chooses_speeds and key not in ended:
             rows[key].clear()  # they come again, from the store, in the order in which they were chosen
             batches = [()]
         jobs += [partial(solved, scene, key, batch, folder=store.root) for batch in batches]
@@ -243,7 +288,7 @@ def _carried_out(plan: StudyPlan, executor, store: Store, on_progress: Callable 
             ended.add(key)
         else:
             rows[key][speed] = row_of(speed, outcome)
-        if plan.speeds or outcome is None:
+        if outcome is None or not plan.chooses_speeds:
             tell()
     return rows, ended
 
@@ -265,9 +310,9 @@ def open_study(folder) -> StudyResult:
     InputError : the folder holds no study
     """
     store = Store(validate.folder("store", folder))
-    found = store.get(PLAN, PLANNED)
-    plan = found and StudyPlan(*found)
-    if plan is None or len(plan.keys) != math.prod(plan.shape[:-1]):
+    stored = store.get(PLAN, PLANNED)
+    plan = None if stored is None else StudyPlan(**dict(zip(PLAN_FIELDS, stored)))
+    if plan is None or len(plan.keys) != math.prod(plan.curve_shape):
         way_out = "give the folder of one, or run the study again in this folder, which writes its plan anew"
         raise InputError(f"{folder} holds no study, or its plan is damaged; {way_out}")
-    return StudyResult.of_rows(plan, *stored_rows(store, plan.keys, plan.speeds))
+    return StudyResult.of_rows(plan, *stored_rows(store, plan.requested))

@@ -15,7 +15,7 @@ from ..models.shared import (
 )
 from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene
-from .choose import GRID, asked_speeds, between, span, tolerance_between
+from .choose import GRID, alike, between, each_once, requested_speeds, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
 from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
@@ -173,11 +173,12 @@ def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
     kept = []
     if not isinstance(fields, (bool, type(None))) and np.size(fields):
         kept = validate.numbers("fields", fields, "m/s", FASTEST).tolist()
-    asked = asked_speeds(scene, speeds)
+    asked = list(requested_speeds(scene, speeds))
     if not asked:
         if fields is True:
             raise InputError("fields = True with speeds = 'auto'; give the speeds in m/s whose fields are kept")
         return [], np.abs(kept).tolist()
+    kept = [alike(speed, asked) for speed in kept]
     if not set(kept) <= set(asked):
         said = f" = {fields!r} m/s are not all among the speeds of the curve"
         raise InputError(said, "fields", way_out="give some of them, or fields = True")
@@ -272,7 +273,7 @@ def traction(
     ConvergenceError : at the end, if a point failed; the whole curve is its ``result``
     ValidityError : the same, if all points that failed were refused as invalid
     """
-    ratios = validate.numbers("ratios", ratios, "(-)", LARGEST_RATIO)
+    ratios = np.array(each_once(validate.numbers("ratios", ratios, "(-)", LARGEST_RATIO).tolist()))
     if speed is not None:
         speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     base = at_tolerance(scene, tolerance, model)

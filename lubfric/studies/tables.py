@@ -7,7 +7,8 @@ import numpy as np
 
 from .._base import __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
-from ..quantities import KEYS, Quantity, axis_label, described, heading, worded_value
+from ..quantities import COLUMNS, Quantity, axis_label, described, heading, worded_value
+from ..units import converted, unit_for
 from .choose import between
 from .curve import numbers_of
 from .interpolate import through
@@ -37,7 +38,7 @@ def to_xarray(result):
 
 def to_frame(result):
     """A tidy `pandas.DataFrame`: one row a point. Needs the ``study`` extra."""
-    return validate.installed("pandas", "study").DataFrame(_table(result))
+    return validate.installed("pandas", "study").DataFrame(columns_of_study(result))
 
 
 def to_parquet(result, path) -> None:
@@ -59,11 +60,11 @@ def to_netcdf(result, path) -> None:
 
 def to_csv(result, path) -> None:
     """One row a point, the unit in the heading; nothing beyond the standard library needed."""
-    write_whole(path, table_bytes({heading(name): values for name, values in _table(result).items()}))
+    write_whole(path, table_bytes({heading(name): values for name, values in columns_of_study(result).items()}))
 
 
-def _table(result) -> dict[str, np.ndarray]:
-    """The columns of a table: the varied keys, the speed, the numbers, the status and the validity, one value for
+def columns_of_study(result) -> dict[str, np.ndarray]:
+    """Return the columns of a table: the varied keys, the speed, the numbers, the status and the validity, one value for
     each point. Places that a curve did not need have no row."""
     shape = result.status.shape
     columns = {}
@@ -83,6 +84,8 @@ def plot(result, ax=None, **style):
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
+    if result.paired:
+        return plot_points(result, "coefficient", ax, **style)
     axes = figures.axes_or_new(ax)
     indices = list(np.ndindex(*result.status.shape[:-1]))
     count = len(indices)
@@ -117,10 +120,47 @@ def plot(result, ax=None, **style):
     return axes
 
 
+def plot_points(result, quantity: str = "coefficient", ax=None, **style):
+    """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
+    over their number; one line for each combination of what else is varied. Returns the axes."""
+    axes = figures.axes_or_new(ax)
+    coordinate = next((name for name in ("position", "angle", "time") if name in result.coords), None)
+    count = result.status.shape[-1]
+    over = np.arange(1, count + 1) if coordinate is None else result.coords[coordinate][1]
+    over, label_over = _in_people_units(over, coordinate) if coordinate else (over, "operating point")
+    order = np.argsort(over, kind="stable")
+    unit = unit_for(result[quantity][np.isfinite(result[quantity])].tolist(), COLUMNS[quantity].unit)
+    times = converted(1.0, COLUMNS[quantity].unit, unit)
+    ends = {"coefficient": ("uncertainty_low", "uncertainty_high"), "power_loss": ("power_loss_low", "power_loss_high")}
+    indices = list(np.ndindex(*result.status.shape[:-1]))[:NAMED]
+    for index in indices:
+        values = times * result[quantity][index][order]
+        named = figures.plain_words(label(result, (*index, slice(None)))) if len(indices) > 1 else None
+        (line,) = axes.plot(over[order], values, **{"marker": "o", "ms": 3, "lw": 1.0, "label": named} | style)
+        if quantity in ends:
+            low, high = (times * result[name][index][order] for name in ends[quantity])
+            axes.fill_between(over[order], low, high, color=line.get_color(), alpha=0.2, lw=0)
+    axes.set(xlabel=label_over, ylabel=axis_label(quantity, unit))
+    if len(indices) > 1:
+        figures.key_above(axes, 2)
+    return axes
+
+
+def _in_people_units(values: np.ndarray, name: str) -> tuple[np.ndarray, str]:
+    """Return the values of the column ``name`` in a unit of people, and the label of their axis."""
+    unit = unit_for(values.tolist(), COLUMNS[name].unit)
+    return values * converted(1.0, COLUMNS[name].unit, unit), axis_label(name, unit)
+
+
 def label(result, index) -> str:
     """What is varied at the position ``index`` along the axes of a study, in words."""
-    along = {key: values[index[result.dims.index(dim)]] for key, (dim, values) in result.coords.items() if key != SPEED}
-    kinds = {key: KEYS.get(key, Quantity("-", key.rpartition(".")[2])) for key in along}
+    places = dict(zip(result.dims, index))
+    along = {
+        key: values[places[dim]]
+        for key, (dim, values) in result.coords.items()
+        if key != SPEED and isinstance(places.get(dim), int)
+    }
+    kinds = {key: COLUMNS.get(key, Quantity("-", key.rpartition(".")[2])) for key in along}
     return ", ".join(f"{kind.label} {worded_value(key, along[key].item())}" for key, kind in kinds.items())
 
 

@@ -262,7 +262,6 @@ def test_samples_fill_their_ranges():
         ({"motion.speeds": [(1.0,)]}, None, "speeds = "),
         ({"transient.duration": [1.0]}, None, "unknown key 'transient' in vary"),
         ([1], None, "a dict"),
-        ({}, [0.1, 0.1], "twice"),
         ({}, "aut", "speeds in m/s, or 'auto'"),
     ],
 )

@@ -14,7 +14,8 @@ from small_study import SCENE as SMALL
 
 import lubfric
 from lubfric.output import main
-from lubfric.output.run_study import _answer, _picture
+from lubfric.output.run_study import _picture
+from lubfric.output.study_report import answer_lines
 
 ROOT = Path(__file__).parents[2]
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.001\n" + SMALL_PATCH
@@ -68,7 +69,7 @@ def test_a_study_file_is_carried_out(tmp_path, capsys):
 def test_a_study_of_one_speed_is_drawn_over_what_is_varied(tmp_path, vary):
     result = lubfric.study(SMALL, vary, [0.3])
     _picture(tmp_path / "study.png", result)
-    assert (tmp_path / "study.png").stat().st_size > 5000 and len(_answer(result)) == 2
+    assert (tmp_path / "study.png").stat().st_size > 5000 and len(answer_lines(result)) == 4
 
 
 def test_explain_solves_nothing(tmp_path, capsys):

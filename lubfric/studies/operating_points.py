@@ -1,0 +1,228 @@
+"""Operating points in pairs: a table with the load, the speeds, the radius or any other number of a scene in each row,
+as along the path of contact of a gear, over the turn of a cam, or of a duty cycle."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .._base import name_and_unit, read_columns, table_headings, validate
+from ..errors import InputError
+from ..quantities import KEYS, OF_CYCLE, Quantity
+from ..scene import Scene
+from ..units import converted, in_si, kind_of, spelled
+from .vary import MOST_POINTS, SECTIONS, Axis, check_key
+
+POINT = "point"  # name of the dimension of a table of operating points
+U1 = "u1"
+U2 = "u2"
+SLIDING = "sliding_speed"
+DURATION = "duration"
+
+# Names of columns in place of the keys of a scene.
+NAMES = {
+    "speed": "motion.entrainment_speed",
+    "entrainment_speed": "motion.entrainment_speed",
+    "slide_roll_ratio": "motion.slide_roll_ratio",
+    "srr": "motion.slide_roll_ratio",
+    "radius": "bodies.radius",
+    "load": "bodies.load",
+    "width": "bodies.width",
+    "hertz_pressure": "bodies.hertz_pressure",
+    "viscosity": "lubricant.viscosity",
+}
+
+# Speeds of both surfaces, of which speed and slide-roll ratio follow.
+SPEEDS = {
+    U1: Quantity("m/s", "speed of surface 1"),
+    U2: Quantity("m/s", "speed of surface 2"),
+    SLIDING: Quantity("m/s", "sliding speed u2 - u1"),
+}
+
+# Columns that say where a point lies. They change no number; means over a cycle weigh by the duration.
+COORDINATES = OF_CYCLE | {"time": Quantity("s", "time")}
+
+ENTRAINMENT = "motion.entrainment_speed"
+RATIO = "motion.slide_roll_ratio"
+TEMPERATURE = "temperature"
+CELSIUS = "lubricant.temperature_celsius"
+KELVIN = "lubricant.temperature"
+
+
+@dataclass(frozen=True, kw_only=True)
+class OperatingPoints:
+    """A table of operating points: ``axis`` with a row of values [SI] for each point, by the keys of a scene;
+    ``speeds`` [m/s] of entrainment; ``coordinates`` (n,) [SI] by name, which change no number."""
+
+    axis: Axis
+    speeds: tuple[float, ...]
+    coordinates: dict[str, tuple[float, ...]]
+
+
+def operating_points(scene: Scene, table) -> OperatingPoints:
+    """Return the operating points of ``table`` for a ``scene``.
+
+    Parameters
+    ----------
+    scene : gives what the table does not
+    table : a path of a text file with headings, a list of rows (dicts), a dict of columns, or a pandas DataFrame. A
+        column is a key of a scene ("bodies.load"), or one of radius, width, load, hertz_pressure, speed, u1, u2,
+        sliding_speed, slide_roll_ratio, temperature, viscosity; or position, angle, time, duration, which change no
+        number. A unit may stand in the heading, "load [kN]", or with a value, "2 kN"; that of a temperature has to
+
+    Raises
+    ------
+    InputError : a column or a value is none of a scene, or two columns say the same
+    """
+    columns = _columns(table)
+    lengths = {len(values) for values in columns.values()}
+    if len(lengths) != 1 or lengths == {0}:
+        found = ", ".join(f"{name}: {len(values)}" for name, values in columns.items()) or "no columns"
+        raise InputError(f"points: the columns of the table have different lengths, or none ({found})")
+    if lengths.pop() > MOST_POINTS:
+        raise InputError("points: too many rows", allowed=f"up to {MOST_POINTS:.0e}")
+    coordinates = {name: tuple(columns.pop(name)) for name in COORDINATES if name in columns}
+    if any(value < 0 for value in coordinates.get(DURATION, ())):
+        raise InputError("points: duration holds a negative value; give durations in s")
+    columns = _with_speeds(columns)
+    seen: set[str] = set()
+    for key in columns:
+        if key != ENTRAINMENT:
+            check_key("points", scene, key, seen, SECTIONS)
+            seen.add(key)
+    count = len(next(iter(columns.values()), next(iter(coordinates.values()), ())))
+    speeds = columns.pop(ENTRAINMENT, None) or [scene.motion.entrainment_speed] * count
+    for row, speed in enumerate(speeds):
+        validate.of_key(ENTRAINMENT, speed, f"points, row {row + 1}: speed")
+    rows = list(zip(*columns.values())) if columns else [()] * count
+    axis = Axis(POINT, tuple(columns), tuple(rows))
+    for row in range(count):
+        try:
+            scene.with_keys(axis.at(row))
+        except InputError as error:
+            raise InputError(f"points, row {row + 1}: {error}") from None
+    return OperatingPoints(axis=axis, speeds=tuple(map(float, speeds)), coordinates=coordinates)
+
+
+def _columns(table) -> dict[str, list]:
+    """Return the columns of ``table`` in SI units, by the keys of a scene or the names of `COORDINATES`, `SPEEDS`."""
+    if isinstance(table, (str, Path)):
+        path = validate.folder("points", table)
+        headings = table_headings(path, (*NAMES, TEMPERATURE, *COORDINATES, *SPEEDS, *KEYS))
+        quantities = [_quantity(*name_and_unit(heading))[1] for heading in headings]
+        units = ["K" if quantity.unit == "°C" else quantity.unit for quantity in quantities]
+        given: dict[str, list] = dict(zip(headings, read_columns(path, headings, units)))
+        in_file = True
+    else:
+        given = _as_columns(table)
+        in_file = False
+    columns: dict[str, list] = {}
+    for heading, values in given.items():
+        name, unit = name_and_unit(str(heading))
+        key, quantity = _quantity(name, unit)
+        if key in columns:
+            raise InputError(f"points: two columns give {key}; leave one of them out")
+        if in_file:
+            celsius = key == CELSIUS and unit  # read in K
+            columns[key] = [converted(value, "K", "°C") for value in values] if celsius else list(values)
+        else:
+            columns[key] = [_value(heading, key, value, unit, quantity) for value in values]
+    return columns
+
+
+def _as_columns(table) -> dict[str, list]:
+    """Return the columns of rows, of columns or of a DataFrame by their headings."""
+    if hasattr(table, "to_dict") and hasattr(table, "columns"):
+        table = table.to_dict("list")
+    if isinstance(table, Mapping):
+        return {str(key): list(validate.listed(values)) for key, values in table.items()}
+    if isinstance(table, (list, tuple)) and table and all(isinstance(row, Mapping) for row in table):
+        names = list(dict.fromkeys(name for row in table for name in row))
+        for number, row in enumerate(table, 1):
+            missing = [name for name in names if name not in row]
+            if missing:
+                raise InputError(
+                    f"points, row {number}: {', '.join(map(str, missing))} is missing; give it in each row"
+                )
+        return {name: [row[name] for row in table] for name in names}
+    shown = validate.shown(table)
+    raise InputError(f"points = {shown}", allowed="a file, a list of rows, a dict of columns, or a DataFrame")
+
+
+def _quantity(name: str, unit: str | None) -> tuple[str, Quantity]:
+    """Return the key of the column ``name``, or its name in `COORDINATES` or `SPEEDS`, and its quantity."""
+    plain = name.strip()
+    if plain in COORDINATES or plain in SPEEDS:
+        return plain, (COORDINATES | SPEEDS)[plain]
+    if plain == TEMPERATURE:
+        word = spelled(unit or "")
+        if word not in ("K", "°C"):
+            raise InputError(
+                "points: the column temperature names no unit", allowed="temperature [°C], temperature [K]"
+            )
+        plain = CELSIUS if word == "°C" else KELVIN
+    key = NAMES.get(plain.lower(), plain)
+    if key not in KEYS and "." not in key:
+        near = validate.nearest(plain, [*NAMES, TEMPERATURE, *COORDINATES, *SPEEDS])
+        known = ", ".join([*NAMES, TEMPERATURE, *SPEEDS, *COORDINATES])
+        raise InputError(
+            f"points: {plain!r} is no column of operating points{near}", allowed=f"{known}, or section.key"
+        )
+    return key, KEYS.get(key, Quantity("-", key))
+
+
+def _value(heading: str, key: str, value: Any, unit: str | None, quantity: Quantity) -> Any:
+    """Return one value in the unit of its ``key``; ``unit``: of its heading."""
+    value = validate.python_value(value)
+    if isinstance(value, str) and key in {*KEYS, *COORDINATES, *SPEEDS}:
+        value, given = in_si(f"points: {heading}", value)
+        if given != quantity.unit and not (key == CELSIUS and given == "K"):
+            raise InputError(f"points: {heading} = {value!r} is in {given}", allowed=f"a number in {quantity.unit}")
+        return converted(value, "K", "°C") if key == CELSIUS else value
+    if not unit or isinstance(value, str):
+        return value
+    word = spelled(unit)
+    number = validate.number(f"points: {heading}", value, unit)
+    try:
+        row = kind_of(word)
+    except KeyError:
+        raise InputError(f"points: the unit of {heading!r} is not known", allowed=quantity.unit) from None
+    if key == CELSIUS:
+        return converted(number, word, "°C")
+    if row != quantity.unit:
+        raise InputError(f"points: {heading!r} is in {row}", allowed=f"a unit of {quantity.unit}")
+    return converted(number, word, row)
+
+
+def _with_speeds(columns: dict[str, list]) -> dict[str, list]:
+    """Return the columns with speed and slide-roll ratio in place of the speeds of the surfaces."""
+    columns = dict(columns)
+    pair = [columns.pop(name, None) for name in (U1, U2)]
+    sliding = columns.pop(SLIDING, None)
+    if (pair[0] is None) != (pair[1] is None):
+        raise InputError("points: give both u1 and u2, or speed and slide_roll_ratio")
+    twice = [key for key in (ENTRAINMENT, RATIO, "motion.slip_percent") if key in columns]
+    if pair[0] is not None and (twice or sliding is not None):
+        raise InputError(f"points: u1 and u2 give the speed and the ratio; leave {', '.join(twice) or SLIDING} out")
+    if sliding is not None and (RATIO in columns or ENTRAINMENT not in columns):
+        raise InputError("points: sliding_speed goes with speed, and takes the place of slide_roll_ratio")
+    if pair[0] is not None:
+        columns[ENTRAINMENT] = [0.5 * (u1 + u2) for u1, u2 in zip(*pair)]
+        sliding = [u2 - u1 for u1, u2 in zip(*pair)]
+    if sliding is not None:
+        speeds = columns[ENTRAINMENT]
+        still = next((row for row, speed in enumerate(speeds, 1) if speed == 0), None)
+        if still is not None:
+            raise InputError(f"points, row {still}: no entrainment (u1 + u2 = 0)", allowed="a speed other than 0 m/s")
+        columns[RATIO] = [difference / speed for difference, speed in zip(sliding, speeds)]
+    return columns
+
+
+def mean_over_cycle(values: np.ndarray, durations: np.ndarray) -> float:
+    """Return the mean of ``values`` (n,) weighed by the ``durations`` (n,); NaN where one that counts is not known."""
+    counted = durations > 0
+    total = float(durations.sum())
+    return float(np.sum(values[counted] * durations[counted])) / total if total > 0 else math.nan

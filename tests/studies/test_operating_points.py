@@ -1,0 +1,174 @@
+"""Operating points in pairs: each row of a table is the point of its own scene, whatever the table is made of."""
+
+import csv
+
+import numpy as np
+import pytest
+from small_study import SCENE, same
+
+import lubfric
+from lubfric.output import main
+from lubfric.studies import load_study
+
+ROWS = [  # radius m, load N, u1, u2 m/s, duration s
+    (4e-3, 3.0, 0.02, 0.01, 1.0),
+    (5e-3, 5.0, 0.015, 0.015, 2.0),
+    (4.5e-3, 4.0, 0.01, 0.02, 1.0),
+]
+CSV = "# gear\nposition [mm];radius [mm];load [N];u1 [mm/s];u2 [mm/s];duration [min]\n" + "\n".join(
+    f"{i - 1};{1e3 * r:g};{f:g};{1e3 * a:g};{1e3 * b:g};{t / 60!r}" for i, (r, f, a, b, t) in enumerate(ROWS)
+)
+
+
+def expected():
+    """The points one by one, each by its own scene and speed."""
+    scenes = [
+        SCENE.with_(bodies={"radius": r, "load": f}, motion={"slide_roll_ratio": (b - a) / (0.5 * (a + b))})
+        for r, f, a, b, _ in ROWS
+    ]
+    return [lubfric.friction(scene, 0.5 * (a + b)) for scene, (_, _, a, b, _) in zip(scenes, ROWS)]
+
+
+@pytest.fixture(scope="module")
+def points():
+    return expected()
+
+
+@pytest.fixture(scope="module")
+def result():
+    columns = dict(zip(("radius", "load", "u1", "u2", "duration"), zip(*ROWS)))
+    return lubfric.study(SCENE, points=columns | {"position": [-1e-3, 0.0, 1e-3]})
+
+
+def test_every_row_is_the_point_of_its_scene(result, points):
+    assert result.dims == ("point",) and result["coefficient"].shape == (3,)
+    for name in ("coefficient", "power_loss", "contact_load", "central_film"):
+        np.testing.assert_allclose(result[name], [getattr(p, name) for p in points], rtol=1e-12)
+    np.testing.assert_allclose(result["power_loss_high"], [p.power_loss_interval[1] for p in points], rtol=1e-12)
+
+
+def test_the_mean_of_a_cycle_weighs_by_the_duration(result, points):
+    energy = sum(point.power_loss * row[-1] for point, row in zip(points, ROWS))
+    assert result.mean("power_loss") == pytest.approx(energy / 4.0, rel=1e-12)
+    plain = lubfric.study(SCENE, points={"speed": [0.01, 0.1]})
+    assert plain.mean("power_loss") == pytest.approx(plain["power_loss"].mean(), rel=1e-12)
+
+
+def test_all_forms_of_a_table_are_the_same_points(result, tmp_path):
+    (tmp_path / "gear.csv").write_text(CSV)
+    frame = pytest.importorskip("pandas").DataFrame(
+        {"radius [mm]": [1e3 * row[0] for row in ROWS], "bodies.load": [row[1] for row in ROWS]}
+        | {"motion.entrainment_speed": [0.5 * (row[2] + row[3]) for row in ROWS]}
+        | {"sliding_speed": [row[3] - row[2] for row in ROWS]}
+    )
+    rows = [
+        {"radius": f"{1e3 * r!r} mm", "load": f, "speed": f"{500 * (a + b)!r} mm/s", "srr": (b - a) / (0.5 * (a + b))}
+        for r, f, a, b, _ in ROWS
+    ]
+    (tmp_path / "scene.toml").write_text(SCENE.to_toml())
+    listed = "\n".join(
+        f"[[points]]\nradius = '{1e3 * r!r} mm'\nbodies.load = {f}\nu1 = {a}\nu2 = {b}" for r, f, a, b, _ in ROWS
+    )
+    (tmp_path / "study.toml").write_text(f'scene = "scene.toml"\n{listed}\n')
+    (tmp_path / "named.toml").write_text('scene = "scene.toml"\npoints = "gear.csv"\n')
+    plans = [
+        lubfric.plan_study(SCENE, points=table)
+        for table in (tmp_path / "gear.csv", str(tmp_path / "gear.csv"), frame, rows)
+    ]
+    plans += [load_study(tmp_path / name) for name in ("study.toml", "named.toml")]
+    plans += [load_study(tmp_path / "scene.toml", points=tmp_path / "gear.csv")]
+    for plan in plans:
+        np.testing.assert_allclose(plan.point_speeds, result.plan.point_speeds, rtol=1e-12)
+        for scene, other in zip(plan.scenes, result.plan.scenes):
+            assert scene.bodies.radius == pytest.approx(other.bodies.radius, rel=1e-12)
+            assert scene.bodies.load == other.bodies.load
+            ratios = scene.motion.slide_roll_ratio, other.motion.slide_roll_ratio
+            assert ratios[0] == pytest.approx(ratios[1], rel=1e-9, abs=1e-12)
+    durations = plans[0].coordinates["duration"]
+    np.testing.assert_allclose(durations, [row[-1] for row in ROWS], rtol=1e-12)
+
+
+def test_temperatures_of_rows_move_the_viscosity(tmp_path):
+    oil = {"lubricant.nu40": 68e-6, "lubricant.nu100": 8.6e-6, "lubricant.temperature": 313.15}
+    scene = SCENE.with_keys(oil)
+    (tmp_path / "t.csv").write_text("speed [m/s],temperature [°C]\n0.1,40\n0.1,100\n")
+    for table in (tmp_path / "t.csv", {"speed": [0.1, 0.1], "temperature [K]": [313.15, 373.15]}):
+        cold, hot = (one.lubricant.viscosity for one in lubfric.plan_study(scene, points=table).scenes)
+        assert cold == pytest.approx(scene.lubricant.viscosity, rel=1e-9) and hot < 0.2 * cold
+
+
+def test_other_values_are_varied_beside_the_points():
+    result = lubfric.study(
+        SCENE, {"bodies.boundary_friction_coefficient": [0.05, 0.1]}, points=[{"speed": 0.01}, {"speed": 0.1}]
+    )
+    assert result.dims == ("bodies.boundary_friction_coefficient", "point") and result["coefficient"].shape == (2, 2)
+    other = lubfric.study(SCENE, {"bodies.boundary_friction_coefficient": [0.05, 0.1]}, [0.01, 0.1])
+    np.testing.assert_array_equal(result["coefficient"], other["coefficient"])
+    assert result.mean("coefficient").shape == (2,)
+    for call in (result.law, lambda: result.lift_off, lambda: result.at(0.05)):
+        with pytest.raises(lubfric.InputError, match="operating points"):
+            call()
+
+
+def test_rows_that_repeat_are_solved_once_and_a_cut_study_goes_on(tmp_path, monkeypatch):
+    table = {"speed": [0.01, 0.1, 0.01], "load": [3.0, 3.0, 3.0]}
+    first = lubfric.study(SCENE, points=table, store=tmp_path)
+    assert len(list((tmp_path / "points").rglob("*.bin"))) == 3  # two points, and the plan
+    assert first["coefficient"][0] == first["coefficient"][2]
+    monkeypatch.setattr("lubfric.studies.points.outcome_of", None)
+    same(lubfric.study(SCENE, points=table, store=tmp_path), first)
+    same(lubfric.open_study(tmp_path), first)
+
+
+@pytest.mark.parametrize(
+    "table, words",
+    [
+        ({}, "no columns"),
+        (3, "a file, a list of rows"),
+        ({"speed": [0.1, 0.2], "load": [1.0]}, "different lengths"),
+        ([{"speed": 0.1}, {"load": 1.0}], "row 1: load is missing"),
+        ({"sped": [0.1]}, "'sped' is no column of operating points .did you mean 'speed'"),
+        ({"u1": [0.1]}, "both u1 and u2"),
+        ({"u1": [0.1], "u2": [0.1], "speed": [0.1]}, "leave motion.entrainment_speed out"),
+        ({"u1": [0.1], "u2": [-0.1]}, "row 1: .*no entrainment|row 1: no entrainment"),
+        ({"sliding_speed": [0.1]}, "goes with speed"),
+        ({"speed": [0.1], "motion.entrainment_speed": [0.1]}, "two columns give motion.entrainment_speed"),
+        ({"temperature": [40.0]}, "names no unit"),
+        ({"load [m]": [40.0]}, "is in m"),
+        ({"load": ["3 m"]}, "is in m"),
+        ({"load": [-3.0]}, "row 1: bodies.load"),
+        ({"speed": ["fast"]}, "fast"),
+        ({"duration": [-1.0], "speed": [0.1]}, "negative"),
+        ({"speed": [float("nan")]}, "row 1: speed"),
+        ({"numerics.tolerance": [3.0], "speed": [0.1]}, "numerics.tolerance"),
+    ],
+)
+def test_what_is_no_operating_point_is_refused_by_row_and_name(table, words):
+    with pytest.raises(lubfric.InputError, match=words):
+        lubfric.plan_study(SCENE, points=table)
+
+
+def test_points_take_the_place_of_speeds():
+    with pytest.raises(lubfric.InputError, match="points and speeds both"):
+        lubfric.plan_study(SCENE, speeds=[0.1], points={"speed": [0.1]})
+    with pytest.raises(lubfric.InputError, match="points and vary both give bodies.load"):
+        lubfric.plan_study(SCENE, {"bodies.load": [1.0]}, points={"speed": [0.1], "load": [1.0]})
+
+
+def test_the_command_takes_a_scene_with_a_table_and_writes_a_report(tmp_path, capsys, points):
+    (tmp_path / "gear.csv").write_text(CSV)
+    (tmp_path / "scene.toml").write_text(SCENE.to_toml())
+    out = tmp_path / "out"
+    assert main(["study", str(tmp_path / "scene.toml"), "--points", str(tmp_path / "gear.csv"), "--out", str(out)]) == 0
+    with open(out / "study.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    found = [float(row["power_loss [W]"]) for row in rows]
+    np.testing.assert_allclose(found, [p.power_loss for p in points], rtol=1e-9)
+    np.testing.assert_allclose([float(row["position [m]"]) for row in rows], [-1e-3, 0, 1e-3], atol=1e-12)
+    said = capsys.readouterr().err
+    mean = sum(p.power_loss * row[-1] for p, row in zip(points, ROWS)) / 4
+    assert f"mean power loss weighed by the duration: {1e3 * mean:.3g} mW" in said
+    assert f"largest power loss = {1e3 * max(found):.3g} mW" in said
+    page = (out / "report.html").read_text()
+    assert "power loss [mW]" in page and f"{1e3 * found[0]:.4g}" in page and "3 points, 3 of them solved" in page
+    assert "data:image/png;base64" in page and (out / "study.png").stat().st_size > 10_000
