@@ -10,3 +10,4 @@ from .forces import Forces, forces
 from .limits import limits_exceeded
 from .point import Point, exponents
 from .response import Response, Slopes, loads_at, quantities, touched_length, with_contact_area_scaled
+from .rough_film import LIMIT_RANGE, RoughFilm, RoughMap, rough_film

@@ -21,13 +21,13 @@ RIDGE = 5.0  # length of ridges over their width
 CUT = 0.3  # Sq: height at which the summits of a plateau are cut off
 FINE = 0.1  # Sq of the fine roughness on a plateau
 # cells in a correlation length, along x and y, at rest and where the roughness moves
-PER_LENGTH = {"rest": (5.0, 4.0), "rolling": (5.0, 3.0)}
+PER_LENGTH = {"rest": (5.0, 4.0), "rolling": (4.0, 2.5)}
 PER_HALF_WIDTH = 4.0  # cells in the Hertz half-width, at least
 # cells of a deterministic grid, at most, and cells along y, at least and at most
-CELLS = {"rest": 30_000, "rolling": 8_000}
-ROWS = {"rest": (72, 320), "rolling": (24, 64)}
-MOST_COLUMNS = {"rest": 400, "rolling": 300}
-PERIOD = 9.0  # correlation lengths of a map that moves, at least
+CELLS = {"rest": 30_000, "rolling": 4_500}
+ROWS = {"rest": (72, 320), "rolling": (16, 40)}
+MOST_COLUMNS = {"rest": 400, "rolling": 220}
+PERIOD = {"rest": 9.0, "rolling": 7.0}  # correlation lengths of a map along x, at least
 SUMMITS = 4.5  # Sq: height that no summit exceeds by much
 DRAWS = 200  # of the numbers of a case, until its grid is small enough
 
@@ -124,10 +124,17 @@ def _drawn(rng: np.random.Generator, motion: str, fluid: str, lay: str) -> Case 
         return None
     (least, most) = ROWS[motion]
     ny = 4 * round(min(max(CELLS[motion] / columns, least), most) / 4)
-    wanted = PERIOD * lengths[0] if motion == "rolling" else max(contact_reach(scene, sq), PERIOD * lengths[0])
+    wanted = (
+        PERIOD[motion] * lengths[0]
+        if motion == "rolling"
+        else max(contact_reach(scene, sq), PERIOD[motion] * lengths[0])
+    )
     nx = 4 * math.ceil(wanted / dx / 4)
     count = 2 if rough == "both" else 1
-    maps = [_map((nx, ny), (dx, dy), sq / math.sqrt(count), lengths, lay, acf, map_seed + k) for k in range(count)]
+    try:
+        maps = [_map((nx, ny), (dx, dy), sq / math.sqrt(count), lengths, lay, acf, map_seed + k) for k in range(count)]
+    except lubfric.InputError:  # the map is too short for its correlation length
+        return None
     signs = {"lower": (-1,), "upper": (1,), "both": (-1, 1)}[rough]
     bodies = tuple(RoughBody(m, speed * (1 + s * slip / 2), s > 0) for m, s in zip(maps, signs))
     facts = {
