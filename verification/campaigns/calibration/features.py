@@ -22,8 +22,8 @@ def quick(case: Case) -> dict[str, float]:
     scene = case.scene.with_(numerics=QUICK)
     nx = case.surface.shape[0]
     places = range(0, nx, nx // SHIFTS) if case.facts["motion"] == "rolling" else (0,)
-    found = list(_places(case, scene, places))
-    return {name: float(np.mean([row[name] for row in found])) for name in found[0]}
+    numbers = list(_places(case, scene, places))
+    return {name: float(np.mean([row[name] for row in numbers])) for name in numbers[0]}
 
 
 def _places(case: Case, scene: lubfric.Scene, places) -> Iterator[dict[str, float]]:
