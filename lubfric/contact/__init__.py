@@ -23,3 +23,4 @@ from .refinement import (
 )
 from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 from .solve import solve_contact
+from .wear import Passage, archard_compliance, passage

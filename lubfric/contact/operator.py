@@ -41,9 +41,16 @@ def _once(method):
 class HalfSpace(FrozenArrays, FieldsOnly):
     """Linear map from cell pressures [Pa] to deflections [m] of the cell centres, made by `half_space`.
 
-    ``symbol`` [m/Pa]: the eigenvalues, real and even along both axes, so only the non-negative
-    frequencies (mx//2 + 1, my//2 + 1) of the transform of size ``padded`` = (mx, my) are kept.
-    ``workers``: threads per transform (None: one).
+    Attributes
+    ----------
+    shape, spacing : (nx, ny) cells; (dx, dy) [m]
+    e_prime : E' [Pa]
+    boundary : "periodic" or "free" for each axis
+    padded : (mx, my), the size of the transform
+    symbol : the eigenvalues [m/Pa], real and even along both axes, so that only the non-negative frequencies
+        (mx//2 + 1, my//2 + 1) are kept
+    workers : threads per transform (None: one)
+    layer : compliance [m/Pa] of a layer on the half-space, each cell of which yields to its own pressure alone
     """
 
     shape: tuple[int, int]
@@ -53,6 +60,12 @@ class HalfSpace(FrozenArrays, FieldsOnly):
     padded: tuple[int, int]
     symbol: np.ndarray
     workers: int | None = None
+    layer: float = 0.0
+
+    def with_layer(self, compliance: float) -> HalfSpace:
+        """Return the operator with a layer that sinks by ``compliance`` [m/Pa] times the pressure at each cell."""
+        more = validate.nonnegative("compliance", compliance, "m/Pa")
+        return replace(self, symbol=self.symbol + self.symbol.dtype.type(more), layer=self.layer + more)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
         """Deflection [m] (nx, ny) under ``pressure`` [Pa] (nx, ny), in the precision of ``symbol``.
@@ -117,8 +130,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         if self.boundary == ("free", "periodic"):
             kernel = semiperiodic_coefficients(shape, spacing, self.e_prime)
             own = line_coefficients(1, self.spacing[0], self.e_prime, shape[0] * spacing[0])[0]
-            kernel[:, 0] += (self._kernel[0, 0] - own) * fx  # gauge
-            symbol = even_transform(kernel, padded[0])
+            kernel[:, 0] += (self._kernel[0, 0] - self.layer - own) * fx  # gauge
+            symbol = even_transform(kernel, padded[0]) + self.layer
         else:
             symbol = np.ascontiguousarray(self.symbol[: padded[0] // 2 + 1, : padded[1] // 2 + 1])
         return replace(self, shape=shape, padded=padded, spacing=spacing, symbol=symbol)

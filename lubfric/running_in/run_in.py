@@ -1,7 +1,7 @@
-"""The surface after the contact has passed over it: the dents that its summits keep, `run_in`.
+"""The surface after the contact has passed over it: dents, and wear of its asperities, `run_in`.
 
-The cylinder moves along the map, step by step, and pass by pass, until no cell sinks any more
-(`lubfric.contact.dent_by_pass`).
+First the dry cylinder moves along the map, step by step, and pass by pass, until no cell sinks any more
+(`lubfric.contact.dent_by_pass`). Then the asperities that still carry load wear (`lubfric.running_in.wear`).
 """
 
 import math
@@ -16,37 +16,43 @@ from ..errors import InputError
 from ..samples import contact_maps, cylinder_of, measured, whole_maps
 from ..scene import Scene
 from ..surface import Surface
+from .wear import Wear, worn_in
 
 STEPS = 2.0  # of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure
 SHARP = 1e-5  # tolerance of the dry contact, at most: its overlaps become heights
 NM = 1e9
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class RunIn(FrozenArrays, Shown):
     """A surface before and after it has run in, from `run_in`.
 
     Attributes
     ----------
-    before, surface : the map before and after, on the same grid; ``sq`` and ``ssk`` of each tell what has changed
+    before, surface : the map before and after, on the same grid; ``sq``, ``ssk``, ``sk``, ``spk``, ``svk`` of each
+        state what has changed
+    dented : the map after the dents, before wear
     deepest : deepest new dent of each pass [m], (passes,)
     sinking : share of the cells that sank by more than the tolerance in each pass [-], (passes,)
     shaken_down : True: nothing sank by more than the tolerance in the last pass. False: asperities still yield, and
         would in further passes
     ends : the map after at the lowest and the highest hardness, where that is known to a range only; () else
+    wear : what wear changed over the distance, a `Wear`; None without wear
     """
 
     before: Surface
     surface: Surface
+    dented: Surface
     deepest: np.ndarray
     sinking: np.ndarray
     shaken_down: bool
     ends: tuple[Surface, ...] = ()
+    wear: Wear | None = None
 
     @property
     def dents(self) -> np.ndarray:
-        """Depth of the dents [m], (nx, ny)."""
-        return self.before.heights - self.surface.heights
+        """Depth of the dents [m], without wear, (nx, ny)."""
+        return self.before.heights - self.dented.heights
 
     def bearing(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """The bearing (Abbott-Firestone) curves: the share of the area that is higher [-], and the heights [m] before
@@ -77,7 +83,11 @@ class RunIn(FrozenArrays, Shown):
             "Ssk": skewness,
             "dented": f"{100 * np.count_nonzero(self.dents) / self.dents.size:.3g} %",
             "": f"{end} after {self.deepest.size} passes",
-        }
+        } | (
+            {}
+            if self.wear is None
+            else {"worn": f"{self.wear.depth[-1] * NM:.4g} nm over {self.wear.distance[-1]:.4g} m"}
+        )
 
 
 @with_default_errors
@@ -88,13 +98,22 @@ def run_in(
     passes: int = 30,
     tolerance: float = 1e-10,
     step: float | None = None,
+    distance: float = 0.0,
+    wear_coefficient: float = 0.0,
+    hardness: tuple[float, float] | None = None,
 ) -> RunIn:
     """Let the loaded cylinder of ``scene`` pass over its rough surface until that has run in.
 
-    The cylinder carries ``bodies.load`` without a film. The map passes under it step by step, its end at the largest x
+    First its summits yield. The cylinder carries ``bodies.load`` without a film. The map passes under it step by step, its end at the largest x
     first if the entrainment speed is positive. Cells at ``bodies.hardness`` are lowered by their overlap. The map
-    continues beyond its ends: onto itself if it is periodic along x, else by its mirror image. Neither wear nor films
-    from additives, residual stress or hardening are in it.
+    continues beyond its ends: onto itself if it is periodic along x, else by its mirror image.
+
+    Then, with a ``distance`` and a ``wear_coefficient``, the asperities wear while the surface slides in its lubricated
+    contact at the speed of the scene. Each place where the bodies rub loses K p s/H (J. F. Archard, J. Appl. Phys. 24
+    (1953) 981-988, doi:10.1063/1.1721448, V = K F s/H), p the asperity pressure of the load-sharing model. Film and
+    contact are solved again at every step. Wear ends where the asperities carry less than 0.1 % of the load. The whole
+    map wears evenly, as a body whose every point passes through the contact does. Films from additives, third bodies,
+    residual stress and hardening are not modelled.
 
     Parameters
     ----------
@@ -104,18 +123,24 @@ def run_in(
     tolerance : depth [m]. The first pass without a deeper new dent ends it, and is not kept. The default is a third of
         an atom
     step : of the contact [m], between one cell and the half-width of the Hertz strip (None: half of that)
+    distance : sliding s [m] that each surface point does inside the contact, after the dents; 0: no wear
+    wear_coefficient : K [-] of Archard's law, 0 to 1 (mixed lubrication with additives: about 1e-8 to 1e-6)
+    hardness : H [Pa] of the rough body and of the other one, for wear; None: ``bodies.hardness`` for both
 
     Returns
     -------
     RunIn : the map before and after, and at both ends of a hardness that is given as a range. `lubfric.prepare` takes
-        ``surface`` of it as any other map
+        ``surface`` of it as any other map. ``wear`` has Sq, Sk, Spk, Svk, worn volume, friction and lift-off speed over
+        the distance
 
     Raises
     ------
-    InputError : a scene without hardness, or with two rough bodies and no ``surface``; a value out of range
-    ConvergenceError : a contact that could not be solved
+    InputError : a scene without hardness, or with two rough bodies and no ``surface``; a value out of range; wear
+        without sliding, or by a model without asperity pressures
+    ConvergenceError : a contact or a balance that could not be solved
     """
     validate.instance("scene", scene, Scene, "what lubfric.load_scene returned")
+    wear_of = _checked_wear(scene, distance, wear_coefficient, hardness)
     passes = validate.integer("passes", passes, minimum=1, maximum=10_000)
     tolerance = validate.positive("tolerance", tolerance, "m", minimum=1e-15, maximum=1e-3)
     before = _whole(scene, surface)
@@ -138,11 +163,59 @@ def run_in(
     count = len(deepest)
     note = f"run in: {count} passes under {scene.bodies.load:g} N, hardness {scene.bodies.hardness:g} Pa"
     note += "" if shaken else f"; still yielding, by {deepest[-1]:.3g} m"
-    after = replace(before, heights=heights, notes=(*before.notes, note))
+    dented = replace(before, heights=heights, notes=(*before.notes, note))
+    after = dented
+    wear = None
+    if wear_of["distance"] > 0 and wear_of["coefficient"] > 0:
+        after, wear = worn_in(scene, dented, **wear_of)
     others = [pair for name, *pair in scene.at_ends() if name == "bodies.hardness"]
-    how: dict[str, Any] = {"passes": passes, "tolerance": tolerance, "step": step}
+    how: dict[str, Any] = {
+        "passes": passes,
+        "tolerance": tolerance,
+        "step": step,
+        "distance": distance,
+        "wear_coefficient": wear_coefficient,
+        "hardness": hardness,
+    }
     ends = tuple(run_in(other, before, **how).surface for pair in others for other in pair)
-    return RunIn(before, after, np.array(deepest), np.array(sinking), shaken, ends)
+    return RunIn(
+        before=before,
+        surface=after,
+        dented=dented,
+        deepest=np.array(deepest),
+        sinking=np.array(sinking),
+        shaken_down=shaken,
+        ends=ends,
+        wear=wear,
+    )
+
+
+def _checked_wear(scene: Scene, distance: Any, coefficient: Any, hardness: Any) -> dict[str, Any]:
+    """Return distance [m], coefficient [-] and hardness [Pa] of the wear, checked."""
+    distance = validate.nonnegative("distance", distance, "m", maximum=1e9)
+    coefficient = validate.number("wear_coefficient", coefficient, "(-)", minimum=0.0, maximum=1.0)
+    if hardness is None:
+        hardness = (scene.bodies.hardness, scene.bodies.hardness)
+    elif not isinstance(hardness, (list, tuple)) or len(hardness) != 2:
+        raise InputError(
+            f" = {validate.shown(hardness)}", "hardness", "a pair in Pa: of the rough body, of the other one"
+        )
+    else:
+        hardness = tuple(validate.number("hardness", value, "Pa", minimum=1.0, maximum=1e14) for value in hardness)
+    if distance > 0 and coefficient > 0:
+        if scene.motion.slide_roll_ratio == 0:
+            said = " = 0: in pure rolling no surface point slides, and nothing wears by Archard's law"
+            raise InputError(said, "motion.slide_roll_ratio", "a value other than 0, or leave distance out")
+        if scene.motion.entrainment_speed == 0:
+            said = " = 0 m/s: wear needs the film at the speed of the running-in"
+            raise InputError(said, "motion.entrainment_speed", "a speed other than 0 m/s")
+        if scene.contact.model != "half-space":
+            said = f" = {scene.contact.model!r} has no asperity pressure on the cells of the map"
+            raise InputError(said, "contact.model", "'half-space' for wear")
+        if scene.numerics.model == "deterministic":
+            said = " = 'deterministic': wear takes its asperity pressure from the load-sharing model"
+            raise InputError(said, "numerics.model", "'load-sharing' or 'auto' for wear")
+    return {"distance": distance, "coefficient": coefficient, "hardness": hardness}
 
 
 def _whole(scene: Scene, surface: Surface | None) -> Surface:
