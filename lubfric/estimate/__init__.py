@@ -7,12 +7,11 @@ interval. `friction` is the entry; `answer` and `answer_deterministic` are the t
 
 from .friction import friction
 from .full_load import full_load_numbers
-from .heated import strip_heat
-from .moving import MOST_WORK, maps_of
 from .outlook import forecast
-from .pair import numbers_of, strip_of
 from .power import power_of_forces
 from .result import FrictionResult, together
-from .sample import sampled
-from .scatter import block_error, moment_error
-from .uncertainty import Uncertainty, UncertaintyCurve, curve_of, load_sharing_error, percent, student
+from .uncertainty import (
+    Uncertainty,
+    UncertaintyCurve,
+    curve_of,
+)

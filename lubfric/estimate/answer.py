@@ -7,22 +7,22 @@ from typing import Any
 
 from ..models.load_sharing import (
     Response,
+    SampleSolution,
+    decided,
     limits_exceeded,
     quantities,
     touched_length,
 )
-from ..models.load_sharing import exponents as film_exponents
 from ..models.shared import (
     Prepared,
     Validity,
     of_error,
 )
+from ..models.shared import exponents as film_exponents
 from ..oil import estimate_in_words
-from .decision import decided
 from .errors_of import errors_of
 from .ranges import with_ranges
 from .result import FrictionResult
-from .sample import SampleSolution
 
 CLOSER = "f is good to that error; a tighter numerics.tolerance or a larger map makes it smaller"
 

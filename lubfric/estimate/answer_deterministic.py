@@ -7,29 +7,44 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
-from ..models.deterministic import DeterministicResult
+from ..models.deterministic import (
+    LEAST_FILM,
+    MOST_CHANGE,
+    DeterministicResult,
+    Levels,
+    levels_of,
+    mean,
+    strip_heat,
+    too_hot,
+    warmed,
+)
+from ..models.load_sharing import SampleSolution, control_for
 from ..models.shared import (
+    Decision,
     Heat,
     Prepared,
     Validity,
+    error_by_heat,
     of_error,
     of_heat,
     of_inlet,
     of_motion,
     of_pressure,
     of_thickness,
+    percent,
+    student,
 )
 from ..quantities import depending_on
 from ..samples import measured
 from ..scene import Scene, moves
-from .decision import Decision
 from .errors_of import TOO_SHORT
-from .heated import LEAST_FILM, MOST_CHANGE, error_by_heat, strip_heat, too_hot, warmed
-from .levels import Levels, levels_of, mean
 from .ranges import with_ranges
 from .result import FrictionResult
-from .sample import SampleSolution
-from .uncertainty import Uncertainty, field_errors_of, interval, percent, student
+from .uncertainty import (
+    Uncertainty,
+    field_errors_of,
+    interval,
+)
 
 FEW_STRIPS = "not known from fewer than three strips"
 ONE_HEAT = "heat is found on one strip"
@@ -51,7 +66,7 @@ def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None
     """Solve the strips of ``prepared`` at ``speed`` [m/s], which is not 0; ``found``: the sample of Eq. (8) there, if
     any. ``begun``: the starting time, by `time.perf_counter`. Raises `ConvergenceError`."""
     scene = prepared.scene
-    levels = levels_of(prepared, speed, found)
+    levels = levels_of(prepared, speed, None if found is None else control_for(prepared, found))
     sample = prepared.sample
     numerics = scene.numerics
     results = [pair.resolved.result for pair in levels.pairs]

@@ -2,22 +2,33 @@
 
 import math
 
-from ..models.load_sharing import Balance, Forces
-from ..quantities import depending_on
-from ..scene import Scene, budget, gap_not_resolved, moves
-from .heated import error_by_heat
-from .sample import SampleSolution
-from .scatter import BlockError, Scatter
-from .uncertainty import (
+from ..models.load_sharing import (
+    Balance,
+    Forces,
+    SampleSolution,
+    Scatter,
+    load_sharing_error,
+)
+from ..models.shared import (
     FEW,
     ORDER,
+    BlockError,
+    error_by_heat,
+    percent,
+    too_few,
+)
+from ..quantities import depending_on
+from ..scene import (
+    Scene,
+    budget,
+    gap_not_resolved,
+    moves,
+)
+from .uncertainty import (
     FieldErrors,
     Uncertainty,
     field_errors_of,
     interval,
-    load_sharing_error,
-    percent,
-    too_few,
 )
 
 PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about

@@ -8,6 +8,11 @@ import numpy as np
 
 from .._base import validate, with_default_errors
 from ..errors import ConvergenceError, InputError
+from ..models.deterministic import cells_of, too_costly, too_hot
+from ..models.load_sharing import (
+    SampleSolution,
+    sampled,
+)
 from ..models.shared import (
     Prepared,
     at_speed,
@@ -20,13 +25,9 @@ from .answer import limits_passed, load_sharing_answer
 from .answer_deterministic import strips_answer
 from .errors_of import model_error
 from .full_load import full_load_numbers
-from .heated import too_hot
 from .methods import with_methods
-from .moving import too_costly
-from .pair import cells_of
 from .power import with_power_loss
 from .result import FrictionResult
-from .sample import SampleSolution, sampled
 
 
 @with_default_errors

@@ -5,17 +5,26 @@ import math
 from dataclasses import dataclass
 
 from ..film import LineContact, flooded_inlet
-from ..models.deterministic import reach, work_of_steps
+from ..models.deterministic import (
+    DIFFERENCE,
+    MOST_WORK,
+    ON_LONGER,
+    SHORT,
+    cells_of,
+    moving_strip_work,
+    reach,
+    work_of_steps,
+)
+from ..models.load_sharing import load_sharing_error
+from ..models.shared import (
+    ORDER,
+    SAFETY,
+    student,
+)
 from ..oil import shear_stress
 from ..samples import Sample
 from ..scene import FRICTION, Scene, gap_not_resolved, moves
 from ..surface import Surface
-from .levels import DIFFERENCE
-from .moving import MOST_WORK, ON_LONGER, moving_strip_work
-from .pair import cells_of
-from .sample import SAFETY
-from .shorter import SHORT
-from .uncertainty import ORDER, load_sharing_error, student
 
 CELL_SECONDS = 1.3e-6  # processor time of a cell of the strips in balance, about
 PIECE_SECONDS = 0.7e-6  # of a cell of a piece on finer and finer cells, of the finest

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from ..contact import RoughContact
 from ..errors import ConvergenceError
-from ..models.deterministic import MovingStrip, Strip, continued_strip, solve_strip
+from ..models.deterministic import MovingStrip, Strip, bodies_of, continued_strip, solve_strip, strip_heat, strip_of
 from ..models.load_sharing import solve_balance
 from ..models.shared import (
     Prepared,
@@ -15,9 +15,6 @@ from ..models.shared import (
     prepare,
 )
 from ..scene import FRICTION, Scene, value_of
-from .heated import strip_heat
-from .moving import bodies_of
-from .pair import strip_of
 from .result import FrictionResult
 from .uncertainty import Uncertainty
 

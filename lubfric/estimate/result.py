@@ -14,11 +14,11 @@ from ..errors import InputError, Report
 from ..models.deterministic import DeterministicResult
 from ..models.load_sharing import Balance
 from ..models.shared import (
+    Decision,
     UnmodelledEffect,
     Validity,
 )
 from ..quantities import PointQuantities, described_in_doc, in_words
-from .decision import Decision
 from .uncertainty import FieldErrors, Uncertainty
 
 

@@ -5,21 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..models.shared import percent, student, too_few
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
 
-CONFIDENCE = 0.95
 # error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
-OF_SHARE = 0.7
-IN_CONTACT = 0.25
 # error of the film's shear by load sharing: times (film/Sq)², and at most
-OF_FILM = 3.2
-MOST_OF_FILM = 0.3
-OF_ROLLING = 8.0  # of the rolling force: what pressure on the flanks of moving roughness may add; up to 7 were seen
-FLANKS = 1.5  # film/Sq from which on that falls, with the square of it; 2.4 times the rolling force were seen at 2
-ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
-FEW = 10.0  # effective contact spots below which an interval covers less often than it says
 EVEN = 0.1  # of half an interval: f farther off its middle is told with both ends
-MATTERS = 0.25  # of the sampling tolerance: an error below it needs no more of them
 
 
 @described_in_doc
@@ -74,40 +65,6 @@ class Uncertainty(UncertaintyQuantities[float]):
         return f"f = {coefficient:.{digits}f}{within} at 95 % ({parts})"
 
 
-def too_few(spots: float, reached: float, asked: float) -> bool:
-    """Whether so few spots carry the load that an interval is too narrow more often than it says, and the standard
-    error ``reached`` is not small beside the one ``asked``. 0 spots: nothing touches."""
-    return 0 < spots < FEW and reached > MATTERS * asked
-
-
-def load_sharing_error(
-    film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float = 0.0
-) -> tuple[float, float]:
-    """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md): by how much f may be lower, and higher.
-
-    ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film; ``rolling``: the part
-    of rolling in the latter, if roughness moves. Four things may be off: the load that asperities carry, by up to 0.7
-    sqrt(s (1 - s)) of the whole, but never below 0 or above the whole, which exchanges the friction of one part for
-    that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %; in
-    contact all of f by 0.25 sqrt(1 - s): below, of what the others leave; and the pressure on the flanks of moving
-    roughness, which is left out, by up to 8 times the rolling force, and 18/λ² times for thick films. 0 without
-    roughness.
-    """
-    f = abs(boundary + shear)
-    if film_to_roughness_ratio == math.inf or f == 0:
-        return 0.0, 0.0
-    of_flanks = OF_ROLLING * min(1.0, (FLANKS / film_to_roughness_ratio) ** 2) * abs(rolling)
-    of_film = (min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) + of_flanks) / f
-    if not 0 < share < 1:
-        return of_film, of_film
-    exchanged = (boundary / share - shear / (1 - share)) / f
-    rooms = (share, 1 - share)
-    of_share = OF_SHARE * math.sqrt(share * (1 - share))
-    down, up = (of_film + min(of_share, room) * abs(exchanged) for room in rooms[:: 1 if exchanged > 0 else -1])
-    of_all = IN_CONTACT * math.sqrt(1 - share)
-    return down + max(1 - down, 0.0) * of_all, up + of_all
-
-
 @described_in_doc
 @dataclass(frozen=True, kw_only=True)
 class UncertaintyCurve(UncertaintyQuantities[np.ndarray]):
@@ -155,19 +112,3 @@ def interval(value: float, numerical: float, sampling: float, freedom: float, *m
     sides = [abs(value) * math.hypot(numerical, of_sample, 0.0 if math.isnan(one) else one) for one in model]
     down, up = (sides[0], sides[-1]) if value >= 0 else (sides[-1], sides[0])
     return value - down, value + up
-
-
-def student(freedom: float) -> float:
-    """97.5 % quantile of Student's t."""
-    from scipy.special import stdtrit
-
-    return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * CONFIDENCE))
-
-
-def percent(value: float) -> str:
-    """Two digits (all of 100 and more) and a percent sign; "< 0.001 %" for what nobody can see, "not known" for NaN."""
-    if math.isnan(value):
-        return "not known"
-    if value >= 0.995:
-        return f"{100 * value:.0f} %"
-    return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.2g} %"

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..errors import InputError
-from ..estimate import MOST_WORK, forecast
+from ..estimate import forecast
+from ..models.deterministic import MOST_WORK
 from ..models.shared import (
     effect_in_words,
     expected,

@@ -10,10 +10,11 @@ from string import Template
 import numpy as np
 
 from ..errors import InputError
-from ..estimate import FrictionResult, percent
+from ..estimate import FrictionResult
 from ..models.shared import (
     Prepared,
     effect_in_words,
+    percent,
 )
 from ..quantities import COLUMNS, counted
 from ..scene import Scene

@@ -1,6 +1,6 @@
 """The sample of rough surface that stands for the endless line: strips of it, one patch, or a contact without cells."""
 
-from .cells import length_or_half
+from .cells import length_or_half, mirrored
 from .choose import sample_of, takes_strips
 from .contacts import cylinder_of, flat_contact_of, half_space_contact_of, independent_asperities_of
 from .contract import PIECE, Sample

@@ -172,3 +172,8 @@ def starts_of(count: int, window: int, step: int, beyond: int) -> list[int]:
 def blend_of(correlation: float, step: float) -> int:
     """Cells of ``step`` [m] over which one strip passes into the next."""
     return max(1, round(BLEND * correlation / step))
+
+
+def mirrored(heights: np.ndarray) -> bool:
+    """Whether the second half along y is the mirror image of the first."""
+    return heights.shape[1] > 1 and bool(np.array_equal(heights, heights[:, ::-1]))

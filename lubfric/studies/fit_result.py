@@ -7,10 +7,10 @@ import numpy as np
 
 from .._base import Shown, figures
 from ..errors import Report
-from ..estimate import percent
 from ..models.shared import (
     Validity,
     gathered,
+    percent,
 )
 from ..quantities import counted, worded_value
 from ..scene import Scene

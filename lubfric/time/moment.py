@@ -7,8 +7,12 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from ..estimate import full_load_numbers, moment_error, power_of_forces
+from ..estimate import (
+    full_load_numbers,
+    power_of_forces,
+)
 from ..film import ShearForce, above_carried, rolling_error, smallest, spike_error
+from ..models.load_sharing import moment_error
 from ..models.shared import (
     Heat,
     Validity,

@@ -7,10 +7,12 @@ import numpy as np
 
 from .._base import Shown, figures, validate
 from ..errors import Report
-from ..estimate import UncertaintyCurve, percent, student
+from ..estimate import UncertaintyCurve
 from ..models.shared import (
     Validity,
     gathered,
+    percent,
+    student,
 )
 from ..quantities import OF_MOMENT, axis_label
 from ..scene import FRICTION as FRICTION_KEY

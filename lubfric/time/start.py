@@ -8,8 +8,7 @@ from functools import partial
 import numpy as np
 
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError
-from ..estimate import sampled
-from ..models.load_sharing import solve_balance
+from ..models.load_sharing import sampled, solve_balance
 from ..models.shared import (
     Prepared,
     on_stack,

@@ -13,7 +13,10 @@ from functools import cached_property
 import numpy as np
 
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report
-from ..estimate import block_error, full_load_numbers, maps_of, numbers_of, power_of_forces, strip_heat, strip_of
+from ..estimate import (
+    full_load_numbers,
+    power_of_forces,
+)
 from ..models.deterministic import (
     BOUNDARY_FILM,
     KRYLOV,
@@ -29,16 +32,21 @@ from ..models.deterministic import (
     dry_contact,
     evaluated,
     lay_out,
+    maps_of,
     newton,
+    numbers_of,
     reach,
     residuals,
     shifted,
     solve_point,
+    strip_heat,
+    strip_of,
     work_of_steps,
 )
 from ..models.shared import (
     Prepared,
     Validity,
+    block_error,
     of_motion,
     of_thickness,
     prepare,

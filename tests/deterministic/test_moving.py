@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import lubfric
-from lubfric.estimate import maps_of
 from lubfric.film import LineContact
 from lubfric.models.deterministic import (
     ECONOMICAL,
@@ -17,6 +16,7 @@ from lubfric.models.deterministic import (
     continued_strip,
     lay_out,
     linear,
+    maps_of,
     moments,
     moving,
     plot_moments,

@@ -11,7 +11,7 @@ from test_ehl import contact
 from lubfric import InputError, Lubricant, solve_ehl
 from lubfric.film import LineContact
 from lubfric.film.thinning import thinned
-from lubfric.models.load_sharing import exponents
+from lubfric.models.shared import exponents
 from lubfric.oil import shear_stress
 
 EYRING = {"eyring_stress": 5e6}

@@ -10,13 +10,25 @@ import pytest
 import scipy.stats
 
 import lubfric
-from lubfric.estimate import levels, sampled, shorter
-from lubfric.estimate.line import ControlVariate, line_of
-from lubfric.estimate.pair import StripOnTwoGrids, cells_of, solve_pair, strip_of
-from lubfric.estimate.scatter import BlockError
-from lubfric.models.deterministic import change_by_flow, solve_strip
-from lubfric.models.load_sharing import solve_balance
+from lubfric.models.deterministic import (
+    change_by_flow,
+    levels,
+    solve_strip,
+)
+from lubfric.models.deterministic import (
+    shorter_cells as shorter,
+)
+from lubfric.models.deterministic.strip_on_two_grids import (
+    StripOnTwoGrids,
+    cells_of,
+    solve_pair,
+    strip_of,
+)
+from lubfric.models.load_sharing import sampled, solve_balance
+from lubfric.models.load_sharing.control_variate import control_variate_of
 from lubfric.models.shared import on_strip
+from lubfric.models.shared.control_variate import ControlVariate
+from lubfric.models.shared.statistics import BlockError
 
 FINE = lubfric.load_scene("paper").with_(numerics={"film_deflection": "scaled"})
 SCENE = FINE.with_(contact={"shape": (40, 40), "spacing": 3.6e-6})  # whose cells are those of the second level
@@ -147,7 +159,7 @@ def test_rolling_roughness_moves_or_gets_eq_8_and_the_sentence(monkeypatch):
     moved, shared = (lubfric.friction(small, 0.01, model=model) for model in ("auto", "load-sharing"))
     assert moved.decision.model == "deterministic" and "moved at 0.0085 m/s" in moved.decision.text
     assert abs(shared.coefficient / moved.coefficient - 1) < shared.uncertainty.model < 1.5
-    monkeypatch.setattr("lubfric.estimate.moving.MOST_WORK", 0.1)
+    monkeypatch.setattr("lubfric.models.deterministic.rough_bodies.MOST_WORK", 0.1)
     costly = lubfric.friction(small, 0.01)
     assert costly.decision.model == "load sharing" and "s of processor time, more than 0.1 s" in costly.decision.text
 
@@ -292,10 +304,10 @@ def test_standard_error_of_the_sum_by_monte_carlo(prepared, monkeypatch, n, betw
 
 def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared):
     """Every strip of the line, solved by Eq. (8) as a line of its own: to first order f, the loads, the forces and the
-    gap differ from those of the line as `line_of` says, and over the line the differences are zero in the mean."""
+    gap differ from those of the line as `control_variate_of` says, and over the line the differences are zero in the mean."""
     prepared = lubfric.prepare(SCENE.with_(numerics={"model": "load-sharing", "sampling_tolerance": 0.004}))
     found = sampled(prepared, 0.005)
-    line = line_of(prepared, found)
+    line = control_variate_of(prepared, found)
     rows = []
     scene = prepared.scene
     assert line.count > 6 and line.deviations(1, 24).mean() == pytest.approx(0.0, abs=1e-12)

@@ -6,7 +6,11 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from lubfric.estimate.scatter import BlockError, block_error, effective_spots
+from lubfric.models.load_sharing.scatter import effective_spots
+from lubfric.models.shared.statistics import (
+    BlockError,
+    block_error,
+)
 
 
 def correlated(rng, count, length):

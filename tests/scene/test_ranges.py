@@ -120,9 +120,9 @@ def test_only_the_ends_of_ranges_are_solved(motion, monkeypatch):
         """Stand in for the march in time, which takes a minute here: only the number of solves counts."""
         return at_rest(scene, bodies[0].surface, speed, **options)
 
-    for place in ("estimate.pair", "estimate.ranges"):
+    for place in ("models.deterministic.strip_on_two_grids", "estimate.ranges"):
         monkeypatch.setattr(f"lubfric.{place}.solve_strip", counted(at_rest))
-    monkeypatch.setattr("lubfric.estimate.pair.solve_moving_strip", counted(without_motion))
+    monkeypatch.setattr("lubfric.models.deterministic.strip_on_two_grids.solve_moving_strip", counted(without_motion))
     numerics = {"model": "deterministic", "sampling": "patch", "tolerance": 0.2}
     contact = {"shape": (24, 16), "spacing": (3e-6, 6e-6)}
     surface = {"correlation_length": (8e-6, 14e-6)}

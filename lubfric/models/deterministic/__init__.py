@@ -1,5 +1,7 @@
 """One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
+from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
+from .levels import DIFFERENCE, Levels, levels_of, mean
 from .moving import Moment, RoughBody, moments, travelling
 from .moving_strip import (
     ECONOMICAL,
@@ -29,5 +31,8 @@ from .point import (
 )
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
+from .rough_bodies import MOST_WORK, ON_LONGER, bodies_of, maps_of, moving_strip_work, too_costly
+from .shorter_cells import SHORT
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals
+from .strip_on_two_grids import StripOnTwoGrids, cells_of, numbers_of, strip_of

@@ -8,9 +8,13 @@ from ...contact import ContactState, RoughContact
 from ...errors import CONVERGED, ConvergenceError, Report
 from ...film import EHLResult
 from ...scene import Scene, budget
-from ..shared import meaningless
+from ..shared import exponents, meaningless
 from .forces import Forces, forces
-from .point import Point, Settings, Trial, exponents
+from .point import (
+    Point,
+    Settings,
+    Trial,
+)
 from .response import Response, loads_at, respond
 
 SAFE_FILM = 2.0  # times Moes' film: more than any film has

@@ -1,6 +1,5 @@
 """Film and rough contact at one speed: each at its own share of the load."""
 
-import math
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -11,8 +10,6 @@ from ...film import Effort, EHLResult, LineContact, solve_line_contact
 from ...oil import Lubricant
 from ...scene import Scene
 from ..shared import film_lubricant
-
-NUDGE = 1e-3  # of a load or a speed, for exponents of Moes' film
 
 
 @dataclass(frozen=True)
@@ -99,15 +96,3 @@ class Point:
     def oil(self) -> Lubricant:
         """The lubricant with the viscosity that it has in the inlet."""
         return film_lubricant(self.scene, self.speed)
-
-
-def exponents(line: LineContact) -> tuple[float, float, float]:
-    """The expected film h [m] of ``line``, and m and e of h ~ load^-m speed^e about it."""
-
-    def change(other: LineContact) -> float:
-        return math.log(other.expected_film / line.expected_film) / math.log1p(NUDGE)
-
-    heavier = replace(line, load_per_width=(1 + NUDGE) * line.load_per_width)
-    sliding = None if line.sliding is None else (1 + NUDGE) * line.sliding
-    faster = replace(line, entrainment_speed=(1 + NUDGE) * line.entrainment_speed, sliding=sliding)
-    return line.expected_film, -change(heavier), change(faster)

@@ -18,8 +18,25 @@ from .checks import (
     of_typical_heat,
 )
 from .checks_before import expected
-from .heat import Heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
+from .control_variate import ControlVariate
+from .decision import Decision
+from .film_speed import exponents, speed_of
+from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
 from .memo import Key, Memo, ReferenceKey
 from .prepared import Prepared, at_speed, at_tolerance, contact_on, on_piece, on_stack, on_strip, prepare, scene_of
+from .statistics import (
+    FEW,
+    MATTERS,
+    ORDER,
+    SAFETY,
+    BlockError,
+    add_errors,
+    block_error,
+    means_of_blocks,
+    percent,
+    required_strips,
+    student,
+    too_few,
+)
 from .unmodelled import UnmodelledEffect, effect_in_words, unmodelled_effects
 from .validity import Validity, entries_of, gathered, in_a_cell, refused

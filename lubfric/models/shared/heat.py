@@ -24,6 +24,7 @@ from ...scene import budget
 
 NOTHING = 1e-9  # of the film: less heat than that is none
 TYPICAL = 343.15, 0.035  # K, 1/K: a mineral oil of ISO VG 68 at 70 °C
+DOUBT = 0.5  # of what heat does to f: how far that may be off
 
 
 @dataclass(frozen=True)
@@ -235,3 +236,12 @@ def peclet_at(scene, speed: float) -> float:
     bodies = scene.bodies
     faster = abs(speed) * (1 + 0.5 * abs(scene.motion.slide_roll_ratio))
     return min(faster * bodies.half_width * c / (2 * k) for k, c in zip(bodies.conductivity, bodies.volumetric_heat))
+
+
+def error_by_heat(heat: Heat, by_inlet: float) -> float:
+    """Relative error of f by ``heat``: half of what it does. ``by_inlet``: relative change of f without the heat of the
+    inlet, of which it is as much more as the other of two published factors has it."""
+    apart = DOUBT
+    if heat.film_factor < 1 and heat.inlet is not None:
+        apart = max(apart, abs(math.log(heat.inlet.other / heat.film_factor) / math.log(heat.film_factor)))
+    return DOUBT * abs(heat.change) + apart * abs(by_inlet)

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from dataclasses import asdict
 
 import numpy as np
+from lubfric.estimate.sample import sampled
 
 import lubfric
-from lubfric.estimate.sample import sampled
 from lubfric.models.load_sharing import RoughMap, rough_film
 from lubfric.models.shared import prepare
 

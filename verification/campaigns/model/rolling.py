@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 import lubfric
-from lubfric.estimate import load_sharing_error
 from lubfric.models.deterministic import BOUNDARY_FILM, RoughBody
+from lubfric.models.load_sharing import load_sharing_error
 
 from ... import plotting
 from ...check import AT_LEAST, REPORTED, Check, Figure, Item, Table

@@ -6,39 +6,57 @@ from dataclasses import dataclass, replace
 
 from scipy import fft
 
-from ..contact import (
+from ...contact import (
     RoughContact,
     weighted_mean,
 )
-from ..errors import LubfricError
-from ..models.load_sharing import (
-    Balance,
-    Point,
-    Response,
-    exponents,
-    forces,
-    loads_at,
-    solve_balance,
-    with_contact_area_scaled,
-)
-from ..models.shared import (
+from ...errors import LubfricError
+from ...samples import Sample
+from ...scene import budget
+from ..shared import (
+    FEW,
+    MATTERS,
+    BlockError,
     Prepared,
     ReferenceKey,
+    add_errors,
     contact_on,
     on_piece,
     on_stack,
+    required_strips,
+    speed_of,
+    too_few,
 )
-from ..samples import Sample
-from ..scene import budget
-from .cells import CellEffect, effect_of_cells, lost_summits
-from .scatter import BlockError, Scatter, add_errors, scatter_of
-from .uncertainty import FEW, MATTERS, too_few
-from .undetected import hidden_contact, undetected_contact
+from .balance import (
+    Balance,
+    solve_balance,
+)
+from .cell_effect import (
+    CellEffect,
+    effect_of_cells,
+    lost_summits,
+)
+from .forces import (
+    forces,
+)
+from .point import (
+    Point,
+)
+from .response import (
+    Response,
+    loads_at,
+    with_contact_area_scaled,
+)
+from .scatter import (
+    Scatter,
+    scatter_of,
+)
+from .undetected import (
+    hidden_contact,
+    undetected_contact,
+)
 
 # times the length that a standard error asks for; times the length so far, at least
-SAFETY = 1.3
-LEAST = 1.5
-GROWTH = 4.0, 8.0  # times the length so far: a standard error from few blocks is no guide further
 FARTHEST = 0.5  # of ln(F_H/F_C), by which what the cells change may be corrected
 LARGEST = 0.2  # of the mean gap: a change of gap or film beyond it is not to first order
 CLOSE = 1.0  # Sq: clearance below which summits may be lost to the cells
@@ -205,19 +223,6 @@ def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) 
     return effect_of_cells(prepared, point, balance, sample)
 
 
-def speed_of(scene, film: float) -> float:
-    """Speed [m/s] at which the expected film of the whole load is ``film`` [m], to a per cent."""
-    speed = 1.0
-    for _ in range(30):
-        line = scene.line_contact(speed)
-        exponent = exponents(line)[2]
-        step = math.log(film / line.expected_film) / exponent
-        speed *= math.exp(step)
-        if abs(step) < 1e-6:
-            break
-    return speed
-
-
 def _wanted(prepared: Prepared, found: SampleSolution, sample: Sample) -> int:
     """Number of strips that ``numerics.sampling_tolerance`` needs, at least as many as there are."""
     asked = prepared.scene.numerics.sampling_tolerance
@@ -228,35 +233,6 @@ def _wanted(prepared: Prepared, found: SampleSolution, sample: Sample) -> int:
     error = BlockError(found.sampling, found.friction_error.freedom if touching else 0)
     more = required_strips(found.count, sample.first, sample.available, error, asked, enough)
     return more if more == found.count else min(sample.available, fft.next_fast_len(more, real=True))  # 90, not 89
-
-
-def required_strips(
-    count: int,
-    first: int,
-    available: int,
-    error: BlockError,
-    asked: float,
-    enough: float = 0.0,
-    *,
-    growth: tuple[float, float] = GROWTH,
-    spare: tuple[float, float] = (SAFETY, LEAST),
-) -> int:
-    """Number of strips at which a standard ``error`` on ``count`` of them falls to the one ``asked``: ``count`` if it
-    has, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
-
-    It is (reached/asked)² times the present number, with some to ``spare`` (1.3 times that, and at least 1.5 times the
-    present number), and at most ``growth`` times as many: of the ``first``, and of a later one. A standard error from
-    few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long enough
-    whenever its blocks happen to scatter little, the stated error would be too small. So the first one counts as long
-    enough only if even 1 + 1/sqrt(nu) times its error is within what is asked.
-    """
-    doubt = 1 / math.sqrt(error.freedom) if count == first and error.freedom > 0 else 0.0
-    reached = error.error * (1 + doubt)
-    if reached <= asked and not enough:
-        return count
-    most = growth[count > first]
-    times = spare[0] * max((reached / asked) ** 2, enough) if math.isfinite(reached) else most
-    return min(available, math.ceil(min(max(times, spare[1]), most) * count - 1e-9))
 
 
 def _too_coarse(prepared: Prepared, speed: float, found: SampleSolution) -> bool:

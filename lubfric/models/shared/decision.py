@@ -1,12 +1,8 @@
 """What was modelled for a result, and what was left out because the tolerance on f does not need it."""
 
-import math
 from dataclasses import dataclass
 
-from ..contact import RoughContact
-from ..models.load_sharing import Balance
-from ..scene import Scene, budget
-from .uncertainty import percent
+from .statistics import percent
 
 
 @dataclass(frozen=True)
@@ -48,30 +44,3 @@ class Decision:
             return f"{text}, the map's own"
         fx, fy = self.coarsening
         return f"{text}, each {fx} x {fy} of the map's own, by which f is corrected ({percent(self.change_by_cells)})"
-
-
-def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample) -> Decision:
-    """The decision behind ``balance`` on ``contact``. ``clearance`` [Sq]: between the film and the highest summits, NaN
-    in contact; ``why``: the reason for this model; ``sample``: further fields of `Decision`."""
-    tolerance = scene.numerics.tolerance
-    film = balance.film
-    grid = contact.grid
-    touching = math.isnan(clearance)
-    notes = (*balance.notes, *filter(None, [why]))
-    heat = ""
-    if film is not None:
-        heat = balance.forces.heat.text(tolerance)
-        if (missed := balance.forces.quadrature) > budget.SHEAR_SUM * tolerance:
-            text = f"the film's friction is not resolved (a pressure spike?): estimated error {100 * missed:.1g} % of f"
-            notes = (*notes, text)
-    return Decision(
-        model="load sharing",
-        film="none, no entrainment" if film is None else "full EHL",
-        contact=contact.name if touching else f"none, clearance {clearance:.2g} Sq",
-        tolerance=tolerance,
-        film_tolerance=0.0 if balance.settings is None else balance.settings.film_tolerance,
-        cells=grid if touching else None,
-        heat=heat,
-        notes=notes,
-        **sample,
-    )

@@ -4,7 +4,7 @@
       + mean over pieces (f on cells half as long - f)                                            fewer, half as long
       + the same once more, from these cells on                                           one, a sixth as long
 
-The line is the first level: its many strips tell what is chance of the few (`lubfric.estimate.line`). These are few
+The line is the first level: its many strips tell what is chance of the few (`lubfric.models.load_sharing.control_variate`). These are few
 where both models scatter alike, as they do about lift-off on most surfaces. Where they do not, the line is left out.
 Which of the two needs fewer strips is read off those that are solved (M. B. Giles, Oper. Res. 56 (2008) 607-617,
 doi:10.1287/opre.1070.0496).
@@ -16,16 +16,32 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..models.deterministic import MovingStrip, Strip, change_by_flow, thinned_less
-from ..models.shared import Prepared
-from ..samples import Sample
-from ..scene import Numerics
-from .line import ControlVariate, line_of
-from .pair import StripOnTwoGrids, numbers_of, solve_pair
-from .sample import SampleSolution, required_strips
-from .scatter import BlockError, add_errors, block_error
-from .shorter import changed, on_shorter_cells
-from .uncertainty import student
+from ...samples import Sample
+from ...scene import Numerics
+from ..shared import (
+    BlockError,
+    ControlVariate,
+    Prepared,
+    add_errors,
+    block_error,
+    required_strips,
+    student,
+)
+from .moving_strip import MovingStrip
+from .point import (
+    Strip,
+    change_by_flow,
+    thinned_less,
+)
+from .shorter_cells import (
+    changed,
+    on_shorter_cells,
+)
+from .strip_on_two_grids import (
+    StripOnTwoGrids,
+    numbers_of,
+    solve_pair,
+)
 
 DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
 # scatter of the deterministic f between strips over that of blocks; less that of a line
@@ -93,16 +109,16 @@ class TwoLevelEstimate:
         return max(required_strips(count, 1, most, error, limit, growth=GROWTH, spare=SPARE) for error, limit in errors)
 
 
-def levels_of(prepared: Prepared, speed: float, found: SampleSolution | None) -> Levels:
-    """The sum over levels at ``speed`` [m/s], not 0, for a scene with strips. ``found``: its sample of Eq. (8) there
-    (None: there is no first level).
+def levels_of(prepared: Prepared, speed: float, control: ControlVariate | None) -> Levels:
+    """Return the sum over levels at ``speed`` [m/s], not 0, for a scene with strips. ``control``: what a cheaper model
+    knows of these strips (None: there is no first level).
 
     Strips are solved until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
     difference of the models may leave a half-width of `DIFFERENCE` times ``numerics.model_tolerance`` beside it. No
     more are solved than `MOST_WORK` allows. Finer cells follow if the change of f from longer cells is not within
     ``numerics.tolerance``. Raises `ConvergenceError`.
     """
-    pairs, both = _first_levels(prepared, speed, found)
+    pairs, both = _first_levels(prepared, speed, control)
     pieces, shortest, by_cells, numerical = on_shorter_cells(prepared, speed, pairs)
     numbers = changed(prepared, both.numbers, [(piece[1], piece[-1]) for piece in pieces])
     numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
@@ -126,7 +142,7 @@ def levels_of(prepared: Prepared, speed: float, found: SampleSolution | None) ->
 
 
 def _first_levels(
-    prepared: Prepared, speed: float, found: SampleSolution | None
+    prepared: Prepared, speed: float, control: ControlVariate | None
 ) -> tuple[list[StripOnTwoGrids], TwoLevelEstimate]:
     """The strips of the second level, as many as it takes, and the sum of the first two."""
     sample = prepared.sample
@@ -135,12 +151,8 @@ def _first_levels(
     pairs = [solve_pair(prepared, speed, 0, None)]
     first = pairs[0].resolved
     most = max(1, min(sample.available, int(MOST_WORK / first.work)))
-    same = found is not None and found.sample.cells == sample.cells
-    line = None
-    if found is not None and same and not sample.is_single_patch and math.isfinite(found.sampling):
-        line = line_of(prepared, found)
     while True:
-        estimates = [_sum(prepared, pairs, one) for one in (line, None) if one is None or len(pairs) <= one.count]
+        estimates = [_sum(prepared, pairs, one) for one in (control, None) if one is None or len(pairs) <= one.count]
         estimates = [one for one in estimates if not one.line or 0 <= one.numbers["contact_load"] <= load]
         counts = [one.wanted(numerics, len(pairs), most) for one in estimates]
         best = next(k for k, one in enumerate(estimates) if not one.line or counts[k] <= min(counts[-1], one.line))

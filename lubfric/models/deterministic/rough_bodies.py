@@ -2,17 +2,23 @@
 
 from dataclasses import replace
 
-from ..contact import HalfSpaceContact
-from ..models.deterministic import RoughBody, effort_for, moving_work, reach
-from ..models.shared import (
+from ...contact import HalfSpaceContact
+from ...samples import Sample
+from ...scene import (
+    Scene,
+    moves,
+    moving_bodies,
+)
+from ...surface import Surface
+from ..shared import (
     Prepared,
     on_strip,
 )
-from ..samples import (
-    Sample,
+from .moving import RoughBody
+from .moving_strip import effort_for, moving_work
+from .problem import (
+    reach,
 )
-from ..scene import Scene, moves, moving_bodies
-from ..surface import Surface
 
 ON_LONGER = 0.5  # work on cells twice as long along y, over that on the shorter ones
 MOST_WORK = 120.0  # s, counted: beyond it "auto" leaves moving roughness to Eq. (8)

@@ -10,19 +10,34 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..errors import LubfricError
-from ..models.deterministic import Strip, changes_of, estimate, solve_strip
-from ..models.shared import (
+from ...errors import LubfricError
+from ...samples import Sample
+from ...scene import moves
+from ..shared import (
+    BlockError,
     Prepared,
     ReferenceKey,
+    block_error,
     on_piece,
+    speed_of,
 )
-from ..samples import Sample
-from ..scene import moves
-from .moving import MOST_WORK, map_of
-from .pair import StripOnTwoGrids, cells_of, longer_than, numbers_of, strip_of
-from .sample import speed_of
-from .scatter import BlockError, block_error
+from .point import (
+    Strip,
+    changes_of,
+    estimate,
+    solve_strip,
+)
+from .rough_bodies import (
+    MOST_WORK,
+    map_of,
+)
+from .strip_on_two_grids import (
+    StripOnTwoGrids,
+    cells_of,
+    longer_than,
+    numbers_of,
+    strip_of,
+)
 
 CELLS = 0.7  # of numerics.sampling_tolerance: standard error that the effect of the cells may leave
 # s, counted: beyond it no more are solved

@@ -1,48 +1,43 @@
 """How the strips of a line of Eq. (8) differ from the whole line, to first order: the control of the second level.
 
 At the film and the approach that all strips share, every place has its influence on the mean gap and on f
-(`lubfric.estimate.scatter`). The mean over a strip tells by how much f would differ if the line were like that strip.
+(`lubfric.models.load_sharing.scatter`). The mean over a strip tells by how much f would differ if the line were like that strip.
 Over the line these differences are zero in the mean. So they are known without another solve, and taking them from
 strips of the deterministic model leaves less scatter and the same mean (a control variate: J. M. Hammersley and D. C.
 Handscomb, Monte Carlo Methods, Methuen 1964, Sec. 5.5).
 """
 
-from dataclasses import dataclass
+import math
 from typing import Any
 
 import numpy as np
 
-from ..models.shared import (
+from ..shared import (
+    ORDER,
+    BlockError,
+    ControlVariate,
     Prepared,
     on_strip,
 )
-from .sample import SampleSolution
-from .scatter import BlockError, friction_influence, gap_influence, line_load, strip_gap
-from .uncertainty import ORDER
+from .sample_solution import SampleSolution
+from .scatter import (
+    friction_influence,
+    gap_influence,
+    line_load,
+    strip_gap,
+)
 
 
-@dataclass(frozen=True)
-class ControlVariate:
-    """The differences of its strips: ``by_place`` (count, rows), of f at every place; ``numbers`` (count,) of the whole
-    strip, by name. ``sampling``: relative standard error of f on the line."""
-
-    by_place: np.ndarray
-    numbers: dict[str, np.ndarray]
-    sampling: BlockError
-
-    @property
-    def count(self) -> int:
-        """Number of its strips."""
-        return self.by_place.shape[0]
-
-    def deviations(self, index: int, places: int) -> np.ndarray:
-        """Differences of f at so many ``places`` along strip ``index`` (places,), with a mean of 0."""
-        values = self.by_place[index].reshape(places, -1).mean(axis=1)
-        return values - values.mean()
+def control_for(prepared: Prepared, solution: SampleSolution) -> ControlVariate | None:
+    """Return the control of another model on the strips of ``prepared``; None where ``solution`` is on other cells, on a
+    single patch, or does not know its own scatter."""
+    sample = prepared.sample
+    same_strips = solution.sample.cells == sample.cells and not sample.is_single_patch
+    return control_variate_of(prepared, solution) if same_strips and math.isfinite(solution.sampling) else None
 
 
-def line_of(prepared: Prepared, found: SampleSolution) -> ControlVariate:
-    """The `ControlVariate` of ``found``, a sample of the strips of ``prepared``. Where nothing touches, strips do not differ."""
+def control_variate_of(prepared: Prepared, found: SampleSolution) -> ControlVariate:
+    """Return the differences of the strips of ``found`` from their line. Where nothing touches, strips do not differ."""
     solved = found.solved
     response = found.response
     load = prepared.scene.bodies.load

@@ -12,22 +12,33 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..contact import (
+from ...contact import (
     ContactState,
     HalfSpaceContact,
 )
-from ..models.load_sharing import (
-    Balance,
-    Point,
-    touched_length,
-)
-from ..models.shared import (
+from ...samples import Sample
+from ...scene import budget
+from ..shared import (
+    BlockError,
     Prepared,
+    add_errors,
+    block_error,
     on_piece,
 )
-from ..samples import Sample
-from ..scene import budget
-from .scatter import BlockError, add_errors, block_error, gap_influence, line_load, strip_gap
+from .balance import (
+    Balance,
+)
+from .point import (
+    Point,
+)
+from .response import (
+    touched_length,
+)
+from .scatter import (
+    gap_influence,
+    line_load,
+    strip_gap,
+)
 
 # ratio of successive changes
 SLOWEST = 0.75

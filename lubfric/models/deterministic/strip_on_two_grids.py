@@ -3,21 +3,15 @@
 import math
 from dataclasses import dataclass, replace
 
-from ..models.deterministic import (
-    DeterministicResult,
-    MovingStrip,
-    Strip,
-    solve_moving_strip,
-    solve_strip,
-    strip_at_rest,
-)
-from ..models.shared import Prepared
-from ..quantities import NUMBERS
-from ..samples import Sample
-from ..scene import FRICTION, Scene, moves
-from ..surface import Surface
-from .moving import bodies_of, strip_surface
-from .scatter import mirrored
+from ...quantities import NUMBERS
+from ...samples import Sample, mirrored
+from ...scene import FRICTION, Scene, moves
+from ...surface import Surface
+from ..shared import Prepared
+from .moving_strip import MovingStrip, solve_moving_strip, strip_at_rest
+from .point import Strip, solve_strip
+from .result import DeterministicResult
+from .rough_bodies import bodies_of, strip_surface
 
 # cells, at least: in a correlation length, and in b along x
 PER_LENGTH = 2.0

@@ -12,30 +12,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..contact import HalfSpaceContact
-from ..film import EHLResult
-from ..models.load_sharing import Balance
-from ..oil import shear_stress
-from ..samples import Sample
-from ..scene import Scene
+from ...contact import HalfSpaceContact
+from ...film import EHLResult
+from ...oil import shear_stress
+from ...samples import Sample, mirrored
+from ...scene import Scene
+from ..shared import BlockError, block_error, means_of_blocks
+from .balance import (
+    Balance,
+)
 
 FEWEST_WINDOWS = 3
-MOST_BLOCKS = 32
-ENOUGH_BLOCKS = 8
-LEAST_BLOCKS = 5
 # correlation lengths of the surface along y in a block: wanted, and at least
-WIDE = 9.0
-BLOCK = 5.0
-ENDS = 1 / math.sqrt(math.pi)  # correlation lengths of a block that are as its neighbours, for a Gaussian correlation
 SPOT = 1.75  # correlation lengths along y in a block that counts as one contact spot
-
-
-@dataclass(frozen=True)
-class BlockError:
-    """Standard error of a mean over blocks, in the unit of the values, and its degrees of freedom."""
-
-    error: float
-    freedom: int
 
 
 def strip_gap(contact, state) -> np.ndarray:
@@ -52,42 +41,6 @@ def line_load(contact, state) -> np.ndarray:
 def gap_influence(strip_gap, line_load, slope: float) -> np.ndarray:
     """I(y) [m] (ny,): strip_gap G(y) [m], line_load P(y) [N/m], slope dG/dP [m²/N] at a given film."""
     return strip_gap - slope * (line_load - line_load.mean())
-
-
-def block_error(values, step: float, correlation_length: float, exact=None) -> BlockError:
-    """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
-
-    It is s/sqrt(n (1 - 0.56/b)) with n = 8 to 32 blocks, each at least b = 9 correlation lengths [m] long. If the line
-    is too short for eight of these, 5 to 8 blocks of five lengths are taken. A remainder shorter than a block is left
-    out. If the line is shorter still, the error is infinite, with no degree of freedom.
-
-    Neighbouring blocks are alike near their common end, and so scatter less than independent ones. For values with the
-    correlation exp(-(y/l)²), the variance of a mean over b l is smaller than that of an endless line by the fraction
-    int |y| exp(-y²) dy / int exp(-y²) dy / b = 1/(sqrt(pi) b).
-
-    ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly. Scatter that the blocks share
-    with it is no error: s is then that of the residuals of a straight line through the blocks.
-    """
-    count = min(MOST_BLOCKS, int(values.size * step / (WIDE * correlation_length)))
-    count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (BLOCK * correlation_length))))
-    count = min(count, values.size)
-    if count < LEAST_BLOCKS:
-        return BlockError(math.inf, 0)
-    means = _means(values, count)
-    freedom = count - 1
-    if exact is not None:
-        known = _means(exact, count)
-        known -= known.mean()
-        if (square := float(known @ known)) > 0:
-            means, freedom = means - known * (float(known @ means) / square), count - 2
-    square = float(np.sum((means - means.mean()) ** 2))
-    length = values.size // count * step / correlation_length
-    return BlockError(math.sqrt(square / (freedom * count * (1 - ENDS / length))), freedom)
-
-
-def _means(values, count: int) -> np.ndarray:
-    size = values.size // count
-    return values[: size * count].reshape(count, size).mean(axis=1)
 
 
 def effective_spots(line_load, step: float, correlation_length: float) -> float:
@@ -171,7 +124,7 @@ def place_error(influence, step: float, sample: Sample, count: int, exact=None) 
     blocks = block_error(influence, step, sample.lengths[1], exact)
     if not sample.windows or count < FEWEST_WINDOWS:
         return blocks
-    means = _means(influence, count)
+    means = means_of_blocks(influence, count)
     windows = BlockError(float(means.std(ddof=1)) / math.sqrt(count), count - 1)
     return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
 
@@ -182,21 +135,6 @@ def _film_stress(scene: Scene, contact: HalfSpaceContact, film: EHLResult) -> np
     pressure = np.interp(contact.x, film.x, film.pressure)
     stress = shear_stress(scene.lubricant, pressure, abs(sliding) / film.film_at(contact.x))
     return np.where(pressure > 0, np.abs(stress), 0.0)
-
-
-def mirrored(heights: np.ndarray) -> bool:
-    """Whether the second half along y is the mirror image of the first."""
-    return heights.shape[1] > 1 and bool(np.array_equal(heights, heights[:, ::-1]))
-
-
-def add_errors(*parts: BlockError) -> BlockError:
-    """Error of a sum of independent quantities. The degrees of freedom are by Welch and Satterthwaite
-    (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
-    terms = [(part.error**2, part.freedom) for part in parts]
-    variance = sum(v for v, _ in terms)
-    if variance == 0 or not math.isfinite(variance):
-        return BlockError(math.sqrt(variance), sum(f for _, f in terms))
-    return BlockError(math.sqrt(variance), int(variance**2 / sum(v**2 / max(f, 1) for v, f in terms)))
 
 
 def moment_error(

@@ -4,21 +4,23 @@ The heat of the inlet is in its film (`lubfric.models.shared.film_lubricant`). T
 stress: the walls are as hot as the means over its columns make them, and every cell has the stress between such walls.
 """
 
-import math
-
 import numpy as np
 
-from ..film import heated_film, heated_stress
-from ..models.deterministic import DeterministicResult
-from ..models.shared import (
+from ...film import (
+    heated_film,
+    heated_stress,
+)
+from ...scene import Scene
+from ..shared import (
     Heat,
     inlet_at,
     peclet_at,
     surroundings,
 )
-from ..scene import Scene
+from .result import (
+    DeterministicResult,
+)
 
-DOUBT = 0.5  # of what heat does to f: how far that may be off
 # factor on the film, and relative change of f: beyond them only Eq. (8) was checked
 LEAST_FILM = 0.7
 MOST_CHANGE = 0.2
@@ -54,15 +56,6 @@ def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, flo
         "flash_temperature_rise": heat.flash,
         "film_temperature_rise": heat.film,
     }
-
-
-def error_by_heat(heat: Heat, by_inlet: float) -> float:
-    """Relative error of f by ``heat``: half of what it does. ``by_inlet``: relative change of f without the heat of the
-    inlet, of which it is as much more as the other of two published factors has it."""
-    apart = DOUBT
-    if heat.film_factor < 1 and heat.inlet is not None:
-        apart = max(apart, abs(math.log(heat.inlet.other / heat.film_factor) / math.log(heat.film_factor)))
-    return DOUBT * abs(heat.change) + apart * abs(by_inlet)
 
 
 def too_hot(heat: Heat) -> str:

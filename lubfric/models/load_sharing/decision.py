@@ -1,0 +1,35 @@
+"""What was modelled by load sharing, in words."""
+
+import math
+
+from ...contact import RoughContact
+from ...scene import Scene, budget
+from ..shared import Decision
+from .balance import Balance
+
+
+def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample) -> Decision:
+    """The decision behind ``balance`` on ``contact``. ``clearance`` [Sq]: between the film and the highest summits, NaN
+    in contact; ``why``: the reason for this model; ``sample``: further fields of `Decision`."""
+    tolerance = scene.numerics.tolerance
+    film = balance.film
+    grid = contact.grid
+    touching = math.isnan(clearance)
+    notes = (*balance.notes, *filter(None, [why]))
+    heat = ""
+    if film is not None:
+        heat = balance.forces.heat.text(tolerance)
+        if (missed := balance.forces.quadrature) > budget.SHEAR_SUM * tolerance:
+            text = f"the film's friction is not resolved (a pressure spike?): estimated error {100 * missed:.1g} % of f"
+            notes = (*notes, text)
+    return Decision(
+        model="load sharing",
+        film="none, no entrainment" if film is None else "full EHL",
+        contact=contact.name if touching else f"none, clearance {clearance:.2g} Sq",
+        tolerance=tolerance,
+        film_tolerance=0.0 if balance.settings is None else balance.settings.film_tolerance,
+        cells=grid if touching else None,
+        heat=heat,
+        notes=notes,
+        **sample,
+    )

@@ -1,0 +1,38 @@
+"""The error of f by the load-sharing model itself (docs/uncertainty.md)."""
+
+import math
+
+OF_SHARE = 0.7
+IN_CONTACT = 0.25
+OF_FILM = 3.2
+MOST_OF_FILM = 0.3
+OF_ROLLING = 8.0  # of the rolling force: what pressure on the flanks of moving roughness may add; up to 7 were seen
+FLANKS = 1.5  # film/Sq from which on that falls, with the square of it; 2.4 times the rolling force were seen at 2
+
+
+def load_sharing_error(
+    film_to_roughness_ratio: float, share: float, boundary: float, shear: float, rolling: float = 0.0
+) -> tuple[float, float]:
+    """Relative error of f by Eq. (8), at 95 % (docs/uncertainty.md): by how much f may be lower, and higher.
+
+    ``share``: s = F_C/F_T; ``boundary``, ``shear``: the two parts of f, of asperities and film; ``rolling``: the part
+    of rolling in the latter, if roughness moves. Four things may be off: the load that asperities carry, by up to 0.7
+    sqrt(s (1 - s)) of the whole, but never below 0 or above the whole, which exchanges the friction of one part for
+    that of the other; the shear of the film, which is that of smooth surfaces, by 3.2/λ² of it, at most 30 %; in
+    contact all of f by 0.25 sqrt(1 - s): below, of what the others leave; and the pressure on the flanks of moving
+    roughness, which is left out, by up to 8 times the rolling force, and 18/λ² times for thick films. 0 without
+    roughness.
+    """
+    f = abs(boundary + shear)
+    if film_to_roughness_ratio == math.inf or f == 0:
+        return 0.0, 0.0
+    of_flanks = OF_ROLLING * min(1.0, (FLANKS / film_to_roughness_ratio) ** 2) * abs(rolling)
+    of_film = (min(MOST_OF_FILM, OF_FILM / film_to_roughness_ratio**2) * abs(shear) + of_flanks) / f
+    if not 0 < share < 1:
+        return of_film, of_film
+    exchanged = (boundary / share - shear / (1 - share)) / f
+    rooms = (share, 1 - share)
+    of_share = OF_SHARE * math.sqrt(share * (1 - share))
+    down, up = (of_film + min(of_share, room) * abs(exchanged) for room in rooms[:: 1 if exchanged > 0 else -1])
+    of_all = IN_CONTACT * math.sqrt(1 - share)
+    return down + max(1 - down, 0.0) * of_all, up + of_all

@@ -1,0 +1,27 @@
+"""What a cheaper model knows of the strips of a line: the control of a dearer one."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .statistics import BlockError
+
+
+@dataclass(frozen=True)
+class ControlVariate:
+    """The differences of its strips: ``by_place`` (count, rows), of f at every place; ``numbers`` (count,) of the whole
+    strip, by name. ``sampling``: relative standard error of f on the line."""
+
+    by_place: np.ndarray
+    numbers: dict[str, np.ndarray]
+    sampling: BlockError
+
+    @property
+    def count(self) -> int:
+        """Number of its strips."""
+        return self.by_place.shape[0]
+
+    def deviations(self, index: int, places: int) -> np.ndarray:
+        """Differences of f at so many ``places`` along strip ``index`` (places,), with a mean of 0."""
+        values = self.by_place[index].reshape(places, -1).mean(axis=1)
+        return values - values.mean()

@@ -1,0 +1,125 @@
+"""Standard errors of means along a line, the number of strips that a standard error needs, and their wording."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+MOST_BLOCKS = 32  # blocks of a line: more of them are no more independent
+ENOUGH_BLOCKS = 8  # blocks of the wanted length; a line with fewer is cut into shorter ones
+LEAST_BLOCKS = 5  # blocks, below which the error is not known
+WIDE = 9.0  # correlation lengths along y in a block: wanted
+BLOCK = 5.0  # correlation lengths along y in a block: at least
+ENDS = 1 / math.sqrt(math.pi)  # correlation lengths of a block that are as its neighbours, for a Gaussian correlation
+SAFETY = 1.3
+LEAST = 1.5
+GROWTH = 4.0, 8.0  # times the length so far: a standard error from few blocks is no guide further
+CONFIDENCE = 0.95
+ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
+FEW = 10.0  # effective contact spots below which an interval covers less often than it says
+MATTERS = 0.25  # of the sampling tolerance: an error below it needs no more of them
+
+
+@dataclass(frozen=True)
+class BlockError:
+    """Standard error of a mean over blocks, in the unit of the values, and its degrees of freedom."""
+
+    error: float
+    freedom: int
+
+
+def block_error(values, step: float, correlation_length: float, exact=None) -> BlockError:
+    """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
+
+    It is s/sqrt(n (1 - 0.56/b)) with n = 8 to 32 blocks, each at least b = 9 correlation lengths [m] long. If the line
+    is too short for eight of these, 5 to 8 blocks of five lengths are taken. A remainder shorter than a block is left
+    out. If the line is shorter still, the error is infinite, with no degree of freedom.
+
+    Neighbouring blocks are alike near their common end, and so scatter less than independent ones. For values with the
+    correlation exp(-(y/l)²), the variance of a mean over b l is smaller than that of an endless line by the fraction
+    int |y| exp(-y²) dy / int exp(-y²) dy / b = 1/(sqrt(pi) b).
+
+    ``exact`` (ny,): a quantity of every place whose mean over the line is known exactly. Scatter that the blocks share
+    with it is no error: s is then that of the residuals of a straight line through the blocks.
+    """
+    count = min(MOST_BLOCKS, int(values.size * step / (WIDE * correlation_length)))
+    count = max(count, min(ENOUGH_BLOCKS, int(values.size * step / (BLOCK * correlation_length))))
+    count = min(count, values.size)
+    if count < LEAST_BLOCKS:
+        return BlockError(math.inf, 0)
+    means = means_of_blocks(values, count)
+    freedom = count - 1
+    if exact is not None:
+        known = means_of_blocks(exact, count)
+        known -= known.mean()
+        if (square := float(known @ known)) > 0:
+            means, freedom = means - known * (float(known @ means) / square), count - 2
+    square = float(np.sum((means - means.mean()) ** 2))
+    length = values.size // count * step / correlation_length
+    return BlockError(math.sqrt(square / (freedom * count * (1 - ENDS / length))), freedom)
+
+
+def means_of_blocks(values, count: int) -> np.ndarray:
+    size = values.size // count
+    return values[: size * count].reshape(count, size).mean(axis=1)
+
+
+def add_errors(*parts: BlockError) -> BlockError:
+    """Error of a sum of independent quantities. The degrees of freedom are by Welch and Satterthwaite
+    (F. E. Satterthwaite, Biometrics Bull. 2 (1946) 110-114, doi:10.2307/3002019)."""
+    terms = [(part.error**2, part.freedom) for part in parts]
+    variance = sum(v for v, _ in terms)
+    if variance == 0 or not math.isfinite(variance):
+        return BlockError(math.sqrt(variance), sum(f for _, f in terms))
+    return BlockError(math.sqrt(variance), int(variance**2 / sum(v**2 / max(f, 1) for v, f in terms)))
+
+
+def required_strips(
+    count: int,
+    first: int,
+    available: int,
+    error: BlockError,
+    asked: float,
+    enough: float = 0.0,
+    *,
+    growth: tuple[float, float] = GROWTH,
+    spare: tuple[float, float] = (SAFETY, LEAST),
+) -> int:
+    """Number of strips at which a standard ``error`` on ``count`` of them falls to the one ``asked``: ``count`` if it
+    has, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
+
+    It is (reached/asked)² times the present number, with some to ``spare`` (1.3 times that, and at least 1.5 times the
+    present number), and at most ``growth`` times as many: of the ``first``, and of a later one. A standard error from
+    few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long enough
+    whenever its blocks happen to scatter little, the stated error would be too small. So the first one counts as long
+    enough only if even 1 + 1/sqrt(nu) times its error is within what is asked.
+    """
+    doubt = 1 / math.sqrt(error.freedom) if count == first and error.freedom > 0 else 0.0
+    reached = error.error * (1 + doubt)
+    if reached <= asked and not enough:
+        return count
+    most = growth[count > first]
+    times = spare[0] * max((reached / asked) ** 2, enough) if math.isfinite(reached) else most
+    return min(available, math.ceil(min(max(times, spare[1]), most) * count - 1e-9))
+
+
+def too_few(spots: float, reached: float, asked: float) -> bool:
+    """Whether so few spots carry the load that an interval is too narrow more often than it says, and the standard
+    error ``reached`` is not small beside the one ``asked``. 0 spots: nothing touches."""
+    return 0 < spots < FEW and reached > MATTERS * asked
+
+
+def student(freedom: float) -> float:
+    """97.5 % quantile of Student's t."""
+    from scipy.special import stdtrit
+
+    return float(stdtrit(max(freedom, 1.0), 0.5 + 0.5 * CONFIDENCE))
+
+
+def percent(value: float) -> str:
+    """Two digits (all of 100 and more) and a percent sign; "< 0.001 %" for what nobody can see, "not known" for NaN."""
+    if math.isnan(value):
+        return "not known"
+    if value >= 0.995:
+        return f"{100 * value:.0f} %"
+    return "< 0.001 %" if 0 < value < 1e-5 else f"{100 * value:.2g} %"
