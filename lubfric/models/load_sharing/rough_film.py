@@ -25,8 +25,8 @@ from ...contact import HalfSpaceContact
 from ...film import EHLResult, LineContact
 from ...oil import Lubricant, log_viscosity_ratio, shear_stress
 from ...scene import Scene
+from ..shared import exponents
 from .balance import Balance, solve_balance
-from .point import exponents
 
 BOUNDARY_FILM = 20e-9  # m: that of the deterministic model, where the scene gives none
 PRESSED = 50e6  # Pa: below it no Newtonian film is at its cap, as in the deterministic model

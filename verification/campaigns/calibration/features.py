@@ -4,10 +4,9 @@ from collections.abc import Iterator
 from dataclasses import asdict
 
 import numpy as np
-from lubfric.estimate.sample import sampled
 
 import lubfric
-from lubfric.models.load_sharing import RoughMap, rough_film
+from lubfric.models.load_sharing import RoughMap, rough_film, sampled
 from lubfric.models.shared import prepare
 
 from .case import Case
