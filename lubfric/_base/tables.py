@@ -24,6 +24,7 @@ TITLES = 1000  # lines of a preamble among which the headings are looked for
 LONGEST_LINE = 10_000  # characters of a line of a table of columns
 LONGEST_HEADING = 200  # characters
 OPEN = {")": "(", "]": "["}
+FORMULA = ("=", "+", "-", "@", "\t", "\r")  # begin a formula in a spreadsheet
 BLANKS = "  "  # the separator of columns that two or more blanks separate
 
 
@@ -59,12 +60,21 @@ def read_json(path, remedy: str) -> Any:
 
 
 def table_bytes(columns: dict[str, np.ndarray | list[str]]) -> bytes:
-    """``columns`` by heading as comma-separated text."""
+    """Return ``columns`` by heading as comma-separated text. Text that a spreadsheet would take for a formula begins
+    with an apostrophe."""
     file = io.StringIO(newline="")
     writer = csv.writer(file)
-    writer.writerow(columns)
-    writer.writerows(zip(*(np.asarray(values, dtype=object).tolist() for values in columns.values())))
+    writer.writerow(map(_no_formula, columns))
+    columns_of_cells = [map(_no_formula, np.asarray(values, dtype=object).tolist()) for values in columns.values()]
+    writer.writerows(zip(*columns_of_cells))
     return file.getvalue().encode()
+
+
+def _no_formula(cell: Any) -> Any:
+    """Return a cell of a table such that no spreadsheet evaluates it."""
+    if isinstance(cell, str) and cell.lstrip()[:1] in FORMULA and cell.strip():
+        return cell if _is_number(cell) else f"'{cell}"
+    return cell
 
 
 class Columns(dict):

@@ -1,14 +1,13 @@
 """The ``lubfric`` command. What one of the commands in commands.toml needs is imported when it runs."""
 
 import argparse
-import sys
 from importlib import import_module
 from pathlib import Path
 
 from .._base import __version__, packaged
 from ..errors import ConvergenceError, InputError, LubfricError
 from ..units import number_of
-from .commands import INTERRUPTED, interruptible, put, say
+from .commands import INTERRUPTED, answer, interruptible, say
 
 CURVE = "a Stribeck curve"
 RATIOS = "a traction curve (--ratios)"
@@ -29,6 +28,10 @@ def main(argv=None) -> int:
     except (LubfricError, OSError) as error:  # OSError: a folder that cannot be written, a disk that is full
         say(f"lubfric: {error}")
         return 1 if isinstance(error, ConvergenceError) else 2
+    except MemoryError as error:
+        needed = str(error) or "more than this process may use"
+        say(f"lubfric: the memory is not enough ({needed}); allow more, or give a smaller map or fewer cells")
+        return 1
     except KeyboardInterrupt as error:
         said, code = error.args if len(error.args) == 2 else ("interrupted", INTERRUPTED)
         say(f"lubfric: {said}")
@@ -93,7 +96,7 @@ def info(arguments) -> None:
     if speeds is not None and scene.transient is not None:
         raise InputError("--speeds is for a curve, and this is a scene with [transient]; leave it out")
     told = describe_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))
-    put(sys.stdout, told + "\n")
+    answer(told + "\n")
 
 
 def init(arguments) -> None:
@@ -108,4 +111,4 @@ def oils(_) -> None:
     """List the named oils."""
     from ..oil import list_oils
 
-    put(sys.stdout, list_oils() + "\n")
+    answer(list_oils() + "\n")

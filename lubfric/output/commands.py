@@ -4,6 +4,7 @@ replaced. A broken stream or an interrupt never costs what was computed."""
 import json
 import os
 import platform
+import re
 import signal
 import sys
 import tempfile
@@ -14,7 +15,7 @@ from collections.abc import Callable, Iterable
 from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import asdict
 from pathlib import Path
-from typing import get_type_hints
+from typing import Any, get_type_hints
 
 import numpy as np
 
@@ -36,24 +37,47 @@ from .report import report_page
 # exit codes, as shells count them: the second argument of a KeyboardInterrupt
 INTERRUPTED = 130
 TERMINATED = 143
+_CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]")
 SAY_EVERY = 1.0  # s between two lines of progress
 
 
 def say(text: str) -> None:
-    """One line on stderr; silence once nobody reads it."""
+    """Write one line to stderr; silence once nobody reads it."""
     put(sys.stderr, text + "\n")
 
 
-def put(stream, text: str) -> None:
-    """Write to ``stream``; a stream that is closed or broken is replaced by one that goes nowhere."""
+def put(stream: Any, text: str) -> None:
+    """Write to ``stream`` what a terminal can show. A stream that is closed or broken is replaced by one that goes
+    nowhere."""
     try:
-        stream.write(text)
+        stream.write(printable(text, getattr(stream, "encoding", None)))
         stream.flush()
     except (OSError, ValueError, AttributeError):  # a closed pipe, a closed file, no stream at all
         with suppress(OSError, ValueError, AttributeError):
             nowhere = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nowhere, stream.fileno())
             os.close(nowhere)
+
+
+def answer(text: str) -> None:
+    """Write the answer of a command to stdout. Raise `OutputError` where it cannot be written, as on a full disk; a pipe
+    that nobody reads any more is no error."""
+    try:
+        sys.stdout.write(printable(text, getattr(sys.stdout, "encoding", None)))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        put(sys.stdout, "")
+    except (OSError, ValueError, AttributeError) as error:
+        put(sys.stdout, "")
+        raise OutputError(f"standard output was not written ({getattr(error, 'strerror', None) or error})") from None
+
+
+def printable(text: str, encoding: str | None) -> str:
+    """Return ``text`` with control characters, signs that change the direction of writing, and what ``encoding`` does not
+    have as escapes: the name of a scene moves no cursor and hides no line."""
+    shown = "".join(c if c in "\n\t" or not _CONTROL.match(c) else c.encode("unicode_escape").decode() for c in text)
+    code = encoding or "utf-8"
+    return shown.encode(code, "backslashreplace").decode(code)
 
 
 def paced() -> Callable[[bool], bool]:

@@ -2,7 +2,6 @@
 Both write to a folder."""
 
 import json
-import sys
 import time
 from dataclasses import asdict
 from pathlib import Path
@@ -15,7 +14,7 @@ from ..errors import ITERATION_LIMIT, ConvergenceError, InputError, Report
 from ..quantities import KEYS, axis_label, counted
 from ..units import numbers_of
 from .command_line import scene_of
-from .commands import check_outputs, keeping, made, paced, put, run_folder, say
+from .commands import answer, check_outputs, keeping, made, paced, run_folder, say
 from .study_report import answer_lines, study_page
 
 
@@ -25,7 +24,7 @@ def run_study(arguments) -> None:
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
     plan = studies.load_study(arguments.study, arguments.points)
     if arguments.explain:
-        put(sys.stdout, plan.explain(arguments.out) + "\n")
+        answer(plan.explain(arguments.out) + "\n")
         return
     studies.check_tools(arguments.netcdf, arguments.parquet)
     wanted = {"csv": True, "nc": arguments.netcdf, "parquet": arguments.parquet}

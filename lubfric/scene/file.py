@@ -14,6 +14,8 @@ from .scene import Scene, as_ranges
 from .sections import ROUGH, SECTIONS, check_complete, check_keys, made_section, meant, ranges_of
 from .transient import HISTORIES, UNITS, Transient, history
 
+MOST_BYTES = 2**24  # of a scene
+LONGEST_PATH = 300  # characters of a path that is compared with the files there
 SCENES = resources.files(__package__) / "scenes"
 
 
@@ -52,9 +54,16 @@ def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
 def read_toml(path, what: str) -> dict:
     """The tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
     try:
+        size = path.stat().st_size if isinstance(path, Path) else 0
+        if size > MOST_BYTES:
+            raise InputError(
+                f"{what} {validate.shown(str(path))} has {size:.3g} bytes; allowed: up to {MOST_BYTES:.3g}"
+            )
         return tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except (UnicodeDecodeError, OSError) as error:
-        raise InputError(f"{what} {str(path)!r} cannot be read as UTF-8 text: {error}") from None
+        raise InputError(f"{what} {validate.shown(str(path))} cannot be read as UTF-8 text: {error}") from None
+    except InputError:
+        raise
     except (ValueError, RecursionError) as error:  # tomllib's own, integers too long, tables too deep
         said = f"{what} {path} is not valid TOML: {validate.shown(str(error))}"
         raise InputError(f"{said} (numbers have a decimal point; one with a unit stands in quotes: '12 mm')") from None
@@ -82,7 +91,9 @@ def _map_path(name: str, given, folder: Path) -> Path:
             return path
     except (TypeError, ValueError, OSError):
         pass
-    near = get_close_matches(str(given), [path.name for path in folder.iterdir()] if folder.is_dir() else [], 3, 0.5)
+    near = get_close_matches(
+        str(given)[:LONGEST_PATH], [path.name for path in folder.iterdir()] if folder.is_dir() else [], 3, 0.5
+    )
     meant = f" (did you mean {' or '.join(map(repr, near))}?)" if near else ""
     where = f" in {folder}" if folder.name else ""
     said = f" = {validate.shown(str(given))}: no such file{where}{meant}"

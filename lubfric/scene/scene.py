@@ -20,6 +20,7 @@ from .sections import ROUGH, SECTIONS, changed_section, ranges_of
 from .short_forms import fields_of
 from .transient import KINDS, Transient
 
+LONGEST_NAME = 500  # characters of the name of a scene
 RESOLVED = (  # key, the values that the deterministic model takes, why no other
     ("contact.geometry", ("cylinder",), ""),
     ("contact.model", ("half-space",), ""),
@@ -55,8 +56,9 @@ class Scene(Shown):
     ranges: tuple[tuple[str, float, float], ...] = ()
 
     def __post_init__(self):
-        if not isinstance(self.name, str) or _halved(self.name):
-            raise InputError(f" = {validate.shown(self.name)}", "name", "words, of whole characters (no surrogates)")
+        if not isinstance(self.name, str) or _halved(self.name) or len(self.name) > LONGEST_NAME:
+            allowed = f"words of up to {LONGEST_NAME} whole characters (no surrogates)"
+            raise InputError(f" = {validate.shown(self.name)}", "name", allowed)
         if self.numerics.heat == "on" and not self.lubricant.heats:
             by_numbers = "lubricant.temperature [K] and temperature_coefficient [1/K]"
             ways = f"give an oil (lubricant.grade, nu40, oil) or {by_numbers}, or heat = 'auto'"

@@ -47,7 +47,8 @@ def resolve(section: str, given: dict, old=None) -> dict:
 
     Raises `InputError` if two keys say the same thing, one lacks its partner, or a value is out of range.
     """
-    given, forms = {key: validate.python_value(value) for key, value in given.items()}, FORMS.get(section, ())
+    forms = FORMS.get(section, ())
+    given = _without_none({key: validate.python_value(value) for key, value in given.items()}, section)
     for name in dict.fromkeys(name for _, fields, _ in forms for name in fields):
         only_one(section, given, name, *("+".join(keys) for keys, fields, _ in forms if name in fields))
     for keys, _, plain in forms:
@@ -57,6 +58,18 @@ def resolve(section: str, given: dict, old=None) -> dict:
     if "boundary_friction_coefficient" in given:
         given = friction_of(given.pop("boundary_friction_coefficient")) | given
     return resolve_oil(given, old) if section == "lubricant" else given
+
+
+def _without_none(given: dict, section: str) -> dict:
+    """Return what is ``given`` without the keys that are None because another says the same thing: ``{"ra": 1e-7, "sq":
+    None}`` states Ra alone."""
+    groups = [{*keys, *fields} for keys, fields, _ in FORMS.get(section, ())]
+    groups += [{*SOURCES} - {"oil"}] if section == "lubricant" else []
+    needless: set[str] = set()
+    for group in groups:
+        if any(given.get(key) is not None for key in group):
+            needless |= {key for key in group if key in given and given[key] is None}
+    return {key: value for key, value in given.items() if key not in needless}
 
 
 def _of_radii(radii, *_) -> dict:
