@@ -1,0 +1,396 @@
+"""A rough elastohydrodynamic line contact, film and elastic body with one gap and one pressure, by finite elements.
+
+    d(rho h)/dt + d(rho U h)/dx - div( rho h³/(12 eta) grad p ) = 0,   p >= 0 (Swift-Stieber outlet)
+    h = h0 + x²/(2R) - z(x, y, t) + K p,   mean of p over y, integrated over x, = load
+
+The film stands on bilinear quadrilaterals (scikit-fem), x along the motion. The surface is its own mirror image in y, so
+half of the period is meshed, between two planes through which nothing flows. The inlet begins with p = 0. K is that of
+`harmonic`: finite elements in the section, waves along y. Its cells have the nodes of the film as their centres.
+
+The weak form is Galerkin's. Under high pressure only (rho h)' is left of it, which Galerkin sees no better than
+convection. So the jumps of that slope between elements are charged, as in `ehl_film` (interior penalty of Burman &
+Hansbo 2004, doi:10.1016/j.cma.2003.12.032): a term of third order in the cell, beside an error of second order.
+
+Newton's method takes all pressures and h0 at once, with the whole dense matrix and an active set of nodes with p = 0.
+Steps in time are implicit, of second order (BDF2; the first is Euler's).
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sp
+from skfem import Basis, BilinearForm, ElementQuad1, LinearForm, MeshQuad
+from skfem.helpers import grad
+
+from .compliance import Elastic
+from .ehl import LineContact, solve_ehl
+from .fluid import slope
+from .harmonic import Compliance, HarmonicStrip, compliance
+from .report import CONVERGED, DIVERGED, ITERATION_LIMIT, SolveReport, require
+
+PENALTY = 0.03  # on the jumps of slope: the value of `ehl_film`
+LARGEST_GROWTH = 3.0  # of ln(eta) at any node in one step of Newton's method
+SMALLEST_SHARE = 0.3  # of the film at any node that one step leaves
+SMOOTH_CELL = 0.05  # half-widths: longest cell of the smooth film that a rough one starts from
+POISSON = 0.3  # of the body; only E' acts on the line of contact
+BDF2 = (1.5, -2.0, 0.5)
+EULER = (1.0, -1.0, 0.0)
+REST = (0.0, 0.0, 0.0)
+
+Heights = Callable[[np.ndarray, np.ndarray, float], np.ndarray]
+
+
+@dataclass(frozen=True, kw_only=True)
+class RoughLine:
+    """What is solved, and on which cells.
+
+    contact : load, bodies, lubricant and speed
+    inlet, outlet : ends of the film [m], p = 0 there; inlet < 0 < outlet
+    period : of the roughness along y [m]
+    cells : (nx, ny), nx even, ny even; nx nodes between the ends, ny over the period
+    heights : z [m] of coordinates x, y [m] and the time [s], even in y about 0 and about half of the period
+    fineness : each cell along x is 2^fineness facets of the elastic body
+    """
+
+    contact: LineContact
+    inlet: float
+    outlet: float
+    period: float
+    cells: tuple[int, int]
+    heights: Heights
+    fineness: int = 1
+
+    def __post_init__(self) -> None:
+        said = f"cells = {self.cells}, inlet = {self.inlet} m, outlet = {self.outlet} m"
+        even = not (self.cells[0] % 2 or self.cells[1] % 2)
+        require(even and self.inlet < 0 < self.outlet and self.period > 0, said, "even numbers, inlet < 0 < outlet")
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """(dx, dy) [m]."""
+        return (self.outlet - self.inlet) / (self.cells[0] - 1), self.period / self.cells[1]
+
+    @property
+    def x(self) -> np.ndarray:
+        """Positions of the nodes along the motion [m]."""
+        return np.linspace(self.inlet, self.outlet, self.cells[0])
+
+    @property
+    def y(self) -> np.ndarray:
+        """Positions of the nodes across, over half of the period [m]."""
+        return np.arange(self.cells[1] // 2 + 1) * self.spacing[1]
+
+
+@dataclass(frozen=True)
+class RoughFilm:
+    """A film at a moment: pressure [Pa] and gap [m] at the nodes (nx, ny/2 + 1), approach h0 [m], flow [m²/s] per width
+    that enters, time [s], and the report of the solve."""
+
+    problem: RoughLine
+    pressure: np.ndarray
+    gap: np.ndarray
+    approach: float
+    flow: float
+    time: float
+    report: SolveReport
+
+    @property
+    def weights(self) -> np.ndarray:
+        """Width [m] that each node stands for along x, times the share of the period that it stands for along y."""
+        (nx, ny) = self.problem.cells
+        along = np.full(nx, self.problem.spacing[0])
+        along[[0, -1]] /= 2
+        across = np.full(ny // 2 + 1, 2.0 / ny)
+        across[[0, -1]] /= 2
+        return np.outer(along, across)
+
+
+class Discretisation:
+    """The matrices of a `RoughLine` that stay the same in every step."""
+
+    def __init__(self, problem: RoughLine):
+        (nx, ny) = problem.cells
+        self.problem = problem
+        self.mesh = MeshQuad.init_tensor(problem.x, problem.y)
+        self.basis = Basis(self.mesh, ElementQuad1(), intorder=4)
+        order = np.lexsort((self.basis.doflocs[1], self.basis.doflocs[0]))
+        self.place = np.argsort(order)  # of the degrees of freedom, in arrays (nx, ny/2 + 1)
+        self.quadrature = np.asarray(self.basis.global_coordinates())
+        self.edge = np.isin(self.basis.doflocs[0], (self.basis.doflocs[0].min(), self.basis.doflocs[0].max()))
+        self.first = self.basis.doflocs[0] == self.basis.doflocs[0].min()
+        ones = LinearForm(lambda v, w: 1.0 * v).assemble(self.basis)
+        self.load_weights = ones / (problem.period / 2)  # of p in the load per width
+        second = sp.diags([1.0, -2.0, 1.0], [0, 1, 2], shape=(nx - 2, nx))
+        across = np.full(ny // 2 + 1, problem.spacing[1])
+        across[[0, -1]] /= 2
+        jumps = sp.kron(second, sp.eye(ny // 2 + 1)).tocsc()[:, self.place]
+        self.jumps = jumps.tocsr()
+        self.facets = np.tile(across, nx - 2)
+
+    @cached_property
+    def body(self) -> Compliance:
+        """The elastic body under the cells."""
+        (nx, ny) = self.problem.cells
+        body = Elastic.from_e_prime(self.problem.contact.e_prime, POISSON)
+        return compliance(HarmonicStrip((nx, ny), self.problem.spacing, body, fineness=self.problem.fineness))
+
+    @cached_property
+    def stiff(self) -> np.ndarray:
+        """K: displacements [m] of the degrees of freedom per pressure [Pa] at each, mirrored in y."""
+        (nx, ny) = self.problem.cells
+        half = ny // 2 + 1
+        unit = np.zeros((half, ny))
+        unit[np.arange(half), np.arange(half)] = 1.0
+        unit[np.arange(1, half - 1), ny - np.arange(1, half - 1)] = 1.0
+        spectrum = np.fft.rfft(unit, axis=1)  # of each mirrored line, real
+        parts = np.zeros((half, half, half))
+        for m in range(half):
+            only = np.zeros((half, half), complex)
+            only[:, m] = spectrum[:, m]
+            parts[m] = np.fft.irfft(only, n=ny, axis=1)[:, :half]
+        matrix = np.einsum("mab,mij->ibja", parts, self.body.harmonics).reshape(nx * half, nx * half)
+        return matrix[np.ix_(self.place, self.place)]
+
+    def shape(self, time: float) -> tuple[np.ndarray, np.ndarray]:
+        """x²/(2R) - z [m] at the points of quadrature and at the degrees of freedom."""
+        values = []
+        for x, y in (self.quadrature, self.basis.doflocs):
+            values.append(x**2 / (2 * self.problem.contact.radius) - self.problem.heights(x, y, time))
+        return values[0], values[1]
+
+    def field(self, values: np.ndarray) -> np.ndarray:
+        """Values at the degrees of freedom as an array (nx, ny/2 + 1)."""
+        result = np.empty_like(values)
+        result[self.place] = values
+        return result.reshape(self.problem.cells[0], -1)
+
+
+@LinearForm
+def residual_form(v, w):
+    """``(c, v) - (q, grad v)``: what is gained, and the flow."""
+    return w.c * v - w.qx * grad(v)[0] - w.qy * grad(v)[1]
+
+
+@BilinearForm
+def tangent_form(u, v, w):
+    """The derivative of `residual_form` by a field: by its value in c and q, and by its gradient in q."""
+    flow = (w.x_value * u - w.mobility * grad(u)[0]) * grad(v)[0]
+    flow = flow + (w.y_value * u - w.mobility * grad(u)[1]) * grad(v)[1]
+    return w.c_value * u * v - flow
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Lost mass at the degrees of freedom [m³/s], its derivatives by p and by h, and what the film holds [m]."""
+
+    lost: np.ndarray
+    by_pressure: sp.csr_matrix
+    by_gap: sp.csr_matrix
+    content: np.ndarray
+
+
+def balance(
+    grid: Discretisation, p: np.ndarray, moved: np.ndarray, shape: np.ndarray, nodal: np.ndarray, step: "Step"
+) -> Balance:
+    """The balance of mass for pressures ``p`` and displacements with the approach ``moved`` at the dofs, over the rigid
+    gaps ``shape`` at the points of quadrature and ``nodal`` at the dofs."""
+    basis = grid.basis
+    contact = grid.problem.contact
+    speed = contact.entrainment_speed
+    fluid = contact.fluid
+    field = basis.interpolate(p)
+    value = np.maximum(np.asarray(field), 0.0)
+    gradient = np.asarray(grad(field))
+    h = shape + np.asarray(basis.interpolate(moved))
+    h = np.maximum(h, 1e-3 * np.abs(h).min() + 1e-12)
+    rho = fluid.rho(value)
+    denser = slope(fluid.rho, value)
+    mobility = rho * h**3 / (12 * fluid.eta(value))
+    growth = denser / rho - slope(fluid.log_viscosity, value)
+    rate = step.rates[0] / step.length
+    content = rho * h
+    flow = speed * content - mobility * gradient[0], -mobility * gradient[1]
+    gained = rate * content + (step.rates[1] * step.now + step.rates[2] * step.before) / step.length
+    lost = residual_form.assemble(basis, c=gained, qx=flow[0], qy=flow[1])
+    still = 0.0 * h
+    by_pressure = tangent_form.assemble(
+        basis,
+        c_value=rate * denser * h,
+        x_value=speed * denser * h - mobility * growth * gradient[0],
+        y_value=-mobility * growth * gradient[1],
+        mobility=mobility,
+    )
+    by_gap = tangent_form.assemble(
+        basis,
+        c_value=rate * rho,
+        x_value=speed * rho - 3 * mobility / h * gradient[0],
+        y_value=-3 * mobility / h * gradient[1],
+        mobility=still,
+    )
+    at = np.maximum(p, 0.0)
+    gap = nodal + moved
+    dense = fluid.rho(at)
+    size = grid.problem.spacing[0]
+    diffusion = 6 * dense * np.maximum(gap, 0.0) ** 3 / (12 * fluid.eta(at)) / size
+    charge = 1 / np.sqrt(1 + (diffusion / (speed * (np.abs(gap) * slope(fluid.rho, at) + compliant(grid)))) ** 2)
+    inner = np.abs(grid.jumps) @ charge / 4
+    weighted = grid.jumps.T @ sp.diags(PENALTY * speed * inner * grid.facets) @ grid.jumps
+    lost = lost + weighted @ (dense * gap)
+    by_pressure = by_pressure + weighted @ sp.diags(slope(fluid.rho, at) * gap)
+    by_gap = by_gap + weighted @ sp.diags(dense)
+    return Balance(lost, by_pressure.tocsr(), by_gap.tocsr(), content)
+
+
+def compliant(grid: Discretisation) -> float:
+    """The gap that a Hertz pressure changes [m/Pa]: b²/R over p_h."""
+    contact = grid.problem.contact
+    return contact.film_unit / contact.hertz_pressure
+
+
+@dataclass(frozen=True)
+class Step:
+    """A step in time: its length [s], the rates of BDF2 or Euler, what the film held [m] now and before. At rest all
+    rates are 0."""
+
+    length: float = 1.0
+    rates: tuple[float, float, float] = REST
+    now: np.ndarray | float = 0.0
+    before: np.ndarray | float = 0.0
+
+
+def newton(
+    grid: Discretisation,
+    p: np.ndarray,
+    approach: float,
+    time: float,
+    step: Step = Step(),
+    *,
+    tolerance: float = 1e-7,
+    max_iterations: int = 60,
+) -> tuple[np.ndarray, float, Balance, SolveReport]:
+    """Pressure [Pa] and approach [m] of a moment, with the balance and the report.
+
+    The residuals are the mass lost on the way to the rupture over the inflow, the load, and the largest tension over
+    the Hertz pressure."""
+    contact = grid.problem.contact
+    shape, nodal = grid.shape(time)
+    load = contact.load_per_width
+    unit = contact.hertz_pressure
+    inflow = contact.entrainment_speed * contact.moes_film * grid.problem.period / 2
+    held = grid.edge | (p <= 0)
+    history = []
+    status = ITERATION_LIMIT
+    while True:
+        moved = approach + grid.stiff @ p
+        at = balance(grid, p, moved, shape, nodal, step)
+        excess = float(grid.load_weights @ p) / load - 1
+        residuals = {"mass": float(np.abs(at.lost[~held]).sum() / inflow), "load": abs(excess)}
+        residuals["tension"] = float(max(-p.min(), 0.0) / unit)
+        history.append(max(residuals.values()))
+        new = grid.edge | np.where(held, at.lost > 0, p < 0)
+        if not np.isfinite(history[-1]):
+            status = DIVERGED
+            break
+        if history[-1] <= tolerance and not (new != held).any():
+            status = CONVERGED
+            break
+        if len(history) > max_iterations:
+            break
+        held = new
+        free = np.flatnonzero(~held)
+        change = np.where(held, -p, 0.0)
+        matrix = np.zeros((free.size + 1, free.size + 1), order="F")
+        matrix[:-1, :-1] = at.by_pressure[free][:, free].toarray() + at.by_gap[free] @ grid.stiff[:, free]
+        matrix[:-1, :-1] *= unit / inflow
+        matrix[:-1, -1] = np.asarray(at.by_gap[free].sum(axis=1)).ravel() * contact.film_unit / inflow
+        matrix[-1, :-1] = grid.load_weights[free] * unit / load
+        lost = at.lost + at.by_pressure @ change + at.by_gap @ (grid.stiff @ change)
+        right = -np.append(lost[free] / inflow, excess + grid.load_weights @ change / load)
+        solution = scipy.linalg.solve(matrix, right, overwrite_a=True, check_finite=False)
+        change[free] = solution[:-1] * unit
+        rise = float(solution[-1]) * contact.film_unit
+        thinner = -(rise + grid.stiff @ change) / np.maximum(nodal + moved, 1e-12)
+        fluid = contact.fluid
+        growth = np.abs(fluid.log_viscosity(np.maximum(p + change, 0)) - fluid.log_viscosity(np.maximum(p, 0))).max()
+        share = min(1.0, LARGEST_GROWTH / max(growth, 1e-9), (1 - SMALLEST_SHARE) / max(float(thinner.max()), 1e-9))
+        p = p + share * change
+        approach = approach + share * rise
+    steps = len(history) - 1
+    report = SolveReport("rough EHL by finite elements", status, steps, tolerance, residuals, tuple(history))
+    return p, approach, at, report
+
+
+def film_of(grid: Discretisation, p, approach: float, at: Balance, time: float, report: SolveReport) -> RoughFilm:
+    """The result of a converged solve; `SolveError` for another."""
+    nodal = grid.shape(time)[1]
+    gap = nodal + approach + grid.stiff @ p
+    flow = float(at.lost[grid.first].sum()) / (grid.problem.period / 2)
+    fields = grid.field(p), grid.field(gap)
+    return report.checked(RoughFilm(grid.problem, *fields, approach, flow, time, report))
+
+
+def solve_rough(
+    grid: Discretisation, start: RoughFilm | None = None, *, time: float = 0.0, tolerance: float = 1e-7
+) -> RoughFilm:
+    """The film with the roughness as it lies at ``time``, at rest. Without a ``start`` it is raised in steps, from
+    the smooth film of `ehl` on."""
+    problem = grid.problem
+    contact = problem.contact
+    if start is not None:
+        p = interpolated(start, grid)
+        return film_of(grid, *solved(grid, p, start.approach, time, tolerance))
+    smooth = solve_ehl(contact, refinements=0, fineness=1.0, between=SMOOTH_CELL)[-1]
+    x = grid.basis.doflocs[0]
+    ends = smooth.body.x.min(), smooth.body.x.max()
+    p = smooth.at(np.clip(x, *(end * contact.half_width for end in ends)))[0]
+    p = np.where(grid.edge, 0.0, np.maximum(p, 0.0))
+    middle = np.argmin(np.abs(x))
+    approach = float(smooth.at(x[middle : middle + 1])[1][0] - (x**2 / (2 * contact.radius) + grid.stiff @ p)[middle])
+    for share in (0.0, 0.5, 1.0):
+        part = replace(problem, heights=lambda x, y, t, share=share: share * problem.heights(x, y, t))
+        grid.problem = part
+        try:
+            p, approach, at, time, report = solved(grid, p, approach, time, tolerance)
+        finally:
+            grid.problem = problem
+    return film_of(grid, p, approach, at, time, report)
+
+
+def solved(grid: Discretisation, p, approach: float, time: float, tolerance: float, step: Step = Step()):
+    """`newton`, in the order of the arguments of `film_of`."""
+    p, approach, at, report = newton(grid, p, approach, time, step, tolerance=tolerance)
+    return p, approach, at, time, report
+
+
+def interpolated(coarse: RoughFilm, grid: Discretisation) -> np.ndarray:
+    """The pressure of another grid at the degrees of freedom of this one."""
+    from scipy.interpolate import RegularGridInterpolator
+
+    known = RegularGridInterpolator((coarse.problem.x, coarse.problem.y), coarse.pressure)
+    x, y = grid.basis.doflocs
+    x = np.clip(x, coarse.problem.x[0], coarse.problem.x[-1])
+    return np.maximum(known(np.column_stack([x, np.clip(y, 0, coarse.problem.y[-1])])), 0.0)
+
+
+def march(grid: Discretisation, start: RoughFilm, length: float, *, tolerance: float = 1e-6) -> Iterator[RoughFilm]:
+    """Films that are ``length`` [s] apart, without end, from ``start`` on, while the heights move."""
+    p = np.empty(grid.basis.N)
+    p[:] = start.pressure.ravel()[grid.place]
+    approach = start.approach
+    shape, nodal = grid.shape(start.time)
+    now = balance(grid, p, approach + grid.stiff @ p, shape, nodal, Step()).content
+    before = now
+    time = start.time
+    rates = EULER
+    while True:
+        time += length
+        step = Step(length, rates, now, before)
+        p, approach, at, _, report = solved(grid, p, approach, time, tolerance, step)
+        film = film_of(grid, p, approach, at, time, report)
+        before = now
+        now = at.content
+        rates = BDF2
+        yield film
