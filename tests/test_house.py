@@ -1,6 +1,8 @@
 """What holds for the whole tree: one statement does one thing, one name means one thing, few names for a user."""
 
 import ast
+import inspect
+import pkgutil
 import re
 from collections import defaultdict
 from collections.abc import Iterator
@@ -9,6 +11,8 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+
+import lubfric
 
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("lubfric", "verification")
@@ -19,7 +23,7 @@ ODD_WORDS = frozenset(
 )
 FRAGMENT = re.compile(r"^(Of|Those|That of|The same|As)\b")
 # What stands in lubfric from before these rules: a number here may only fall.
-REMAINING = {"classes": 3, "odd words": 233, "fragments": 35}
+REMAINING = {"classes": 3, "odd words": 233, "fragments": 35, "untyped": 400}
 # Names that tests import from inside a room, of all names that they import from lubfric.
 PRIVATE_SHARE = 0.25
 
@@ -118,6 +122,34 @@ def test_tests_speak_public_names():
     private = sorted({f"{module}.{name}" for module, name in imports if is_private(module, name)})
     count = sum(is_private(module, name) for module, name in imports)
     assert count <= PRIVATE_SHARE * len(imports), private
+
+
+def public_functions() -> Iterator[tuple[str, object]]:
+    """Yield the functions, and the methods of the classes, that lubfric and its rooms offer, each once with its name."""
+    rooms = [lubfric]
+    rooms += [import_module(m.name) for m in pkgutil.iter_modules(lubfric.__path__, "lubfric.") if m.ispkg]
+    offered = {}
+    for room in rooms:
+        for name in getattr(room, "__all__", None) or [name for name in vars(room) if not name.startswith("_")]:
+            thing = getattr(room, name)
+            if str(getattr(thing, "__module__", "")).startswith("lubfric"):
+                offered[f"{thing.__module__}.{getattr(thing, '__qualname__', name)}"] = thing
+    for name, thing in offered.items():
+        if inspect.isfunction(thing):
+            yield name, thing
+        elif inspect.isclass(thing):
+            methods = {key: value for key, value in vars(thing).items() if inspect.isfunction(value)}
+            yield from ((f"{name}.{key}", value) for key, value in methods.items() if not key.startswith("_"))
+
+
+def test_parameters_of_public_functions_have_types():
+    untyped = [
+        f"{name}({key})"
+        for name, function in public_functions()
+        for key, parameter in inspect.signature(function).parameters.items()
+        if key not in ("self", "cls") and parameter.annotation is parameter.empty
+    ]
+    assert len(untyped) <= REMAINING["untyped"], untyped
 
 
 def test_what_a_user_imports_is_fifty_names():

@@ -17,4 +17,4 @@ from .tables import (
     text_of,
 )
 
-__version__ = "0.2.0"
+__version__ = "1.0.0"

@@ -1,0 +1,58 @@
+"""The rough film by finite elements: its limits, and what it keeps in time."""
+
+from itertools import islice
+
+import numpy as np
+import pytest
+
+pytest.importorskip("skfem")
+
+from verification.fem.solvers.ehl import LineContact, solve_ehl
+from verification.fem.solvers.fluid import Fluid
+from verification.fem.solvers.report import InputError
+from verification.fem.solvers.rough_ehl import Discretisation, RoughLine, march, solve_rough
+
+STEEL = LineContact(1e5, 1e-2, 2.3e11, 0.5, Fluid(0.04, "roelands", 18e-9, density_law="dowson-higginson"))
+B = STEEL.half_width
+
+
+def line(heights, cells=(64, 4)) -> RoughLine:
+    return RoughLine(contact=STEEL, inlet=-3.5 * B, outlet=1.5 * B, period=B, cells=cells, heights=heights)
+
+
+@pytest.fixture(scope="module")
+def flat():
+    return solve_rough(Discretisation(line(lambda x, y, t: 0 * x)))
+
+
+def test_a_smooth_surface_has_the_film_of_the_line_contact(flat):
+    smooth = solve_ehl(STEEL, refinements=0, fineness=1.0, between=0.05)[-1]
+    x = flat.problem.x
+    middle = np.abs(x) < 0.8 * B
+    film = smooth.at(x[middle])[1]
+    assert np.ptp(flat.gap, axis=1).max() < 1e-9 * flat.gap.min()
+    assert np.abs(flat.gap[middle, 0] / film - 1).max() < 0.02  # the inlet begins at 3.5 b here
+    assert float((flat.weights * flat.pressure).sum()) == pytest.approx(STEEL.load_per_width, rel=1e-6)
+
+
+def test_ridges_along_the_motion_of_small_height_are_linear_in_it(flat):
+    """Twice the height has twice the change of the gap, and its mean over y stays."""
+    changes = []
+    for height in (1e-9, 2e-9):
+        ridges = Discretisation(line(lambda x, y, t, height=height: height * np.cos(2 * np.pi * y / B) + 0 * x))
+        changes.append(solve_rough(ridges, flat).gap - flat.gap)
+    middle = np.abs(flat.problem.x) < 0.5 * B
+    once, twice = (change[middle] for change in changes)
+    assert np.abs(twice - 2 * once).max() < 0.02 * np.abs(twice).max()
+    assert np.abs(once).max() < 1e-9
+
+
+def test_a_surface_at_rest_stays_as_it_is_in_time(flat):
+    grid = Discretisation(line(lambda x, y, t: 0 * x))
+    later = list(islice(march(grid, flat, 0.1 * B / 0.5), 3))[-1]
+    assert np.abs(later.gap / flat.gap - 1).max() < 1e-4
+
+
+def test_an_odd_number_of_cells_is_refused():
+    with pytest.raises(InputError, match="even"):
+        line(lambda x, y, t: 0 * x, (63, 4))

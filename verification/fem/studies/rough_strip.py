@@ -1,0 +1,260 @@
+"""One strip of the deterministic model, rough in both directions, beside finite elements: at rest and moving.
+
+The strip is a steel roller with Roelands' oil whose inlet begins at a stated place, under a surface of a few waves each
+way, 2 by 1 Hertz half-widths in period. `lubfric.models.deterministic` solves it on cells (finite volumes, half-space
+by Fourier transforms), `solvers.rough_ehl` on bilinear elements over an elastic body of finite elements. Nothing is
+common but the case. Both are solved on two grids; the step between them says what each leaves open.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from itertools import islice
+
+import numpy as np
+from scipy.interpolate import RegularGridInterpolator
+
+from lubfric.models.deterministic import Problem, lay_out, moments, solve_point
+from lubfric.surface import Surface
+
+from ...check import ABSOLUTE, Check, Field, Item, Table
+from ..parts import line_contact
+from ..solvers.ehl import LineContact
+from ..solvers.rough_ehl import Discretisation, RoughFilm, RoughLine, march, solve_rough
+
+STEEL = {"radius": 1e-2, "e_prime": 2.3e11, "viscosity": 0.04, "entrainment_speed": 0.5}
+OIL = {"pressure_viscosity_coefficient": 18e-9, "viscosity_law": "roelands", "density_law": "dowson-higginson"}
+LOADS = (1e5, 4e5)  # N/m: 0.61 and 1.21 GPa of Hertz
+SQ = 50e-9  # m, a quarter to a third of the film
+INLET = 3.5  # half-widths: where the film begins
+OUTLET = 1.5
+PERIODS = (2.0, 1.0)  # of the roughness along and across, in half-widths
+WAVES = 2  # harmonics each way
+SEED = 3
+PACE = 0.75  # speed of the roughness over that of the film: surface 1 at a slide-roll ratio of 0.5
+GRIDS = {"quick": ((64, 8), (64, 8)), "default": ((64, 8), (96, 12)), "full": ((96, 12), (144, 16))}
+CELLS = {"quick": (16, 24), "default": (24, 36), "full": (24, 48)}  # of lubfric in a half-width
+SWEEP = 3.0  # half-widths that the film travels before a moving surface counts
+MOMENTS = 8  # of a period that are compared
+NEAR = 0.8  # half-widths: where fields are compared
+PRECISION = 1e-7
+STEP_PRECISION = 1e-5
+SOURCE = "finite elements of one gap and one pressure"
+# Allowed: of the mean gap, the flow, the smallest gap and the viscous force; rms of the gap over Sq, of the pressure
+# over that of Hertz. The differences fall with the cell, as the table shows; these are for the finer grids.
+ALLOWED = {"mean gap": 0.01, "flow": 0.015, "smallest gap": 0.02, "viscous force": 0.05}
+ALLOWED_GAP = 0.05
+ALLOWED_PRESSURE = 0.02
+
+Heights = Callable[[np.ndarray, np.ndarray, float], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Fields:
+    """A film at a moment, wherever it was solved: x, y [m] over half of the period, pressure [Pa] and gap [m] there, and
+    the flow [m²/s] per width that enters, NaN if it was not summed."""
+
+    x: np.ndarray
+    y: np.ndarray
+    pressure: np.ndarray
+    gap: np.ndarray
+    flow: float = math.nan
+
+
+def rough_strip(level: str) -> Iterator[Item]:
+    """Gap, pressure, flow and viscous force of a rough strip by the deterministic model and by finite elements.
+
+    Two loads, roughness of two waves each way (Sq 50 nm) at rest, then moving at 0.75 U (slide-roll ratio 0.5), where
+    the gap and pressure of eight moments of a period are compared. Each program is solved on two grids, and the check
+    takes the finer of both; the table has all.
+    """
+    rows: list[tuple] = []
+    bodies: dict[tuple[int, int], Discretisation] = {}
+    for load in LOADS:
+        for moving in (False, True):
+            if level == "quick" and (moving or load != LOADS[0]):
+                continue
+            name = f"{load:g} N/m, {'moving' if moving else 'at rest'}"
+            ours = [own_films(load, cells, moving) for cells in CELLS[level]]
+            grids = tuple(dict.fromkeys(GRIDS[level]))[: 1 if moving and level == "default" and load != LOADS[0] else 2]
+            elements = []
+            for grid in grids:
+                films, bodies[grid] = element_films(load, grid, moving, bodies.get(grid))
+                elements.append(films)
+            yield from judged_films(name, load, ours[-1], elements[-1])
+            for by, sizes, solutions in (("lubfric", CELLS[level], ours), ("elements", grids, elements)):
+                for size, films in zip(sizes, solutions):
+                    values = averages(load, films).values()
+                    count = size if by == "lubfric" else round((size[0] - 1) / (INLET + OUTLET))
+                    rows.append((name, by, count, *(f"{value:.5g}" for value in values)))
+            if not moving:
+                yield picture_field(f"rough_strip_{load:.0f}".replace("+", ""), load, ours[-1][0], elements[-1][0])
+    caption = "One strip by both programs and on two grids each: means over |x| < 0.8 b, and over the moments compared"
+    yield Table("rough-strip", caption, ("case", "by", "cells in b", *QUANTITIES), rows)
+
+
+QUANTITIES = ("mean gap (m)", "smallest gap (m)", "flow (m²/s)", "viscous force (N/m per m/s)")
+
+
+def contact_of(load: float) -> LineContact:
+    """The contact for the finite elements."""
+    return LineContact.of(STEEL | OIL | {"load_per_width": load})
+
+
+def surface_of(b: float, pace: float = 0.0) -> Heights:
+    """z [m] of x, y [m] and a time [s]: waves with random heights and phases, even in y, that move at ``pace`` [m/s]."""
+    rng = np.random.default_rng(SEED)
+    along = PERIODS[0] * b
+    across = PERIODS[1] * b
+    waves = [(m, n) for m in range(1, WAVES + 1) for n in range(WAVES + 1)]
+    sizes = rng.standard_normal(len(waves)) / np.array([math.sqrt(1 + m * m + n * n) for m, n in waves])
+    phases = rng.uniform(0, 2 * math.pi, len(waves))
+    squares = [size**2 * (0.25 if n else 0.5) for size, (_, n) in zip(sizes, waves)]
+    scale = SQ / math.sqrt(sum(squares))
+
+    def heights(x: np.ndarray, y: np.ndarray, time: float) -> np.ndarray:
+        z = 0.0 * x * y
+        for (m, n), size, phase in zip(waves, sizes, phases):
+            z = z + size * np.cos(2 * math.pi * m * (x - pace * time) / along + phase) * np.cos(
+                2 * math.pi * n * y / across
+            )
+        return scale * z
+
+    return heights
+
+
+def element_films(
+    load: float, cells: tuple[int, int], moving: bool, like: Discretisation | None
+) -> tuple[list[Fields], Discretisation]:
+    """The films by finite elements: one at rest, or the `MOMENTS` of a period."""
+    contact = contact_of(load)
+    b = contact.half_width
+    speed = contact.entrainment_speed
+    pace = PACE * speed if moving else 0.0
+    problem = RoughLine(
+        contact=contact,
+        inlet=-INLET * b,
+        outlet=OUTLET * b,
+        period=PERIODS[1] * b,
+        cells=cells,
+        heights=surface_of(b, pace),
+    )
+    grid = Discretisation(problem, like)
+    start = solve_rough(grid, tolerance=PRECISION)
+    if not moving:
+        return [fields_of(start)], grid
+    count, first = steps_of(b, speed, problem.spacing[0])
+    films = islice(march(grid, start, PERIODS[0] * b / pace / count, tolerance=STEP_PRECISION), first + count)
+    every = count // MOMENTS
+    chosen = [film for k, film in enumerate(films, 1) if k > first and (k - first) % every == 0]
+    return [fields_of(film) for film in chosen], grid
+
+
+def steps_of(b: float, speed: float, cell: float) -> tuple[int, int]:
+    """Steps in a period of the moving surface, about as many as the film needs cells, and those before it counts: a
+    whole number of periods, so that both programs begin at one phase."""
+    period = PERIODS[0] * b / (PACE * speed)
+    count = MOMENTS * max(1, round(period * speed / cell / MOMENTS))
+    periods = math.ceil(SWEEP * b / speed / period)
+    return count, periods * count
+
+
+def fields_of(film: RoughFilm) -> Fields:
+    """The fields of a finite-element film."""
+    return Fields(film.problem.x, film.problem.y, film.pressure, film.gap, film.flow)
+
+
+def own_films(load: float, cells: int, moving: bool) -> list[Fields]:
+    """The films of the deterministic model with so many ``cells`` in a half-width."""
+    line = line_contact(STEEL | OIL | {"load_per_width": load})
+    b = line.half_width
+    line = replace(line, lubricant=replace(line.lubricant, inlet_length=INLET * b))
+    step = b / cells
+    shape = (round(PERIODS[0] * cells), round(PERIODS[1] * cells / 2))
+    flat = Surface(np.zeros(shape), (step, PERIODS[1] * b / shape[1]), periodic_axes=(True, True))
+    ends = ((INLET + 1) * b, OUTLET * b)
+    bare = lay_out(flat, line, sliding=0.0, boundary_friction=0.1, ends=ends)
+    y = np.arange(shape[1]) * bare.spacing[1]
+    speed = line.entrainment_speed
+    pace = PACE * speed if moving else 0.0
+    heights = surface_of(b, pace)
+
+    def problem(time: float) -> Problem:
+        return replace(bare, heights=heights(bare.x[:, None], y, time))
+
+    if not moving:
+        result = solve_point(problem(0.0), tolerance=PRECISION)
+        return [half_of(problem(0.0), result.pressure, result.gap, result.flow_film * speed)]
+    count, first = steps_of(b, speed, step)
+    films = islice(moments(problem, PERIODS[0] * b / pace / count, tolerance=STEP_PRECISION), first + count + 1)
+    every = count // MOMENTS
+    chosen = [m for k, m in enumerate(films) if k > first and (k - first) % every == 0]
+    return [half_of(bare, m.at.state.pressure, m.at.gap, math.nan) for m in chosen]
+
+
+def half_of(problem: Problem, pressure: np.ndarray, gap: np.ndarray, flow: float) -> Fields:
+    """The fields over half of the period, which is its own mirror image."""
+    half = gap.shape[1] // 2 + 1
+    y = np.arange(half) * problem.spacing[1]
+    return Fields(problem.x, y, pressure[:, :half], gap[:, :half], flow)
+
+
+def middle_of(load: float, film: Fields) -> tuple[np.ndarray, np.ndarray]:
+    """Pressure [Pa] and gap [m] on a common grid of the middle of the contact."""
+    b = contact_of(load).half_width
+    x = np.linspace(-NEAR * b, NEAR * b, 161)
+    y = np.linspace(0.0, PERIODS[1] * b / 2, 41)
+    points = np.stack(np.meshgrid(x, y, indexing="ij"), axis=-1)
+    values = []
+    for field in (film.pressure, film.gap):
+        values.append(RegularGridInterpolator((film.x, film.y), field, method="cubic")(points))
+    return values[0], values[1]
+
+
+def averages(load: float, films: list[Fields]) -> dict[str, float]:
+    """Mean and smallest gap, flow, and the viscous force at a sliding speed of 1 m/s, over |x| < 0.8 b and over the
+    moments."""
+    contact = contact_of(load)
+    width = 2 * NEAR * contact.half_width
+    gaps = []
+    forces = []
+    for film in films:
+        pressure, gap = middle_of(load, film)
+        gaps.append(gap)
+        forces.append(float((contact.fluid.eta(np.maximum(pressure, 0.0)) / gap).mean()) * width)
+    return {
+        "mean gap": float(np.mean(gaps)),
+        "smallest gap": float(np.min(gaps)),
+        "flow": float(np.mean([film.flow for film in films])),
+        "viscous force": float(np.mean(forces)),
+    }
+
+
+def judged_films(name: str, load: float, ours: list[Fields], elements: list[Fields]) -> Iterator[Check]:
+    """The checks of one case, with what is beside each other at the same moments."""
+    contact = contact_of(load)
+    mine = averages(load, ours)
+    theirs = averages(load, elements)
+    for quantity, allowed in ALLOWED.items():
+        if math.isfinite(mine[quantity]) and math.isfinite(theirs[quantity]):
+            yield Check(f"{name}: {quantity}", mine[quantity], theirs[quantity], allowed, SOURCE)
+    pairs = [(middle_of(load, a), middle_of(load, b)) for a, b in zip(ours, elements, strict=True)]
+    pressure = math.sqrt(np.mean([(a[0] - b[0]) ** 2 for a, b in pairs])) / contact.hertz_pressure
+    gap = math.sqrt(np.mean([(a[1] - b[1]) ** 2 for a, b in pairs])) / SQ
+    note = f"largest pressure {max(b[0].max() for _, b in pairs) / contact.hertz_pressure:.2f} of Hertz"
+    yield Check(f"{name}: rms of the pressure over Hertz", pressure, 0.0, ALLOWED_PRESSURE, SOURCE, ABSOLUTE, note=note)
+    yield Check(f"{name}: rms of the gap over Sq", gap, 0.0, ALLOWED_GAP, SOURCE, ABSOLUTE)
+
+
+def picture_field(name: str, load: float, ours: Fields, elements: Fields) -> Field:
+    """Pressure and gap of both on the common grid."""
+    b = contact_of(load).half_width
+    x, y = np.meshgrid(np.linspace(-NEAR * b, NEAR * b, 161), np.linspace(0, PERIODS[1] * b / 2, 41), indexing="ij")
+    corner = np.arange(x.size).reshape(x.shape)
+    quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
+    data = {}
+    for by, film in (("lubfric", ours), ("elements", elements)):
+        pressure, gap = middle_of(load, film)
+        data |= {f"pressure_{by}": pressure.ravel(), f"gap_{by}": gap.ravel()}
+    caption = f"Pressure (Pa) and gap (m) of the rough strip at {load:g} N/m by both programs"
+    return Field(name, caption, np.column_stack([x.ravel(), y.ravel()]), {"quad": quads}, point_data=data)
