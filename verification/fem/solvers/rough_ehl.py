@@ -85,7 +85,7 @@ class RoughLine:
 
 
 @dataclass(frozen=True)
-class RoughFilm:
+class RoughStripFilm:
     """A film at a moment: pressure [Pa] and gap [m] at the nodes (nx, ny/2 + 1), approach h0 [m], flow [m²/s] per width
     that enters, time [s], and the report of the solve."""
 
@@ -333,18 +333,18 @@ def newton(
     return p, approach, at, report
 
 
-def film_of(grid: Discretisation, p, approach: float, at: Balance, time: float, report: SolveReport) -> RoughFilm:
+def film_of(grid: Discretisation, p, approach: float, at: Balance, time: float, report: SolveReport) -> RoughStripFilm:
     """The result of a converged solve; `SolveError` for another."""
     nodal = grid.shape(time)[1]
     gap = nodal + approach + grid.stiff @ p
     flow = float(at.lost[grid.first].sum()) / (grid.problem.period / 2)
     fields = grid.field(p), grid.field(gap)
-    return report.checked(RoughFilm(grid.problem, *fields, approach, flow, time, report))
+    return report.checked(RoughStripFilm(grid.problem, *fields, approach, flow, time, report))
 
 
 def solve_rough(
-    grid: Discretisation, start: RoughFilm | None = None, *, time: float = 0.0, tolerance: float = 1e-7
-) -> RoughFilm:
+    grid: Discretisation, start: RoughStripFilm | None = None, *, time: float = 0.0, tolerance: float = 1e-7
+) -> RoughStripFilm:
     """The film with the roughness as it lies at ``time``, at rest. Without a ``start`` it is raised in steps, from
     the smooth film of `ehl` on."""
     problem = grid.problem
@@ -375,7 +375,7 @@ def solved(grid: Discretisation, p, approach: float, time: float, tolerance: flo
     return p, approach, at, time, report
 
 
-def interpolated(coarse: RoughFilm, grid: Discretisation) -> np.ndarray:
+def interpolated(coarse: RoughStripFilm, grid: Discretisation) -> np.ndarray:
     """The pressure of another grid at the degrees of freedom of this one."""
     from scipy.interpolate import RegularGridInterpolator
 
@@ -385,7 +385,9 @@ def interpolated(coarse: RoughFilm, grid: Discretisation) -> np.ndarray:
     return np.maximum(known(np.column_stack([x, np.clip(y, 0, coarse.problem.y[-1])])), 0.0)
 
 
-def march(grid: Discretisation, start: RoughFilm, length: float, *, tolerance: float = 1e-6) -> Iterator[RoughFilm]:
+def march(
+    grid: Discretisation, start: RoughStripFilm, length: float, *, tolerance: float = 1e-6
+) -> Iterator[RoughStripFilm]:
     """Films that are ``length`` [s] apart, without end, from ``start`` on, while the heights move."""
     p = np.empty(grid.basis.N)
     p[:] = start.pressure.ravel()[grid.place]
