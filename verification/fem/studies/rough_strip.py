@@ -20,7 +20,7 @@ from lubfric.surface import Surface
 from ...check import ABSOLUTE, Check, Field, Item, Table
 from ..parts import line_contact
 from ..solvers.ehl import LineContact
-from ..solvers.rough_ehl import Discretisation, RoughStripFilm, RoughLine, march, solve_rough
+from ..solvers.rough_ehl import Discretisation, RoughLine, RoughStripFilm, march, solve_rough
 
 STEEL = {"radius": 1e-2, "e_prime": 2.3e11, "viscosity": 0.04, "entrainment_speed": 0.5}
 OIL = {"pressure_viscosity_coefficient": 18e-9, "viscosity_law": "roelands", "density_law": "dowson-higginson"}
