@@ -7,6 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from .._base import validate, with_default_errors
+from .._base.jobs import current_executor, parts_on
+from .._base.processes import MOST_WORKERS, pool
 from ..errors import ConvergenceError, InputError
 from ..models.deterministic import cells_of, too_costly, too_hot
 from ..models.load_sharing import (
@@ -39,6 +41,7 @@ def friction(
     model: str | None = None,
     fields: bool = False,
     raise_on_failure: bool = True,
+    workers: int = 1,
 ) -> FrictionResult:
     """Friction coefficient of a scene at one entrainment speed.
 
@@ -57,6 +60,8 @@ def friction(
     model : "load-sharing"; "deterministic": one gap and one pressure; "auto"; None: the scene's
     fields : True: ``result.balance`` has film and contact on the cells of the map (on strips: on theirs)
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
+    workers : processes that solve strips of the surface and ends of input ranges side by side, where there are several.
+        The numbers do not depend on it. A script that asks for more than one needs ``if __name__ == "__main__":``
 
     Returns a `FrictionResult`.
 
@@ -72,8 +77,9 @@ def friction(
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     prepared = at_speed(prepared, speed)
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
+    workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     numerics = prepared.scene.numerics
-    with told_doubts(prepared.scene):
+    with told_doubts(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
         result = with_methods(prepared, _answer(prepared, speed, fields, begun))
     if not math.isfinite(result.coefficient):
         raise InputError(

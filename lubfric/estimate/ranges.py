@@ -3,10 +3,21 @@
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
+from .._base.jobs import map_parts
 from ..contact import RoughContact
 from ..errors import ConvergenceError
-from ..models.deterministic import MovingStrip, Strip, bodies_of, continued_strip, solve_strip, strip_heat, strip_of
+from ..models.deterministic import (
+    DeterministicResult,
+    MovingStrip,
+    Strip,
+    bodies_of,
+    continued_strip,
+    solve_strip,
+    strip_heat,
+    strip_of,
+)
 from ..models.load_sharing import solve_balance
 from ..models.shared import (
     Prepared,
@@ -38,9 +49,8 @@ def with_ranges(prepared: Prepared, result: FrictionResult, strip: Strip | None 
     scene = prepared.scene
     if not scene.ranges:
         return result
-    coefficient: Callable[[Scene], float] | None = None
-    middle = math.nan
     changes: dict[str, tuple[float, ...] | str] = {}
+    solved: dict[str, list[Scene]] = {}
     for name, *ends in scene.at_ends():
         if name == FRICTION:
             slope = result.contact_load / scene.bodies.load * (scene.motion.slide_roll_ratio != 0)
@@ -50,17 +60,11 @@ def with_ranges(prepared: Prepared, result: FrictionResult, strip: Strip | None 
         elif name == HARDNESS and strip is not None and _stays_elastic(strip, scene, *ends):
             changes[name] = (0.0, 0.0)
         else:
-            try:
-                if coefficient is None:
-                    coefficient = (
-                        _load_sharing(prepared, result)
-                        if strip is None
-                        else _deterministic(prepared, strip, result.speed)
-                    )
-                    middle = coefficient(scene)
-                changes[name] = tuple(result.coefficient * (coefficient(end) / middle - 1) for end in ends)
-            except ConvergenceError:  # the point itself is solved
-                changes[name] = "an end was not solved"
+            changes[name] = "an end was not solved"  # unless it is
+            solved[name] = ends
+    for name, relative in _changes_at(prepared, result, strip, solved).items():
+        if all(map(math.isfinite, relative)):
+            changes[name] = tuple(result.coefficient * change for change in relative)
     old = result.uncertainty
     known = widened(old, result.coefficient, changes)
     notes = tuple(known.text if note == old.text else note for note in result.report.notes)
@@ -96,6 +100,38 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | s
     )
 
 
+def _changes_at(
+    prepared: Prepared, result: FrictionResult, strip: Strip | None, ends: dict[str, list[Scene]]
+) -> dict[str, list[float]]:
+    """Return the relative change of f from the middle to the ``ends`` of each input, by the model of the ``result``; NaN
+    where an end is not solved."""
+    scenes = [scene for both in ends.values() for scene in both]
+    if not scenes:
+        return {}
+    try:
+        if strip is None:
+            coefficient = _load_sharing(prepared, result)
+            middle = coefficient(prepared.scene)
+            values = [_or_nan(coefficient, scene) for scene in scenes]
+        else:
+            middle = _unchanged(prepared, strip)
+            at_end = partial(_at_end, prepared, strip, result.speed)
+            values = map_parts(_or_nan, scenes, at_end)
+    except ConvergenceError:  # the middle, on other cells than the point itself
+        middle = math.nan
+        values = [math.nan] * len(scenes)
+    changes = iter(value / middle - 1 for value in values)
+    return {name: [next(changes) for _ in both] for name, both in ends.items()}
+
+
+def _or_nan(coefficient: Callable[[Scene], float], scene: Scene) -> float:
+    """Return f of ``scene``; NaN where it is not solved."""
+    try:
+        return coefficient(scene)
+    except ConvergenceError:
+        return math.nan
+
+
 def _load_sharing(prepared: Prepared, result: FrictionResult) -> Callable[[Scene], float]:
     """Return f of scenes that differ from the prepared one in inputs only, by load sharing on the first strips of
     ``prepared``, or on its only contact."""
@@ -117,26 +153,31 @@ def _load_sharing(prepared: Prepared, result: FrictionResult) -> Callable[[Scene
     return f
 
 
-def _deterministic(prepared: Prepared, strip: Strip, speed: float) -> Callable[[Scene], float]:
-    """Return f at ``speed`` [m/s] of scenes that differ from the prepared one in inputs only, by the deterministic model
-    on the cells of ``strip``, which is solved at the prepared one and from which each begins.
+def _unchanged(prepared: Prepared, strip: Strip) -> float:
+    """Return f of ``strip`` as the ends of ranges are compared with it (`_at_end`)."""
+    result = strip.result
+    if isinstance(strip, MovingStrip):
+        assert strip.early is not None
+        result = strip.early
+    return _with_heat(prepared.scene, result)
+
+
+def _at_end(prepared: Prepared, strip: Strip, speed: float, scene: Scene) -> float:
+    """Return f at ``speed`` [m/s] of a ``scene`` that differs from the prepared one in inputs only, by the deterministic
+    model on the cells of ``strip``, which is solved at the prepared one and from which it begins.
 
     These are the cells of the answer, because the change of f by the stress of an oil is up to three times as large on
-    cells twice as long. Where the roughness moves, each end is a continuation of the strip (`continued_strip`), compared
+    cells twice as long. Where the roughness moves, it is a continuation of the strip (`continued_strip`), to be compared
     with the same moments of the strip itself.
     """
+    if isinstance(strip, MovingStrip):
+        return _with_heat(scene, continued_strip(scene, bodies_of(prepared, 0, speed), speed, strip))
     surface, _ = strip_of(prepared, 0)
     spacing = strip.problem.spacing
     factors = (round(spacing[0] / surface.spacing[0]), round(spacing[1] / surface.spacing[1]))
+    return _with_heat(scene, solve_strip(scene, surface, speed, factors=factors, start=strip).result)
 
-    def f(scene: Scene) -> float:
-        unchanged = scene is prepared.scene
-        if isinstance(strip, MovingStrip):
-            assert strip.early is not None
-            at_end = strip.early if unchanged else continued_strip(scene, bodies_of(prepared, 0, speed), speed, strip)
-        else:
-            solution = strip if unchanged else solve_strip(scene, surface, speed, factors=factors, start=strip)
-            at_end = solution.result
-        return at_end.coefficient * (1 - strip_heat(scene, at_end).change)
 
-    return f
+def _with_heat(scene: Scene, result: DeterministicResult) -> float:
+    """Return f of ``result`` with the share that the temperatures of film and surfaces take away."""
+    return result.coefficient * (1 - strip_heat(scene, result).change)

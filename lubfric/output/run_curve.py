@@ -10,6 +10,7 @@ import numpy as np
 
 from .. import studies
 from .._base import FolderLock, OwnFiles, figures, read_table, validate
+from .._base.jobs import parts_on
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..models.shared import (
     Prepared,
@@ -18,7 +19,7 @@ from ..models.shared import (
 )
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
-from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene
+from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, moves
 from ..units import numbers_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import SceneEstimate
@@ -35,7 +36,8 @@ def run_sweep(scene: Scene, arguments) -> None:
     sharing.png, the same contact without them; where the curve has a formula, law.json and law.c; with ``.vtk`` also
     contact_0.vtk ... for ParaView.
 
-    ``arguments``: of the command, with ``.speeds``, ``.fields`` and ``.workers`` (None: two if that pays) too. The
+    ``arguments``: of the command, with ``.speeds``, ``.fields`` and ``.workers`` (None: all processors but one where that
+    pays) too. The
     scene is checked and made ready before the folder is touched. The results of an earlier run stay until those of this
     one are there. Every point is on disk when it ends, so an interrupted run continues from there. A failed run writes
     what it has, then raises `ConvergenceError`.
@@ -56,15 +58,25 @@ def run_sweep(scene: Scene, arguments) -> None:
 
     if arguments.workers is not None:
         workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
-    else:  # the numbers do not depend on it
-        enough = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
-        workers = 2 if enough and studies.processors() > 1 else 1
-    with studies.pool(workers) as executor:
+    else:
+        workers = _default_workers(scene, speeds)
+    speeds_apart = speeds != studies.AUTO and len(speeds) >= max(2, workers)  # else the parts of each point are
+    with studies.pool(workers) as executor, parts_on(None if speeds_apart else executor):
         with run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds) as (folder, prepared, estimate):
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
-            curve = studies.stribeck(prepared, speeds, None if speeds == studies.AUTO else executor, **options)
+            curve = studies.stribeck(prepared, speeds, executor if speeds_apart else None, **options)
             _write(folder, prepared, curve, arguments, estimate, chosen)
     _raise_if_failed(curve)
+
+
+def _default_workers(scene: Scene, speeds) -> int:
+    """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
+    not depend on it."""
+    several_speeds = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
+    long_points = moves(scene) and scene.numerics.model != "load-sharing"
+    if not (several_speeds or long_points) or studies.processors() == 1:
+        return 1
+    return max(2, studies.processors() - 1)
 
 
 def run_traction(scene: Scene, arguments) -> None:

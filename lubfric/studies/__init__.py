@@ -1,9 +1,9 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
+from .._base.processes import MOST_WORKERS, pool, processors
 from .choose import AUTO, CHOSEN, span
 from .codec import classes_of, fits
 from .curve import CurveResult, csv_bytes
-from .executor import MOST_WORKERS, pool, processors
 from .explain import in_words
 from .fit import explain_fit, fit
 from .fit_input import Measured, read_measured

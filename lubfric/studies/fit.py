@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from .._base import validate, with_default_errors
+from .._base.processes import checked_executor
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
 from ..quantities import counted, worded_value
 from ..scene import Scene
-from .executor import checked_executor
 from .explain import WITHIN, in_words
 from .fit_checks import residual_tests
 from .fit_curves import FitCurves, coarse_measured, coarse_scene, fit_tolerance

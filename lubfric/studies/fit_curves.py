@@ -6,12 +6,12 @@ from functools import partial
 
 import numpy as np
 
+from .._base.processes import spread
 from ..errors import LubfricError
 from ..estimate import FrictionResult
 from ..models.shared import Prepared, prepare
 from ..scene import Scene
 from .curve import without_rolling
-from .executor import spread
 from .explain import curve_seconds
 from .fit_input import SPEED, Measured, values_at
 from .points import at_ratios, key_of, solved

@@ -12,12 +12,12 @@ from functools import partial
 import numpy as np
 
 from .._base import Shown, validate, with_default_errors
+from .._base.processes import checked_executor, spread
 from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import Scene
 from ..units import worded
 from .choose import MOST
-from .executor import checked_executor, spread
 from .interpolate import Interpolant, through
 from .law import law_of_study
 from .operating_points import DURATION, POINT, mean_over_cycle

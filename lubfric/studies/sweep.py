@@ -6,6 +6,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from .._base import validate, with_default_errors, write_whole
+from .._base.processes import checked_executor, spread
 from ..errors import ITERATION_LIMIT, InputError, Report
 from ..estimate import FrictionResult
 from ..models.shared import (
@@ -17,7 +18,6 @@ from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from .choose import GRID, alike, between, each_once, requested_speeds, span, tolerance_between
 from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
-from .executor import checked_executor, spread
 from .interpolate import FEWEST, Interpolant, through
 from .law import MORE, Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, outcome_of, solved

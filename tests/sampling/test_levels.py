@@ -58,7 +58,7 @@ def test_parts_add_up_and_the_model_is_told(found):
     assert found.contact_load + found.film_load == pytest.approx(load, rel=1e-9)
     assert 0 < found.contact_load < load and 1e-8 < found.mean_gap < 1e-6
     assert found.errors.contact_load > 0  # known from three strips; heat is found on one
-    assert math.isnan(found.errors.inlet_film_factor) and "one strip" in found.errors.reasons["inlet_film_factor"]
+    assert math.isnan(found.errors.inlet_film_factor) and found.errors.reasons["inlet_film_factor"]
 
 
 def test_interval_holds_numerical_sampling_and_model(found):
@@ -131,6 +131,20 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
     for acf in ("gaussian", "exponential"):  # no change between cells is believed only where heights are smooth
         found = levels.levels_of(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, None)
         assert bool(found.pieces) == (acf == "exponential")
+
+
+def test_processes_change_no_bit(prepared, found):
+    """Strips, and ends of input ranges, are solved by two processes as by one."""
+    assert found.decision.strips > 2
+    both = lubfric.friction(prepared, 0.01, workers=2)
+    ranged = SCENE.with_(lubricant={"eyring_stress": [5e6, 2e6, 1e7]}, numerics={"model_tolerance": 0.3})
+    one, two = (lubfric.friction(ranged, 0.01, workers=workers) for workers in (1, 2))
+    for here, there in ((found, both), (one, two)):
+        assert here.uncertainty.interval == there.uncertainty.interval
+        assert all(getattr(here, name) == getattr(there, name) for name in ("coefficient", "contact_load", "mean_gap"))
+    assert one.uncertainty.inputs > 0
+    with pytest.raises(lubfric.InputError, match="workers"):
+        lubfric.friction(prepared, 0.01, workers=0)
 
 
 def test_eq_8_alone_states_its_error(prepared, found):
@@ -208,7 +222,7 @@ def test_the_flow_of_a_limit_twice_as_high_by_hand():
     """The pressure and gap of an oil with twice the limit, sheared by the oil itself at the middle of the grid."""
     scene = PATCH.with_(lubricant={"limiting_stress_coefficient": 0.045}, bodies={"boundary_film": 20e-9})
     prepared = lubfric.prepare(scene)
-    pair = solve_pair(prepared, 0.03, 0, None)
+    pair = solve_pair(prepared, 0.03, None, 0)
     twice = {"limiting_stress_coefficient": 0.09, "limiting_stress_offset": 2 * scene.lubricant.limiting_stress_offset}
     surface, factors = strip_of(prepared, 0)
     other = solve_strip(scene.with_(lubricant=twice), surface, 0.03, factors=factors).result

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..._base.jobs import map_parts
 from ...samples import Sample
 from ...scene import Numerics
 from ..shared import (
@@ -148,7 +149,7 @@ def _first_levels(
     sample = prepared.sample
     numerics = prepared.scene.numerics
     load = prepared.scene.bodies.load
-    pairs = [solve_pair(prepared, speed, 0, None)]
+    pairs = [solve_pair(prepared, speed, None, 0)]
     first = pairs[0].resolved
     most = max(1, min(sample.available, int(MOST_WORK / first.work)))
     while True:
@@ -158,7 +159,7 @@ def _first_levels(
         best = next(k for k, one in enumerate(estimates) if not one.line or counts[k] <= min(counts[-1], one.line))
         if counts[best] <= len(pairs):
             break
-        pairs += [solve_pair(prepared, speed, i, first.slope) for i in range(len(pairs), counts[best])]
+        pairs += map_parts(solve_pair, range(len(pairs), counts[best]), prepared, speed, first.slope)
     return pairs, estimates[best]
 
 

@@ -68,7 +68,7 @@ def longer_than(surface: Surface, factors: tuple[int, int], moving: bool = False
     return along, factors[1] if surface.shape[1] % (2 * factors[1]) else 2 * factors[1]
 
 
-def solve_pair(prepared: Prepared, speed: float, index: int, slope: float | None) -> StripOnTwoGrids:
+def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int) -> StripOnTwoGrids:
     """Solve strip ``index`` by the deterministic model at ``speed`` [m/s], not 0, first on longer cells.
 
     ``slope``: of friction over load [-] (None: found by a second solve). Raises `ConvergenceError`.

@@ -10,8 +10,8 @@ from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import contextmanager
 from queue import SimpleQueue
 
-from .._base import validate
 from ..errors import InputError
+from . import validate
 
 WATCH = 0.2  # s between two looks at whether the command still lives
 MOST_WORKERS = 1024
