@@ -1,10 +1,12 @@
 """Ways to an `Oil`: two viscosities, an ISO VG grade and a viscosity index, a table, a name; and an oil in words."""
 
 import re
+from typing import Any
 
 from .._base import packaged, validate
 from ..errors import InputError
 from .oil import Oil
+from .pressure import MeasuredCoefficients
 from .viscosity import CELSIUS, ViscosityTable, viscosity_at_100, walther
 
 AT_40 = 40 + CELSIUS
@@ -57,13 +59,28 @@ def from_table(temperatures, viscosities, **properties) -> Oil:
 
 
 def named_oil(name: str, **properties) -> Oil:
-    """One of the ``OILS``, by its name. ``properties`` replace its fields."""
-    if str(name).lower() not in OILS:
+    """Return one of the ``OILS``, by its name ("FVA 3", "mineral-100"). ``properties`` replace its fields."""
+    spelled = {_letters(known): known for known in OILS}
+    if _letters(name) not in spelled:
         near = validate.nearest(str(name).lower(), OILS)
-        raise InputError(f"oil {name!r} is not known{near}; allowed: {', '.join(OILS)}")
-    row = OILS[str(name).lower()]
-    law = walther(*zip((AT_40, AT_100), (nu * 1e-6 for nu in row["nu"])), oil=str(name).lower())
-    return Oil(law, **{"base": row["base"], "name": row["name"]} | properties)
+        said = f" = {validate.shown(name)} is not known{near}"
+        raise InputError(said, "lubricant.oil", ", ".join(OILS))
+    key = spelled[_letters(name)]
+    row = OILS[key]
+    law = walther(*zip((AT_40, AT_100), (nu * 1e-6 for nu in row["nu"])), oil=key)
+    fields: dict[str, Any] = {"base": row["base"], "name": row["name"], "density": row.get("density")}
+    if "alpha" in row:
+        fields["measured"] = MeasuredCoefficients(
+            temperatures=tuple(celsius + CELSIUS for celsius in row["alpha_at"]),
+            coefficients=tuple(alpha * 1e-9 for alpha in row["alpha"]),
+            source=row["alpha_source"],
+        )
+    return Oil(law, **fields | properties)
+
+
+def _letters(name: Any) -> str:
+    """Return the letters and digits of a name, in small letters: "FVA 3", "fva-3" and "fva3" are one."""
+    return re.sub(r"[\s_-]", "", str(name)).lower()
 
 
 def grade_viscosity(grade: str) -> float:
@@ -87,7 +104,7 @@ def _viscosity(name: str, value: float) -> float:
 
 
 def list_oils() -> str:
-    """One line a named oil."""
+    """Return one line for each named oil."""
     lines = [f"{name:<16} {row['name']}" for name, row in OILS.items()]
     other = 'any other: grade = "ISO VG 68" with viscosity_index, or nu40 and nu100 in m²/s, in [lubricant]'
     return "\n".join([*lines, "", other])

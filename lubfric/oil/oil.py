@@ -11,7 +11,7 @@ import numpy as np
 
 from .._base import Shown, validate
 from ..errors import InputError
-from .pressure import BASES, Estimate, gold, so_klaus
+from .pressure import BASES, Estimate, MeasuredCoefficients, gold, so_klaus
 from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_index
 
 AT_15 = 15 + CELSIUS  # K
@@ -30,6 +30,8 @@ class Oil(Shown):
     estimate : "so-klaus" (mineral oils) or "gold" (None: So and Klaus for mineral oils, Gold for the others)
     conductivity : thermal, of the film [W/(m K)] (None: typical of the base)
     name : in words
+    measured : pressure-viscosity coefficients over the temperature, where they were measured on this oil (None); they
+        come before an estimate, and after ``alpha``
 
     Raises `InputError` for a value out of range, and for So and Klaus's regression with a base that is not mineral.
     """
@@ -42,6 +44,7 @@ class Oil(Shown):
     estimate: str | None = None
     conductivity: float | None = None
     name: str = "oil"
+    measured: MeasuredCoefficients | None = None
 
     def __post_init__(self):
         validate.choice("base", self.base, BASES)
@@ -101,13 +104,16 @@ class Oil(Shown):
         """alpha at ``temperature`` [K], with the range in which measured oils lie. Where alpha is known it is
         returned as given."""
         if self.alpha is not None:
-            return Estimate(self.alpha, self.alpha, self.alpha, "the scene")
+            return Estimate(value=self.alpha, low=self.alpha, high=self.alpha, source="the scene")
+        if self.measured is not None and self.estimate is None:
+            return self.measured.at(checked_temperature(temperature))
         return self._estimated(self.estimate or ("so-klaus" if self.base == "mineral" else "gold"), temperature)
 
     def other_estimate(self, temperature: float) -> Estimate | None:
         """alpha by the estimate that was not chosen, or None where there is no other. How far the two differ is a
         warning."""
-        if self.alpha is not None or self.base != "mineral":
+        known = self.alpha is not None or (self.measured is not None and self.estimate is None)
+        if known or self.base != "mineral":
             return None
         return self._estimated("gold" if self.estimate in (None, "so-klaus") else "so-klaus", temperature)
 

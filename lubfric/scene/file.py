@@ -16,6 +16,7 @@ from .transient import HISTORIES, UNITS, Transient, history
 
 MOST_BYTES = 2**24  # of a scene
 LONGEST_PATH = 300  # characters of a path that is compared with the files there
+NEAR_FILE = 0.6  # likeness of two file names, 0 to 1, from which one may be meant by the other
 SCENES = resources.files(__package__) / "scenes"
 
 
@@ -170,8 +171,20 @@ def _read(source) -> tuple[dict, Path, str]:
     path = Path(source)
     if not os.path.isfile(path):
         said = f"scene {validate.shown(str(source))} is neither a file nor a built-in scene"
-        raise InputError(f"{said}{validate.nearest(source, names)}; built in: {', '.join(names)}")
+        raise InputError(f"{said}{_nearest_scene(path, names)}; built in: {', '.join(names)}")
     return read_toml(path, "scene"), path.parent, os.fsencode(path.stem).decode("utf-8", "replace")
+
+
+def _nearest_scene(path: Path, names: tuple[str, ...]) -> str:
+    """Return, as `validate.nearest` does, the file beside ``path`` that it may mean, or the built-in scene of ``names``
+    where it is a bare word."""
+    if path.suffix or len(path.parts) > 1:
+        try:
+            names = tuple(file.name for file in path.parent.iterdir() if file.suffix == ".toml")
+        except OSError:
+            return ""
+        return validate.nearest(path.name, names, cutoff=NEAR_FILE)
+    return validate.nearest(str(path), names)
 
 
 def write_template(path: Path) -> None:
