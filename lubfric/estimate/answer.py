@@ -39,14 +39,14 @@ def load_sharing_answer(
     sample = {"coarsening": factors, "strips": found.count, "change_by_cells": found.change("gap")}
     decision = decided(scene, found.contact, found.balance, numbers["clearance"], why, **sample)
     tolerance = scene.numerics.tolerance
-    cautions = (
+    warnings = (
         *_finer(found.change("finer_grid_change"), tolerance),
         *of_error(uncertainty.numerical, tolerance, CLOSER),
     )
     oil = scene.lubricant.oil
     temperature = scene.lubricant.temperature
     known = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
-    validity = (*limits_passed(found, prepared, speed), *cautions)
+    validity = (*limits_passed(found, prepared, speed), *warnings)
     notes = (*found.balance.report.notes, decision.text, *known, *(entry.text for entry in validity), uncertainty.text)
     result = FrictionResult(
         **numbers,
@@ -77,7 +77,7 @@ def _cells(found: SampleSolution) -> tuple[tuple[int, int], float]:
 
 
 def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
-    """A caution where cells half as long as the map's own would change f by more than ``tolerance``."""
+    """A warning where cells half as long as the map's own would change f by more than ``tolerance``."""
     if not change > tolerance:
         return ()
     what = "change of f by cells half as long, estimated"

@@ -122,7 +122,7 @@ def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Leve
 
 
 def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
-    """A caution where the error of the model, relative, is above ``tolerance``."""
+    """A warning where the error of the model, relative, is above ``tolerance``."""
     if model > tolerance:
         yield Validity("error of f by the model", 100 * model, 100 * tolerance, "%", *OF_MODEL)
 

@@ -68,7 +68,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         facts["f"] = f"{self.coefficient:.5g}{_interval(self.uncertainty.interval)}"
         facts[""] = self.report.status
         if self.validity:
-            facts["cautions"] = "; ".join(entry.what for entry in self.validity)
+            facts["warnings"] = "; ".join(entry.what for entry in self.validity)
         return facts
 
     def cite(self) -> str:

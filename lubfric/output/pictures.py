@@ -92,13 +92,13 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
     minor = np.array([len(violated) > 0 for violated in entries], dtype=bool) & ~severe
     everywhere = minor.all()
     for chosen, marker, color, label in (
-        (minor & (not everywhere), "o", figures.GREY, "with cautions"),
+        (minor & (not everywhere), "o", figures.GREY, "with warnings"),
         (severe, "x", figures.RED, "no answer (accepted)"),
     ):
         if chosen.any():
             axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
     if names := dict.fromkeys(entry.what for violated in entries for entry in violated):
-        head = "cautions, at all points: " if everywhere else "cautions: "
+        head = "warnings, at all points: " if everywhere else "warnings: "
         figure.supxlabel(head + "; ".join(names), fontsize=8, color=figures.GREY, wrap=True)
     figures.key_above(axes)
 

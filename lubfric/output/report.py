@@ -53,7 +53,7 @@ def report_page(
         answer=escape(answer),
         more="".join(f"<p>{escape(text)}</p>" for text in more),
         pictures="".join(_picture(contents[name], caption) for name, caption in CAPTIONS.items() if name in contents),
-        cautions=_list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
+        warnings=_list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
         results="" if curve is None else "".join(_points(curve)),
         inputs="".join(_inputs(scene, section) for section in SECTIONS),
         law=_law(law, curve),

@@ -39,8 +39,9 @@ def run_study(arguments) -> None:
         folder.contents |= {name: made(name, writers[name.partition(".")[2]]) for name in names}
         if np.isfinite(result["coefficient"]).any():
             folder.draw("study.png", _picture, result)
-        if result.cautioned:
-            say(f"cautions at {result.cautioned} of {counted(result.solved, 'points')}: column validity of study.csv")
+        if result.with_warnings:
+            where = f"{result.with_warnings} of {counted(result.solved, 'points')}"
+            say(f"warnings at {where}: column validity of study.csv")
         rows = answer_lines(result)
         folder.contents["report.html"] = study_page(result, folder.contents, rows)
         folder.put()

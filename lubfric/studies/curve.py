@@ -80,7 +80,7 @@ class CurveResult(Shown):
             known = getattr(self, name)[good]
             f = self["coefficient"][good]
             facts |= {symbol: f"{known.min():.4g} to {known.max():.4g} {unit}", "f": f"{f.min():.4g} to {f.max():.4g}"}
-        return facts | {"failed": str(len(self.errors)), "cautions": str(len(self.validity))}
+        return facts | {"failed": str(len(self.errors)), "warnings": str(len(self.validity))}
 
 
 def parted(outcomes: Sequence) -> tuple[tuple[FrictionResult | None, ...], dict[int, Exception]]:

@@ -130,7 +130,7 @@ class StudyResult(Shown):
         return int(np.count_nonzero(~np.isin(self.status, (MISSING, UNUSED))))
 
     @property
-    def cautioned(self) -> int:
+    def with_warnings(self) -> int:
         """Number of points at which an assumption does not hold."""
         return int(np.count_nonzero(self.validity != ""))
 
@@ -150,7 +150,7 @@ class StudyResult(Shown):
         if good.any():
             f = self["coefficient"][good]
             facts["f"] = f"{f.min():.4g} to {f.max():.4g}"
-        counts = {"failed": self.failed, "not computed": self.missing, "with cautions": self.cautioned}
+        counts = {"failed": self.failed, "not computed": self.missing, "with warnings": self.with_warnings}
         return facts | {name: str(count) for name, count in counts.items()}
 
     def speeds(self, index: tuple[int, ...]) -> np.ndarray:

@@ -67,7 +67,7 @@ FIRST = 0.1  # cells by which the fastest surface moves in the step after a star
 START = 20  # steps after the start, about
 MOST_CELLS = 100_000  # by which the roughness may move in a run
 TRAVEL_TIMES = 20_001  # times at which the speeds are looked up to find the steps
-LEFT_OUT = "a run with one gap is isothermal: in truth the film is thinner and shears more easily"
+ISOTHERMAL = "the deterministic model in time is isothermal; a real film is thinner and shears more easily"
 
 
 @dataclass(frozen=True)
@@ -257,7 +257,9 @@ def make_deterministic(scene: Scene | Prepared) -> TransientDeterministic:
     if not sample.is_resolved:
         raise InputError(" needs a contact of cells under a cylinder", "numerics.model")
     if scene.numerics.heat == "on":
-        raise InputError(" = 'on': a run with one gap has none", "numerics.heat", "'auto', which cautions, or 'off'")
+        raise InputError(
+            " = 'on': the deterministic model in time is isothermal", "numerics.heat", "'auto', which warns, or 'off'"
+        )
     surface, factors = strip_of(prepared, 0)
     maps = maps_of(prepared, 0)
     if len(maps) == 1 and plan.sliding is not None and len(moving_bodies(scene)) > 1:
@@ -327,5 +329,5 @@ def deterministic_moment(
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
         remedy = "numerics.model = 'load-sharing', which has the heat in time; heat = 'off' leaves it out on purpose"
-        told.append(Validity("loss of film or f by heat", lost, scene.numerics.tolerance, "", LEFT_OUT, remedy))
+        told.append(Validity("loss of film or f by heat", lost, scene.numerics.tolerance, "", ISOTHERMAL, remedy))
     return row, tuple(told)

@@ -1,4 +1,4 @@
-"""Asperities without ends: f then depends on how long the map is, and a caution tells."""
+"""Asperities without ends: f then depends on how long the map is, and a warning tells."""
 
 import numpy as np
 import pytest
@@ -75,14 +75,14 @@ def of(heights, speed, model="patches"):
 
 
 @pytest.mark.parametrize("heights, speed", [(ROUND, 0.03), (WAVY + 0.1 * ROUND, 0.03)])
-def test_no_caution_where_the_map_may_be_repeated(heights, speed):
+def test_no_warning_where_the_map_may_be_repeated(heights, speed):
     once, twice = of(heights, speed)
     assert not told(once) and not told(twice)
     assert twice.coefficient == pytest.approx(once.coefficient, rel=5e-4)
 
 
 @pytest.mark.parametrize("noise, speed", [(0.1, 0.02), (0.02, 0.03)])
-def test_a_caution_where_f_depends_on_how_long_the_map_is(noise, speed):
+def test_a_warning_where_f_depends_on_how_long_the_map_is(noise, speed):
     once, twice = of(WAVY + noise * ROUND, speed)
     assert told(once) and told(twice)
     assert twice.contact_load < 0.8 * once.contact_load

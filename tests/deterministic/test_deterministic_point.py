@@ -133,7 +133,7 @@ def test_a_nearly_smooth_film_at_one_gigapascal_opens_touching_cells_together():
 
 
 def test_the_gap_of_touching_bodies_matters_where_they_give_off_the_lubricant():
-    """The caution against what it warns of: f at half of that gap."""
+    """The warning against what it warns of: f at half of that gap."""
     for problem, drawn, least, most in (
         (bearing(1e-7, 3e5, 1e-3, across=16), True, 2e-3, 0.03),
         (rough(32, 18333.0, 0.01, LIMITED), False, 0.0, 1e-3),

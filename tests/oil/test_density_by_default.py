@@ -50,7 +50,7 @@ def bearing(tmp_path_factory):
     return scene.with_(numerics={"model": "load-sharing", "sampling": "patch", "tolerance": 0.05})
 
 
-def test_the_caution_on_a_pressure_spike_names_the_density(bearing):
+def test_the_warning_on_a_pressure_spike_names_the_density(bearing):
     def told(law):
         flow = {"density_law": law, "eyring_stress": None}  # shear that thins the flow takes the spike away too
         point = lubfric.friction(bearing.with_(lubricant=flow), 5.0)

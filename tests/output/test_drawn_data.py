@@ -87,7 +87,7 @@ def test_a_curve_is_drawn_by_its_table(figures):
         edges(top, "95 %: solvers, grids, surface, inputs, model (not known)"),
         [[0.08, 0.04, 0.019], [0.1, 0.06, 0.022]],
     )
-    np.testing.assert_allclose(data(top, "with cautions"), [[1.0], [0.02]])
+    np.testing.assert_allclose(data(top, "with warnings"), [[1.0], [0.02]])
     np.testing.assert_allclose(edges(middle, "contact $F_C$"), [[0, 0, 0], [0.8, 0.4, 0.0]], atol=1e-12)
     np.testing.assert_allclose(edges(middle, "film $F_H$"), [[0.8, 0.4, 0.0], [1, 1, 1]], atol=1e-12)
     np.testing.assert_allclose(bottom.lines[0].get_data(), [[0.01, 0.1, 1.0], [30, 100, 450]])
@@ -260,8 +260,8 @@ def test_no_point_is_ringed_where_all_would_be(figures):
     entry = SimpleNamespace(severe=False, what="starved")
     columns = COLUMNS | {"ratio": COLUMNS["speed"]}
     plot_traction("x.png", columns, "title", [(entry,)] * 4)
-    assert "with cautions" not in {line.get_label() for line in figures[0].axes[0].lines}
-    assert figures[0].get_supxlabel() == "cautions, at all points: starved"
+    assert "with warnings" not in {line.get_label() for line in figures[0].axes[0].lines}
+    assert figures[0].get_supxlabel() == "warnings, at all points: starved"
     cold = dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), 0 * COLUMNS["speed"])
     plot_traction("x.png", columns | cold, "title", [()] * 4)
     assert len(figures[1].axes) == 1  # no panel of temperatures where none rises

@@ -64,7 +64,7 @@ def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):
     assert main(["init", str(path)]) == 0
     scene = lubfric.load_scene(path)
     assert scene.lubricant.oil.index == pytest.approx(95, abs=1e-6)
-    assert describe_scene(scene).count("caution") == 0
+    assert describe_scene(scene).count("warning") == 0
     small = scene.with_(contact={"shape": (128, 64), "spacing": 3.2e-6}, numerics={"model": "load-sharing"})
     found = lubfric.friction(small, 0.01)
     assert 0.05 < found.coefficient <= 0.12

@@ -1,4 +1,4 @@
-"""The deterministic answer and its cautions: heat on smooth surfaces is that of the smooth film, none of it the
+"""The deterministic answer and its warnings: heat on smooth surfaces is that of the smooth film, none of it the
 isothermal answer; a way out exists."""
 
 from dataclasses import replace

@@ -45,7 +45,7 @@ def test_the_paper_scene_needs_none():
 def test_each_limit_is_told(words, entries):
     (entry,) = [entry for entry in entries if words in entry.text]
     assert entry.value != entry.limit and entry.remedy
-    assert entry.text.startswith("caution: ") and not entry.severe
+    assert entry.text.startswith("warning: ") and not entry.severe
 
 
 @pytest.mark.parametrize("share, severe", [(0.005, None), (0.05, False), (0.5, True)])
@@ -60,7 +60,7 @@ def test_bodies_and_maps_are_judged_before_anything_is_solved():
     wide = PAPER.with_(bodies={"radius": 0.01, "load": 3e5, "e_prime": 1e8, "width": 0.1, "hardness": None})
     assert [e.severe for e in of_bodies(wide.bodies) if "no half-space" in e.text] == [True]
     assert [[e.severe for e in of_map(slope, 20)] for slope in (0.3, 0.7, 2.0)] == [[], [False], [True]]
-    assert "few asperities" in next(of_map(0.1, 3)).text
+    assert "Few asperities" in next(of_map(0.1, 3)).text
 
 
 @pytest.mark.parametrize("axis", [0, 1])
@@ -70,7 +70,7 @@ def test_a_map_that_is_noise_along_an_axis_is_refused_with_what_to_do(axis):
     heights = 1e-7 * np.sin(0.2 * np.arange(128)[:, None] + shift)
     surface = lubfric.Surface(heights if axis else heights.T, 1e-6, periodic_axes=(True, True))
     scene = paper_scene(numerics={"sampling": "patch"})
-    with pytest.raises(lubfric.ValidityError, match=f"along {'xy'[axis]} is 0.[67].*noise; .*s_filter"):
+    with pytest.raises(lubfric.ValidityError, match=f"along {'xy'[axis]} is 0.[67].*noise\. .*s_filter"):
         lubfric.friction(lubfric.prepare(scene, surface), 0.1)
     kept = lubfric.friction(lubfric.prepare(scene.with_(numerics={"accept": True}), surface), 0.1)
     assert [e.what[-1] for e in kept.validity if "noise" in e.text] == ["xy"[axis]]
@@ -150,7 +150,7 @@ def test_a_contact_on_the_edge_columns_of_a_patch_is_refused(grid, column):
 @pytest.mark.parametrize(
     "numerics", [{"film_tolerance": 0.03, "heat": "off"}, {"model": "deterministic", "grid": "given"}]
 )
-def test_an_error_above_the_tolerance_is_a_caution(numerics):
+def test_an_error_above_the_tolerance_is_a_warning(numerics):
     """Settings that do not follow the tolerance: f and its error stay the same, above one tolerance and below
     another."""
     scene = PAPER.with_(contact={"shape": (48, 48), "spacing": 1.8e-6})
@@ -161,7 +161,7 @@ def test_an_error_above_the_tolerance_is_a_caution(numerics):
     assert told[0][0].text in points[0].report.notes
 
 
-def test_cells_too_long_for_the_roughness_are_a_caution():
+def test_cells_too_long_for_the_roughness_are_a_warning():
     """An exponential ACF has detail at every scale: cells half as long would go on changing f."""
     rough = PAPER.with_(surface={"acf": "exponential"}, numerics={"sampling": "strips", "sampling_tolerance": 0.2})
     found = [lubfric.friction(rough.with_(numerics={"tolerance": t}), 0.03) for t in (0.01, 0.05)]

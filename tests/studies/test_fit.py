@@ -341,7 +341,7 @@ def test_what_cannot_be_fitted_is_said_before_any_work(parameters, words):
         lubfric.fit(SCENE, measured, BOUNDS)
 
 
-def test_cautions_of_the_fitted_curve_are_told():
+def test_warnings_of_the_fitted_curve_are_told():
     """A fit to points that are no answers (accepted: f of 1000) came out without a mark."""
     scene = SCENE.with_(
         bodies={"load": 60.0}, lubricant={"eyring_stress": None}, contact={"shape": (72, 48)}, numerics={"accept": True}

@@ -74,7 +74,7 @@ def test_keys_of_which_one_would_do_nothing_are_refused(vary, words):
         lubfric.plan_study(SCENE, vary, [0.1])
 
 
-def test_cautions_and_accepted_points_are_marked(tmp_path):
+def test_warnings_and_accepted_points_are_marked(tmp_path):
     """A turbulent film: refused, or accepted and marked, in every table."""
     thin = SCENE.with_(surface={"sq": 0.0}, lubricant={"viscosity": 0.005})
     vary = {"numerics.accept": [False, True], "motion.slide_roll_ratio": [1.0, 2.0]}
@@ -84,7 +84,7 @@ def test_cautions_and_accepted_points_are_marked(tmp_path):
     assert found.status[0, 1, 1].startswith("ValidityError") and found.status[1, 1, 1] == "converged"
     assert found.validity[1, 1, 1] == " | ".join(entry.text for entry in point.validity)
     assert "not valid" in found.validity[1, 1, 1] and found.validity[1, 0, 0] == ""
-    assert found.cautioned == np.count_nonzero(found.validity != "") and "with cautions" in repr(found)
+    assert found.with_warnings == np.count_nonzero(found.validity != "") and "with warnings" in repr(found)
     same(lubfric.open_study(tmp_path), found)
     assert (lubfric.open_study(tmp_path).validity == found.validity).all()
     found.to_csv(tmp_path / "t.csv")

@@ -17,7 +17,7 @@ from verification.check import Table
 CELLS = (["speed", "f"], [["0.1", "0.05"]])
 TABLE = Table("one", "Friction", *CELLS)
 TYPED = {  # limits and what drawings ask for, not results
-    ("theory.md", "| checked | caution | no answer |"),
+    ("theory.md", "| checked | warning | no answer |"),
     ("inputs.md", "| process | Ra, µm |"),
     ("inputs.md", "| key, name | value (range) | seen in print |"),
 }

@@ -148,7 +148,7 @@ def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[
     """Entries for the ``shear`` (`ShearForce`) of a film that carries ``film_load``; ``friction_force``: f F_T; both in
     N, or both per width.
 
-    If the share of the friction that no oil carries is above the tolerance on f, that is a caution; above 0.2 the point
+    If the share of the friction that no oil carries is above the tolerance on f, that is a warning; above 0.2 the point
     is refused.
     """
     tolerance = scene.numerics.tolerance
@@ -222,7 +222,7 @@ def of_typical_heat(scene, change: float) -> Iterator[Validity]:
 
 
 def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Validity]:
-    """A caution if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
+    """A warning if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
     if error is not None and error > tolerance:
         why = "the solve leaves more than the tolerance asked"
         yield Validity("estimated numerical error of f", 100 * error, 100 * tolerance, "%", why, remedy)

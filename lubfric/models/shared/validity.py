@@ -18,7 +18,7 @@ class Validity:
     value, limit : its value, and the limit of the model, both in ``unit``
     consequence : what that does to the result
     remedy : what to change
-    severe : True: the coefficient means nothing, and a `ValidityError` is raised unless accepted. False: a caution
+    severe : True: the coefficient means nothing, and a `ValidityError` is raised unless accepted. False: a warning
     """
 
     what: str
@@ -35,21 +35,28 @@ class Validity:
 
     @property
     def text(self) -> str:
-        """One sentence; "caution: ..." or "not valid: ..."."""
-        head = "not valid" if self.severe else "caution"
+        """Three sentences: the violated assumption, what that does, what to do. The first begins with "warning: " or
+        "not valid: "."""
+        head = "not valid" if self.severe else "warning"
         unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
         beyond = f", {side} {self.limit:.3g}{unit}" if math.isfinite(self.limit) else ""
         numbers = f"{self.value:.3g}{unit}{beyond}"
-        return f"{head}: {self.what} is {numbers}: {self.consequence}; {self.remedy}"
+        return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)} Recommendation: {self.remedy}."
+
+
+def sentence(text: str) -> str:
+    """Return ``text`` with a capital letter at its begin and a full stop at its end."""
+    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith(('.', '?')) else '.'}"
 
 
 def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:
     """Raise `ValidityError` with ``result`` if one of ``entries`` is severe, unless ``accept``."""
     severe = [entry for entry in entries if entry.severe]
     if severe and not accept:
-        said = "; ".join(entry.text for entry in severe)
-        raise ValidityError(f"{said} (numerics.accept = true overrides)", tuple(severe), result)
+        said = " ".join(entry.text for entry in severe)
+        advice = "numerics.accept = true (on the command line --accept) keeps the result, marked."
+        raise ValidityError(f"{said} {advice}", tuple(severe), result)
 
 
 def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:

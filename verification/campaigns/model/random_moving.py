@@ -28,7 +28,7 @@ PER_LENGTH = 2.5
 PER_HALF_WIDTH = 3.0
 COLUMNS = 12
 ALLOWED = {"mass": 0.05, "load": 1e-3, "gap": 1e-2, "bounds": 1e-6}  # of a solved point
-DRAWN = 0.1  # share of the lubricant out of touching cells from which a result has a caution; it is in the balance
+DRAWN = 0.1  # share of the lubricant out of touching cells from which a result has a warning; it is in the balance
 OILS: tuple[dict, ...] = ({}, {"eyring_stress": 5e6}, {"eyring_stress": 5e6, "limiting_stress_coefficient": 0.06})
 
 
@@ -100,7 +100,7 @@ def random_moving(level: str, run: Run = Run()) -> Iterator[Item]:
     name = f"{len(rows)} random points of moving roughness"
     yield Check(f"{name}: silently wrong", int(wrong.sum()), 0, 0.0, "balances of the fields", "absolute")
     what = f"{name}: said to rest on the lubricant of touching cells"
-    yield Check(what, int((given > DRAWN).sum()), 0, 0.0, "the caution of a result", REPORTED)
+    yield Check(what, int((given > DRAWN).sum()), 0, 0.0, "the warning of a result", REPORTED)
     yield Check(f"{name}: said not to be solved", len(rows) - len(fine), 0, 0.0, "the solver's report", REPORTED)
     table = [
         (name, f"{np.median(off[name]):.1e}", f"{np.quantile(off[name], 0.95):.1e}", f"{off[name].max():.1e}",
