@@ -64,7 +64,7 @@ class RoughFilm:
         is at a limit
     kept : Sq of the flattened roughness over that of the roughness
     gap : mean gap [m]; contact : share of the load that the flattened roughness carries in the balance
-    rise : factor on the film by the roughness of the inlet
+    rise : factor on the film by the roughness of the inlet; rolling : part of f by the gradient of the pressure
     """
 
     coefficient: float
@@ -78,9 +78,12 @@ class RoughFilm:
     gap: float
     contact: float
     rise: float
+    rolling: float
 
 
-def rough_film(scene: Scene, speed: float, contact: HalfSpaceContact, balance: Balance, maps: Sequence[RoughMap]):
+def rough_film(
+    scene: Scene, speed: float, contact: HalfSpaceContact, balance: Balance, maps: Sequence[RoughMap]
+) -> RoughFilm:
     """Return the `RoughFilm` of ``scene`` at ``speed`` [m/s], not 0, from the ``balance`` of load sharing on
     ``contact``, which has the heights of all ``maps`` together. Raises `ConvergenceError`."""
     film = balance.film
@@ -300,6 +303,7 @@ def summed(
         gap=balance.contact.mean_gap,
         contact=balance.contact_load / bodies.load,
         rise=rise,
+        rolling=rolling / load,
     )
 
 

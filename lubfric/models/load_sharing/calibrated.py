@@ -1,0 +1,177 @@
+"""Calibrated load sharing: the friction of a rough film (`rough_film`), and the error that a campaign of solved cases
+leaves of it.
+
+The campaign (``python -m verification calibration``) solves random contacts by this model and by the deterministic one.
+ln(f deterministic/f) has a mean, the bias, and a standard deviation σ = exp(Σ c_i x_i) in a few features x_i of the
+solution (`features`). The 95 % bounds are bias ± k sqrt(σ² + variance of the bias); k is the 95 % quantile of what was
+seen on kinds of cases (fluids, lays, loads, slide-roll ratios) that were left out of the fit in turn (split conformal
+prediction). calibration.toml has the numbers. Outside the range of the campaign the bounds widen (`widening`).
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from ..._base import packaged
+from ...scene import Scene, moves, moving_bodies
+from ..shared import Prepared, on_strip
+from .balance import Balance, solve_balance
+from .rough_film import RoughFilm, RoughMap, rough_film
+
+MOST = 1.5  # of the features "contrast" and "rolling", which grow without end where f tends to 0
+ROLLING = 8.0  # of the rolling part of f: what pressure on the flanks of moving roughness may add (docs/uncertainty.md)
+FLANKS = 1.5  # lambda ratio from which on that falls, with the square of it
+SATURATED = 0.05  # share of the load on saturated Newtonian films from which on f depends on the limit of the oil
+
+
+@dataclass(frozen=True, kw_only=True)
+class CalibratedFriction:
+    """f by calibrated load sharing, and its error.
+
+    coefficient : f, with the bias taken away; film : the rough film behind it
+    bounds : 95 % bounds of f by the model, relative, below and above; bias : that was taken away, of ln f
+    by_film : relative change of f by half and by twice the boundary film
+    by_limit : how much lower and higher f is with the limiting stress of a Newtonian oil at the ends of what oils have;
+        zeros where that does not matter
+    cases : number of solved cases behind the bounds; outside : what is outside of their range, in words
+    """
+
+    coefficient: float
+    film: RoughFilm
+    bounds: tuple[float, float]
+    bias: float
+    by_film: tuple[float, float]
+    by_limit: tuple[float, float]
+    cases: int
+    outside: tuple[str, ...] = ()
+
+
+def calibrated_friction(prepared: Prepared, speed: float, line: Balance) -> CalibratedFriction:
+    """Return f of ``prepared``, whose sample is resolved, at ``speed`` [m/s], not 0. ``line``: its balance of load
+    sharing on all strips; the rough film is that of the first one, and the ratio of their f by Eq. (9) corrects for it.
+    Raises `ConvergenceError`."""
+    scene = prepared.scene
+    sample = prepared.sample
+    contact = on_strip(prepared, sample, 0)
+    start = replace(line, contact=replace(line.contact, fields=None)) if line.response is not None else None
+    balance = solve_balance(scene, speed, contact, prepared.surface.sq, start)
+    film = rough_film(scene, speed, contact, balance, rough_maps(prepared, contact.heights, speed))
+    here = balance.forces.coefficient
+    there = line.forces.coefficient
+    of_line = there / here if here > 0 < there else 1.0
+    heat = line.forces.heat.change if line.forces.heat.heated else 0.0
+    kind = "rolling" if moves(scene) else "rest"
+    fit = calibration()[kind]
+    x = features(scene, film)
+    bias = fit["bias"]
+    f = film.coefficient * of_line * math.exp(bias) * (1 - heat)
+    outside = out_of_range(scene, prepared.surface.sq, speed, fit["range"])
+    width = half_width(x, fit) * widening(outside.values())
+    flanks = _by_flanks(scene, film, prepared.surface.sq, speed)
+    bounds = (math.hypot(-math.expm1(-width), flanks), math.hypot(math.expm1(width), flanks))
+    return CalibratedFriction(
+        coefficient=f,
+        film=film,
+        bounds=bounds,
+        bias=bias,
+        by_film=(0.0, 0.0) if scene.bodies.boundary_film is not None else _changes(film),
+        by_limit=limit_bounds(scene, film),
+        cases=fit["cases"],
+        outside=tuple(outside),
+    )
+
+
+def rough_maps(prepared: Prepared, heights: np.ndarray, speed: float) -> list[RoughMap]:
+    """Return the map of each rough body on the first strip, whose ``heights`` [m] are those of all, and its speed along
+    x at U = ``speed`` [m/s]."""
+    bodies = moving_bodies(prepared.scene)
+    if len({ratio for _, ratio in bodies}) < 2 or prepared.joint:
+        return [RoughMap(heights, speed * bodies[0][1])]
+    sample = prepared.sample
+    return [RoughMap(sample.of_body(k).strip(0).heights, speed * ratio) for k, (_, ratio) in enumerate(bodies)]
+
+
+def features(scene: Scene, film: RoughFilm) -> dict[str, float]:
+    """Return what σ depends on, by name: the ``contrast`` between f_b and the friction of the film, which an error of
+    the load on the boundary film exchanges; the load ratio of the ``contact``; and the part of ``rolling`` in f."""
+    f = abs(film.coefficient)
+    friction = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
+    return numbers_of(film.coefficient, film.boundary_film, friction, film.contact, film.rolling / max(f, 1e-12))
+
+
+def numbers_of(f: float, boundary: float, friction: float, contact: float, rolling: float) -> dict[str, float]:
+    """Return the features of a film with the coefficient ``f``, of which a share ``boundary`` of the load rubs with
+    ``friction``; ``rolling``: over f."""
+    share = min(max(boundary, 0.0), 1.0)
+    exchanged = abs(friction - f) / max(abs(f), 1e-12) * math.sqrt(share / (1 - share)) if share < 1 else 0.0
+    return {
+        "one": 1.0,
+        "contrast": min(exchanged, MOST),
+        "contact": contact,
+        "rolling": min(abs(rolling), MOST),
+    }
+
+
+def half_width(x: Mapping[str, float], fit: Mapping[str, Any]) -> float:
+    """Return the half-width of the 95 % interval of ln f at the features ``x``, by the ``fit`` of a kind of contact."""
+    sigma = math.exp(sum(factor * x[name] for name, factor in fit["spread"].items()))
+    return fit["quantile"] * math.hypot(sigma, fit["bias_error"])
+
+
+def out_of_range(scene: Scene, sq: float, speed: float, known: Mapping[str, Any]) -> dict[str, float]:
+    """Return how far ``scene`` is outside the range of the campaign, in ln, by a description in words."""
+    line = scene.line_contact(abs(speed))
+    ratio = abs(scene.motion.slide_roll_ratio)
+    values = {
+        "pressure": ("Hertz pressure of {:.3g} Pa", math.pi / 4 * scene.bodies.mean_hertz_pressure),
+        "lambda": ("lambda ratio of {:.3g}", line.moes_film / sq),
+        "load": ("load of {:.3g} N/m", scene.bodies.load / scene.bodies.width),
+        "slip": ("slide-roll ratio of {:.3g}", ratio),
+    }
+    words = {}
+    for name, (text, value) in values.items():
+        low, high = known[name]
+        if value < low:
+            words[f"{text.format(value)}, below {low:.3g}"] = math.log(low / value) if value > 0 else math.inf
+        elif value > high:
+            words[f"{text.format(value)}, above {high:.3g}"] = math.log(value / high)
+    return words
+
+
+def widening(distances) -> float:
+    """Return the factor on the bounds at ``distances`` outside the range of the campaign, in ln: 1 + their sum, at most
+    3. Nothing was measured there."""
+    return min(1.0 + sum(distances), 3.0)
+
+
+def _by_flanks(scene: Scene, film: RoughFilm, sq: float, speed: float) -> float:
+    """Return the relative error of f by the pressure on the flanks of moving roughness, in rolling with hardly any
+    sliding; with more of it the campaign has it."""
+    known = calibration()["rolling"]["range"]["slip"][0]
+    if not moves(scene) or abs(scene.motion.slide_roll_ratio) >= known or film.coefficient == 0:
+        return 0.0
+    ratio = scene.line_contact(abs(speed)).moes_film / sq
+    return ROLLING * min(1.0, (FLANKS / ratio) ** 2) * abs(film.rolling / film.coefficient)
+
+
+def _changes(film: RoughFilm) -> tuple[float, float]:
+    return film.at_half_film / film.coefficient - 1, film.at_twice_film / film.coefficient - 1
+
+
+def limit_bounds(scene: Scene, film: RoughFilm) -> tuple[float, float]:
+    """Return by how much f may be lower and higher, relative, because the limiting stress of a Newtonian oil is not
+    known: zeros where less than `SATURATED` of the load is on saturated films."""
+    if not scene.lubricant.newtonian or film.saturated_film < SATURATED:
+        return 0.0, 0.0
+    ends = film.at_least_limit / film.coefficient - 1, film.at_most_limit / film.coefficient - 1
+    return max(0.0, -min(ends)), max(0.0, *ends)
+
+
+@cache
+def calibration() -> dict[str, Any]:
+    """Return the numbers of calibration.toml, by kind of contact: "rest" or "rolling"."""
+    return packaged(__package__, "calibration.toml")
