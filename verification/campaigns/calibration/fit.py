@@ -5,10 +5,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import lubfric
 import numpy as np
-from lubfric.models.load_sharing.calibrated import numbers_of
 from scipy.optimize import minimize
+
+import lubfric
+from lubfric.models.load_sharing.calibrated import numbers_of
 
 from .case import drawn
 from .features import quick
