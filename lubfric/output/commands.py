@@ -28,7 +28,7 @@ from ..models.shared import (
 )
 from ..quantities import KEYS, Quantity, described
 from ..scene import Scene
-from ..studies import Law, Store, fingerprint, fits
+from ..studies import Law, Store, fingerprint_without_files, fits
 from ..surface import rms_slope
 from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
@@ -160,7 +160,7 @@ def run_begun(scene: Scene, arguments, names: Iterable[str], kept: Callable[[], 
     ):
         say(row)
     saying = keeping(kept) if kept else nullcontext()
-    with saying, run_folder(arguments.out, begun, fingerprint(prepared, *key)) as folder:
+    with saying, run_folder(arguments.out, begun, fingerprint_without_files(prepared, *key)) as folder:
         threading.Thread(target=figures.make_ready, daemon=True).start()  # while it is solved
         yield folder, prepared, estimate
 

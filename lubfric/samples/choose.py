@@ -16,14 +16,17 @@ def takes_strips(scene: Scene) -> bool:
     return scene.numerics.sampling != "patch" and _resolved(scene) and rough
 
 
-def sample_of(scene: Scene, maps: tuple[Surface, ...] = (), *, is_given: bool = False) -> Sample:
+def sample_of(
+    scene: Scene, maps: tuple[Surface, ...] = (), *, is_given: bool = False, read: tuple[Surface, ...] = ()
+) -> Sample:
     """Return the sample of ``scene``.
 
-    ``maps``: heights given to `lubfric.prepare`, of all and of each body; ``is_given``: whether the contact was given.
+    ``maps``: heights given to `lubfric.prepare`, of all and of each body; ``is_given``: whether the contact was given;
+    ``read``: the maps of the scene, if `whole_maps` read them before.
     """
     if not maps and not is_given and takes_strips(scene):
-        return strips_of(scene)
-    surface, *bodies = contact_maps(scene, maps)
+        return strips_of(scene, read)
+    surface, *bodies = contact_maps(scene, maps, read=read)
     if is_given or not _resolved(scene):
         return UnresolvedSample(surface)
     return single_patch(scene, _lengths(scene, surface, is_given=bool(maps)), surface, tuple(bodies))

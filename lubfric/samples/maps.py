@@ -19,15 +19,18 @@ TOO_SHORT = (
 )
 
 
-def contact_maps(scene: Scene, given: tuple[Surface, ...] = ()) -> tuple[Surface, ...]:
+def contact_maps(
+    scene: Scene, given: tuple[Surface, ...] = (), *, read: tuple[Surface, ...] = ()
+) -> tuple[Surface, ...]:
     """Generate the heights of ``scene``, or read, turn, scale and cut them and make them periodic; those of both bodies
     become one map, which each body follows alone (`together`). Maps that are ``given`` are taken as they are.
 
     Under a cylinder a measured map is cut, about its middle, to the length of ``contact.shape`` (default: 6 Hertz
     half-widths on each side), and goes on along y as it is, as a given one does. A flat contact is periodic along both
-    axes, and mirrors it. The notes of the surface tell everything that was done.
+    axes, and mirrors it. The notes of the surface tell everything that was done. ``read``: what `whole_maps` returned,
+    if that was called before.
     """
-    maps = given or whole_maps(scene)
+    maps = given or read or whole_maps(scene)
     if not given and measured(scene):
         maps = tuple(_cut_to_contact(scene, one) for one in maps)
     if not np.isfinite(maps[0].heights).all():

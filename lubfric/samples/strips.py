@@ -186,9 +186,11 @@ class MeasuredStrips(Sample):
         return replace(self.surface, mask=None, **new)
 
 
-def strips_of(scene: Scene) -> Sample:
-    """Return strips of the scene's surface, generated or measured; on native cells if ``numerics.grid`` is given."""
-    strips: Sample = measured_strips(scene, *whole_maps(scene)) if measured(scene) else generated_strips(scene)
+def strips_of(scene: Scene, read: tuple[Surface, ...] = ()) -> Sample:
+    """Return strips of the scene's surface, generated or measured; on native cells if ``numerics.grid`` is given.
+    ``read``: the measured maps, if `whole_maps` read them before."""
+    strips: Sample
+    strips = measured_strips(scene, *(read or whole_maps(scene))) if measured(scene) else generated_strips(scene)
     return strips.native() if scene.numerics.grid == "given" else strips
 
 

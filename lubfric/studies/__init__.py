@@ -12,7 +12,7 @@ from .law import Law
 from .operating_points import OperatingPoints, operating_points
 from .plan import StudyPlan, load_study, plan_study
 from .result import StudyResult, open_study, study
-from .store import Store, digest, fingerprint, opened
+from .store import Store, digest, fingerprint, fingerprint_without_files, opened
 from .sweep import StribeckResult, TractionResult, stribeck, traction
 from .tables import (
     KNOWN,

@@ -3,7 +3,7 @@ strictly."""
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
 from pathlib import Path
@@ -11,11 +11,13 @@ from typing import Any
 
 from .._base import FieldsOnly, validate, with_default_errors
 from ..errors import InputError
+from ..samples import measured, whole_maps
 from ..scene import Scene, load_scene, read_toml, speeds_of_range
 from .choose import CHOSEN, MOST, requested_speeds
 from .explain import explain
 from .operating_points import operating_points
-from .store import fingerprint
+from .points import scene_key
+from .store import digest
 from .vary import Axis, Between, axes_of, sample, unit_of
 
 KEYS = ("scene", "speeds", "speed_range", "points", "vary", "together", "sample")
@@ -143,14 +145,14 @@ def plan_study(scene: Scene, vary=None, speeds=None, points=None) -> StudyPlan:
 
 
 def _scene_keys(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[str]:
-    """Yield the keys of the scenes of ``axes``. A height map is read once, however many scenes it serves."""
-    maps: dict[str, str] = {}
+    """Yield the keys of the scenes of ``axes``. A file is read once, however many scenes it serves."""
+    digests: dict[str, str] = {}
     for varied in scenes_of(scene, axes):
-        rough = repr((varied.surface, varied.counterface))
-        if rough not in maps:
-            maps[rough] = fingerprint(varied.surface, varied.counterface)
-        others = [getattr(varied, f.name) for f in fields(varied) if f.name not in ("name", "surface", "counterface")]
-        yield fingerprint(maps[rough], *others)
+        maps = None
+        if measured(varied):
+            rough = repr((varied.surface, varied.counterface, varied.contact))
+            maps = digests[rough] if rough in digests else digests.setdefault(rough, digest(whole_maps(varied)))
+        yield scene_key(varied, maps)
 
 
 def load_study(path, points=None) -> StudyPlan:

@@ -6,17 +6,19 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from ..errors import LubfricError, ValidityError
+from ..errors import InputError, LubfricError, ValidityError
 from ..estimate import FrictionResult, friction
 from ..models.shared import (
     Prepared,
     in_a_cell,
     prepare,
+    prepare_on_maps,
 )
 from ..quantities import NUMBERS
+from ..samples import measured, whole_maps
 from ..scene import Scene
 from .choose import chosen, each_once, first_speeds
-from .store import CHOSEN, OUTCOME, Store, digest, fingerprint, point_key
+from .store import CHOSEN, OUTCOME, Store, digest, fingerprint_without_files, point_key
 
 Outcome = FrictionResult | LubfricError
 Rows = dict[str, dict[float, dict[str, Any]]]  # by the key of a curve and the speed [m/s], in the order of solving
@@ -49,7 +51,7 @@ def solved(
     done: tuple[float, ...] = ()
     model: Prepared | LubfricError
     try:
-        model = scene if isinstance(scene, Prepared) else prepare(scene)
+        model = scene if isinstance(scene, Prepared) else _prepared_as_planned(scene, key)
         first = speeds or sorted(each_once((*kept, *first_speeds(model.scene, model.surface.sq))), reverse=True)
     except LubfricError as error:
         model = error
@@ -60,17 +62,19 @@ def solved(
         outcome = store.get(own, OUTCOME)
         if outcome is None:
             outcome = model if isinstance(model, LubfricError) else outcome_of(model, speed, speed in kept)
-            store.add(own, outcome)
+            if not isinstance(outcome, MapError):  # its file may be there again, next time
+                store.add(own, outcome)
         return outcome
 
     choosing = chosen(model, first, solve) if isinstance(model, Prepared) and not speeds else None
     for speed, outcome in choosing or ((speed, solve(speed)) for speed in first):
         done = (*done, speed)
-        if not speeds:
+        if not speeds and not isinstance(model, MapError):
             store.add(digest(key), (done, False))
         yield key, speed, outcome
     if not speeds:
-        store.add(digest(key), (done, True))
+        if not isinstance(model, MapError):
+            store.add(digest(key), (done, True))
         yield key, math.nan, None
 
 
@@ -86,10 +90,38 @@ def outcome_of(prepared: Prepared, speed: float, fields: bool = False) -> Outcom
         return error
 
 
+class MapError(InputError):
+    """The file of a height map cannot be read, or is another than when the study was planned."""
+
+
+def _prepared_as_planned(scene: Scene, key: str) -> Prepared:
+    """Return ``scene`` made ready. Raises `MapError` unless its files hold the maps that the ``key`` of its plan was
+    made of."""
+    if not measured(scene):
+        return prepare(scene)
+    try:
+        read = whole_maps(scene)
+    except LubfricError as error:
+        raise MapError(str(error)) from None
+    if scene_key(scene, digest(read)) != key:
+        names = " and ".join(str(rough.file) for rough in (scene.surface, scene.counterface) if rough and rough.file)
+        said = f"{names} holds another map than when the study was planned"
+        raise MapError(said, way_out="plan the study again, in another folder if both maps are wanted")
+    return prepare_on_maps(scene, read)
+
+
+def scene_key(scene: Scene, maps: str | None) -> str:
+    """Return the key of a ``scene``: a hash of all that its points depend on beside the speed. ``maps``: the digest of
+    the maps that were read for it; None where they are generated."""
+    return fingerprint_without_files(scene, maps)
+
+
 def key_of(prepared: Prepared) -> str:
-    """The key of a scene that was made ready: a hash of the scene, and of a surface and a contact given to
-    `lubfric.prepare`."""
-    return fingerprint(prepared) if prepared.given else fingerprint(prepared.scene)
+    """Return the key of a scene that was made ready: a hash of the scene, and of the heights and the contact where
+    these were read from a file or given to `lubfric.prepare`."""
+    if prepared.given or measured(prepared.scene):
+        return fingerprint_without_files(prepared)
+    return scene_key(prepared.scene, None)
 
 
 def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:

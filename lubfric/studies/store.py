@@ -10,18 +10,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from .._base import FolderLock, __version__, clear_checked, clear_parts, files, read_checked, validate, write_checked
+from .._base import FolderLock, clear_checked, clear_parts, files, read_checked, validate, write_checked
 from ..errors import ConvergenceError, InputError, LubfricError, OutputError, Report, ValidityError
 from ..estimate import FrictionResult
 from ..film import EHLResult
 from ..models.shared import Validity
 from ..scene import Scene
+from .arithmetic import arithmetic
 from .codec import classes_of, decode, encode
 from .vary import Axis
 
 POINTS = "points"
+FILE = ("Roughness", "file")  # the field of a scene that names a map
 LABELS = {("Scene", "name"), ("Surface", "source"), ("Surface", "notes"), ("Motion", "speeds")}  # no number needs them
 
 
@@ -128,30 +128,43 @@ def _error(stored: Failure) -> LubfricError:
 
 
 def fingerprint(*parts) -> str:
-    """SHA-256, hexadecimal, of ``parts`` and the versions of lubfric and NumPy, whose generator makes the maps.
+    """Return the SHA-256, hexadecimal, of ``parts`` and of all else that their numbers depend on (`arithmetic`).
 
     Parts are numbers, texts, arrays, dataclasses and collections of these. Of a scene everything counts except its
     name, the provenance of its map and the list of speeds. A height map counts by its heights and spacing, a file by
-    its bytes and not by its path.
+    its bytes at this moment and not by its path.
     """
-    return digest([__version__, np.__version__, *parts])
+    return digest([*arithmetic(), *parts])
+
+
+def fingerprint_without_files(*parts) -> str:
+    """Return the `fingerprint` of ``parts`` among which are the heights that were read: files of maps do not count, as
+    they may have changed since."""
+    return _digest([*arithmetic(), *parts], _counted_without_files)
 
 
 def digest(value) -> str:
-    """SHA-256, hexadecimal, of a value: equal for equal numbers, to the last bit, in every process."""
+    """Return the SHA-256, hexadecimal, of a value: equal for equal numbers, to the last bit, in every process."""
+    return _digest(value, _counted)
+
+
+def _digest(value, counted) -> str:
     found = hashlib.sha256()
-    for piece in encode(value, _counted):
+    for piece in encode(value, counted):
         found.update(piece)
     return found.hexdigest()
 
 
 def _counted(part, name: str):
     """What of the field ``name`` of a dataclass a number depends on."""
-    kind = type(part).__name__
     value = getattr(part, name)
-    if (kind, name) in LABELS:
+    if (type(part).__name__, name) in LABELS:
         return None
-    if (kind, name) == ("Roughness", "file") and value is not None:
+    if (type(part).__name__, name) == FILE and value is not None:
         with files.saying(f"surface.file = {value} was not read"), open(value, "rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()
     return value
+
+
+def _counted_without_files(part, name: str):
+    return None if (type(part).__name__, name) == FILE else _counted(part, name)

@@ -15,7 +15,7 @@ from ..models.shared import (
     scene_of,
 )
 from ..scene import Scene, Transient
-from ..studies import Store, classes_of, digest, fingerprint, opened
+from ..studies import Store, classes_of, digest, fingerprint_without_files, opened
 from .load_sharing_solver import Contact
 from .march import Plan, Progress, Step, checked_times, initial_progress, plan_of, steps
 from .model import Output, Start, TimeModel
@@ -84,7 +84,7 @@ def transient(
     plan = transient_of(model.scene)
     tolerance = plan.tolerance or model.time_error
     course = plan_of(times, plan.histories, model.first_step, tolerance, model.stops)
-    key = fingerprint(model.prepared, plan, times)
+    key = fingerprint_without_files(model.prepared, plan, times)
     with opened(checkpoint, CLASSES, "checkpoint") as store:
         progress, outputs = _marched(model, start.state, course, store, key, on_step)
     result = collect(model, start.grid_error, course, progress, outputs)

@@ -1,6 +1,10 @@
 """Every field of a scene is in the key of a stored point, but for the labels; and so are speed, fields and version."""
 
 import copy
+import os
+import platform
+import subprocess
+import sys
 from dataclasses import fields, is_dataclass
 
 import numpy as np
@@ -10,6 +14,7 @@ from scene_text import paper_scene
 import lubfric
 from lubfric.scene import Constant, Harmonic, Ramp
 from lubfric.studies import store
+from lubfric.studies.arithmetic import arithmetic
 from lubfric.studies.store import Store, fingerprint, point_key
 
 OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature_celsius": 70}
@@ -67,12 +72,32 @@ def test_speed_fields_and_versions_make_other_keys(monkeypatch):
     other_speeds = (0.1, -0.1, 0.10000000000000002)
     keys = {point_key("a", 0.1, True), point_key("b", 0.1), *(point_key("a", speed) for speed in other_speeds)}
     assert len(keys) == 5
-    before = fingerprint(SCENE)
-    monkeypatch.setattr(store, "__version__", "0.0.1")
-    other = fingerprint(SCENE)
-    monkeypatch.undo()
-    monkeypatch.setattr(store.np, "__version__", "0.0.1")
-    assert len({before, other, fingerprint(SCENE)}) == 3
+    keys = {fingerprint(SCENE)}
+    known = arithmetic()
+    for i in range(len(known)):  # versions of three packages, the machine, the bits of its sums
+        other = (*known[:i], "another", *known[i + 1 :])
+        monkeypatch.setattr(store, "arithmetic", lambda other=other: other)
+        keys.add(fingerprint(SCENE))
+    assert len(keys) == 1 + len(known) == 6
+
+
+PROBE = """
+from lubfric.studies.arithmetic import trial_sums
+print(trial_sums())
+"""
+
+
+@pytest.mark.parametrize("change", [{"OPENBLAS_CORETYPE": "Prescott"}, {"OPENBLAS_NUM_THREADS": "2"}])
+def test_trial_sums_tell_kernels_and_threads_of_blas_apart(change):
+    """Prescott is a kernel of OpenBLAS without vectors of four numbers. Two equal processes have equal sums."""
+    blas = np.show_config(mode="dicts")["Build Dependencies"]["blas"]["name"]
+    if "openblas" not in blas or (os.cpu_count() or 1) < 2 or platform.machine() != "x86_64":
+        pytest.skip("needs OpenBLAS on an x86_64 machine of two processors")
+    alone = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+    threads = change.get("OPENBLAS_NUM_THREADS", "1")
+    environments = alone, alone, alone | change | {"OMP_NUM_THREADS": threads}
+    said = [subprocess.check_output([sys.executable, "-c", PROBE], env=one) for one in environments]
+    assert said[0] == said[1] != said[2]
 
 
 def test_a_map_comes_back_the_way_round_it_was_stored(tmp_path):

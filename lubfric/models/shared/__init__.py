@@ -23,7 +23,18 @@ from .decision import Decision
 from .film_speed import exponents, speed_of
 from .heat import Heat, error_by_heat, film_lubricant, inlet_at, peclet_at, point_heat, surroundings, typical_heat
 from .memo import Key, Memo, ReferenceKey
-from .prepared import Prepared, at_speed, at_tolerance, contact_on, on_piece, on_stack, on_strip, prepare, scene_of
+from .prepared import (
+    Prepared,
+    at_speed,
+    at_tolerance,
+    contact_on,
+    on_piece,
+    on_stack,
+    on_strip,
+    prepare,
+    prepare_on_maps,
+    scene_of,
+)
 from .statistics import (
     FEW,
     MATTERS,

@@ -118,17 +118,30 @@ def prepare(
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.given else ()
         contact = None if like.own else like.contact
-    given = bool(maps) or contact is not None
     with told_doubts(scene):
         sample = sample_of(scene, maps, is_given=contact is not None)
-        if sample.is_resolved:
-            return _on_cells(scene, sample, is_given=given)
-        surface = sample.first_map()
-        if contact is None:
-            heights = surface.heights - surface.heights.mean()
-            flat = scene.contact.geometry == "flat"
-            contact = (flat_contact_of if flat else independent_asperities_of)(scene, heights, surface.spacing)
-        return Prepared(scene, surface, contact, sample, beforehand(scene, surface), given=given)
+        return _on_sample(scene, sample, contact, is_given=bool(maps) or contact is not None)
+
+
+def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
+    """Return ``scene`` made ready on the maps that `lubfric.samples.whole_maps` ``read`` for it, which are not read
+    again."""
+    if scene.numerics.model == "deterministic":
+        check_resolved_gap(scene)
+    with told_doubts(scene):
+        return _on_sample(scene, sample_of(scene, read=read), None, is_given=False)
+
+
+def _on_sample(scene: Scene, sample: Sample, contact: RoughContact | None, *, is_given: bool) -> Prepared:
+    """Return ``scene`` made ready on ``sample``; ``contact``: None for lubfric's own."""
+    if sample.is_resolved:
+        return _on_cells(scene, sample, is_given=is_given)
+    surface = sample.first_map()
+    if contact is None:
+        heights = surface.heights - surface.heights.mean()
+        flat = scene.contact.geometry == "flat"
+        contact = (flat_contact_of if flat else independent_asperities_of)(scene, heights, surface.spacing)
+    return Prepared(scene, surface, contact, sample, beforehand(scene, surface), given=is_given)
 
 
 def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -> tuple[Surface, ...]:
