@@ -7,6 +7,7 @@ import numpy as np
 
 from ..oil import Lubricant, carried_stress, shear_stress
 from .ehl_result import EHLResult
+from .elastic_shear import ElasticContact, elastic_shear
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class ShearForce:
       the whole film, and what the spots take from it. An error of the film is that much larger in the force.
     - ``excess`` [N]: the part of couette, without sign, from stresses above what oils carry
       (`lubfric.oil.lubricant.carried_stress`); ``stress_ratio`` [-]: the largest stress over that.
+    - ``asperity_share``: of the friction of the asperities, the part that elastic shear of the discs leaves.
     - ``sense``: 1, or -1 where the upper surface is the slower one, whose sliding the rolling part then helps.
     """
 
@@ -31,6 +33,7 @@ class ShearForce:
     excess: float = 0.0
     stress_ratio: float = 0.0
     sense: float = 1.0
+    asperity_share: float = 1.0
 
     @property
     def resistance(self) -> float:
@@ -59,6 +62,7 @@ def shear_force(
     cavitated: str = "none",
     warm=None,
     heated=None,
+    elastic: ElasticContact | None = None,
 ) -> ShearForce:
     """F_sh = B ∫ tau dx over the lubricated area, tau = (h/2) dp/dx + eta (u2 - u1)/h at the upper surface.
 
@@ -69,7 +73,8 @@ def shear_force(
     it, which fill the fraction h_rupture/h of the width. The lubricant's shear law (Newtonian by default) acts on the
     Couette term. ``warm``: the viscosity [Pa s] that the film was solved with, and ``heated``: the stress of the
     heated film, both of `lubfric.models.shared.heat.point_heat`; None: isothermal. ∫ (h/2) dp is ``film.rolling`` less what
-    the spots take; it is summed over the nodes if the film does not know it (None).
+    the spots take; it is summed over the nodes if the film does not know it (None). ``elastic``: the contact whose film
+    and discs shear elastically (`elastic_shear`), for a lubricant with a shear modulus; None: neither does.
     """
     entrainment_speed = film.entrainment_speed
     radius = film.radius
@@ -86,10 +91,19 @@ def shear_force(
 
     stress = isothermal if heated is None else heated
     tau = stress(x, p, h)
+    asperity_share = 1.0
+    left = np.ones(x.size)
+    if elastic is not None:
+        shares = elastic_shear(
+            lubricant, elastic, x, p, h, entrainment_speed=abs(entrainment_speed), sliding=sliding, wet=wet
+        )
+        left = shares.film_share
+        asperity_share = shares.asperity_share
+        tau = left * tau
     face_tau = 0.5 * (tau[1:] + tau[:-1]) * np.diff(x) * wet
     full = x[:-1] < film.rupture * direction  # the rupture point is a node
     couette = np.sum(face_tau[full])
-    middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet
+    middle = stress(*(0.5 * (a[1:] + a[:-1]) for a in (x, p, h))) * np.diff(x) * wet * 0.5 * (left[1:] + left[:-1])
     quadrature = max(2 / 3 * abs(np.sum((middle - face_tau)[full])), spike_error(x[:-1][full], tau[:-1][full]))
     quadrature += off
     ratio, excess = above_carried(p, tau, np.diff(x) * wet * full)
@@ -103,7 +117,7 @@ def shear_force(
         couette += np.sum((face_tau * share)[~full])
     sense = math.copysign(1.0, slide_roll_ratio)
     forces = [float(width * each) for each in (sense * couette, sense * resistance, quadrature, parts, excess)]
-    return replace(ShearForce(*forces), stress_ratio=ratio, sense=sense)
+    return replace(ShearForce(*forces), stress_ratio=ratio, sense=sense, asperity_share=asperity_share)
 
 
 def above_carried(pressure, tau, lengths) -> tuple[float, float]:

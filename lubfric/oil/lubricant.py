@@ -55,6 +55,9 @@ class Lubricant(Shown):
         fills the gap from where the flow through the contact is as much; None: as much as flows
     oil : the `Oil` of which viscosity, pressure-viscosity and temperature coefficient are (None: given as numbers)
 
+    shear_modulus : G [Pa] of the film, with which film and discs shear elastically at small slip (K. L. Johnson, J. L.
+        Tevaarwerk 1977, doi:10.1098/rspa.1977.0129; oils in contacts about 1e7 to 1e9 Pa); None: no elastic shear
+
     Raises
     ------
     InputError : a value out of range, or Roelands with alpha = 0
@@ -74,6 +77,7 @@ class Lubricant(Shown):
     inlet_length: float | None = None
     inlet_film: float | None = None
     carreau: tuple[float, float] | None = None
+    shear_modulus: float | None = None
 
     def __post_init__(self):
         validate.python_fields(self, "lubricant")

@@ -82,7 +82,7 @@ def _default_workers(scene: Scene, speeds) -> int:
 def run_traction(scene: Scene, arguments) -> None:
     """Compute a traction curve, and write traction.csv, traction.png, surface.png, report.html, resolved.toml
     and, last, result.json to ``arguments.out``."""
-    ratios = parse_speeds("--ratios", arguments.ratios, "-", LARGEST_RATIO)
+    ratios = parse_ratios(arguments.ratios)
     names = ["traction.csv", "traction.png"]
     begun = run_begun(scene, arguments, names, None, ratios, "traction", ratios=ratios)
     with begun as (folder, prepared, estimate):
@@ -284,6 +284,24 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
         ways = f"'0.001,0.01', or 'low:high:count' with 0 < low < high and 1 <= count <= {MOST_SPEEDS}"
         raise InputError(f" {validate.shown(text)}", option, ways + f", in {unit}" * (unit != "-"))
     return np.geomspace(numbers[0], numbers[1], int(numbers[2])).tolist()
+
+
+def parse_ratios(text: str | None) -> list[float]:
+    """Return the slide-roll ratios of --ratios: 'a,b,c', or 'low:high:count', geometric, or even where low is not above
+    0 or ':linear' follows."""
+    parts = [] if text is None else text.split(":")
+    spacing = parts.pop().strip().lower() if len(parts) == 4 else ""
+    if spacing not in ("", "linear", "log"):
+        raise InputError(f" {validate.shown(text)} ends with {validate.shown(spacing)}", "--ratios", "linear or log")
+    if len(parts) == 3:
+        units = ["-", "-", "-"]
+        low, high, count = numbers_of("--ratios", parts, units)
+        if spacing == "linear" or (low <= 0 and spacing == ""):
+            if not -LARGEST_RATIO <= low < high <= LARGEST_RATIO or count not in range(2, MOST_SPEEDS + 1):
+                ways = f"'0:0.5:11' with low < high and 2 <= count <= {MOST_SPEEDS}"
+                raise InputError(f" {validate.shown(text)}", "--ratios", ways)
+            return np.linspace(low, high, int(count)).tolist()
+    return parse_speeds("--ratios", ":".join(parts) if parts else text, "-", LARGEST_RATIO)
 
 
 def _progress(place: str) -> Callable:

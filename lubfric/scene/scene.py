@@ -70,6 +70,11 @@ class Scene(Shown):
             object.__setattr__(self, "bodies", replace(self.bodies, boundary_friction_coefficient=friction))
         length = self.lubricant.inlet_length
         half_width = self.bodies.half_width
+        if self.transient is not None and self.lubricant.shear_modulus is not None:
+            said = f" = {self.lubricant.shear_modulus:g} Pa does not go with [transient]"
+            raise InputError(
+                said, "lubricant.shear_modulus", way_out="leave it out: runs in time have no elastic shear"
+            )
         if self.transient is not None and not self.lubricant.floods:
             said = " does not go with inlet_length or inlet_film"
             raise InputError(said, "transient", way_out="runs in time are flooded")
@@ -255,5 +260,7 @@ def _not_taken(scene: Scene, given: bool) -> Iterator[tuple[str, Any, str]]:
     if len({u for _, u in bodies}) > 1 and given:
         yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 a map of its own"
     lubricant = scene.lubricant
+    if lubricant.shear_modulus is not None:
+        yield "lubricant.shear_modulus", lubricant.shear_modulus, "None (no elastic shear at small slip)"
     if lubricant.limiting_stress_coefficient is not None and lubricant.limiting_stress_offset == 0:
         yield "lubricant.limiting_stress_offset", 0.0, "a value above 0, some 1e6 Pa (else no film flows at p = 0)"

@@ -157,3 +157,24 @@ def test_help_shows_what_there_is(capsys):
         main(["run", "-h"])
     told = capsys.readouterr().out
     assert "--sampling-tolerance" in told and "--report" not in told and "SUPPRESS" not in told
+
+
+@pytest.mark.parametrize(
+    "text, ratios",
+    [
+        ("0:0.5:11", np.linspace(0, 0.5, 11)),
+        ("-0.2:0.2:5", [-0.2, -0.1, 0.0, 0.1, 0.2]),
+        ("0.1:0.5:5:linear", [0.1, 0.2, 0.3, 0.4, 0.5]),
+        ("0.01:1:3", [0.01, 0.1, 1.0]),
+        ("0.01:1:3:log", [0.01, 0.1, 1.0]),
+        ("0,0.5", [0.0, 0.5]),
+    ],
+)
+def test_ratios_begin_at_zero_in_even_steps(work, text, ratios):
+    np.testing.assert_allclose(given(work, "run", "s.toml", f"--ratios={text}")[0][1], ratios, atol=1e-15)
+
+
+@pytest.mark.parametrize("text", ["0:0.5:1", "0.5:0:3", "0:0.5:11:even", "0:0.5:2.5", "0:0.5:11:log"])
+def test_ranges_of_ratios_that_are_none(work, text, capsys):
+    assert main(["run", "s.toml", f"--ratios={text}"]) != 0
+    assert "--ratios" in capsys.readouterr().err

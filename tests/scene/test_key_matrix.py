@@ -562,7 +562,11 @@ ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, sh
     "bodies": {"hardness", "boundary_film", "boundary_friction_table"},  # the last: tests/scene/test_ranges.py
     "motion": {"speeds"},
     "contact": set(),
-    "lubricant": {"inlet_length", "inlet_film"}  # and, in tests/oil/test_shear_laws.py, the shear laws
+    "lubricant": {
+        "inlet_length",
+        "inlet_film",
+        "shear_modulus",
+    }  # the last: tests/film/test_elastic_shear.py; and, in tests/oil/test_shear_laws.py, the shear laws
     | {law.key for law in (*lubfric.oil.FLOW_LAWS, *lubfric.oil.LIMITS)},
     "surface": {"file", *FILE},
     "counterface": set(lubfric.Roughness.__dataclass_fields__),

@@ -5,12 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...contact import ContactState
-from ...film import EHLResult, ShearForce, shear_force
+from ...film import EHLResult, ElasticContact, ShearForce, disc_compliance, shear_force
 from ...scene import Scene
 from ..shared import (
     Heat,
     point_heat,
 )
+
+HERTZ_NODES = 101  # of the asperity pressure where the contact has no cells
 
 
 @dataclass(frozen=True)
@@ -45,16 +47,46 @@ def forces(scene: Scene, film: EHLResult | None, contact: ContactState, contact_
     boundary = bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0) * contact_load
     if film is None:
         return Forces(boundary / bodies.load, boundary, ShearForce(0.0, 0.0))
-    shear = _shear(scene, film, contact)
+    elastic = _elastic(scene, film, contact, contact_load)
+    shear = _shear(scene, film, contact, elastic)
+    boundary *= shear.asperity_share
     heat, *warm = point_heat(scene, film, contact, contact_load, abs(boundary + shear.total), shear)
     if warm != [None, None]:
-        shear = _shear(scene, film, contact, *warm)
+        shear = _shear(scene, film, contact, elastic, *warm)
     total = abs(boundary + shear.total)
     quadrature = shear.quadrature / total if 0 < total < np.inf else 0.0
     return Forces((boundary + shear.total) / bodies.load, boundary, shear, quadrature, heat)
 
 
-def _shear(scene: Scene, film: EHLResult, contact: ContactState, warm=None, stress=None) -> ShearForce:
+def _elastic(scene: Scene, film: EHLResult, contact: ContactState, contact_load: float) -> ElasticContact | None:
+    """Return the discs and asperities that shear elastically, where the lubricant has a shear modulus.
+
+    The mean asperity pressure across the width is that of the contact's cells, or Hertz's with the asperity load.
+    """
+    if scene.lubricant.shear_modulus is None:
+        return None
+    bodies = scene.bodies
+    half_width = bodies.half_width
+    direction = np.copysign(1.0, film.entrainment_speed)
+    if contact.fields is not None:
+        x = contact.x * direction
+        mean = contact.fields.pressure.mean(axis=1)
+    else:
+        x = np.linspace(-1.0, 1.0, HERTZ_NODES) * half_width
+        mean = np.sqrt(np.maximum(half_width**2 - x**2, 0.0))
+    order = np.argsort(x)
+    load = np.trapezoid(mean[order], x[order]) * bodies.width
+    scale = bodies.boundary_friction_coefficient * contact_load / load if load > 0 else 0.0
+    return ElasticContact(
+        compliance=disc_compliance(half_width, bodies.e_prime),
+        x=x[order],
+        asperity_limit=scale * mean[order],
+    )
+
+
+def _shear(
+    scene: Scene, film: EHLResult, contact: ContactState, elastic: ElasticContact | None, warm=None, stress=None
+) -> ShearForce:
     with np.errstate(over="ignore", invalid="ignore"):  # stresses far above the range of the law, told by `excess`
         return shear_force(
             film,
@@ -65,4 +97,5 @@ def _shear(scene: Scene, film: EHLResult, contact: ContactState, warm=None, stre
             contact_fraction=contact.touching,
             warm=warm,
             heated=stress,
+            elastic=elastic,
         )
