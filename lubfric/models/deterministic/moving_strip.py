@@ -128,6 +128,7 @@ def solve_moving_strip(
     passing = _passing(rest.problem, bodies, speed, step, effort, rest.result.state, 0.0)
     rows: list[dict[str, Any]] = []
     early_result: DeterministicResult | None = None
+    settled = rest.result.state
     for number, moment in enumerate(islice(passing, 1, 1 + last), 1):
         rows.append(_row(moment))
         if number == discarded:
