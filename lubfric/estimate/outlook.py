@@ -8,10 +8,9 @@ from ..film import LineContact, flooded_inlet
 from ..models.deterministic import (
     DIFFERENCE,
     MOST_WORK,
-    ON_LONGER,
     SHORT,
     cells_of,
-    moving_strip_work,
+    moving_point_work,
     reach,
     work_of_steps,
 )
@@ -42,7 +41,7 @@ STEPS = 9
 FINER_STEPS = 6
 LAST_STEPS = 20  # on cells a quarter as long, which a map shorter than a piece is solved on as a whole
 AGAIN = 4  # of a strip whose neighbour is solved: at an end of the range of an input
-IN_MOTION = 2.0  # processor time of moving roughness over its counted work, which is that of the systems alone
+IN_MOTION = 1.1  # processor time of moving roughness over its counted work, which is that of the systems alone
 UNLIKE = 0.65  # scatter of the difference between the models over that of f
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 SURE = 2.0  # factor between the expected film and any film: outside of it contact or separation is certain
@@ -115,7 +114,7 @@ def _resolved(
     numerics = scene.numerics
     sq = surface.sq
     both = cells_of(scene, sample)
-    moving = moving_strip_work(scene, sample, sq, speed, both) if speed and moves(scene) else 0.0
+    moving = moving_point_work(scene, sample, sq, speed, both) if speed and moves(scene) else 0.0
     if speed == 0 or scene.transient is not None or numerics.model == "load-sharing" or gap_not_resolved(scene):
         return 0, 0.0, moving
     rolling = rolling_share(scene.line_contact(speed), scene.bodies.mean_hertz_pressure) if moving else 0.0
@@ -127,7 +126,8 @@ def _resolved(
     if moving and moving > MOST_WORK and numerics.model == "auto":
         return 0, 0.0, moving
     if moving:
-        return count, IN_MOTION * (count + ON_LONGER * (ends + 2 * (ends > 0))) * moving, moving
+        count = min(count, max(1, int(MOST_WORK / moving)))  # no more are solved
+        return count, IN_MOTION * count * moving, moving
     (fx, fy) = both
     (dx, dy) = sample.cells.coarse
     (ux, uy) = sample.cells.coarsening

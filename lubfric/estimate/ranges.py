@@ -9,6 +9,7 @@ from .._base.jobs import map_parts
 from ..contact import RoughContact
 from ..errors import ConvergenceError
 from ..models.deterministic import (
+    HARDNESS,
     DeterministicResult,
     MovingStrip,
     Strip,
@@ -29,7 +30,6 @@ from ..scene import FRICTION, Scene, value_of
 from .result import FrictionResult
 from .uncertainty import Uncertainty
 
-HARDNESS = "bodies.hardness"
 LEAST = 5e-4  # of f: a smaller change is not told
 
 

@@ -31,7 +31,7 @@ from .point import (
 )
 from .problem import BOUNDARY_FILM, Problem, lay_out, reach, shifted
 from .result import DeterministicResult, assemble
-from .rough_bodies import MOST_WORK, ON_LONGER, bodies_of, maps_of, moving_strip_work, too_costly
+from .rough_bodies import HARDNESS, MOST_WORK, bodies_of, maps_of, moving_point_work, too_costly
 from .shorter_cells import SHORT
 from .solve import dry_contact, solve_point
 from .state import RUPTURED, TOUCHING, Iterate, State, TimeHistory, evaluated, residuals

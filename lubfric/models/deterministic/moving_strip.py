@@ -22,6 +22,8 @@ from .state import State
 RESOLVED = 8  # cells in the Hertz half-width, from which on the pressure is moved with the roughness as a start
 STEPS = 4.0  # LU factorisations in a step in time, about: for the estimate of the work
 KRYLOV = 25.0  # GMRES iterations in a step in time, about
+SMALL_WAVES = 3.0  # film of the smooth contact over Sq, from which on waves are small
+AT_REST = 12.0  # steps in time that the strip at rest is worth, on two lengths of cells and for its slope, about
 SLOW = 0.5  # of U: where all roughness is slower, the fastest passes one cell in a step; else the lubricant does
 FAST = 2.0  # of U: where some roughness is faster, it passes one cell in a step
 CONTINUED = 0.4  # half-widths: distance that the lubricant travels in the moments of a continuation that count
@@ -271,8 +273,19 @@ def effort_of(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> Moving
 
 
 def effort_for(contact: LineContact, sq: float) -> MovingEffort:
-    """Return the `MovingEffort` for roughness of ``sq`` [m] in a smooth ``contact``."""
-    return TIGHT
+    """Return the `MovingEffort` for roughness of ``sq`` [m] in a smooth ``contact``.
+
+    It is `ECONOMICAL` where f and the asperity load ratio were seen to keep within 0.5 %
+    (verification/campaigns/moving_effort). It is `TIGHT` where less lubricant arrives than a full inlet takes, because
+    the grid must hold where the gap fills; where the smooth film is wider than the Hertz strip, whose length the grid
+    and the discarded way are counted in; and where the roughness is small compared with the film, because what a loose
+    step leaves may then be as large as the waves.
+    """
+    oil = contact.lubricant
+    starved = oil.inlet_film is not None or oil.inlet_length is not None
+    light = half_width(contact) > contact.half_width
+    smooth = contact.moes_film > SMALL_WAVES * sq
+    return TIGHT if starved or light or smooth else ECONOMICAL
 
 
 def _steps_of(
@@ -294,7 +307,11 @@ def _steps(
     return step, discarded, max(1, round(length / (abs(fastest) * step)))
 
 
-def moving_work(contact: LineContact, sq: float, cell: float, fastest: float, length: float, cells: float) -> float:
-    """Estimate the counted work [s of a usual core] of so many ``cells`` in all the steps of `solve_moving_strip`."""
+def moving_work(
+    contact: LineContact, sq: float, cell: float, fastest: float, length: float, cells: float, continuations: int = 0
+) -> float:
+    """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
+    `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
     _, discarded, count = _steps(contact, cell, fastest, length, effort_for(contact, sq))
-    return (discarded + count) * work_of_steps(cells, STEPS, KRYLOV)
+    steps = discarded + count + continuations * sum(continued_moments(contact, cell, discarded))
+    return AT_REST * work_of_steps(cells, STEPS, KRYLOV) + steps * work_of_steps(cells, STEPS, KRYLOV)

@@ -5,6 +5,7 @@ from dataclasses import replace
 from ...contact import HalfSpaceContact
 from ...samples import Sample
 from ...scene import (
+    FRICTION,
     Scene,
     moves,
     moving_bodies,
@@ -20,8 +21,8 @@ from .problem import (
     reach,
 )
 
-ON_LONGER = 0.5  # work on cells twice as long along y, over that on the shorter ones
-MOST_WORK = 120.0  # s, counted: beyond it "auto" leaves moving roughness to Eq. (8)
+HARDNESS = "bodies.hardness"
+MOST_WORK = 120.0  # s, counted: a point whose estimate is above it is left to load sharing by "auto" (docs/models.md)
 
 
 def strip_surface(prepared: Prepared, index: int) -> Surface:
@@ -54,9 +55,12 @@ def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
     return {name: sample.of_body(k).strip(index) for k, name in enumerate(found)}
 
 
-def moving_strip_work(scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[int, int]) -> float:
-    """Counted work [s] of one strip of moving roughness on cells ``factors`` times as long as those of ``sample``, and
-    on cells twice as long, about; ``sq`` [m]: of the surface."""
+def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[int, int]) -> float:
+    """Estimate the counted work [s] of a point on one strip of moving roughness, ends of input ranges included.
+
+    The cells are ``factors`` times as long as those of ``sample``; ``sq`` [m]: of the surface. The ends of a range of
+    the hardness are left out, because in most contacts no pressure reaches them.
+    """
     (fx, fy) = factors
     (dx, dy) = sample.cells.coarse
     line = scene.line_contact(abs(speed))
@@ -64,14 +68,15 @@ def moving_strip_work(scene: Scene, sample: Sample, sq: float, speed: float, fac
     ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
     cells = sum(ends) / (fx * dx) * sample.length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
-    return (1 + ON_LONGER) * moving_work(line, sq, fx * dx, fastest, sample.cells.count * dx, cells)
+    continuations = 2 * sum(name not in (FRICTION, HARDNESS) for name, *_ in scene.ranges)
+    return moving_work(line, sq, fx * dx, fastest, sample.cells.count * dx, cells, continuations)
 
 
 def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> str:
-    """Why moving roughness is left to Eq. (8) under "auto", in words; "" if it is not."""
+    """Return why "auto" leaves moving roughness to load sharing; "" if it does not."""
     scene = prepared.scene
     sample = prepared.sample
-    work = moving_strip_work(scene, sample, prepared.surface.sq, speed, factors) if moves(scene) else 0.0
+    work = moving_point_work(scene, sample, prepared.surface.sq, speed, factors) if moves(scene) else 0.0
     if work <= MOST_WORK:
         return ""
     return (
