@@ -180,8 +180,8 @@ def test_info_of_a_model_that_takes_too_long_says_that_the_interval_is_wide():
     """As the answer has it: the error of load sharing alone is large there, and known."""
     moving = HEAVY.with_(
         motion={"slide_roll_ratio": 0.03},
-        contact={"shape": (512, 512), "spacing": 1e-6},
-        surface={"sq": 2e-7, "correlation_length": 8e-6},
+        contact={"shape": (640, 512), "spacing": 0.8e-6},
+        surface={"sq": 2e-7, "correlation_length": 6.5e-6},
         lubricant={"eyring_stress": 5e6},
     )
     text = describe_scene(moving)
