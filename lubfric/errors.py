@@ -70,6 +70,23 @@ class ConvergenceError(LubfricError, RuntimeError):
         self.result = result
 
 
+class WorkLimitError(ConvergenceError):
+    """A point needs more counted work than ``numerics.max_work`` [s] allows.
+
+    ``limit`` is that number. The work is counted from cells and steps, never by a clock.
+    """
+
+    def __init__(self, limit: float, report=None, result=None):
+        message = f"the solve needs more work than numerics.max_work = {limit:.4g} s; raise it, or loosen tolerance"
+        super().__init__(message, report, result)
+        self.args = (limit, report, result)
+        self.limit = limit
+
+    def worded(self) -> str:
+        """Return the message without the hints."""
+        return self.message
+
+
 class ValidityError(LubfricError, ValueError):
     """A converged solution is outside the range of the model, so that its coefficient is no answer.
 

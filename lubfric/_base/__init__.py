@@ -16,5 +16,6 @@ from .tables import (
     table_headings,
     text_of,
 )
+from .work import count_work, limited_work, unlimited_work
 
 __version__ = "1.0.0"

@@ -8,6 +8,8 @@ from contextvars import ContextVar
 from functools import partial
 from typing import Any, TypeVar
 
+from .work import count_work, limited_work, unlimited_work, work_left
+
 T = TypeVar("T")
 
 _executor: ContextVar[tuple[int, Executor | None]] = ContextVar("process and executor of the parts", default=(0, None))
@@ -35,28 +37,46 @@ def current_executor() -> Executor | None:
 def map_parts(function: Callable[..., T], parts: Iterable[Any], *arguments: Any) -> list[T]:
     """Return ``function(*arguments, part)`` of all ``parts``, in their order.
 
-    Function, arguments and results must pickle where an executor does it. An exception is that of the first part, in
+    Work is counted as if the parts were done one after the other (`lubfric._base.work`), so that a limit ends the same
+    part. Function, arguments and results must pickle where an executor does it. An exception is that of the first part, in
     their order, that raises one. What a lost process had is done here.
     """
     executor = current_executor()
     jobs = [partial(function, *arguments, part) for part in parts]
     if executor is None or len(jobs) < 2:
         return [job() for job in jobs]
-    futures: list[Future[T] | None] = []
+    futures: list[Future[tuple[T | Exception, float]] | None] = []
+    left = work_left()
     for job in jobs:
         try:
-            futures.append(executor.submit(job))
+            futures.append(executor.submit(_counted, job, left))
         except BrokenExecutor:
             futures.append(None)
     results = []
     try:
         for job, future in zip(jobs, futures):
             try:
-                results.append(job() if future is None else future.result())
+                outcome = _counted(job, left) if future is None else future.result()
             except BrokenExecutor:
-                results.append(job())
+                outcome = _counted(job, left)
+            (result, work) = outcome
+            count_work(work)
+            if isinstance(result, Exception):
+                raise result
+            results.append(result)
     finally:
         for future in futures:
             if future is not None:
                 future.cancel()
     return results
+
+
+def _counted(job: Callable[[], T], limit: float) -> tuple[T | Exception, float]:
+    """Return the result of a part, or what it raised, and its counted work [s], which ends at ``limit``."""
+    result: T | Exception
+    with unlimited_work(), limited_work(limit) as meter:
+        try:
+            result = job()
+        except Exception as error:  # raised by the caller, in the order of the parts
+            result = error
+    return result, meter.spent

@@ -20,9 +20,14 @@ import math
 
 import numpy as np
 
+from .._base import count_work
 from .candidate_cells import stencil
 from .operator import filtered, wavenumber
 from .problem import dot, with_load, zero_level
+
+# Counted work [s of a usual core] of an iteration, over n log2 n of its n cells: 0.9 to 1.2e-9 was measured on maps of
+# 256 x 256 and 512 x 512 (`lubfric.solve_contact`, tolerance 1e-8).
+ITERATION = 1.2e-9
 
 FIRST_PACE = 0.35  # of the step that the preconditioner would take were it the inverse
 LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual
@@ -97,6 +102,7 @@ class CandidateSearch:
             if worst <= tolerance or waiting > PATIENCE or self.iterations == limit:
                 return
             self.iterations += 1
+            count_work(ITERATION * self.change.size * math.log2(self.change.size + 1))
             self._turn()
             if self.exact:
                 self._exact_step()

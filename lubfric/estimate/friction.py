@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base import validate, with_default_errors
+from .._base import limited_work, unlimited_work, validate, with_default_errors
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
 from ..errors import ConvergenceError, InputError
@@ -28,8 +28,15 @@ from .answer_deterministic import strips_answer
 from .errors_of import model_error
 from .full_load import full_load_numbers
 from .methods import with_methods
+from .outlook import forecast
 from .power import with_power_loss
 from .result import FrictionResult
+
+# Times the estimate of a point: the counted work that it may take where numerics.max_work does not say.
+TIMES_ESTIMATE = 10.0
+
+# Least counted work [s] that a point may take where numerics.max_work does not say.
+LEAST_WORK = 30.0
 
 
 @with_default_errors
@@ -79,8 +86,11 @@ def friction(
     validate.instance("fields", fields, (bool, np.bool_), "True or False")
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     numerics = prepared.scene.numerics
+    limit = most_work(prepared, speed)
     with told_doubts(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
-        result = with_methods(prepared, _answer(prepared, speed, fields, begun))
+        with limited_work(limit):
+            answer = _answer(prepared, speed, fields, begun)
+        result = with_methods(prepared, answer)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
@@ -117,7 +127,18 @@ def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> Fri
     except ConvergenceError as error:
         if asked == "deterministic":
             raise
-        return load_sharing_answer(found, prepared, speed, begun, f"the deterministic model was not solved ({error})")
+        with unlimited_work():
+            return load_sharing_answer(
+                found, prepared, speed, begun, f"the deterministic model was not solved ({error})"
+            )
+
+
+def most_work(prepared: Prepared, speed: float) -> float:
+    """Return the counted work [s] that a point may take: ``numerics.max_work``, or `TIMES_ESTIMATE` the estimate."""
+    scene = prepared.scene
+    if scene.numerics.max_work is not None:
+        return scene.numerics.max_work
+    return max(LEAST_WORK, TIMES_ESTIMATE * forecast(scene, prepared.sample, prepared.surface, speed).seconds)
 
 
 def _enough(prepared: Prepared, found: SampleSolution) -> str:

@@ -32,6 +32,9 @@ class Numerics(Shown):
         its viscosity falls with the temperature), "on", "off"
     accept : True: results outside the range of the model are returned and marked, instead of refused
     cavitated_shear : "none", or "striated": shear of the streamers behind the rupture
+    max_work : counted work [s of a usual core] that one point may take. A point that would take more is answered by
+        load sharing, with its interval, where the model is "auto", and refused otherwise. None: ten times the estimate
+        of `lubfric info`, at least 30 s
     workers : threads of the Fourier transforms
     """
 
@@ -49,6 +52,7 @@ class Numerics(Shown):
     model_tolerance: float = 0.05
     heat: str = "auto"
     accept: bool = False
+    max_work: float | None = None
 
     def __new__(cls, *args, **given):
         refuse_dropped(given)

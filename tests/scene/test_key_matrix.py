@@ -575,6 +575,7 @@ ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, sh
         *("cavitated_shear", "film_deflection"),  # tests/film/test_shear.py, tests/sharing/test_balance.py
         *("sampling", "sampling_tolerance", "model_tolerance"),  # tests/sampling
         "accept",  # tests/sharing/test_validity.py
+        "max_work",  # tests/scene/test_max_work.py
     },
     "transient": set(lubfric.Transient.__dataclass_fields__),  # tests/time/test_transient_mixed.py
 }

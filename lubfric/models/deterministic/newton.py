@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from ..._base import count_work
+from .counted_work import work_of_steps
 from .linear import ACCURACY, Change, System
 from .problem import Problem
 from .state import TOUCHING, Iterate, State, TimeHistory, evaluated, residuals, update_active_sets
@@ -96,6 +98,7 @@ def newton(
             return result
         work.factorisations += 1
         work.krylov += iterations
+        count_work(work_of_steps(at.gap.size, 1, iterations))
         if not np.all(np.isfinite(step.gap)):
             return result
         at, whole, length = _advanced(at, step)

@@ -13,6 +13,7 @@ from ...oil import Lubricant
 from ...scene import Scene, check_resolved_gap, moving_bodies
 from ...surface import Surface
 from ..shared import film_lubricant
+from .counted_work import work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble
 from .solve import refined_start, solve_point
@@ -22,10 +23,6 @@ ENOUGH = 3e-3  # tolerance of a strip's residuals: f moves by some .1 %
 LOOSE = 1e-2  # on longer cells, from which a strip starts
 FIRST = 12_000  # cells from which longer ones come first
 HEAVIER = 1.03  # times the load: the second solve, for the slope
-# counted work [s of a usual core] a cell: a Newton step, its factorisation over log2 of the cells, a step of GMRES
-STEP = 1.7e-6
-FACTORISATION = 1.35e-7
-KRYLOV = 1.9e-7
 RATIO = (0.25, 0.75)  # between which the change from grid to grid is taken to fall
 GROWING = 2.0  # the same, where the series ends; 1.7 to 2.2 was seen at 110 N on cells from 1.8 to 0.45 um
 UNKNOWN_RATIO = 0.6  # from two grids: as measured on cells of 3.6, 1.8 and 0.9 um of the built-in surface
@@ -123,11 +120,6 @@ def thinned_less(lubricant: Lubricant) -> Lubricant:
 def work_of(result: DeterministicResult) -> float:
     """Counted work of a solve in seconds of a usual core: from its cells and steps alone, never from a clock."""
     return work_of_steps(result.pressure.size, result.report.iterations, result.report.evaluations)
-
-
-def work_of_steps(cells: float, steps: float, krylov: float = 0) -> float:
-    """The same of so many ``steps`` of Newton's method, with ``krylov`` iterations of GMRES in all."""
-    return cells * (steps * (STEP + FACTORISATION * math.log2(cells)) + krylov * KRYLOV)
 
 
 def problem_of(

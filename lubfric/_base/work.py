@@ -1,0 +1,64 @@
+"""A limit of counted work: seconds of a usual core, from numbers of cells and steps alone, never from a clock.
+
+A solver calls `count_work` at each step of its iteration. Where a caller has set a limit with `limited_work`, the step
+that passes it raises `WorkLimitError`. So the same point ends at the same step on every machine.
+"""
+
+import math
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass
+
+from ..errors import WorkLimitError
+
+
+@dataclass
+class WorkMeter:
+    """The work [s] that was counted, and the most that is allowed."""
+
+    limit: float
+    spent: float = 0.0
+
+
+_METER: ContextVar[WorkMeter | None] = ContextVar("work meter", default=None)
+
+
+@contextmanager
+def limited_work(limit: float) -> Iterator[WorkMeter]:
+    """Limit the work [s] that is counted inside, in this thread. A limit outside counts it too."""
+    outer = _METER.get()
+    meter = WorkMeter(limit=limit)
+    token = _METER.set(meter)
+    try:
+        yield meter
+    finally:
+        _METER.reset(token)
+        if outer is not None:
+            outer.spent += meter.spent
+
+
+@contextmanager
+def unlimited_work() -> Iterator[None]:
+    """Set the limit aside: for what has to be done with the results that are there."""
+    token = _METER.set(None)
+    try:
+        yield
+    finally:
+        _METER.reset(token)
+
+
+def work_left() -> float:
+    """Return the work [s] that the limit of the caller leaves; infinite without one."""
+    meter = _METER.get()
+    return math.inf if meter is None else max(meter.limit - meter.spent, 0.0)
+
+
+def count_work(seconds: float) -> None:
+    """Add counted work [s]. Raise `WorkLimitError` where that passes the limit of the caller."""
+    meter = _METER.get()
+    if meter is None:
+        return
+    meter.spent += seconds
+    if meter.spent > meter.limit:
+        raise WorkLimitError(meter.limit)

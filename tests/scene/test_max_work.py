@@ -1,0 +1,108 @@
+"""``numerics.max_work``: the counted work of a point has a limit, and ends at the same step everywhere."""
+
+import pickle
+import time
+
+import pytest
+
+import lubfric
+from lubfric.errors import ConvergenceError, WorkLimitError
+
+PAPER = lubfric.load_scene("paper")
+SPEED = 0.03
+
+
+def test_a_point_that_would_take_more_work_is_answered_by_load_sharing():
+    """The interval holds the answer without a limit; the same limit gives the same bits; enough work changes nothing."""
+    full = lubfric.friction(PAPER, SPEED)
+    short = [lubfric.friction(PAPER.with_(numerics={"max_work": 0.05}), SPEED) for _ in range(2)]
+    low, high = short[0].uncertainty.interval
+    assert low <= full.coefficient <= high and high - low > 0
+    assert (
+        short[0].coefficient == short[1].coefficient and short[0].uncertainty.interval == short[1].uncertainty.interval
+    )
+    assert "max_work = 0.05 s" in short[0].decision.text
+    alone = lubfric.friction(PAPER.with_(numerics={"model": "load-sharing"}), SPEED)
+    assert short[0].coefficient == alone.coefficient
+    enough = lubfric.friction(PAPER.with_(numerics={"max_work": "1 min"}), SPEED)
+    assert enough.coefficient == full.coefficient
+
+
+@pytest.mark.parametrize("call", ["friction", "stribeck", "traction"])
+def test_a_model_that_was_chosen_is_refused_with_its_limit(call):
+    scene = PAPER.with_(numerics={"max_work": 0.05, "model": "deterministic"})
+    before = time.process_time()
+    if call == "friction":
+        with pytest.raises(WorkLimitError, match="numerics.max_work = 0.05 s; raise it"):
+            lubfric.friction(scene, SPEED)
+    elif call == "stribeck":
+        with pytest.raises(ConvergenceError, match="max_work = 0.05 s"):
+            lubfric.stribeck(scene, [SPEED, 0.05])
+    else:
+        with pytest.raises(ConvergenceError, match="max_work = 0.05 s"):
+            lubfric.traction(scene, [0.05, 1.0], speed=SPEED)
+    assert time.process_time() - before < 15
+
+
+def test_load_sharing_has_the_limit_too():
+    with pytest.raises(ConvergenceError, match="max_work"):
+        lubfric.friction(PAPER.with_(numerics={"max_work": 0.001, "model": "load-sharing"}), SPEED)
+
+
+def test_the_error_survives_a_pickle_and_names_the_key():
+    error = pickle.loads(pickle.dumps(WorkLimitError(2.5)))
+    assert error.limit == 2.5 and "numerics.max_work = 2.5 s" in str(error)
+    for wrong in (0, -1, "1 m", float("nan"), True):
+        with pytest.raises(lubfric.InputError, match="numerics.max_work"):
+            PAPER.with_(numerics={"max_work": wrong})
+    written = PAPER.with_(numerics={"max_work": "2 min"}).to_toml()
+    assert "max_work = 120" in written
+
+
+def test_the_limit_is_of_the_thread_that_set_it():
+    from concurrent.futures import ThreadPoolExecutor
+
+    limits = [0.05, None, 0.05, None]
+    scenes = [PAPER.with_(numerics={"max_work": limit, "model": "deterministic"}) for limit in limits]
+
+    def ended(scene):
+        try:
+            return lubfric.friction(scene, SPEED).coefficient
+        except WorkLimitError:
+            return None
+
+    with ThreadPoolExecutor(2) as executor:
+        answers = list(executor.map(ended, scenes))
+    assert answers[0] is answers[2] is None and answers[1] == answers[3]
+
+
+def test_parts_on_processes_count_their_work_as_if_done_in_order():
+    """Whatever does the parts, the same one passes the limit."""
+    from concurrent.futures import ThreadPoolExecutor
+
+    from lubfric._base import count_work, limited_work
+    from lubfric._base.jobs import map_parts, parts_on
+
+    def job(part):
+        for _ in range(part):
+            count_work(1.0)
+        if part == 4:
+            raise ValueError("four")
+        return part
+
+    for parts, limit, expected in (
+        ([3, 2, 1], 6.0, [3, 2, 1]),
+        ([3, 2, 1], 5.0, WorkLimitError),
+        ([9, 1], 5.0, WorkLimitError),
+        ([1, 4, 9], 20.0, ValueError),
+        ([1, 9, 4], 5.0, WorkLimitError),
+    ):
+        outcomes = []
+        for executor in (None, ThreadPoolExecutor(2)):
+            with parts_on(executor), limited_work(limit) as meter:
+                try:
+                    outcomes.append((map_parts(job, parts), meter.spent))
+                except (ValueError, WorkLimitError) as error:
+                    outcomes.append((type(error), None))
+        assert outcomes[0] == outcomes[1]
+        assert outcomes[0][0] == expected
