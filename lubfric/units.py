@@ -25,6 +25,7 @@ from typing import Any
 from .errors import InputError
 
 CELSIUS = Decimal("273.15")  # K
+MOST_DECIMALS = 7  # of a number that is printed with its interval
 _TABLE = tomllib.loads((files(__package__) / "units.toml").read_text(encoding="utf-8"))
 UNITS: dict[str, dict[str, float]] = _TABLE["units"]
 PEOPLE: dict[str, list[str]] = _TABLE["people"]
@@ -117,6 +118,19 @@ def worded(value: Any, unit: str) -> str:
     if len(shown) > 3:
         text = f"{len(shown)} values, {min(shown):.4g} to {max(shown):.4g}"
     return f"{text} {printed(name)}".rstrip()
+
+
+def with_interval(value: float, low: float, high: float, level: str = " at 95 %") -> str:
+    """Return ``value`` with its interval, "0.0443 (0.0413 to 0.0473 at 95 %)": all with as many decimals as show two
+    digits of half its width; without a finite interval to three digits, alone."""
+    half = 0.5 * (high - low)
+    if not 0 < half < math.inf:
+        return f"{value:.3g}"
+    first = math.floor(math.log10(half))
+    if first > 1:
+        value, low, high = (round(number, 1 - first) for number in (value, low, high))
+    digits = min(max(0, 1 - first), MOST_DECIMALS)
+    return f"{value:.{digits}f} ({low:.{digits}f} to {high:.{digits}f}{level})"
 
 
 def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), depth: int = 3) -> Any:

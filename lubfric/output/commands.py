@@ -228,6 +228,7 @@ class RunFolder:
     def __init__(self, path: Path, begun: float, fingerprint: str):
         self.path = path
         self.begun = begun
+        self.fingerprint = fingerprint
         self.unfinished = path / UNFINISHED / fingerprint[:16]
         self.contents: dict[str, bytes] = {}
         self.failures: list[str] = []
@@ -259,6 +260,7 @@ class RunFolder:
             "versions": versions | {"scipy": scipy.__version__, "python": platform.python_version()},
             "seed": prepared.scene.surface.seed if prepared.scene.surface.file is None else None,
             "seconds": time.perf_counter() - self.begun,
+            "hash": self.fingerprint,
             "report": result.report.as_dict(),
             "validity": result.validity,
             **numbers,
@@ -268,6 +270,7 @@ class RunFolder:
         self,
         prepared: Prepared,
         estimate: SceneEstimate,
+        given: dict,
         result,
         units,
         law: Law | str = "",
@@ -282,7 +285,9 @@ class RunFolder:
         if prepared.surface.sq > 0:
             self.draw("surface.png", plot_surface, prepared)
         record = self._record(prepared, result, units, **numbers)
-        self.contents["report.html"] = report_page(prepared, result, record, self.contents, estimate, law)
+        self.contents["report.html"] = report_page(
+            prepared, result, record=record, contents=self.contents, estimate=estimate, given=given, law=law
+        )
         whole = plain({"files": sorted([*self.contents, RESULT])} | record)
         self.contents[RESULT] = json.dumps(whole, indent=1, allow_nan=False).encode()
         self.put(OUTPUTS, (*record["validity"], *doubts))

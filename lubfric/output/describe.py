@@ -11,6 +11,7 @@ from ..errors import InputError
 from ..estimate import forecast
 from ..models.deterministic import MOST_WORK
 from ..models.shared import (
+    UnmodelledEffect,
     effect_in_words,
     expected,
     gathered,
@@ -27,6 +28,7 @@ from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved,
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
+from ..units import worded
 from .inputs import FACTS, input_rows
 
 # of a step; with it, steps in a period of a history; at the start
@@ -39,25 +41,31 @@ CELL_STEP = 1.5e-7
 # speeds at which the work is counted, and that stand in the table, about
 SOME = 25
 SHOWN = 6
-TABLE_CAPTION = "film of the whole load by closed forms, and whether it clears the summits (orders of magnitude)"
+TABLE_CAPTION = (
+    "estimate by closed forms, to an order of magnitude: film under the whole load, asperity contact, and cost"
+)
+# whether asperities touch, by the forecast
+ASPERITIES = {"touching": "yes", "none or a few summits": "few or none", "none": "no"}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class SceneEstimate:
     """What is known of a scene before it is solved.
 
     Attributes
     ----------
-    sections : lines on "transient" (what changes in time), "surface", "contact", "model", "left out" and "validity"
+    sections : lines on "transient" (what changes in time), "surface", "contact", "model", "effects not modelled", "validity"
     cost : the time that it will take, in words; "" where it is not known
     table : of some speeds, their headings first: expected film, whether it clears the summits, what the sample costs
     refusals : assumptions that fail by what is known so far, so that f means nothing
+    effects : effects that are not modelled (`lubfric.models.shared.unmodelled_effects`)
     """
 
     sections: dict[str, list[str]]
     cost: str
     table: list[tuple[str, ...]]
     refusals: list[str]
+    effects: tuple[UnmodelledEffect, ...]
 
 
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
@@ -69,7 +77,7 @@ def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
         check_grid(scene, surface)
     estimate = estimate_scene(scene, sample, surface, speeds)
     sections = {name: [*input_rows(scene, name), *FACTS[name](scene)] for name in FACTS} | estimate.sections
-    rows = [f"  {'' if i else name:<14} {text}" for name, texts in sections.items() for i, text in enumerate(texts)]
+    rows = [f"  {name}\n" + "\n".join(f"    {text}" for text in texts) for name, texts in sections.items() if texts]
     widths = [max(map(len, column)) for column in zip(*estimate.table)]
     table = ["  " + "  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)) for row in estimate.table]
     return "\n".join([f"scene {scene.name}", *rows, f"  {TABLE_CAPTION}", *map(str.rstrip, table)])
@@ -100,17 +108,23 @@ def estimate_scene(
     refusals = _doubts([(speed, entry) for speed, entry in at if entry.severe])
     whole = sample.map
     notes = [note for note in whole.notes if "nm as it is" in note]
-    lacks = unmodelled_effects(scene, whole.sq, own)
-    left_out = [f"likely changes of f at {own:g} m/s, by closed forms:", *map(effect_in_words, lacks)]
+    effects = unmodelled_effects(scene, whole.sq, own)
+    changes = [f"likely changes of f at {own:g} m/s, estimated by closed forms:", *map(effect_in_words, effects)]
     sections = {
         "transient": changing,
         "surface": [*map_in_words(surface, sample), *notes, slopes_in_words(whole)],
         "contact": [f"{_plan(scene, surface)}; {over}"],
         "model": model,
-        "left out": left_out if lacks else ["nothing that would change f by its tolerance"],
-        "validity": _doubts(at) or ["no assumption of the model fails by what is known before the solve"],
+        "effects not modelled": changes if effects else ["none that would change f by more than its tolerance"],
+        "validity": _doubts(at) or ["no assumption of the model fails before the solve"],
     }
-    return SceneEstimate(sections, cost, _speed_table(scene, sample, surface, speeds), refusals)
+    return SceneEstimate(
+        sections=sections,
+        cost=cost,
+        table=_speed_table(scene, sample, surface, speeds),
+        refusals=refusals,
+        effects=effects,
+    )
 
 
 def _doubts(at) -> list[str]:
@@ -122,9 +136,9 @@ def _doubts(at) -> list[str]:
 def _plan(scene: Scene, surface: Surface) -> str:
     what = {"flat": "a periodic contact", "cylinder": "a semi-periodic contact"}[scene.contact.geometry]
     if scene.numerics.model == "deterministic":
-        what = "one gap and one pressure"
+        what = "the deterministic model"
     on = "strips of the roughness" if takes_strips(scene) else "{} x {} cells".format(*surface.shape)
-    return f"{what} on {on}; f within {100 * scene.numerics.tolerance:g} % by the numerics"
+    return f"{what} on {on}; numerical error of f at most {100 * scene.numerics.tolerance:g} %"
 
 
 def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tuple[list[str], str]:
@@ -132,12 +146,14 @@ def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tu
     (`lubfric.estimate.friction`)."""
     asked = scene.numerics.model
     why = gap_not_resolved(scene)
-    unknown = "its error is not known, and not in the interval"
+    unknown = "its model-form error is not known and not in the interval"
     if scene.transient is not None and asked == "deterministic":
-        return ["one gap and one pressure (the deterministic model) at all times, as asked"], ""
+        return ["deterministic model at all times (numerics.model)"], ""
     if scene.transient is not None:
-        more = "; it does not see that the roughness moves, as numerics.model = 'deterministic' does" * moves(scene)
-        return [f"load sharing, Eq. (8), at all times; {unknown}{more}"], ""
+        rows = [f"load-sharing model at all times; {unknown}"]
+        if moves(scene):
+            rows.append("moving roughness is treated as stationary; numerics.model = 'deterministic' moves it")
+        return rows, ""
     moving = sorted({abs(u) for u in speeds if u != 0})
     points = [(scene, speed) for speed in moving[:: max(1, len(moving) // SOME)]]
     if len(ratios):
@@ -146,27 +162,29 @@ def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tu
     resolved = [one.speed for one in found if one.resolved]
     strip = max((one.moving for one in found), default=0.0)
     if asked == "deterministic":
-        rows = ["one gap and one pressure (the deterministic model), as asked"]
+        rows = ["deterministic model (numerics.model)"]
     elif asked == "load-sharing":
-        rows = [f"load sharing, Eq. (8), as asked: the fast way; {unknown if why else 'its interval is wide'}"]
+        rows = [f"load-sharing model (numerics.model): fast; {unknown if why else 'its interval is wide'}"]
     elif why:
-        rows = [f"load sharing, Eq. (8), alone; {unknown}: {why}"]
+        rows = [f"load-sharing model alone: {why}; {unknown}"]
     elif not resolved and strip > MOST_WORK:
-        rows = ["load sharing, Eq. (8), alone; its interval is wide: the other model would take too long"]
+        rows = ["load-sharing model alone, with a wide interval: the deterministic model would take too long"]
     elif not resolved:
-        rows = ["load sharing, Eq. (8), alone: the film is thick, or there is no roughness, and the models agree"]
+        rows = ["load-sharing model alone: the film is thick or the surfaces are smooth, and both models agree"]
     else:
         ends = dict.fromkeys(f"{speed:.3g}" for speed in (resolved[0], resolved[-1]))
         to = f"to {100 * scene.numerics.model_tolerance:g} % of f"
         rows = [
-            f"load sharing, Eq. (8), on the roughness; at {' to '.join(ends)} m/s corrected by strips with one gap "
-            f"and one pressure {to} (not where heat takes more than a fifth of f, or three tenths of the film)"
+            f"load-sharing model; at {' to '.join(ends)} m/s corrected by the deterministic model on some strips, {to} "
+            "(not where heat changes f by more than a fifth, or the film by more than three tenths)"
         ]
     if strip:
-        unseen = ", which Eq. (8) does not see" * (asked == "load-sharing")
-        beyond = f"; beyond {MOST_WORK:g} s Eq. (8) answers alone, unless numerics.model = 'deterministic'"
-        takes = f"one strip with one gap and one pressure takes about {in_words(strip)}"
-        rows.append(f"the roughness moves{unseen}: {takes}{beyond * (asked == 'auto')}")
+        takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"
+        if asked == "load-sharing":
+            takes = f"moving roughness is treated as stationary; {takes}"
+        if asked == "auto":
+            takes += f"; where it takes more than {MOST_WORK:g} s, the load-sharing model answers alone"
+        rows.append(takes)
     many = len(ratios) or len(moving)
     return rows, in_words(sum(one.seconds for one in found) * many / len(found)) if found else ""
 
@@ -183,9 +201,12 @@ def _histories(scene: Scene) -> list[str]:
             laps = _laps(history, plan.duration)
             reverses = ": the motion reverses" if name == "speed" and low < 0 < high else ""
             said = f"{name}: {type(history).__name__.lower()}, {low:.4g} to {high:.4g} {unit}"
-            rows.append(f"{said}{f', {laps:.3g} periods' if laps else ''}{reverses}")
-    start = "steady, where there is entrainment, else at rest" if plan.initial == "auto" else plan.initial
-    return [*rows, f"start: {start if plan.initial_film is None else f'film of {plan.initial_film:.4g} m'}"]
+            periods = f", {laps:.3g} {'period' if laps == 1 else 'periods'}" if laps else ""
+            rows.append(f"{said}{periods}{reverses}")
+    start = "steady if there is entrainment, else at rest" if plan.initial == "auto" else plan.initial
+    if plan.initial_film is not None:
+        start = f"film of {worded(plan.initial_film, 'm')}"
+    return [*rows, f"start: {start}"]
 
 
 def _laps(history: History, duration: float) -> float:
@@ -206,8 +227,8 @@ def _course(scene: Scene, sample: Sample, surface: Surface, speeds) -> tuple[str
     if not sample.is_single_patch and scene.numerics.model != "deterministic":
         most = max(found, key=lambda one: one.strips)
         cells = round(sample.cells.count * most.length / sample.cells.coarse[1])
-        asked = f"f within {100 * scene.numerics.sampling_tolerance:g} % at {most.speed:.3g} m/s, which needs most"
-        lines = [f"sample: {counted(most.strips, 'strips')} of the roughness, at all times: for {asked}"]
+        target = f"sampling error of f at most {100 * scene.numerics.sampling_tolerance:g} % at {most.speed:.3g} m/s"
+        lines = [f"sample: {counted(most.strips, 'strips')} of the roughness, at all times ({target})"]
     if scene.numerics.model == "deterministic":
         steps, seconds = work_of_run(scene)
     else:
@@ -217,7 +238,7 @@ def _course(scene: Scene, sample: Sample, surface: Surface, speeds) -> tuple[str
         seconds = sum(one.seconds for one in found) + steps * (FILM_STEP + CELL_STEP * cells)
     top = f"top speed {max(speeds):.4g} m/s" if max(speeds) else "no entrainment"
     course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
-    return f"{top}; {course}; about {in_words(seconds)} (orders of magnitude)", lines
+    return f"{top}; {course}; about {in_words(seconds)} of processor time (an order of magnitude)", lines
 
 
 def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds) -> list[tuple[str, ...]]:
@@ -225,17 +246,17 @@ def _speed_table(scene: Scene, sample: Sample, surface: Surface, speeds) -> list
     touch, and, unless a run in time has one sample for all, what the sample costs."""
     steady = scene.transient is None
     sampled = steady and sample.is_resolved
-    table: list[tuple[str, ...]] = [("U (m/s)", "M", "L", "h (nm)", "lambda", "summits")]
-    table[0] += ("strips", "one gap", "length (mm)", "time (s)") * sampled
+    table: list[tuple[str, ...]] = [("U [m/s]", "M", "L", "film [nm]", "lambda ratio", "asperity contact")]
+    table[0] += ("strips", "deterministic", "length [mm]", "time [s]") * sampled
     own = (scene.motion.entrainment_speed,) if steady else ()
     for speed in sorted({*speeds[:: max(1, len(speeds) // SHOWN)], *own, speeds[-1]}):
         one = forecast(scene, sample, surface, speed)
-        film = ("", "", "0", "0", "no entrainment" + ": all contact" * steady)
+        film = ("", "", "0", "0", "no entrainment" + ": all load" * steady)
         if speed != 0:
             line = scene.line_contact(abs(speed))
             ratio = line.expected_film / surface.sq if surface.sq > 0 else math.inf
             numbers = f"{line.M:.3g}", f"{line.L:.3g}", f"{line.expected_film * 1e9:.4g}", f"{ratio:.3g}"
-            film = *numbers, one.touching
+            film = *numbers, ASPERITIES[one.touching]
         counts = f"{one.strips}", f"{one.resolved}", f"{1e3 * one.length:.2g}".replace("nan", "-"), f"{one.seconds:.1g}"
         table.append((f"{speed:.4g}", *film, *counts * sampled))
     return table
@@ -245,10 +266,10 @@ def map_in_words(surface: Surface, sample: Sample) -> list[str]:
     """The map that the scene has; and where strips of it are solved, ``surface``, the first of them."""
     if sample.is_single_patch:
         return [surface.describe()]
-    made = "" if sample.windows else f"{surface.source}: as many strips as are needed"
+    made = "" if sample.windows else f"{surface.source}, on as many strips as the tolerance needs"
     first = replace(surface, source="").describe()
-    joined = f"{counted(sample.first, 'strips')} of it, joined along the line" if sample.first > 1 else "a strip of it"
-    return [made or sample.map.describe(), f"solved first: {joined}: {first}"]
+    joined = f"{sample.first} strips, joined along the line" if sample.first > 1 else "one strip"
+    return [made or sample.map.describe(), f"solved first: {joined}; {first}"]
 
 
 def slopes_in_words(surface: Surface) -> str:

@@ -1,167 +1,300 @@
-"""report.html of a run: one page for who was not there, with question, answer, pictures, doubts, inputs and sources. It
-needs no other file, and prints."""
+"""report.html of a run: one page that a reader understands who was not there. It needs no other file, and prints."""
 
 import base64
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 from html import escape
 from importlib.resources import files
 from string import Template
+from typing import Any
 
 import numpy as np
 
 from ..errors import InputError
 from ..estimate import FrictionResult
-from ..models.shared import (
-    Prepared,
-    effect_in_words,
-    percent,
-)
+from ..models.shared import Prepared, UnmodelledEffect, percent, sentence
 from ..quantities import COLUMNS, counted
-from ..scene import Scene
+from ..scene import Scene, short_keys
 from ..studies import KNOWN, CurveResult, Law, StribeckResult
-from ..units import converted, printed, unit_for, worded
+from ..time import TransientResult
+from ..units import converted, printed, unit_for, with_interval, worded
 from .describe import TABLE_CAPTION, SceneEstimate
 from .inputs import FACTS, SECTIONS, inputs
 
-OF_POINT = ["coefficient", "contact_load", "film_load", "central_film", "film_to_roughness_ratio"]
-OF_POINT += ["real_contact_area_fraction"]
-CAPTIONS = {
-    "stribeck.png": "Friction, shares of the load and film",
+# columns of the operating table, after the swept quantity, f and its interval
+OF_POINT = ("power_loss", "full_load_film", "lambda_ratio")
+CURVES = {
+    "stribeck.png": "Friction, load ratios and film over the entrainment speed",
     "traction.png": "Friction over the slide-roll ratio",
-    "history.png": "History",
-    "contact.png": "Contact at one speed",
-    "sharing.png": "The same by load sharing, Eq. (8), alone: contact, and film and surfaces on a section",
-    "surface.png": "Roughness",
+    "history.png": "Speed, load, film and friction over time",
 }
-UNKNOWN = "the error of the model is not known, and not in it"
+PICTURES = {
+    "contact.png": "The contact at one speed",
+    "sharing.png": "The same contact by the load-sharing model: pressure, and film and surfaces on a section",
+    "surface.png": "The rough surface",
+}
+BUDGET = {
+    "numerical": "numerical (grids and solvers)",
+    "sampling": "sampling (finite surface)",
+    "model": "model-form (equations)",
+    "inputs": "input (stated ranges)",
+}
+MOST_GIVEN = 60  # characters of a value in the column of how an input was given
 
 
 def report_page(
-    prepared: Prepared, result, record: dict, contents: dict[str, bytes], estimate: SceneEstimate, law: Law | str = ""
+    prepared: Prepared,
+    result: CurveResult | TransientResult,
+    *,
+    record: dict,
+    contents: dict[str, bytes],
+    estimate: SceneEstimate,
+    given: dict,
+    law: Law | str = "",
 ) -> bytes:
-    """The page of ``result``, a curve or a run in time. ``record``: what result.json holds; ``contents``: of the files
-    of the run, its pictures among them; ``estimate``: before it was solved; ``law``: of a curve, or why it has none."""
+    """Return the page of ``result``.
+
+    Parameters
+    ----------
+    record : what result.json holds
+    contents : content of the files of the run by name, its pictures among them
+    estimate : what was known before the solve
+    given : tables of the scene as the user wrote them
+    law : the formula of a curve, or why it has none; "" for what is no Stribeck curve
+    """
     scene = prepared.scene
-    curve = result if isinstance(result, CurveResult) else None
-    answer, *more = _of_run(result) if curve is None else _of_curve(scene, curve)
-    made = [*record["versions"].items(), ("seconds", f"{record['seconds']:.3g}"), ("solver", result.report.message)]
-    page = Template((files(__package__) / "report.html").read_text(encoding="utf-8")).substitute(
-        name=escape(scene.name),
-        date=escape(record["date"]),
-        version=escape(record["versions"]["lubfric"]),
-        question=escape(_question(scene)),
-        answer=escape(answer),
-        more="".join(f"<p>{escape(text)}</p>" for text in more),
-        pictures="".join(_picture(contents[name], caption) for name, caption in CAPTIONS.items() if name in contents),
-        warnings=_list(result.validity, "Every assumption that is checked holds throughout.", "warning"),
-        results="" if curve is None else "".join(_points(curve)),
-        inputs="".join(_inputs(scene, section) for section in SECTIONS),
-        law=_law(law, curve),
-        lacks=_lacks(scene, curve, estimate),
-        solved=_list([text for name in ("transient", "contact", "model") for text in estimate.sections[name]]),
-        table=_rows(estimate.table[0], [_cells(row) for row in estimate.table[1:]]),
-        about_table=escape(TABLE_CAPTION),
-        map=escape("; ".join(estimate.sections["surface"])),
-        notes=_list(prepared.surface.notes),
-        sources=_list([] if curve is None else curve.cite().splitlines(), head="<h2>Sources</h2>"),
-        made=_rows((), [f"<th>{escape(name)}</th><td>{escape(value)}</td>" for name, value in made]),
+    parts = _curve_parts(scene, result, law) if isinstance(result, CurveResult) else _history_parts(result, estimate)
+    home = files(__package__)
+    page = Template((home / "report.html").read_text(encoding="utf-8")).substitute(
+        parts
+        | {
+            "name": escape(scene.name),
+            "style": (home / "report.css").read_text(encoding="utf-8"),
+            "subject": escape(_subject(scene)),
+            "date": escape(record["date"]),
+            "version": escape(record["versions"]["lubfric"]),
+            "curve": "".join(picture(contents[name], text) for name, text in CURVES.items() if name in contents),
+            "warnings": _warnings(result.validity),
+            "inputs": "".join(_inputs(scene, section, given.get(section, {})) for section in SECTIONS),
+            "pictures": "".join(picture(contents[name], text) for name, text in PICTURES.items() if name in contents)
+            or "<p>There is no contact or rough surface to show.</p>",
+            "method": _method(prepared, estimate),
+            "made": _made(record),
+        }
     )
     return page.encode()
 
 
-def _question(scene: Scene) -> str:
+def style_sheet() -> str:
+    """Return the style sheet that all reports share."""
+    return (files(__package__) / "report.css").read_text(encoding="utf-8")
+
+
+def _subject(scene: Scene) -> str:
     bodies = scene.bodies
     oil = scene.lubricant
-    motion = scene.motion
-    hot = "" if oil.temperature is None else f" at {oil.temperature - 273.15:.4g} °C"
+    warm = "" if oil.temperature is None else f" at {oil.temperature - 273.15:.4g} °C"
     return (
-        f"How large is the friction coefficient f of a line contact of reduced radius {worded(bodies.radius, 'm')} and "
-        f"length {worded(bodies.width, 'm')} under {worded(bodies.load, 'N')} (mean Hertz pressure "
-        f"{worded(bodies.mean_hertz_pressure, 'Pa')}), in an oil of {worded(oil.viscosity, 'Pa s')}{hot}, "
-        + (
-            "while motion or load change in time?"
-            if scene.transient
-            else f"at a slide-roll ratio of {motion.slide_roll_ratio:.4g}?"
-        )
+        f"Line contact of reduced radius {worded(bodies.radius, 'm')} and length {worded(bodies.width, 'm')} under "
+        f"{worded(bodies.load, 'N')}, in an oil of {worded(oil.viscosity, 'Pa s')}{warm}"
     )
 
 
-def _of_curve(scene: Scene, curve: CurveResult) -> list[str]:
-    """The answer of a curve: at its point nearest to the scene's own, and over all."""
+# curves
+
+
+def _curve_parts(scene: Scene, curve: CurveResult, law: Law | str) -> dict[str, str]:
+    """Return the parts of the page that a curve fills."""
+    nearest = _nearest(scene, curve)
+    failed = bool(curve.errors)
+    point = None if nearest is None else nearest[0]
+    answer = ["No point of the curve has an answer."] if nearest is None else _curve_answer(curve, *nearest)
+    effects = () if point is None else point.unmodelled_effects
+    return {
+        "kind": "failed" if failed else "",
+        "status": escape(curve_status(curve)),
+        "answer": _paragraphs(answer),
+        "budget": "" if nearest is None else _budget(*nearest),
+        "table": _operating_table(curve),
+        "effects": _effects(effects, "" if nearest is None else nearest[1]),
+        "details": _details(curve) + _law(law, curve),
+        "sources": _list(curve.cite().splitlines()),
+    }
+
+
+def curve_status(curve: CurveResult) -> str:
+    """Return in a sentence whether all points of ``curve`` were solved; the first failure with its message."""
     plural = curve.SWEPT[3]
+    total = len(curve.points)
+    solved = total - len(curve.errors)
+    if not curve.errors:
+        return "Converged: the point is solved." if total == 1 else f"Converged: all {total} {plural} are solved."
+    first = min(curve.errors)
+    return f"Not complete: {solved} of {counted(total, plural)} solved. First failure {_place(curve, first)}: " + str(
+        curve.errors[first]
+    )
+
+
+def _curve_answer(curve: CurveResult, point: FrictionResult, place: str) -> list[str]:
+    """Return the answer of a curve in sentences: at the point nearest to the scene's own, and over all."""
+    low, high = point.uncertainty.interval
+    unknown = "" if not math.isnan(point.uncertainty.model) else " The model-form error is not known and not included."
+    sentences = [f"f = {with_interval(point.coefficient, low, high)} {place}.{unknown}"]
+    low, high = point.power_loss_interval
+    unit = unit_for([point.power_loss], "W")
+    loss = with_interval(*(converted(value, "W", unit) for value in (point.power_loss, low, high)))
+    sentences.append(f"Power loss {loss.replace(' (', f' {unit} (', 1) if '(' in loss else f'{loss} {unit}'}.")
+    if math.isfinite(point.lambda_ratio):
+        sentences[-1] += (
+            f" The full-load film is {worded(point.full_load_film, 'm')} thick, a lambda ratio of "
+            f"{point.lambda_ratio:.3g}."
+        )
+    share = point.contact_load / (point.contact_load + point.film_load)
+    if point.decision.model == "deterministic":
+        sentences.append(
+            f"{100 * share:.3g} % of the load rubs at boundary friction (gaps below the boundary film, and film at its "
+            f"limiting stress); the mean separation of the surfaces is {worded(point.mean_gap, 'm')}."
+        )
+    else:
+        sentences.append(
+            f"The asperities carry {100 * share:.3g} % of the load; the mean separation of the surfaces is "
+            f"{worded(point.mean_gap, 'm')}."
+        )
     f = curve["coefficient"]
     solved = np.flatnonzero(np.isfinite(f))
-    if (nearest := _nearest(scene, curve)) is None:
-        return [f"0 of {counted(f.size, plural)} have an answer."]
-    known, place = nearest
-    low, high = known.uncertainty.interval
-    model = f"; {UNKNOWN}" if np.isnan(known.uncertainty.model) else ", model included"
-    within = f", between {low:.3g} and {high:.3g} (95 %{model})" if np.isfinite(low) else ", with an error not known"
-    told = [f"f = {known.coefficient:.3g}{within}, {place}."]
-    if np.isfinite(known.central_film):
-        share = known.contact_load / (known.contact_load + known.film_load)
-        film = f"the film is {known.in_unit('central_film', 'nm'):.3g} nm thick in the middle"
-        told.append(f"There {100 * share:.3g} % of the load is on spots in contact, and {film}.")
-    if f.size > 1:
+    if solved.size > 1:
         least = _place(curve, solved[f[solved].argmin()])
-        ends = f"{f[solved].min():.4g} to {f[solved].max():.4g}, and least {least}"
-        told.append(f"{solved.size} of {f.size} {plural} have an answer. f is {ends}.")
-    return told + _lift_off(curve)
+        largest = _place(curve, solved[f[solved].argmax()])
+        ends = f"from {f[solved].min():.3g} {least} to {f[solved].max():.3g} {largest}"
+        sentences.append(f"Over the {counted(solved.size, curve.SWEPT[3])} solved, f goes {ends}.")
+    return [*sentences, *_lift_off(curve)]
 
 
 def _lift_off(curve: CurveResult) -> list[str]:
-    """Where the contact of a curve over the speed ends, if its points tell."""
+    """Return the lift-off speed of a curve over the speed in sentences; none if its points do not determine it."""
     if not isinstance(curve, StribeckResult):
         return []
     try:
-        at = curve.lift_off
-        (low, high) = curve.lift_off_range
+        speed = curve.lift_off
+        low, high = curve.lift_off_range
         least = curve.least
-    except InputError:  # too few of them, or in both directions
+    except InputError:  # too few points, or in both directions
         return []
-    if at is None:
-        touching = "all" if np.nanmax(curve.contact_load[curve.speed != 0]) > 0 else "none"
-        return [f"Lift-off is not between the speeds solved: in motion the surfaces touch at {touching} of them."]
-    known = f", and least at U = {least[0]:.3g} m/s: {least[1]:.3g}" if curve.between <= KNOWN else ""
+    if speed is None:
+        touching = np.nanmax(curve.contact_load[curve.speed != 0]) > 0
+        where = "above" if touching else "below"
+        return [f"The lift-off speed is {where} the speeds solved."]
+    known = f", and its minimum is {least[1]:.3g} at U = {least[0]:.3g} m/s" if curve.between <= KNOWN else ""
     return [
-        f"Between the speeds f is known within {100 * curve.between:.2g} %{known}.",
-        f"The film lifts the surfaces off each other at U = {at:.4g} m/s, {low:.4g} to {high:.4g} m/s by the "
-        "interpolation between the speeds. Summits higher than those that were solved touch beyond it.",
+        f"The lift-off speed, above which the film separates the surfaces, is {with_interval(speed, low, high, '')} "
+        f"m/s. Between the solved speeds f is interpolated within {100 * curve.between:.2g} %{known}."
     ]
 
 
-def _law(law: Law | str, curve: CurveResult | None) -> str:
-    """The section on the formula of a curve, or on why it has none; "" of what is no curve over the speed."""
+def _budget(point: FrictionResult, place: str) -> str:
+    """Return the uncertainty budget of ``point`` as bars of its parts, relative to f."""
+    known = point.uncertainty
+    values = {name: getattr(known, name) for name in BUDGET}
+    longest = max([value for value in values.values() if math.isfinite(value)], default=0.0) or 1.0
+    rows = "".join(
+        f'<span>{label}</span><span><i style="width:{100 * min(values[name] / longest, 1.0):.1f}%"></i></span>'
+        f"<span>{escape(percent(values[name]))}</span>"
+        if math.isfinite(values[name])
+        else f"<span>{label}</span><span></span><span>not known</span>"
+        for name, label in BUDGET.items()
+    )
+    notes = _list([sentence(note) for note in known.notes])
+    return (
+        f"<h2>Uncertainty budget</h2><p>Relative errors of f {escape(place)}; sampling is one standard error, the others "
+        f'are at 95 %.</p><div class="budget">{rows}</div>{notes}'
+    )
+
+
+def _operating_table(curve: CurveResult) -> str:
+    """Return the table of all points: what was swept, f with its interval, and the numbers of the point."""
+    swept = curve.SWEPT[0]
+    names = (swept, *OF_POINT)
+    values = {swept: getattr(curve, swept)} | {name: curve[name] for name in OF_POINT}
+    units = {name: unit_for(values[name].tolist(), COLUMNS[name].unit) for name in names}
+    shown = {name: converted(values[name], COLUMNS[name].unit, units[name]) for name in names}
+    heads = [_heading(swept, units[swept]), "f", "95 % interval of f", *(_heading(n, units[n]) for n in OF_POINT)]
+    heads.append("asperity load ratio F_C/F_T")
+    rows = []
+    for index, point in enumerate(curve.points):
+        at = f"{shown[swept][index]:.4g}"
+        if point is None:
+            why = escape(str(curve.errors[index]))
+            rows.append(f'{_cells([at])}<td colspan="{len(heads) - 1}" class="warning">{why}</td>')
+            continue
+        low, high = point.uncertainty.interval
+        f, _, interval = with_interval(point.coefficient, low, high).partition(" (")
+        ratio = point.contact_load / (point.contact_load + point.film_load)
+        numbers = [_number(shown[name][index]) for name in OF_POINT]
+        rows.append(_cells([at, f, interval.removesuffix(" at 95 %)") or "not known", *numbers, f"{ratio:.3g}"]))
+    return f"<h2>Operating points</h2>{table(heads, rows)}"
+
+
+def _heading(name: str, unit: str) -> str:
+    column = COLUMNS[name]
+    return " ".join(filter(None, (column.label, column.symbol, f"[{printed(unit)}]" if printed(unit) else "")))
+
+
+def _number(value: float) -> str:
+    return (f"{value:.4g}" if abs(value) >= 1000 else f"{value:.3g}") if math.isfinite(value) else "-"
+
+
+def _details(curve: CurveResult) -> str:
+    """Return the uncertainty budget of every point and the model that solved it, folded."""
+    swept = curve.SWEPT[0]
+    unit = unit_for(getattr(curve, swept).tolist(), COLUMNS[swept].unit)
+    rows = []
+    for value, point in zip(converted(getattr(curve, swept), COLUMNS[swept].unit, unit), curve.points):
+        if point is not None:
+            parts = [percent(getattr(point.uncertainty, name)) for name in BUDGET]
+            forces = [point.contact_load, point.film_load, point.boundary_force, point.shear_force]
+            lengths = [converted(getattr(point, name), "m", "nm") for name in ("mean_gap", "central_film", "min_film")]
+            numbers = [_number(number) for number in (*forces, *lengths)]
+            rows.append(_cells([f"{value:.4g}", *parts, *numbers, point.decision.model]))
+    heads = [
+        _heading(swept, unit),
+        *(label.partition(" (")[0] for label in BUDGET.values()),
+        "asperity load F_C [N]",
+        "film load F_H [N]",
+        "boundary force [N]",
+        "shear force of the film [N]",
+        "mean separation [nm]",
+        "central separation [nm]",
+        "smallest film [nm]",
+        "model",
+    ]
+    return f"<details><summary>Details of every point</summary>{table(heads, rows)}</details>" if rows else ""
+
+
+def _law(law: Law | str, curve: CurveResult) -> str:
+    """Return the formula of a curve over the speed, or why it has none, folded; "" for any other curve."""
+    if not law:
+        return ""
     if isinstance(law, Law) and isinstance(curve, StribeckResult):
         off, within = (f"{100 * error:.2g} %" for error in (law.largest, curve.between))
         fastest = law.ranges["speed"][1]
-        said = (
-            f"<p>For simulations of a machine, also as law.json and, in C, law.c. It is off by at most {off} from the "
-            f"curve through the solved points, which is known within {within} between them. To check what you make of "
-            f"it: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
+        text = (
+            "<p>The formula serves simulations of a machine; law.json and, in C, law.c hold it too. It deviates by at "
+            f"most {off} from the curve through the solved points, which is known within {within} between them. Check "
+            f"value: f = {law(fastest):.4g} at U = {fastest:.4g} m/s.</p><pre>{escape(law.text)}</pre>"
         )
     else:
-        said = f"<p>None was fitted: {escape(str(law))}.</p>"
-    return f"<h2>The curve as a formula</h2>{said}" if law else ""
-
-
-def _lacks(scene: Scene, curve: CurveResult | None, estimate: SceneEstimate) -> str:
-    """What is left out, and by how much f would change by it; of a curve at its point nearest to the scene's own."""
-    if curve is None or (nearest := _nearest(scene, curve)) is None:
-        return _list(estimate.sections["left out"])
-    point, place = nearest
-    lacks = map(effect_in_words, point.unmodelled_effects)
-    head = f"<p>Likely changes of f {escape(place)}, by closed forms:</p>"
-    return _list([*lacks], "Nothing that would change f by its tolerance.", head=head)
+        text = f"<p>{escape(sentence(f'no formula was fitted: {law}'))}</p>"
+    return f"<details><summary>The curve as a formula</summary>{text}</details>"
 
 
 def _nearest(scene: Scene, curve: CurveResult) -> tuple[FrictionResult, str] | None:
-    """The solved point nearest to the scene's own, and its place in words; None if no point has an answer."""
+    """Return the solved point nearest to the scene's own, and its place in words; None if no point has an answer."""
     name = curve.SWEPT[0]
     own = scene.motion.entrainment_speed if name == "speed" else scene.motion.slide_roll_ratio
     away = np.where(np.isfinite(curve["coefficient"]), np.abs(getattr(curve, name) - own), np.inf)
     index = int(away.argmin())
-    return None if (point := curve.points[index]) is None else (point, _place(curve, index))
+    point = curve.points[index]
+    return None if point is None else (point, _place(curve, index))
 
 
 def _place(curve: CurveResult, index: int) -> str:
@@ -169,88 +302,156 @@ def _place(curve: CurveResult, index: int) -> str:
     return f"at {symbol} = {getattr(curve, name)[index]:.4g} {unit.removesuffix('(slide-roll ratio)')}".rstrip()
 
 
-def _of_run(result) -> list[str]:
-    """The answer of a run in time."""
+# runs in time
+
+
+def _history_parts(result: TransientResult, estimate: SceneEstimate) -> dict[str, str]:
+    """Return the parts of the page that a run in time fills."""
+    complete = result.status.startswith("Converged")
+    return {
+        "kind": "" if complete else "failed",
+        "status": escape(result.status),
+        "answer": _paragraphs(_history_answer(result, complete)),
+        "budget": "",
+        "table": "",
+        "effects": _effects(estimate.effects, "at the largest speed"),
+        "details": "",
+        "sources": "",
+    }
+
+
+def _history_answer(result: TransientResult, complete: bool) -> list[str]:
+    """Return the answer of a run in time in sentences; of one that is not ``complete`` what its outputs show."""
     if result.time.size < 2:
         return ["The run has no answer."]
     mean = result.average()
     f = result.coefficient
-    error = 100 * mean.sampling
-    film = worded(float(result.min_film.min()), "m")
     peak = int(np.abs(f).argmax())
     low, high = result.uncertainty.interval[peak]
-    when = "the" if mean.in_motion == 1 else f"the {100 * mean.in_motion:.3g} % in motion of the"
-    ends = f" ({low:.3g} to {high:.3g} with the range of f_b)" if np.any(result.inputs) else ""
-    return [
-        f"f is {mean.coefficient:.4g} on average over {when} {result.time[-1]:.4g} s.",
-        f"Its standard error is {error:.2g} %, as the surface is finite; {UNKNOWN}.",
-        f"f is at most {f[peak]:.4g}{ends}; the film is at least {film}.",
-    ]
+    span = worded(float(result.time[-1]), "s")
+    when = f"over {span}" if mean.in_motion == 1 else f"over the {100 * mean.in_motion:.3g} % in motion of {span}"
+    head = "" if complete else "The run has no valid answer. Its outputs so far show: "
+    film = worded(float(np.nanmin(result.min_film)), "m")
+    sentences = [f"{head}the mean friction coefficient {when} is {mean.coefficient:.3g}."]
+    sentences[0] = sentence(sentences[0])
+    range_ = with_interval(float(f[peak]), low, high)
+    sentences.append(f"The largest f is {range_}, at t = {worded(float(result.time[peak]), 's')}.")
+    power = result.power_loss
+    if np.isfinite(power).any():
+        sentences.append(f"The largest power loss is {worded(float(np.nanmax(power)), 'W')}.")
+    sentences.append(f"The smallest film is {film}.")
+    sentences.append(
+        f"Sampling error of the mean (one standard error): {percent(mean.sampling)}. The model-form error of a run in "
+        "time is not known and not included."
+    )
+    return sentences
 
 
-def _points(curve: CurveResult) -> list[str]:
-    """The tables of all points: their numbers, one unit for all of a kind; and the errors of f. Then what there is to
-    know about these, once for all points alike."""
-    name = curve.SWEPT[0]
-    found = {name: getattr(curve, name)} | {n: curve[n] for n in OF_POINT}
-    kinds = {n: COLUMNS[n].unit for n in (name, *OF_POINT)}
-    units = {si: unit_for([v for n in kinds if kinds[n] == si for v in found[n].tolist()], si) for si in kinds.values()}
-    heads = [
-        f"{COLUMNS[n].label} {COLUMNS[n].symbol}" + (f" ({printed(units[si])})" if printed(units[si]) else "")
-        for n, si in kinds.items()
+# parts that all pages share
+
+
+def _effects(effects: Sequence[UnmodelledEffect], place: str) -> str:
+    """Return the table of the effects that are not modelled."""
+    if not effects:
+        return "<p>No known effect that is not modelled would change f by more than its tolerance.</p>"
+    rows = [
+        f"<td>{escape(sentence(what))}</td>"
+        f'<td class="number">{"not estimated" if math.isnan(change) else f"{100 * change:+.2g} %"}</td>'
+        f"<td>{escape(sentence(advice))}</td>"
+        for what, change, advice in effects
     ]
-    columns = [converted(found[n], si, units[si]) for n, si in kinds.items()]
-    numbers = []
-    errors = []
-    notes: dict[str, list[str]] = {}
-    for i, point in enumerate(curve.points):
-        if point is None:
-            why = f'<td colspan="{len(OF_POINT) + 1}" class="warning">{escape(str(curve.errors[i]))}</td>'
-            numbers.append(_cells([f"{columns[0][i]:.4g}"]) + why)
-            continue
-        cells = [f"{values[i]:.4g}" for values in columns]
-        low, high = point.uncertainty.interval
-        cells.insert(2, f"{low:.3g} to {high:.3g}" if np.isfinite(low) else "not known")
-        numbers.append(_cells(cells))
-        of = [percent(getattr(point.uncertainty, part)) for part in ("numerical", "sampling", "model", "inputs")]
-        errors.append(_cells([f"{found[name][i]:.4g}", *of, point.decision.model]))
-        for note in (*point.uncertainty.notes, *point.decision.notes):
-            notes.setdefault(note, []).append(f"{found[name][i]:.4g}")
-    heads.insert(2, "interval of f, 95 %")
-    head = heads[0], "numerical", "surface (standard error)", "model (95 %)", "inputs", "solved by"
-    at = f"at {COLUMNS[name].symbol} ="
-    unit = printed(units[kinds[name]])
-    told = [f"{note} ({at} {', '.join(places)} {unit}".rstrip() + ")" for note, places in notes.items()]
-    return ["<h2>Results</h2>", _rows(heads, numbers), "<h2>Errors of f</h2>", _rows(head, errors), _list(told)]
+    head = f"<p>Likely changes of f {escape(place)}, estimated by closed forms.</p>"
+    return head + table(["effect", "change of f", "recommendation"], rows)
+
+
+def _warnings(validity: Iterable[str]) -> str:
+    texts = [sentence(text.removeprefix("warning: ").replace(": warning: ", ": ", 1)) for text in validity]
+    return _list(texts, "Every assumption that is checked holds.", "warning")
+
+
+def _inputs(scene: Scene, section: str, given: dict) -> str:
+    """Return the inputs of a section: each value used, how it was given, and what follows from them."""
+    shown = dict(given)
+    rows = []
+    for label, text, key, note in inputs(scene, section):
+        name = key.partition(".")[2]
+        source = _given(name, shown.pop(name)) if name in shown else "derived" if _short(section, given) else "default"
+        cells = f'<td>{escape(label)}</td><td>{escape(text)}{escape(note)}</td><td class="key">{escape(source)}</td>'
+        rows.append(cells)
+    for name, value in shown.items():
+        label = name.replace("_", " ")
+        rows.append(f'<td>{escape(label)}</td><td></td><td class="key">{escape(_given(name, value))}</td>')
+    facts = _list([sentence(text) for text in FACTS[section](scene)]) if section in FACTS else ""
+    heads = ["quantity", "value used", "given as"]
+    return (f"<h3>{section}</h3>{table(heads, rows)}" if rows else "") + facts
+
+
+def _short(section: str, given: dict) -> bool:
+    return any(name in given for name in short_keys(section))
+
+
+def _given(name: str, value: Any) -> str:
+    text = f"{name} = {value!r}"
+    return text if len(text) <= MOST_GIVEN else f"{text[: MOST_GIVEN - 4]} ..."
+
+
+def _method(prepared: Prepared, estimate: SceneEstimate) -> str:
+    lines = [text for name in ("transient", "contact", "model") for text in estimate.sections[name]]
+    surface = [*estimate.sections["surface"], *prepared.surface.notes]
+    heads = estimate.table[0]
+    rows = [_cells(row) for row in estimate.table[1:]]
+    return (
+        _list([sentence(line) for line in lines])
+        + _list([sentence(line) for line in surface])
+        + f"<details><summary>Estimate before the solve</summary><p>{escape(sentence(TABLE_CAPTION))}</p>"
+        + table(heads, rows)
+        + "</details>"
+    )
+
+
+def _made(record: dict) -> str:
+    """Return versions, the hash of the scene, and the time of the run."""
+    rows = [
+        *record["versions"].items(),
+        ("scene", record["hash"]),
+        ("seed of the surface", record["seed"]),
+        ("wall-clock time of the run", f"{record['seconds']:.3g} s"),
+        ("solver", record["report"]["solver"]),
+    ]
+    lines = [f'<td>{escape(name)}</td><td class="key">{escape(str(value))}</td>' for name, value in rows]
+    told = (
+        "<p>resolved.toml holds the scene with all defaults; lubfric run resolved.toml computes the same numbers.</p>"
+    )
+    return told + table(("", ""), lines)
+
+
+def picture(content: bytes, caption: str) -> str:
+    """Return a figure with the PNG ``content`` and its ``caption``."""
+    data = base64.b64encode(content).decode()
+    text = escape(caption)
+    return f'<figure><img alt="{text}" src="data:image/png;base64,{data}"><figcaption>{text}</figcaption></figure>'
+
+
+def table(heads: Iterable[str], rows: Sequence[str]) -> str:
+    """Return a table that scrolls by itself where it is wider than the page."""
+    head = "".join(f"<th>{escape(text)}</th>" for text in heads)
+    head = f"<thead><tr>{head}</tr></thead>" if any(heads) else ""
+    body = "".join(f"<tr>{row}</tr>" for row in rows)
+    return f'<div class="scroll"><table>{head}<tbody>{body}</tbody></table></div>'
 
 
 def _cells(texts: Iterable[str]) -> str:
-    return "".join(f'<td class="number">{text}</td>' for text in texts)
+    return "".join(f'<td class="number">{escape(text)}</td>' for text in texts)
 
 
-def _rows(heads, rows: list[str]) -> str:
-    head = "".join(f"<th>{escape(text)}</th>" for text in heads)
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(f'<tr>{row}</tr>' for row in rows)}</tbody></table>"
+def _paragraphs(sentences: Iterable[str]) -> str:
+    """Return the first sentence as the answer, the others as a paragraph."""
+    first, *others = [escape(text) for text in sentences] or [""]
+    more = f"<p>{' '.join(others)}</p>" if others else ""
+    return f'<p class="answer">{first}</p>{more}' if first else ""
 
 
-def _inputs(scene: Scene, section: str) -> str:
-    """The inputs of a section as a table, and what follows from them."""
-    rows = [
-        f"<td>{escape(label)}</td><td>{escape(text).replace(' ', '&nbsp;')}</td>"
-        f'<td class="key">{escape(key + note)}</td>'
-        for label, text, key, note in inputs(scene, section)
-    ]
-    more = _list(FACTS[section](scene)) if section in FACTS else ""
-    return (_rows((section, "", ""), rows) if rows else "") + more
-
-
-def _picture(content: bytes, caption: str) -> str:
-    data = base64.b64encode(content).decode()
-    said = escape(caption)
-    return f'<figure><img alt="{said}" src="data:image/png;base64,{data}"><figcaption>{said}</figcaption></figure>'
-
-
-def _list(lines, otherwise: str = "", kind: str = "", head: str = "") -> str:
+def _list(lines: Sequence[str], otherwise: str = "", kind: str = "") -> str:
     if not lines:
         return f"<p>{escape(otherwise)}</p>" if otherwise else ""
-    return f'{head}<ul class="{kind}">{"".join(f"<li>{escape(line)}</li>" for line in lines)}</ul>'
+    return f'<ul class="{kind}">{"".join(f"<li>{escape(line)}</li>" for line in lines)}</ul>'

@@ -19,7 +19,7 @@ from ..models.shared import (
 )
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
-from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, moves
+from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, moves
 from ..units import numbers_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import SceneEstimate
@@ -126,7 +126,8 @@ def _write(
     law = _law(curve)
     if isinstance(law, studies.Law):
         contents |= {"law.json": law.json.encode(), "law.c": law.c.encode()}
-    folder.complete(prepared, estimate, curve, units, law, _doubts(prepared.scene, curve), points=numbers)
+    given = given_tables(arguments.scene)
+    folder.complete(prepared, estimate, given, curve, units, law, _doubts(prepared.scene, curve), points=numbers)
 
 
 def _law(curve: studies.CurveResult) -> studies.Law | str:

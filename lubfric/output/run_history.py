@@ -4,7 +4,7 @@ from .._base import figures, table_bytes
 from ..errors import ConvergenceError, LubfricError, ValidityError
 from ..models.shared import in_a_cell
 from ..quantities import OF_MOMENT, heading
-from ..scene import Scene
+from ..scene import Scene, given_tables
 from ..time import TransientResult, transient
 from . import commands
 from .fields import npz_bytes
@@ -48,7 +48,7 @@ def run_history(scene: Scene, arguments) -> None:
             result = error.result
             failure = error
         _write(folder, scene, result, arguments.animation)
-        folder.complete(prepared, estimate, result, OF_MOMENT)
+        folder.complete(prepared, estimate, given_tables(arguments.scene), result, OF_MOMENT)
     if failure:
         raise failure
 

@@ -1,7 +1,6 @@
 """report.html of a study: status, answer, pictures, a table of its points, what was varied, inputs."""
 
 import base64
-import re
 import time
 from collections import Counter
 from html import escape
@@ -14,6 +13,7 @@ from .._base import __version__
 from ..quantities import COLUMNS, counted, worded_value
 from ..studies import StudyResult, columns_of_study
 from ..units import converted, printed, unit_for
+from .report import style_sheet
 
 # Rows of the table of a report; study.csv has all.
 MOST_ROWS = 60
@@ -37,12 +37,12 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     if result.failed:
         reasons = "; ".join(f"{count} x {reason}" for reason, count in failed.most_common(3))
         status = f"{result.failed} of {counted(result.solved, 'points')} failed: {reasons}"
-    told = Counter(entry for cell in result.validity.flat if cell for entry in cell.split("; "))
+    told = Counter(entry for cell in result.validity.flat if cell for entry in cell.split(" | "))
     warnings = [f"{entry} ({counted(count, 'points')})" for entry, count in told.most_common()]
     rows = min(MOST_ROWS, result.status.size)
     page = Template((files(__package__) / "study_report.html").read_text(encoding="utf-8")).substitute(
         name=escape(result.plan.scene.name),
-        style=_style(),
+        style=style_sheet(),
         date=time.strftime("%Y-%m-%d %H:%M:%S UTC", time.gmtime()),
         version=__version__,
         numpy=np.__version__,
@@ -60,13 +60,6 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         sources="",
     )
     return page.encode()
-
-
-def _style() -> str:
-    """The style sheet that all reports share, out of report.html."""
-    text = (files(__package__) / "report.html").read_text(encoding="utf-8")
-    style = re.search(r"<style>(.*?)</style>", text, re.DOTALL)
-    return style[1] if style else ""
 
 
 def _range(key: str, values: np.ndarray) -> str:

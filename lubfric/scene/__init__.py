@@ -1,7 +1,7 @@
 """What is asked: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
 from .bodies import FASTEST, FRICTION, FRICTION_OVER, LARGEST_RATIO, Bodies, ContactDomain, FrictionTable, Motion
-from .file import builtin_scenes, load_scene, read_toml, write_template
+from .file import builtin_scenes, given_tables, load_scene, read_toml, write_template
 from .history import Constant, Harmonic, History, Ramp, Table
 from .numerics import Numerics
 from .plausible import doubts, source_of, told_doubts, typical

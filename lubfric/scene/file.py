@@ -52,6 +52,11 @@ def load_scene(source, *, surface_file=None, counterface_file=None) -> Scene:
     return scene_from_table(table, folder, name)
 
 
+def given_tables(source) -> dict:
+    """Return the tables of a scene file, or of a built-in scene, as they are written; ``source`` as in `load_scene`."""
+    return dict(source) if isinstance(source, dict) else _read(source)[0]
+
+
 def read_toml(path, what: str) -> dict:
     """The tables of a TOML file; raises `InputError`, which says ``what`` it should be, where it cannot be read."""
     try:

@@ -54,7 +54,7 @@ def test_info_looks_at_what_is_solved():
         known = [entry.what for entry in lubfric.prepare(scene).known]
         assert ("few asperities" in describe_scene(scene)) == told == any("width of the map" in what for what in known)
     patch = small.with_(numerics={"sampling": "patch", "model": "auto"})
-    assert lubfric.friction(patch).decision.model == "deterministic" and "with one gap" in describe_scene(patch)
+    assert lubfric.friction(patch).decision.model == "deterministic" and "deterministic model" in describe_scene(patch)
     smaller = small.with_(contact={"shape": (64, 64)})  # too small to be generated, which it need not be
     assert lubfric.friction(smaller).coefficient > 0 and "strips of the roughness" in describe_scene(smaller)
 
@@ -89,10 +89,10 @@ def test_the_roller_of_the_examples_is_an_answer(root, tmp_path):
 
 def test_info_tells_of_rest_of_one_gap_and_of_one_patch():
     still = describe_scene(HEAVY.with_(motion={"entrainment_speed": 0.0, "speeds": [0.0, 1.0]}))
-    assert "no entrainment: all contact" in still
+    assert "no entrainment: all load" in still
     assert "semi-periodic contact on 128 x 64 cells" in describe_scene(HEAVY.with_(numerics={"sampling": "patch"}))
     one = HEAVY.with_(numerics={"model": "deterministic"})
-    assert "one gap and one pressure" in describe_scene(one.with_(motion={"slide_roll_ratio": 2.0}))
+    assert "the deterministic model" in describe_scene(one.with_(motion={"slide_roll_ratio": 2.0}))
 
 
 TRANSIENT = lubfric.load_scene("paper").with_(transient=lubfric.Transient(duration=1e-3))
@@ -129,7 +129,7 @@ SWINGING = lubfric.load_scene("paper").with_(
         ),
         (
             {"speed": Table(times=(0, 5e-3, 1e-2), values=(0.0, 0.2, 0.0), repeat=True), "duration": 0.01},
-            ("speed: table, 0 to 0.2 m/s, 1 periods", "top speed 0.2 m/s"),
+            ("speed: table, 0 to 0.2 m/s, 1 period", "top speed 0.2 m/s"),
         ),
         ({"load": Ramp(start=1.0, end=5.5, until=5e-3), "duration": 0.01, "speed": 0.1}, ("load: ramp, 1 to 5.5 N",)),
     ],
@@ -149,20 +149,22 @@ def test_info_of_a_run_in_time_is_one_story():
     """One sample for all times, no table of what single speeds would take, and what changes is told as changing."""
     plan = lubfric.Transient(0.02, outputs=10, speed=Harmonic(amplitude=0.05, frequency=100.0))
     told = describe_scene(lubfric.load_scene("paper").with_(transient=plan, motion={"slide_roll_ratio": 0.1}))
-    head = told.partition("U (m/s)")[2].partition("\n")[0]
+    head = told.partition("U [m/s]")[2].partition("\n")[0]
     assert "strips" not in head and "time (s)" not in head and "(below)" not in told and "alone" not in told
     assert "which changes in time: transient.speed" in told and told.count("of the roughness, ") == 1
-    assert "does not see that the roughness moves" in told
+    assert "moving roughness is treated as stationary" in told
     squeeze = describe_scene(SWINGING.with_(transient=lubfric.Transient(1e-3, speed=0.0, initial_film=2e-6)))
-    assert "no entrainment" in squeeze and "all contact" not in squeeze and "film of 2e-06 m" in squeeze
+    assert "no entrainment" in squeeze and "all load" not in squeeze and "film of 2 µm" in squeeze
 
 
 def test_info_takes_the_speeds_of_a_run(capsys, tmp_path):
     for speeds, rows in (("1 mm/s:1 m/s:4", 4), ("auto", 6)):
         assert main(["info", "paper", "--speeds", speeds]) == 0
         told = capsys.readouterr().out
-        assert all(word in told for word in ("half-width 4.496 µm", "102 MPa", "lambda", "on strips of the roughness"))
-        assert f"; {4 if rows == 4 else 12} speeds" in told and len(told.partition("U (m/s)")[2].splitlines()) > rows
+        assert all(
+            word in told for word in ("half-width 4.496 µm", "102 MPa", "lambda ratio", "on strips of the roughness")
+        )
+        assert f"; {4 if rows == 4 else 12} speeds" in told and len(told.partition("U [m/s]")[2].splitlines()) > rows
     (tmp_path / "scene.toml").write_text(TRANSIENT.to_toml())
     assert main(["info", str(tmp_path / "scene.toml"), "--speeds", "1"]) == 2
     assert "--speeds is for a curve" in capsys.readouterr().err
@@ -185,6 +187,6 @@ def test_info_of_a_model_that_takes_too_long_says_that_the_interval_is_wide():
         lubricant={"eyring_stress": 5e6},
     )
     text = describe_scene(moving)
-    assert "its interval is wide: the other model would take too long" in text
+    assert "with a wide interval: the deterministic model would take too long" in text
     found = lubfric.friction(moving.with_(numerics={"sampling_tolerance": 0.2})).uncertainty
     assert found.model > 0.2 and np.isfinite(found.interval).all()

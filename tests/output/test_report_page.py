@@ -5,8 +5,9 @@ import json
 import re
 import shutil
 import subprocess
-from html import unescape
+from html import escape, unescape
 
+import numpy as np
 import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
@@ -17,12 +18,14 @@ OPTIONS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-
 NAME = "<script>document.title = 'ran'</script> R&D"
 SCENE = f"name = {json.dumps(NAME)}\n" + BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\n"
 LOOK = """<script>window.onload = () => {
-  const images = [...document.images], wide = document.documentElement;
+  const page = document.querySelector("iframe").contentDocument, wide = page.documentElement;
+  const images = [...page.images], texts = name => [...page.querySelectorAll(name)].map(h => h.textContent);
   document.body.dataset.seen = JSON.stringify({
-    title: document.title, head: document.querySelector("h1").textContent,
+    title: page.title, head: texts("h1")[0], sections: texts("h2"), status: texts(".status")[0],
     drawn: images.every(i => i.complete && i.naturalWidth > 300), images: images.length,
-    beyond: wide.scrollWidth - wide.clientWidth, sections: [...document.querySelectorAll("h2")].map(h => h.textContent),
-    answer: document.querySelector(".answer").textContent})}</script></body>"""
+    beyond: wide.scrollWidth - wide.clientWidth, width: wide.clientWidth, answer: texts(".answer")[0],
+    folded: [...page.querySelectorAll("details")].map(d => d.open),
+    bars: [...page.querySelectorAll(".budget i")].map(i => i.style.width)})}</script></body>"""
 pytestmark = pytest.mark.skipif(BROWSER is None, reason="no browser")
 
 
@@ -39,26 +42,53 @@ def run(tmp_path_factory):
     return folder
 
 
-@pytest.mark.parametrize("width", [680, 1200])  # px, of A4 between its margins, and of a window
+@pytest.mark.parametrize("width", [375, 680, 1200])  # px, of a phone, of A4 between its margins, and of a window
 def test_it_opens_whole_and_runs_nothing(run, width):
-    page = (run / "out" / "report.html").read_text(encoding="utf-8").replace("</body>", LOOK)
-    (run / "look.html").write_text(page, encoding="utf-8")
-    shown = browse(run, f"--window-size={width},900", "--dump-dom", (run / "look.html").as_uri()).stdout
+    """In a frame of that width, because a window is at least 500 px wide."""
+    page = (run / "out" / "report.html").read_text(encoding="utf-8")
+    frame = f'<iframe srcdoc="{escape(page)}" style="width: {width}px; height: 9000px; border: 0"></iframe>'
+    (run / "look.html").write_text(f'<meta charset="utf-8"><body>{frame}{LOOK}', encoding="utf-8")
+    shown = browse(run, "--window-size=1300,900", "--dump-dom", (run / "look.html").as_uri()).stdout
     seen = json.loads(unescape(re.search(r'data-seen="(.*?)"', shown)[1]))
     assert seen["title"] == NAME and seen["head"].startswith(NAME)
-    assert seen["drawn"] and seen["images"] == 3 and seen["beyond"] <= 0
-    parts = "Question|Answer|Cautions|Left out|Results|Errors of f|The curve as a formula|How it was solved|Inputs"
-    assert seen["sections"] == [*parts.split("|"), "Sources", "Made by"]
-    point = json.loads((run / "out" / "result.json").read_text())["points"][1]
+    assert seen["drawn"] and seen["images"] == 3 and seen["width"] == width and seen["beyond"] <= 0
+    parts = (
+        "Answer|Uncertainty budget|Operating points|Warnings|Effects not modelled|Inputs|Pictures of the contact and"
+    )
+    parts += " the surface|Method and sources|Reproducibility"
+    assert seen["sections"] == parts.split("|")
+    assert seen["status"] == "Converged: all 3 speeds are solved."
+    assert 'name="viewport"' in page and len(seen["folded"]) >= 2 and not any(seen["folded"])
+    record = json.loads((run / "out" / "result.json").read_text())
+    point = record["points"][1]
     low, high = point["uncertainty"]["interval"]
-    told = f"f = {point['coefficient']:.3g}, between {low:.3g} and {high:.3g} (95 %, model included), at U = 0.3 m/s."
-    assert seen["answer"] == told
+    numbers = map(float, re.findall(r"\d+\.\d+", seen["answer"])[:3])
+    for number, exact in zip(numbers, (point["coefficient"], low, high)):
+        assert number == pytest.approx(exact, abs=0.06 * (high - low))
+    assert seen["answer"].endswith(" at 95 %) at U = 0.3 m/s.") and record["hash"] in page
+    bars = [float(bar.removesuffix("%")) for bar in seen["bars"]]
+    errors = [point["uncertainty"][name] for name in ("numerical", "sampling", "model", "inputs")]
+    np.testing.assert_allclose(bars, [100 * error / max(errors) for error in errors], atol=0.06)
+
+
+def test_inputs_stand_as_they_were_given_beside_the_values_used(tmp_path):
+    scene = SCENE.replace("radius = 2e-3", 'radii = ["4 mm", "4 mm"]')
+    (tmp_path / "s.toml").write_text(scene + SMALL_PATCH.replace("sq = 1e-7", 'ra = "80 nm"') + "sampling = 'patch'\n")
+    assert main(["run", str(tmp_path / "s.toml"), "--speeds", "0.3", "--out", str(tmp_path / "out")]) == 0
+    page = unescape((tmp_path / "out" / "report.html").read_text(encoding="utf-8"))
+    row = re.search(r"<tr>(?:(?!</tr>).)*root mean square roughness.*?</tr>", page)[0]
+    assert (
+        "radii = [.4 mm., .4 mm.]" in page.replace(chr(39), ".")
+        and "100.3 nm" in row
+        and "derived" in row
+        and "ra = '80 nm'" in page
+    )
 
 
 def test_it_prints_on_some_sheets(run):
     browse(run, "--no-pdf-header-footer", f"--print-to-pdf={run / 'out.pdf'}", (run / "out" / "report.html").as_uri())
     content = (run / "out.pdf").read_bytes()
-    assert content.startswith(b"%PDF") and 3 <= len(re.findall(rb"/Type /Page\b", content)) <= 8
+    assert content.startswith(b"%PDF") and 2 <= len(re.findall(rb"/Type /Page\b", content)) <= 8
     boxes = {tuple(map(float, box.split())) for box in re.findall(rb"/MediaBox \[([^]]*)\]", content)}
     assert all(box[2:] == pytest.approx((595, 842), abs=1.5) for box in boxes)  # points: A4, upright
 

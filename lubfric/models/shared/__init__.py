@@ -50,4 +50,4 @@ from .statistics import (
     too_few,
 )
 from .unmodelled import UnmodelledEffect, effect_in_words, unmodelled_effects
-from .validity import Validity, entries_of, gathered, in_a_cell, refused
+from .validity import Validity, entries_of, gathered, in_a_cell, refused, sentence

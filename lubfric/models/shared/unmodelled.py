@@ -50,10 +50,18 @@ def unmodelled_effects(
     found = [] if speed == 0 or not friction > 0 else _of_film(scene, sq, speed, known)
     told = any("boundary_friction" in name for name, *_ in scene.ranges) or bodies.boundary_friction_table is not None
     if friction > 0 and not told:
-        what = f"another additive, a coating, a film rubbed in: f_b x {RUBBED:g}"
-        found.append((what, (RUBBED - 1) * rubbing / friction, "give boundary_friction_coefficient = [low, high]"))
+        what = f"another additive, a coating or a tribofilm (f_b x {RUBBED:g})"
+        found.append(
+            (what, (RUBBED - 1) * rubbing / friction, "give bodies.boundary_friction_coefficient = [low, high]")
+        )
     ends = 2 * bodies.half_width / bodies.width
-    found.append(("the ends of the line, its edges, and misalignment", ends, "that much of it lies next to an end"))
+    found.append(
+        (
+            "the ends of the line, edge pressure and misalignment",
+            ends,
+            "this part of the line is next to an end; use a three-dimensional contact model for it",
+        )
+    )
     tolerance = scene.numerics.tolerance
     kept = [lack for lack in found if not abs(lack[1]) <= tolerance]
     return tuple(sorted(kept, key=lambda lack: -abs(lack[1]) if math.isfinite(lack[1]) else 0.0))
@@ -79,19 +87,23 @@ def _of_film(scene: Scene, sq: float, speed: float, known) -> list[UnmodelledEff
 
     found: list[UnmodelledEffect] = []
     if lubricant.floods:
-        told = f"flooded from {1e3 * reach:.2g} mm before the line on; if less, give lubricant.inlet_length"
+        told = f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if not, give lubricant.inlet_length"
         size = math.nan if narrow and alone else change(scene, sq, STARVED)  # the rolling part may fall by more
-        found.append((f"an inlet that starves: film x {STARVED:g}", size, told))
-    told = f"an inlet {WARMER:g} K warmer than the lubricant is given"
-    found.append((told, change(warm, sq), "give lubricant.temperature as it is next to the contact"))
+        found.append((f"a starved inlet (film x {STARVED:g})", size, told))
+    told = f"oil in the inlet {WARMER:g} K warmer than the given temperature"
+    found.append((told, change(warm, sq), "give lubricant.temperature as it is at the inlet of the contact"))
     if sq > 0:
-        told = f"a surface that has run in: Sq x {WORN:g}"
-        found.append((told, change(scene, WORN * sq), "give a map after running in, or use lubfric.run_in"))
+        told = f"running-in of the surface (Sq x {WORN:g})"
+        found.append(
+            (told, change(scene, WORN * sq), "give a height map measured after running-in, or use lubfric.run_in")
+        )
         at_rest = scene.numerics.model == "load-sharing" and moves(scene)  # the other model moves it
         if at_rest and line.expected_film < THICK * sq:
-            found.append(("roughness that moves through the contact", math.nan, "it is taken as if it stood still"))
+            found.append(
+                ("motion of the roughness through the contact", math.nan, "numerics.model = 'deterministic' models it")
+            )
     if scene.bodies.e_prime < SOFT:
-        told = f"a cover thinner than {1e3 * DEEP * line.half_width:.2g} mm, and its damping"
+        told = f"a cover that is thinner than {1e3 * DEEP * line.half_width:.2g} mm, and its damping"
         found.append((told, math.nan, "give e_prime so that the contact is as wide as measured"))
     return found
 
@@ -137,7 +149,7 @@ def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[fl
 
 
 def effect_in_words(lack: UnmodelledEffect) -> str:
-    """One line; the change to two digits, all of 100 % and more."""
+    """Return the effect in one line: what it is, the change of f to two digits, what to do."""
     what, change, remedy = lack
     digits = ".0f" if abs(change) >= 0.095 else ".2g"
     return f"{what}: f {'not estimated' if math.isnan(change) else f'{100 * change:+{digits}} %'}; {remedy}"
