@@ -80,6 +80,7 @@ STUDIES: tuple[Study, ...] = (
     study("friction", "The whole job of lubfric: grid, patch, area, tolerance"),
     study("load_sharing", "Load sharing, both halves by finite elements"),
     study("deterministic", "One gap, one pressure: limits, and the film in the same gap by finite elements"),
+    study("starved", "A smooth film whose inlet starves by finite elements"),
     study("rough_strip", "A rough strip with one gap and one pressure by finite elements, at rest and moving"),
     study("sharing_cases", "Load sharing by finite elements: other oils, sliding, yielding, flat, a measured map"),
     DRY,
@@ -92,6 +93,7 @@ STUDIES: tuple[Study, ...] = (
     wiring("maps", "height maps"),
     wiring("time", "motion in time"),
     study("transient", "Smooth contact in time: squeeze, stops, jumps"),
+    study("sharing_in_time", "Load sharing in time, both halves by finite elements"),
     study("transient_mixed", "Load sharing in time", ("default", "full")),
     Study(
         "mutants",

@@ -17,6 +17,7 @@ AT_MOST = "at_most"
 AT_LEAST = "at_least"
 REPORTED = "reported"
 KINDS = (RELATIVE, ABSOLUTE, AT_MOST, AT_LEAST, REPORTED)
+CAUSES = ("ours", "theirs", "both", "unknown")
 GRADES = {
     "A": "a number or law from outside",
     "B": "structure: conservation, symmetry, limits, order of convergence",
@@ -45,6 +46,7 @@ class Check:
     at : where it was measured (axes of a map, setting and cost of a method, seed of a scene), by name
     grade : what the expected value is worth, one of `GRADES`; "": that of its study
     errors : beside a publication, what is left open of the measured and of the published value, in ``unit``
+    cause : beside a publication, whose deviation it is where both differ by more than the errors, one of `CAUSES`
 
     Raises
     ------
@@ -66,6 +68,7 @@ class Check:
     at: Mapping[str, Any] = field(default_factory=dict)
     grade: str = ""
     errors: Sequence[float] = ()
+    cause: str = ""
 
     def __post_init__(self):
         for key in ("measured", "expected", "tolerance"):
@@ -75,6 +78,8 @@ class Check:
             wrong = f"kind = {self.kind!r}; allowed: {', '.join(KINDS)}"
         elif self.grade and self.grade not in GRADES:
             wrong = f"grade = {self.grade!r}; allowed: {', '.join(GRADES)}"
+        elif self.cause and self.cause not in CAUSES:
+            wrong = f"cause = {self.cause!r}; allowed: {', '.join(CAUSES)}"
         elif not self.name.strip() or not self.source.strip():
             wrong = "a name and a source are needed"
         elif not (math.isfinite(self.expected) and math.isfinite(self.tolerance) and self.tolerance >= 0):
@@ -194,12 +199,19 @@ def compared(label: str, rows: Iterable[tuple], source: str, note: str = "") -> 
 
 
 def beside(
-    name: str, ours: float, theirs: float, errors: tuple[float, float], source: str, unit: str = "1", note: str = ""
+    name: str,
+    ours: float,
+    theirs: float,
+    errors: tuple[float, float],
+    source: str,
+    unit: str = "1",
+    note: str = "",
+    cause: str = "",
 ) -> Check:
     """Our value beside a published one. It passes when they differ by no more than both ``errors`` (ours, theirs; 95 %
     bounds in ``unit``), summed by squares. Its grade is A."""
     allowed = math.hypot(*errors)
-    return Check(name, ours, theirs, allowed, source, ABSOLUTE, unit, note, grade="A", errors=errors)
+    return Check(name, ours, theirs, allowed, source, ABSOLUTE, unit, note, grade="A", errors=errors, cause=cause)
 
 
 def file_name(name: str) -> str:

@@ -328,6 +328,17 @@ LOAD_SHARES = {  # of the asperities, over film/Sq; Doleschel has the film over 
     "exp(-1.8 Λ^1.2) (Patir & Cheng)": lambda ratio: np.exp(-1.8 * ratio**1.2),
     "(1 - √π Λ/2)² (Doleschel)": lambda ratio: np.maximum(1 - math.sqrt(math.pi) * ratio / 2, 0) ** 2,
 }
+MASJEDI = {5e-6: 0.0, 2e-5: 0.15, 5e-5: 0.38}  # asperity load ratio by Sq/R
+MASJEDI_CASE = {"W": 1e-4, "U": 1e-11, "G": 4500.0, "V": 0.01}  # load, speed (mean), material and hardness numbers
+BEARING = {  # tapered roller bearing 32216: lengths [m], angle [rad], load along the axis [N]
+    "rollers": 16,
+    "diameter": 17e-3,
+    "pitch": 108.5e-3,
+    "length": 20.7e-3,  # without the rounded edges
+    "angle": math.radians(15.6),  # of the catalogue
+    "axial load": 6e3,
+}
+BEARING_TORQUE = {500: 1.30, 2000: 2.95, 4000: 3.75}  # N m by rpm
 PAPER = {"mean Hertz pressure": 102e6, "half-width": 4.5e-6}  # Pa, m
 
 

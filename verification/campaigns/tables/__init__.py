@@ -21,7 +21,8 @@ TABLES: dict[str, Callable[[], Cells]] = measured.TABLES | studies.TABLES
 
 def caption(name: str) -> str:
     """The first sentence on a table, by its function."""
-    return (inspect.getdoc(TABLES[name]) or name).split("\n")[0]
+    function = getattr(TABLES[name], "func", TABLES[name])
+    return (inspect.getdoc(function) or name).split("\n")[0]
 
 
 def written(level: str, name: str, run: Run = Run()) -> Iterator[Item]:

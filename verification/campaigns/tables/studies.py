@@ -5,7 +5,7 @@ A study runs once in a process, however many tables are made of it.
 
 import re
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from itertools import takewhile
 
 from ... import wording
@@ -25,6 +25,15 @@ def ran(name: str) -> Outcome:
     if outcome.error:
         raise RuntimeError(f"{name}: {outcome.error}")
     return outcome
+
+
+@cache
+def published_checks(name: str) -> tuple[Check, ...]:
+    """The checks of a part of `python -m verification published`; raises RuntimeError where it did not end."""
+    outcome = run_one(next(part for part in PUBLISHED if part.name == name), LEVEL)
+    if outcome.error:
+        raise RuntimeError(f"{name}: {outcome.error}")
+    return outcome.checks
 
 
 def waviness() -> Cells:
@@ -74,7 +83,7 @@ def formulations() -> Cells:
 def publications() -> Cells:
     """How many checks of `python -m verification published` passed, and how far ours is off: every source that differs
     somewhere, and all others together."""
-    checks = [c for part in PUBLISHED for c in run_one(part, LEVEL).checks]
+    checks = [c for part in PUBLISHED for c in published_checks(part.name)]
     groups: dict[str, list[Check]] = {}
     agreed = []
     for source in SOURCES.values():
@@ -90,6 +99,36 @@ def publications() -> Cells:
     return ["source", "passed", "ours off by"], rows
 
 
+def rows_beside(part: str) -> Cells:
+    """Every check of a part of `python -m verification published`, with what both sides leave open."""
+    checks = published_checks(part)
+    sources = {source.text: source for source in SOURCES.values()}
+    rows = []
+    for check in checks:
+        source = sources[check.source]
+        ours, theirs = check.errors
+        verdict = "agrees" if check.passed else f"differs: {check.cause or 'unknown'}"
+        unit = "" if check.unit == "1" else f" {check.unit}"
+        rows.append(
+            [
+                f"{check.name}{unit and ', in' + unit}",
+                f"{check.expected:.4g} ± {theirs:.2g}",
+                f"{check.measured:.4g} ± {ours:.2g}",
+                verdict,
+                authors(source),
+            ]
+        )
+    return ["quantity", "published", "lubfric", "verdict", "source"], rows
+
+
+def sources_of() -> Cells:
+    """The publications, the place of the numbers in them, and how they were got."""
+    rows = [
+        [source.words, source.place, f"{source.got}{source.note and '; ' + source.note}"] for source in SOURCES.values()
+    ]
+    return ["publication", "place", "how its numbers were got"], rows
+
+
 def authors(source: Source) -> str:
     """Surnames and year, as in "Dowson, Toyoda 1978"."""
     person = re.compile(r"([A-Z]\. )+[\w-]+( et al\.| \d+)?")
@@ -103,6 +142,8 @@ def authors(source: Source) -> str:
 TABLES: dict[str, Callable[[], Cells]] = {
     "load-sharing": load_sharing,
     "publications": publications,
+    **{f"published-{part.name}": partial(rows_beside, part.name) for part in PUBLISHED},
+    "published-sources": sources_of,
     "waviness": waviness,
     "transient": transient,
     "formulations": formulations,

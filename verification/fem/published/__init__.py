@@ -7,9 +7,11 @@ differs by more is shown as failing, with the reason where it is known, and the 
 
 from __future__ import annotations
 
+from collections import Counter
+
 from ... import check, frame
 from ...catalogue import PUBLISHED
-from ...check import Check
+from ...check import CAUSES, Check
 from ..references import SOURCES
 
 WEAK = 0.25
@@ -20,9 +22,13 @@ def summary(report) -> str:
     weak = sum(c.tolerance > WEAK * abs(c.expected) for c in report.checks)
     names = [c for c in report.checks if c.failed]
     lines = [f"{weak} of {len(report.checks)} leave open more than {WEAK:.0%}: that they hold says little."]
-    lines += [f"{len(names)} of {len(report.checks)} differ by more than both errors:"] if names else []
+    if names:
+        counts = Counter(c.cause or "unknown" for c in names)
+        causes = ", ".join(f"{cause} {counts[cause]}" for cause in CAUSES if counts[cause])
+        lines += [f"{len(names)} of {len(report.checks)} differ by more than both errors; whose it is: {causes}."]
     for c in names:
-        lines += [f"  {c.name}: ours {c.measured:.4g}, theirs {c.expected:.4g}; {c.note or 'no reason known'}"]
+        values = f"ours {c.measured:.4g}, theirs {c.expected:.4g}"
+        lines += [f"  [{c.cause or 'unknown'}] {c.name}: {values}; {c.note or 'no reason known'}"]
     return "\n".join(lines)
 
 
@@ -31,10 +37,18 @@ COMMAND = frame.Command("published", __doc__, PUBLISHED, "out/published", LEVELS
 
 
 def against(
-    key: str, name: str, ours: float, theirs: float, own_error: float, unit: str = "1", note: str = "", error=None
+    key: str,
+    name: str,
+    ours: float,
+    theirs: float,
+    own_error: float,
+    unit: str = "1",
+    note: str = "",
+    error: float | None = None,
+    cause: str = "",
 ) -> Check:
     """Our value beside a number of the source ``key``. ``own_error`` and ``error`` (None: that of the source) are
-    relative, in 95 % bounds."""
+    relative, in 95 % bounds. ``cause``: whose deviation it is where they differ by more (`verification.check.CAUSES`)."""
     source = SOURCES[key]
     errors = abs(own_error * ours), abs((source.error if error is None else error) * theirs)
-    return check.beside(name, ours, theirs, errors, source.text, unit, note)
+    return check.beside(name, ours, theirs, errors, source.text, unit, note, cause)

@@ -122,7 +122,9 @@ def self_affine() -> Iterator[Check]:
         if area:
             ours, middle, own = mean(areas - edges, sum(area) / 2)
             note = COUNTED.format(areas.mean())
-            yield against("xu", f"{at}: area", ours, middle, own + 0.1 * edges.mean() / ours, note=note)
+            yield against(
+                "xu", f"{at}: area", ours, middle, own + 0.1 * edges.mean() / ours, note=note, cause="unknown"
+            )
         if square:
             yield against("xu", f"{at}: mean square pressure", *mean(squares, square), error=0.02)
     load = references.CHALLENGE["load"]

@@ -44,7 +44,9 @@ def films(level: str) -> Iterator[Item]:
         solution = film(m, l, law="barus")
         theirs = references.grubin(*numbers(solution)) * RADIUS / unit(solution)
         name = f"flow film, M = {m}, L = {l}, Grubin"
-        yield against("grubin", name, solution.flow_film / unit(solution), theirs, own(solution), note=DRY_INLET)
+        yield against(
+            "grubin", name, solution.flow_film / unit(solution), theirs, own(solution), note=DRY_INLET, cause="theirs"
+        )
     for m, l in DOWSON:
         for key, name, density, law in (
             ("dowson66", "smallest film", "dowson-higginson", references.dowson_higginson),
@@ -56,7 +58,7 @@ def films(level: str) -> Iterator[Item]:
             theirs = law(*numbers(two[0])) * RADIUS
             error = abs(films[1] - films[0]) / 2 / ours + max(map(own, two))
             note = BEYOND if two[0].hertz_pressure > STATIC else ""
-            yield against(key, f"{name}, M = {m}, L = {l}", ours, theirs, error, "m", note)
+            yield against(key, f"{name}, M = {m}, L = {l}", ours, theirs, error, "m", note, cause="theirs")
     yield one_gap()
     yield drawn()
 

@@ -1,18 +1,27 @@
-"""Mixed lubrication beside four laws of the load share, and the paper's own numbers."""
+"""Mixed lubrication beside four laws of the asperity load ratio, Masjedi and Khonsari, and the paper's own numbers."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
 import lubfric
-from lubfric.models.deterministic import BOUNDARY_FILM
+from lubfric.models.deterministic import BOUNDARY_FILM, solve_strip
 
 from ... import plotting
 from ...campaigns.model.boundary_film import FILMS, RATIOS, SURFACES, shares
-from ...check import Figure, Item
+from ...check import Check, Figure, Item, beside
 from .. import references
 from . import against
 
+FLOOR = 0.02  # of the load: what a plateau read off a figure leaves open
+LAWS = ("law-arana", "law-zhou", "law-patir", "law-doleschel")  # keys of references.LOAD_SHARES
+# Masjedi and Khonsari give numbers without dimension. These lengths make them a steel roller.
+RADIUS = 10e-3  # m
+MODULUS = 228e9  # Pa, E' of steel
+VISCOSITY = 0.02  # Pa s
+MAP = (160, 24)
+CELL = 5e-6  # m: 32 cells in a half-width
+LENGTHS = (40e-6, 25e-6)  # m: correlation lengths; theirs is not known
 PRESSURE = 0.5e9  # Pa, of Hertz
 
 
@@ -32,13 +41,64 @@ def mixed(level: str) -> Iterator[Item]:
         note = "not independent: the boundary film of 20 nm is the candidate that lies nearest to these laws"
         if ratio * min(SURFACES.values()) <= BOUNDARY_FILM:
             note = "the film itself is 20 to 40 nm, so nearly all of it is below the boundary film; and ours is at rest"
-        yield against("shares", name, one, (a + b) / 2, error / one, note=note, error=half)
+        yield against("shares", name, one, (a + b) / 2, error / one, note=note, error=half, cause="ours")
+    at = RATIOS.index(1.0)
+    for key, (law_name, law) in zip(LAWS, references.LOAD_SHARES.items(), strict=True):
+        name = f"load share of the asperities, film/Sq = 1, {law_name}"
+        note = "the laws differ among themselves by a factor of 2.5 there"
+        yield against(key, name, ours[at], float(law(1.0)), own[at] / ours[at], note=note, cause="unknown")
+    yield from masjedi(level)
     scene = lubfric.load_scene("paper")
     line = scene.line_contact(0.001)
     mean = scene.bodies.load / scene.bodies.width / (2 * line.half_width)
     yield against("paper", "mean Hertz pressure", mean, references.PAPER["mean Hertz pressure"], 0.0, "Pa", error=5e-3)
     yield against("paper", "half-width", line.half_width, references.PAPER["half-width"], 0.0, "m", error=0.012)
     yield drawn(ours, own)
+
+
+def masjedi(level: str) -> Iterator[Check]:
+    """The asperity load ratio of the deterministic model at the three roughnesses of Masjedi and Khonsari.
+
+    The load on gaps thinner than the boundary film is taken, with roughness at rest. Ours is the mean over two
+    correlation lengths, as theirs is not known, and three seeds at full level. The error is the spread between them and
+    half the difference that a boundary film of half and of twice its thickness makes."""
+    case = references.MASJEDI_CASE
+    width = 5e-3
+    scene = lubfric.load_scene("paper").with_(
+        bodies={
+            "radius": RADIUS,
+            "width": width,
+            "load": case["W"] * MODULUS * RADIUS * width,
+            "e_prime": MODULUS,
+            "hardness": case["V"] * MODULUS,
+        },
+        lubricant={
+            "viscosity": VISCOSITY,
+            "pressure_viscosity_coefficient": case["G"] / MODULUS,
+            "density_law": "dowson-higginson",
+            "eyring_stress": 5e6,
+            "limiting_stress_coefficient": 0.06,
+        },
+    )
+    speed = case["U"] * MODULUS * RADIUS / VISCOSITY
+    seeds = (1, 2, 3) if level == "full" else (1,)
+    films = (BOUNDARY_FILM / 2, BOUNDARY_FILM, 2 * BOUNDARY_FILM)
+    for ratio, theirs in references.MASJEDI.items():
+        rows = []
+        for length in LENGTHS:
+            for seed in seeds:
+                rough = {"sq": ratio * RADIUS, "correlation_length": length, "acf": "gaussian", "seed": seed}
+                surface = lubfric.generate_surface(MAP, CELL, **rough)
+                result = solve_strip(scene, surface, speed).result
+                rows.append([result.pressure[result.gap < film].sum() / result.pressure.sum() for film in films])
+        thin, usual, thick = np.mean(rows, axis=0)
+        spread = np.ptp([row[1] for row in rows])
+        error = float(np.hypot(spread, (thick - thin) / 2))
+        name = f"asperity load ratio, Sq/R = {ratio:g}"
+        note = "roughness at rest; their asperities have a statistical density, ours are those of a surface"
+        errors = (error, max(0.15 * theirs, FLOOR))
+        source = references.SOURCES["masjedi"].text
+        yield beside(name, float(usual), theirs, errors, source, note=note, cause="unknown")
 
 
 def drawn(ours: np.ndarray, own: np.ndarray) -> Figure:

@@ -1,0 +1,177 @@
+"""Load sharing in time by finite elements: a smooth film that remembers its past, a rough contact that does not.
+
+    s d(rho H)/dX - d/dX( m dP/dX ) + d(rho H)/dT = 0,   s = U(T)/U0,   T = U0 t/b,   integral of P = F_H(T)
+
+in the Hertz variables of the whole load at a speed U0 (`ehl`). The rough strip is pressed with F_T - F_H under the shape
+of the film of the moment (`sharing.Bodies.under`). F_H is the root at which the mean gap of the contact is the mean film
+over the Hertz strip, closed in every step by `sharing.root`. Steps in time are BDF2, the first one Euler's.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from . import ehl
+from .ehl_film import assemble
+from .ehl_newton import HERTZ_LOAD, load_weights, step_length
+from .moving import BDF2, EULER, content, gained, newton_change
+from .report import SolveError, require
+from .ripple import stored
+from .sharing import Bodies, cell_means, root, share_load
+
+SMALLEST_SPEED = 1e-3  # of U0: below it the film has no inlet in these variables
+
+
+@dataclass(frozen=True)
+class SharedMoment:
+    """The division of the load at a time [s]: loads [N], mean gap [m] and share of the strip in contact."""
+
+    time: float
+    film_load: float
+    contact_load: float
+    mean_gap: float
+    mean_film: float
+    area: float
+
+
+@dataclass(frozen=True)
+class FilmState:
+    """Pressure [p_h] and approach [b²/R] on the line of the film, and the degrees of freedom held at P = 0."""
+
+    P: np.ndarray
+    H0: float
+    held: np.ndarray
+
+
+def share_in_time(
+    bodies: Bodies,
+    speed: Callable[[float], float],
+    step: float,
+    *,
+    tolerance: float = 1e-5,
+    refinements: int = 0,
+    max_evaluations: int = 30,
+) -> Iterator[SharedMoment]:
+    """The division of the load at moments ``step`` [s] apart, without end, from the steady one at time 0 on.
+
+    ``speed`` [m/s] of a time [s] is the entrainment speed, positive; that of ``bodies.contact`` is U0, the speed at time
+    0. ``tolerance``: on the balance of the volumes. Raises `SolveError` where a step is not solved.
+    """
+    contact = bodies.contact
+    require(step > 0, f"step = {step} s", "> 0")
+    require(
+        abs(speed(0.0) / contact.entrainment_speed - 1) < 1e-9, f"speed(0) = {speed(0.0)} m/s", "that of the contact"
+    )
+    begun = share_load(bodies, refinements=refinements, tolerance=tolerance)
+    at = ehl.solve_ehl(contact, refinements=refinements)[-1]
+    state = started(at, begun.film)
+    unit = step * contact.entrainment_speed / contact.half_width
+    yield moment_of(bodies, at, state, begun.film_load, 0.0)
+    now = content(at, state.P, film_of(at, state))
+    before = now
+    split = begun.split
+    count = 0
+    while True:
+        count += 1
+        rates = BDF2 if count > 1 else EULER
+        pace = speed(count * step) / contact.entrainment_speed
+        require(pace > SMALLEST_SPEED, f"speed = {pace:g} U0", f"> {SMALLEST_SPEED:g} U0")
+        tried: dict[float, tuple[FilmState, SharedMoment]] = {}
+
+        def mismatch(value: float) -> float:
+            """(gap - film)/(gap + film) at ln(F_H/F_C) = ``value``."""
+            film_load = bodies.load / (1 + np.exp(-value))
+            solved = stepped(at, state, now, before, rates, unit, pace, film_load / bodies.load)
+            moment = moment_of(bodies, at, solved, film_load, count * step)
+            tried[value] = solved, moment
+            return (moment.mean_gap - moment.mean_film) / (moment.mean_gap + moment.mean_film)
+
+        def residual_of(value: float) -> float:
+            moment = tried[value][1]
+            return abs(moment.mean_gap - moment.mean_film) / (moment.mean_gap + moment.mean_film)
+
+        def done() -> bool:
+            return min(map(residual_of, tried), default=1.0) <= tolerance or len(tried) >= max_evaluations
+
+        root(mismatch, done, split, 0.05)
+        split = min(tried, key=residual_of)
+        if residual_of(split) > tolerance:
+            raise SolveError(
+                f"load sharing in time: t = {count * step:g} s, volumes differ by {residual_of(split):.1e}"
+            )
+        state, moment = tried[split]
+        before = now
+        now = content(at, state.P, film_of(at, state))
+        yield moment
+
+
+def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> FilmState:
+    """The steady film under its part of the load, in the variables of the whole load: solved again there."""
+    share = film.contact.load_per_width / at.contact.load_per_width
+    b = at.contact.half_width
+    x = np.clip(at.body.x * b, film.body.x.min() * film.contact.half_width, film.body.x.max() * film.contact.half_width)
+    P = np.maximum(film.at(x)[0] / at.contact.hertz_pressure, 0.0)
+    P[np.abs(at.body.x * b - x) > 0] = 0.0
+    middle = int(np.argmin(np.abs(at.body.x)))
+    gap = film.at(np.array([0.0]))[1][0] / at.contact.film_unit
+    state = FilmState(P, gap - float((at.body.compliance @ P)[middle]), P <= 0)
+    return stepped(at, state, 0.0, 0.0, (0.0, 0.0, 0.0), 1.0, 1.0, share)
+
+
+def film_of(at: ehl.EHLSolution, state: FilmState) -> np.ndarray:
+    """H [b²/R] at the degrees of freedom of the line."""
+    return state.H0 + at.body.x**2 / 2 + at.body.compliance @ state.P
+
+
+def stepped(
+    at: ehl.EHLSolution,
+    start: FilmState,
+    now: np.ndarray | float,
+    before: np.ndarray | float,
+    rates: tuple[float, float, float],
+    step: float,
+    pace: float,
+    share: float,
+    tolerance: float = 1e-8,
+    max_iterations: int = 60,
+) -> FilmState:
+    """The film at the end of a step [b/U0] at a speed ``pace`` U0, under a ``share`` of the whole load."""
+    body = at.body
+    line = body.line
+    film = replace(at.film, speed_parameter=at.film.speed_parameter * pace)
+    weights = load_weights(body)
+    last = int(np.argmax(body.x))
+    P = start.P
+    H0 = start.H0
+    held = start.held
+    for _ in range(max_iterations + 1):
+        H = H0 + body.x**2 / 2 + body.compliance @ P
+        flow = assemble(film, P, H)
+        then = content(at, P, H)
+        gain = (rates[0] * then + rates[1] * now + rates[2] * before) / step
+        lost = pace * flow.residual + gained.assemble(line, c=gain)
+        load = float(weights @ P / HERTZ_LOAD - share)
+        error = max(np.abs(lost[~held]).sum() / abs(pace * flow.inflow), abs(load) / share, -P.min())
+        new = np.where(held, lost > 0, P < 0)
+        new[last] = True
+        if error <= tolerance and not (new != held).any():
+            return FilmState(P, H0, held)
+        held = new
+        stored_P, stored_H = stored(film, P, H)
+        by_P = pace * flow.by_P + rates[0] / step * stored_P
+        by_H = pace * flow.by_H + rates[0] / step * stored_H
+        dP, dH0 = newton_change(body, P, held, lost, load, by_P, by_H)
+        part = step_length(film, P, dP, H, dH0 + body.compliance @ dP)
+        P, H0 = P + part * dP, H0 + part * dH0
+    raise SolveError(f"film in time: error {error:.1e} after {max_iterations} steps of Newton's method")
+
+
+def moment_of(bodies: Bodies, at: ehl.EHLSolution, state: FilmState, film_load: float, time: float) -> SharedMoment:
+    """The contact under the film of the moment, and the volumes of both."""
+    film = replace(at, P=state.P, H=film_of(at, state))
+    shape = cell_means(film, bodies.edges)
+    under = bodies.under(shape, bodies.load - film_load)
+    weight = bodies.weight / bodies.weight.sum()
+    means = (float(weight @ values) for values in (under.gap, shape, under.touching))
+    return SharedMoment(time, film_load, bodies.load - film_load, *means)
