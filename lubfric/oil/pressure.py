@@ -49,7 +49,8 @@ class MeasuredCoefficients:
         Between two temperatures ln alpha is linear, and 25 K beyond the first and the last. Raises `InputError` farther
         off.
         """
-        low, high = self.temperatures[0], self.temperatures[-1]
+        low = self.temperatures[0]
+        high = self.temperatures[-1]
         if not low - REACH <= temperature <= high + REACH:
             raise InputError(
                 f": the coefficient of this oil was measured from {low:g} to {high:g} K, and {temperature:g} K is more "

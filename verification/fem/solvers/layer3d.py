@@ -154,7 +154,7 @@ def rigid_body_modes(layer: Layer3D) -> np.ndarray:
 
 
 @dataclass(frozen=True)
-class Solved:
+class LayerSolution:
     """``displacement`` (planes from the base up, nx, ny, 3) in m, with z upwards, and ``report``, a `SolveReport`."""
 
     displacement: np.ndarray
@@ -189,7 +189,7 @@ def multigrid(layer: Layer3D, modes: np.ndarray | None = None) -> Multigrid:
     return Multigrid(layer, matrix, hierarchy)
 
 
-def solve(grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: int = 100) -> Solved:
+def solve(grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: int = 100) -> LayerSolution:
     """Displacement of the assembled layer under nodal surface forces (nx, ny) in N, downwards.
 
     The stopping test, made here on the returned displacement and not taken from the iteration: ``|f - K u|/|f|`` in the
@@ -211,4 +211,4 @@ def solve(grid: Multigrid, force, *, tolerance: float = 1e-8, max_iterations: in
     solver = "smoothed aggregation, conjugate gradients"
     past = tuple(r / scale for r in history)
     report = SolveReport(solver, status, len(history) - 1, tolerance, {"equilibrium": residual}, past)
-    return report.checked(Solved(result.reshape(layer.planes, *layer.shape, 3), report))
+    return report.checked(LayerSolution(result.reshape(layer.planes, *layer.shape, 3), report))

@@ -36,7 +36,7 @@ class SharedMoment:
 
 
 @dataclass(frozen=True)
-class FilmState:
+class TransientFilmState:
     """Pressure [p_h] and approach [b²/R] on the line of the film, and the degrees of freedom held at P = 0."""
 
     P: np.ndarray
@@ -77,7 +77,7 @@ def share_in_time(
         rates = BDF2 if count > 1 else EULER
         pace = speed(count * step) / contact.entrainment_speed
         require(pace > SMALLEST_SPEED, f"speed = {pace:g} U0", f"> {SMALLEST_SPEED:g} U0")
-        tried: dict[float, tuple[FilmState, SharedMoment]] = {}
+        tried: dict[float, tuple[TransientFilmState, SharedMoment]] = {}
 
         def mismatch(value: float) -> float:
             """(gap - film)/(gap + film) at ln(F_H/F_C) = ``value``."""
@@ -106,7 +106,7 @@ def share_in_time(
         yield moment
 
 
-def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> FilmState:
+def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> TransientFilmState:
     """The steady film under its part of the load, in the variables of the whole load: solved again there."""
     share = film.contact.load_per_width / at.contact.load_per_width
     b = at.contact.half_width
@@ -115,18 +115,18 @@ def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> FilmState:
     P[np.abs(at.body.x * b - x) > 0] = 0.0
     middle = int(np.argmin(np.abs(at.body.x)))
     gap = film.at(np.array([0.0]))[1][0] / at.contact.film_unit
-    state = FilmState(P, gap - float((at.body.compliance @ P)[middle]), P <= 0)
+    state = TransientFilmState(P, gap - float((at.body.compliance @ P)[middle]), P <= 0)
     return stepped(at, state, 0.0, 0.0, (0.0, 0.0, 0.0), 1.0, 1.0, share)
 
 
-def film_of(at: ehl.EHLSolution, state: FilmState) -> np.ndarray:
+def film_of(at: ehl.EHLSolution, state: TransientFilmState) -> np.ndarray:
     """H [b²/R] at the degrees of freedom of the line."""
     return state.H0 + at.body.x**2 / 2 + at.body.compliance @ state.P
 
 
 def stepped(
     at: ehl.EHLSolution,
-    start: FilmState,
+    start: TransientFilmState,
     now: np.ndarray | float,
     before: np.ndarray | float,
     rates: tuple[float, float, float],
@@ -135,7 +135,7 @@ def stepped(
     share: float,
     tolerance: float = 1e-8,
     max_iterations: int = 60,
-) -> FilmState:
+) -> TransientFilmState:
     """The film at the end of a step [b/U0] at a speed ``pace`` U0, under a ``share`` of the whole load."""
     body = at.body
     line = body.line
@@ -156,7 +156,7 @@ def stepped(
         new = np.where(held, lost > 0, P < 0)
         new[last] = True
         if error <= tolerance and not (new != held).any():
-            return FilmState(P, H0, held)
+            return TransientFilmState(P, H0, held)
         held = new
         stored_P, stored_H = stored(film, P, H)
         by_P = pace * flow.by_P + rates[0] / step * stored_P
@@ -167,7 +167,9 @@ def stepped(
     raise SolveError(f"film in time: error {error:.1e} after {max_iterations} steps of Newton's method")
 
 
-def moment_of(bodies: Bodies, at: ehl.EHLSolution, state: FilmState, film_load: float, time: float) -> SharedMoment:
+def moment_of(
+    bodies: Bodies, at: ehl.EHLSolution, state: TransientFilmState, film_load: float, time: float
+) -> SharedMoment:
     """The contact under the film of the moment, and the volumes of both."""
     film = replace(at, P=state.P, H=film_of(at, state))
     shape = cell_means(film, bodies.edges)
