@@ -76,7 +76,13 @@ def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None
     sampling = levels.sampling.error if math.isfinite(levels.sampling.error) else math.nan
     by_scatter = student(levels.difference.freedom) * levels.difference.error
     by_film = 0.0 if scene.bodies.boundary_film is not None else max(map(abs, levels.by_film))
-    model = math.hypot(by_scatter, by_film, levels.by_flow, error_by_heat(heat, levels.by_inlet))
+    parts_of_model = {
+        "the boundary film, whose thickness is not given: bodies.boundary_film narrows it": by_film,
+        "the difference of the models from place to place: a smaller numerics.model_tolerance narrows it": by_scatter,
+        "the flow of a film at its limiting stress, which theories leave open": abs(levels.by_flow),
+        "heat, half of whose effect counts as its error": error_by_heat(heat, levels.by_inlet),
+    }
+    model = math.hypot(*parts_of_model.values())
     known = Uncertainty(
         numerical=levels.numerical,
         sampling=sampling,
@@ -87,6 +93,7 @@ def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None
         freedom=float(levels.sampling.freedom),
         tolerance=numerics.sampling_tolerance,
         notes=_sample_notes(prepared, sampling, levels.length),
+        largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
     )
     decision = _decision(scene, results, levels, heat)
     of_heat = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)

@@ -97,6 +97,7 @@ def widened(old: Uncertainty, f: float, changes: dict[str, tuple[float, ...] | s
         inputs=relative if len(moved) == len(changes) else math.nan,
         interval=(f - math.hypot(f - low, down), f + math.hypot(high - f, up)),
         notes=(*old.notes, *notes),
+        largest_input=max(moved, key=lambda name: max(map(abs, moved[name])), default=""),
     )
 
 
@@ -171,7 +172,8 @@ def _at_end(prepared: Prepared, strip: Strip, speed: float, scene: Scene) -> flo
     with the same moments of the strip itself.
     """
     if isinstance(strip, MovingStrip):
-        return _with_heat(scene, continued_strip(scene, bodies_of(prepared, 0, speed), speed, strip))
+        result, _ = continued_strip(scene, bodies_of(prepared, 0, speed), speed, strip)
+        return _with_heat(scene, result)
     surface, _ = strip_of(prepared, 0)
     spacing = strip.problem.spacing
     factors = (round(spacing[0] / surface.spacing[0]), round(spacing[1] / surface.spacing[1]))

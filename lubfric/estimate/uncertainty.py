@@ -27,12 +27,33 @@ class Uncertainty(UncertaintyQuantities[float]):
         Student's t with ``freedom`` degrees of freedom
     tolerance : relative standard error asked for
     notes : what a reader should know of these errors
+    largest_in_model : what the largest part of ``model`` is, and what narrows it; "" where it has one part
+    largest_input : the input whose range changes f most
     """
 
     interval: tuple[float, float] = (math.nan, math.nan)
     freedom: float = 0.0
     tolerance: float = math.nan
     notes: tuple[str, ...] = ()
+    largest_in_model: str = ""
+    largest_input: str = ""
+
+    @property
+    def largest_part(self) -> str:
+        """What the largest part of the interval is, and what narrows it; "" where that is not known."""
+        of_sample = student(self.freedom) * self.sampling if self.sampling else 0.0
+        parts = {
+            "numerical": (self.numerical, "a smaller numerics.tolerance narrows it"),
+            "surface": (of_sample, "a smaller numerics.sampling_tolerance or a larger map narrows it"),
+            "model": (self.model, self.largest_in_model or "numerics.model = 'deterministic' narrows it"),
+            "inputs": (self.inputs, f"a measured {self.largest_input or 'value'} narrows it"),
+        }
+        known = {name: part for name, part in parts.items() if math.isfinite(part[0]) and part[0] > 0}
+        if not known or not math.isfinite(self.sampling):
+            return ""
+        name = max(known, key=lambda name: known[name][0])
+        size, remedy = known[name]
+        return f"largest part: {name} {percent(size)}, {remedy}"
 
     @property
     def few_spots(self) -> bool:

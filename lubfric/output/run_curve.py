@@ -315,6 +315,8 @@ def _progress(place: str) -> Callable:
             return
         loads = in_words(outcome, ("contact_load", "film_load"))
         words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
-        say(f"{head}: {outcome.uncertainty.short(outcome.coefficient):<59} {words} ({outcome.seconds:.2f} s)")
+        known = outcome.uncertainty
+        largest = f"; {known.largest_part}" if known.largest_part else ""
+        say(f"{head}: {known.short(outcome.coefficient):<59} {words} ({outcome.seconds:.2f} s){largest}")
 
     return on_point

@@ -233,13 +233,17 @@ def test_a_continuation_with_another_oil_is_that_of_the_same_moments():
     thinner = scene.with_(lubricant={"eyring_stress": 1e7})
     how = {"effort": ECONOMICAL, "for_continuation": True, "most_steps": 1}
     strip = solve_moving_strip(scene, body, 0.3, **how)
-    unchanged = continued_strip(scene, body, 0.3, strip)
+    unchanged, _ = continued_strip(scene, body, 0.3, strip)
     assert unchanged.coefficient == pytest.approx(strip.early.coefficient, rel=2e-3)
-    change = continued_strip(thinner, body, 0.3, strip).coefficient / strip.early.coefficient - 1
+    continued, _ = continued_strip(thinner, body, 0.3, strip)
+    change = continued.coefficient / strip.early.coefficient - 1
     whole = solve_moving_strip(thinner, body, 0.3, **how)
     assert change == pytest.approx(whole.early.coefficient / strip.early.coefficient - 1, rel=0.05)
     assert change > 0.02
     assert strip.times.size == strip.discarded + 1
+    longer, _ = continued_strip(scene, body, 0.3, strip, longer=True)
+    on_longer = solve_moving_strip(scene, body, 0.3, factors=(1, 2), **how)
+    assert longer.coefficient == pytest.approx(on_longer.early.coefficient, rel=5e-3)
 
 
 def test_mass_that_loose_steps_leave_is_not_lost():

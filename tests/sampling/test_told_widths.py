@@ -2,6 +2,7 @@
 share of load sharing itself, against formulas written out from their sources."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -142,3 +143,13 @@ def test_an_interval_in_words(parts, interval, words):
     assert known.short(0.05).endswith(words)
     if math.isnan(known.model):
         assert "model not known and not in it" in known.text
+
+
+def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
+    known = Uncertainty(numerical=0.01, sampling=0.02, freedom=4.0, model=0.03, interval=(0.9, 1.1))
+    assert known.largest_part.startswith("largest part: surface 5.6 %")  # Student's t of four degrees: 2.78
+    by_input = replace(known, inputs=0.2, largest_input="lubricant.eyring_stress")
+    assert by_input.largest_part == "largest part: inputs 20 %, a measured lubricant.eyring_stress narrows it"
+    by_model = replace(known, model=0.3, largest_in_model="the boundary film: bodies.boundary_film narrows it")
+    assert by_model.largest_part == "largest part: model 30 %, the boundary film: bodies.boundary_film narrows it"
+    assert not replace(known, sampling=math.nan).largest_part

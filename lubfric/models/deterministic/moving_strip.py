@@ -17,12 +17,13 @@ from .moving import Moment, RoughBody, half_width, moments, travelling
 from .point import Strip, problem_of, solve_strip, work_of_steps
 from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit
-from .state import State
+from .state import RUPTURED, State
 
 RESOLVED = 8  # cells in the Hertz half-width, from which on the pressure is moved with the roughness as a start
 STEPS = 4.0  # LU factorisations in a step in time, about: for the estimate of the work
 KRYLOV = 25.0  # GMRES iterations in a step in time, about
 SMALL_WAVES = 3.0  # film of the smooth contact over Sq, from which on waves are small
+ON_LONGER = 0.4  # work of a step on cells twice as long along y, over that on the shorter ones
 AT_REST = 12.0  # steps in time that the strip at rest is worth, on two lengths of cells and for its slope, about
 SLOW = 0.5  # of U: where all roughness is slower, the fastest passes one cell in a step; else the lubricant does
 FAST = 2.0  # of U: where some roughness is faster, it passes one cell in a step
@@ -161,8 +162,12 @@ def solve_moving_strip(
     )
 
 
-def continued_strip(scene: Scene, bodies: Sequence[RoughBody], speed: float, strip: MovingStrip) -> DeterministicResult:
-    """Return the means over time of ``strip`` with the inputs of another ``scene`` that has the same bodies and motion.
+def continued_strip(
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, strip: MovingStrip, *, longer: bool = False
+) -> tuple[DeterministicResult, float]:
+    """Return the means over time of ``strip`` with the inputs of another ``scene`` that has the same bodies and motion;
+    ``longer``: on cells twice as long along y, which must divide the map. And the counted work
+    [s].
 
     It goes on from `MovingStrip.settled`, and counts once more when the film has passed the contact: the same moments as
     `MovingStrip.early`, at which the roughness stands in the same places. So their ratio does not depend on the few
@@ -170,20 +175,37 @@ def continued_strip(scene: Scene, bodies: Sequence[RoughBody], speed: float, str
     """
     rest = strip.rest
     cell = rest.problem.spacing[0]
-    factors = (
-        round(cell / bodies[0].surface.spacing[0]),
-        round(rest.problem.spacing[1] / bodies[0].surface.spacing[1]),
-    )
+    (dx, dy) = bodies[0].surface.spacing
+    factors = (round(cell / dx), round(rest.problem.spacing[1] / dy) * (2 if longer else 1))
     surface, upper = _together(bodies)
     problem = problem_of(scene, surface, speed, factors, upper, strip.ends)
+    state = _on_longer_cells(strip.settled) if longer else strip.settled
     step = float(strip.times[0])
     early = continued_moments(rest.problem.contact, cell, strip.discarded)
     begun = float(strip.times[strip.discarded - 1])
-    passing = _passing(problem, bodies, speed, step, strip.effort, strip.settled, begun)
+    passing = _passing(problem, bodies, speed, step, strip.effort, state, begun)
     rows = []
     for moment in islice(passing, 1, 1 + sum(early)):
         rows.append(_row(moment))
-    return _mean(rows[-early[1] :], moment.result)
+    return _mean(rows[-early[1] :], moment.result), sum(row["work"] for row in rows)
+
+
+def _on_longer_cells(state: State) -> State:
+    """Return the means of ``state`` over pairs of cells along y, to start from."""
+
+    def means(field: np.ndarray) -> np.ndarray:
+        return 0.5 * (field[:, ::2] + field[:, 1::2])
+
+    yielded = state.yielded[:, ::2] & state.yielded[:, 1::2]
+    kind = state.kind[:, 1::2]
+    return State(
+        pressure=np.where(kind == RUPTURED, 0.0, means(state.pressure)),
+        fill=np.where(kind == RUPTURED, means(state.fill), 1.0),
+        dent=np.where(yielded, means(state.dent), 0.0),
+        kind=kind,
+        yielded=yielded,
+        approach=state.approach,
+    )
 
 
 def continued_moments(contact: LineContact, cell: float, discarded: int) -> tuple[int, int]:
@@ -313,5 +335,5 @@ def moving_work(
     """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
     `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
     _, discarded, count = _steps(contact, cell, fastest, length, effort_for(contact, sq))
-    steps = discarded + count + continuations * sum(continued_moments(contact, cell, discarded))
+    steps = discarded + count + (continuations + ON_LONGER) * sum(continued_moments(contact, cell, discarded))
     return AT_REST * work_of_steps(cells, STEPS, KRYLOV) + steps * work_of_steps(cells, STEPS, KRYLOV)

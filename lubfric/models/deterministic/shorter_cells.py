@@ -46,8 +46,6 @@ PIECES_WORK = 30.0
 MOVING = 0.5  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
 # small by chance (to cells of an eighth, f of nine Gaussian maps moved by 0 to 10 % from a half, and 0 to 2 % from a
 # quarter)
-FROM_REST = 2.0  # change of f by cells along y where roughness moves, over that at rest: root mean squares of 2.2 % and
-# 1.1 % on the first contacts of verification/campaigns/moving_effort; the two do not go together
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 # correlation lengths: pieces of the third level, and the one of the last
@@ -72,9 +70,7 @@ def on_shorter_cells(
     """
     scene = prepared.scene
     sample = prepared.sample
-    by_longer = sum(changes_of(pair.at_rest)[0] for pair in pairs) / len(pairs)
-    if moves(scene):
-        by_longer *= FROM_REST
+    by_longer = sum(pair.change_by_cells for pair in pairs) / len(pairs)
     factors = zip(cells_of(scene, sample), sample.cells.coarsening)
     halvings = round(math.log2(max(a * b for a, b in factors)))  # from the cells of the strips to the scene's own
     left = max(estimate([by_longer]), SOLVED, MOVING * _coarse(prepared) ** 2 if moves(scene) else 0.0)

@@ -1,15 +1,17 @@
 """One strip of the surface by the deterministic model, on two lengths of cells."""
 
 import math
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
+from ...errors import ConvergenceError
 from ...quantities import NUMBERS
 from ...samples import Sample, mirrored
-from ...scene import FRICTION, Scene, moves
+from ...scene import Scene, moves
 from ...surface import Surface
 from ..shared import Prepared
-from .moving_strip import MovingStrip, solve_moving_strip, strip_at_rest
-from .point import Strip, solve_strip
+from .moving_strip import MovingStrip, continued_strip, solve_moving_strip, strip_at_rest
+from .point import Strip, change_of, solve_strip
 from .result import DeterministicResult
 from .rough_bodies import bodies_of, strip_surface
 
@@ -24,20 +26,23 @@ class StripOnTwoGrids:
     """One strip of the sample.
 
     ``resolved``: by the deterministic model; ``longer``: on longer cells (`longer_than`), from which it started, its
-    roughness at rest; ``mirrored``: whether the second half along y is the mirror image of the first.
+    roughness at rest; ``mirrored``: whether the second half along y is the mirror image of the first;
+    ``early_on_longer``: of moving roughness, what `MovingStrip.early` is on the longer cells (None: the map has none).
     """
 
     resolved: Strip
     longer: Strip
     mirrored: bool = False
+    early_on_longer: DeterministicResult | None = None
 
     @property
-    def at_rest(self) -> tuple[Strip, Strip]:
-        """The strip with its roughness at rest, on the longer cells and on its own.
-
-        What shorter cells along y change of f is read off these where the roughness moves, too.
-        """
-        return self.longer, self.resolved.rest if isinstance(self.resolved, MovingStrip) else self.resolved
+    def change_by_cells(self) -> float:
+        """The change of f (`change_of`) from the longer cells to those of the strip. Where the roughness moves, it is
+        that of the same moments on both."""
+        strip = self.resolved
+        if isinstance(strip, MovingStrip) and strip.early is not None and self.early_on_longer is not None:
+            return change_of(self.early_on_longer, strip.early)
+        return change_of(self.longer.result, strip.rest.result if isinstance(strip, MovingStrip) else strip.result)
 
 
 def cells_of(scene: Scene, sample: Sample) -> tuple[int, int]:
@@ -79,23 +84,23 @@ def solve_pair(prepared: Prepared, speed: float, slope: float | None, index: int
     longer_cells = longer_than(surface, factors, moves(scene))
     longer: Strip
     strip: Strip
+    early_on_longer: DeterministicResult | None = None
     if moves(scene):
         bodies = bodies_of(prepared, index, speed)
-        continued = index == 0 and solves_ends(scene)
         longer = strip_at_rest(scene, bodies, speed, factors=longer_cells)
         strip = solve_moving_strip(
-            scene, bodies, speed, factors=factors, start=longer, slope=find_slope, for_continuation=continued
+            scene, bodies, speed, factors=factors, start=longer, slope=find_slope, for_continuation=True
         )
+        if isinstance(strip, MovingStrip) and longer_cells[1] > factors[1]:
+            with suppress(ConvergenceError):  # then the change at rest is all that is known
+                early_on_longer, work = continued_strip(scene, bodies, speed, strip, longer=True)
+                strip = replace(strip, work=strip.work + work)
     else:
         longer = solve_strip(scene, surface, speed, factors=longer_cells)
         strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=find_slope)
     strip = replace(strip, slope=strip.slope if slope is None else slope, work=strip.work + longer.work)
-    return StripOnTwoGrids(strip, longer, prepared.sample.is_single_patch and mirrored(surface.heights))
-
-
-def solves_ends(scene: Scene) -> bool:
-    """Return whether an input has a range at whose ends f is solved again: any but f_b, in which f is linear."""
-    return any(name != FRICTION for name, *_ in scene.ranges)
+    is_mirrored = prepared.sample.is_single_patch and mirrored(surface.heights)
+    return StripOnTwoGrids(strip, longer, is_mirrored, early_on_longer)
 
 
 def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, float]:
