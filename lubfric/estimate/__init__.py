@@ -1,8 +1,8 @@
-"""The answer at one speed: the sample of the surface, the models, the interval of f.
+"""The answer at one speed: how many strips, on which cells, by which model, and the uncertainty of f.
 
-`sample` solves strips of the surface until the standard error is within what is asked; `cells` corrects for their
-coarse cells; `scatter` reads the standard error off one solved contact; `errors_of` and `uncertainty` make the
-interval. `friction` is the entry; `answer` and `answer_deterministic` are the two models.
+`sampled` asks a model for more strips and shorter cells until the tolerances are met; `friction` chooses the model;
+`answer` builds the one `FrictionResult` from what the model answers; `uncertainty` makes the interval, `ranges` adds the
+inputs. Nothing here knows how a model solves: the contract is `lubfric.models.contract`.
 """
 
 from .friction import friction
@@ -10,6 +10,7 @@ from .full_load import full_load_numbers
 from .outlook import forecast
 from .power import power_of_forces
 from .result import FrictionResult, together
+from .sampled import sampled
 from .uncertainty import (
     Uncertainty,
     UncertaintyCurve,

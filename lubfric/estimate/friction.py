@@ -10,11 +10,7 @@ from .._base import limited_work, unlimited_work, validate, with_default_errors
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
 from ..errors import ConvergenceError, InputError
-from ..models.deterministic import cells_of, too_costly, too_hot
-from ..models.load_sharing import (
-    SampleSolution,
-    sampled,
-)
+from ..models import Deterministic, LoadSharing, Model
 from ..models.shared import (
     Prepared,
     at_speed,
@@ -22,15 +18,16 @@ from ..models.shared import (
     refused,
     unmodelled_effects,
 )
-from ..scene import FASTEST, Scene, gap_not_resolved, told_doubts
-from .answer import limits_passed, load_sharing_answer
-from .answer_deterministic import strips_answer
-from .errors_of import model_error
+from ..scene import FASTEST, Scene, told_doubts
+from .answer import result_of
 from .full_load import full_load_numbers
 from .methods import with_methods
 from .outlook import forecast
 from .power import with_power_loss
 from .result import FrictionResult
+from .sampled import sampled
+
+MODELS = (LoadSharing(), Deterministic())  # the cheapest first
 
 # Times the estimate of a point: the counted work that it may take where numerics.max_work does not say.
 TIMES_ESTIMATE = 10.0
@@ -45,7 +42,7 @@ def friction(
     speed: float | None = None,
     *,
     tolerance: float | None = None,
-    model: str | None = None,
+    model: str | Model | None = None,
     fields: bool = False,
     raise_on_failure: bool = True,
     workers: int = 1,
@@ -56,7 +53,7 @@ def friction(
     (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z). Without entrainment the contact carries the whole load.
     When the film clears the summits, no contact is solved. The solve stops when ``|gap - film|/(gap + film)``, of means
     over A, is <= its tolerance (`Numerics.tolerance_of`) divided by the share of the film in f. Where the error of that
-    model may be more than ``numerics.model_tolerance``, strips of the surface with one gap and one pressure correct it
+    model may be more than ``numerics.model_tolerance``, strips of the surface by the deterministic model correct it
     or answer in its place (docs/uncertainty.md).
 
     Parameters
@@ -64,8 +61,9 @@ def friction(
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
-    model : "load-sharing"; "deterministic": one gap and one pressure; "auto"; None: the scene's
-    fields : True: ``result.balance`` has film and contact on the cells of the map (on strips: on theirs)
+    model : "load-sharing", "deterministic", or "auto": the cheapest that is good enough; None: the scene's. Or a
+        `lubfric.models.Model` of your own
+    fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on theirs)
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
     workers : processes that solve strips of the surface and ends of input ranges side by side, where there are several.
         The numbers do not depend on it. A script that asks for more than one needs ``if __name__ == "__main__":``
@@ -79,7 +77,8 @@ def friction(
     ValidityError : f means nothing, because an assumption fails, and ``numerics.accept`` is false; carries the result
     """
     begun = time.perf_counter()
-    prepared = at_tolerance(scene, tolerance, model)
+    chosen = model if isinstance(model, Model) else None
+    prepared = at_tolerance(scene, tolerance, None if isinstance(model, Model) else model)
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     prepared = at_speed(prepared, speed)
@@ -89,8 +88,8 @@ def friction(
     limit = most_work(prepared, speed)
     with told_doubts(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
         with limited_work(limit):
-            answer = _answer(prepared, speed, fields, begun)
-        result = with_methods(prepared, answer)
+            result = _solved(prepared, speed, chosen, native=bool(fields), begun=begun)
+        result = with_methods(prepared, result)
     if not math.isfinite(result.coefficient):
         raise InputError(
             f"f = {result.coefficient} at a speed of {speed:g} m/s: numbers overflow; give speeds, viscosities and "
@@ -107,30 +106,35 @@ def friction(
     return result
 
 
-def _answer(prepared: Prepared, speed: float, fields: bool, begun: float) -> FrictionResult:
-    """By the cheapest model that is good enough: Eq. (8), without entrainment, where its own error is within
-    ``numerics.model_tolerance``, and where the deterministic model has no answer; that model otherwise."""
-    scene = prepared.scene
-    sample = prepared.sample
-    asked = scene.numerics.model
-    if asked == "load-sharing" or speed == 0 or not sample.is_resolved or prepared.surface.sq == 0:
-        return load_sharing_answer(sampled(prepared, speed, own_cells=fields), prepared, speed, begun)
-    if asked == "deterministic" and sample.is_single_patch:
-        return strips_answer(prepared, speed, None, begun)
-    found = sampled(prepared, speed, own_cells=fields)
-    if asked == "auto":
-        why = _enough(prepared, found) or too_costly(prepared, speed, cells_of(scene, sample))
-        if why or any(entry.severe for entry in limits_passed(found, prepared, speed)):
-            return load_sharing_answer(found, prepared, speed, begun, why)
+def _solved(prepared: Prepared, speed: float, model: Model | None, *, native: bool, begun: float) -> FrictionResult:
+    """Return the result of the cheapest model that is good enough.
+
+    Load sharing gives it without entrainment, where its own error is within ``numerics.model_tolerance``, and where the
+    deterministic model has no answer; that model gives it otherwise. ``model``: takes their place.
+    """
+    if model is not None:
+        return result_of(prepared, sampled(prepared, speed, model, native=native).answer(), model.name, begun)
+    requested = prepared.scene.numerics.model
+    cheap, dear = MODELS
+    if requested == cheap.name or dear.unable(prepared, speed):
+        return result_of(prepared, sampled(prepared, speed, cheap, native=native).answer(), cheap.name, begun)
+    if requested == dear.name and prepared.sample.is_single_patch:  # a cheaper model has no control for it
+        return result_of(prepared, sampled(prepared, speed, dear).answer(), dear.name, begun)
+    cheaper = sampled(prepared, speed, cheap, native=native)
+    if requested == "auto":
+        why = cheaper.sufficient() or dear.declines(prepared, speed, cheaper)
+        if why or any(entry.severe for entry in cheaper.warnings()):
+            return result_of(prepared, cheaper.answer(), cheap.name, begun, why=why)
     try:
-        return strips_answer(prepared, speed, found, begun)
+        answer = sampled(prepared, speed, dear, control=cheaper.control()).answer()
     except ConvergenceError as error:
-        if asked == "deterministic":
+        if requested == dear.name:
             raise
+        why = f"the {dear.name} model was not solved ({error})"
         with unlimited_work():
-            return load_sharing_answer(
-                found, prepared, speed, begun, f"the deterministic model was not solved ({error})"
-            )
+            return result_of(prepared, cheaper.answer(), cheap.name, begun, why=why)
+    compared = None if prepared.sample.is_single_patch else (cheap.name, cheaper.answer())
+    return result_of(prepared, answer, dear.name, begun, cheaper=compared)
 
 
 def most_work(prepared: Prepared, speed: float) -> float:
@@ -139,17 +143,3 @@ def most_work(prepared: Prepared, speed: float) -> float:
     if scene.numerics.max_work is not None:
         return scene.numerics.max_work
     return max(LEAST_WORK, TIMES_ESTIMATE * forecast(scene, prepared.sample, prepared.surface, speed).seconds)
-
-
-def _enough(prepared: Prepared, found: SampleSolution) -> str:
-    """Why Eq. (8) alone answers, in words; "" if it does not."""
-    scene = prepared.scene
-    balance = found.balance
-    why = gap_not_resolved(scene, prepared.given)
-    if why:
-        return f"Eq. (8) alone: {why}"
-    if why := too_hot(balance.forces.heat):
-        return f"Eq. (8) alone: {why}"
-    if found.response is None and max(model_error(scene, found)[0]) <= scene.numerics.model_tolerance:
-        return "Eq. (8) alone: the film is so thick that the roughness hardly matters"
-    return ""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from .._base import Renamed, Shown, figures, packaged
 from ..errors import InputError, Report
+from ..models import ContactFields
 from ..models.deterministic import DeterministicResult
 from ..models.load_sharing import Balance
 from ..models.shared import (
@@ -27,9 +27,9 @@ from .uncertainty import FieldErrors, Uncertainty
 class FrictionResult(Renamed, PointQuantities[float], Shown):
     """One operating point (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z).
 
-    The residuals are relative. ``balance`` holds the fields: the film (``balance.film``, an `EHLResult`)
-    and, for a cylinder in contact, the dry contact (``balance.contact.fields``, a `ContactResult`). On strips of
-    the surface these are on the cells of the strips; ``fields=True`` gives the map's own.
+    The residuals are relative. All fields are of one solve, on the same cells: ``result.fields`` says which, and
+    ``heights``, ``pressure``, ``gap``, ``x`` and ``y`` are read from it. ``fields=True`` solves a single patch on its own
+    cells.
 
     Attributes
     ----------
@@ -43,7 +43,9 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     unmodelled_effects : what the scene leaves out, the likely change of f by it (relative; NaN: not known), and what to do, the
         largest first; nothing that would change f by less than the tolerance (`lubfric.models.shared.unmodelled_effects`)
     methods : names of the methods that it rests on, where a paper stands behind them. ``cite()`` gives the papers
-    heights : of the cells of the contact that was solved [m], (nx, ny), about their mean; None if there are none
+    fields : the fields of one solve (`lubfric.models.ContactFields`); None where there are none
+    compared_fields : those of the cheaper model on whose strips the answer is based, if there is one
+    details : what each model keeps of its solve, by its name
     """
 
     report: Report
@@ -54,14 +56,14 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     validity: tuple[Validity, ...] = ()
     unmodelled_effects: tuple[UnmodelledEffect, ...] = ()
     methods: tuple[str, ...] = ()
-    balance: Balance | None = None
-    heights: np.ndarray | None = None
-    deterministic: DeterministicResult | None = None
+    fields: ContactFields | None = None
+    compared_fields: ContactFields | None = None
+    details: dict[str, Balance | DeterministicResult | None] = field(default_factory=dict)
     _RENAMED = {"lacks": "unmodelled_effects"}
 
     def without_fields(self) -> FrictionResult:
         """A copy with its numbers alone."""
-        return replace(self, balance=None, heights=None, deterministic=None)
+        return replace(self, fields=None, compared_fields=None, details={})
 
     def _facts(self) -> dict[str, str]:
         facts = in_words(self, ("speed", "coefficient", "contact_load", "film_load", "lambda_ratio"))
@@ -76,29 +78,43 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         return cited(self.methods)
 
     @property
+    def balance(self) -> Balance | None:
+        """The balance of film and contact by load sharing, if there is one."""
+        return self.details.get("load-sharing")
+
+    @property
+    def deterministic(self) -> DeterministicResult | None:
+        """What the deterministic model solved, if it gives the answer."""
+        return self.details.get("deterministic")
+
+    @property
     def shows_contact(self) -> bool:
-        """Whether `pressure` and `gap` are available."""
-        return self.deterministic is not None or (self.balance is not None and self.balance.contact.fields is not None)
+        """Whether there are fields of the contact."""
+        return self.fields is not None
 
     @property
     def x(self) -> np.ndarray:
-        """Cells of the contact along the motion [m], (nx,), around the line of contact. Needs ``fields=True``."""
+        """Cells of the contact along the motion [m], (nx,), around the line of contact."""
         return self._field("x")
 
     @property
     def y(self) -> np.ndarray:
-        """Cells of the contact along the line [m], (ny,). Needs ``fields=True``."""
-        whole = self.deterministic
-        return np.arange(whole.pressure.shape[1]) * whole.spacing[1] if whole else self._field("y")
+        """Cells of the contact along the line [m], (ny,)."""
+        return self._field("y")
+
+    @property
+    def heights(self) -> np.ndarray:
+        """Heights of the roughness of both bodies about their mean [m], (nx, ny)."""
+        return self._field("heights")
 
     @property
     def pressure(self) -> np.ndarray:
-        """Pressure of the rough contact [Pa], (nx, ny); 0 where it is separated. Needs ``fields=True``."""
+        """Pressure of the rough contact [Pa], (nx, ny); 0 where it is separated."""
         return self._field("pressure")
 
     @property
     def gap(self) -> np.ndarray:
-        """Gap of the rough contact [m], (nx, ny). Needs ``fields=True``, and contact."""
+        """Gap of the rough contact [m], (nx, ny)."""
         return self._field("gap")
 
     def plot_contact(self, ax=None, rows=slice(None)):
@@ -111,15 +127,10 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         return axes
 
     def _field(self, name: str) -> np.ndarray:
-        source: Any = self.balance and self.balance.contact
-        if self.deterministic is not None:
-            source = self.deterministic
-        elif name not in ("x", "y"):
-            source = source and source.fields
-        if getattr(source, name, None) is None:
+        if self.fields is None:
             why = "it is separated" if self.contact_load == 0 else "it was not kept, or comes from a contact curve"
             raise InputError(f"this point has no {name} of its contact: {why}; solve one in contact with fields=True")
-        return getattr(source, name)
+        return getattr(self.fields, name)
 
 
 def _interval(interval: tuple[float, float]) -> str:

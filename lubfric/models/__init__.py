@@ -1,1 +1,5 @@
-"""The two models of a mixed-lubricated contact: load sharing after the paper, and the deterministic model."""
+"""The two models of a mixed-lubricated contact, under one contract: load sharing after the paper, and deterministic."""
+
+from .contract import ContactFields, Model, ModelAnswer, SampleSolution
+from .deterministic import Deterministic
+from .load_sharing import LoadSharing

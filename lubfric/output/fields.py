@@ -10,64 +10,41 @@ import numpy as np
 from .._base import validate, write_whole
 from ..estimate import FrictionResult
 from ..models.deterministic import Moment
-from ..models.shared import Prepared
 
-OF_ONE_GAP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a DeterministicResult
+FIELDS = ("heights", "pressure", "gap", "film", "shear")  # of `lubfric.models.ContactFields`, all on the same cells
+OF_CELLS = ("fill", "dent", "touching", "spots", "wet")  # more of a `DeterministicResult`, on the same cells
 
 
-def fields_bytes(prepared: Prepared, points: list[FrictionResult]) -> bytes:
-    """Film and contact fields of some speeds: arrays named ``<quantity>_<index>``, and ``speed``; SI units.
+def fields_bytes(points: list[FrictionResult]) -> bytes:
+    """Return the fields of some speeds as arrays named ``<quantity>_<index>``, and ``speed``; SI units.
 
-    A point of the deterministic model has the fields of its first strip, on cells of its own (``spacing_<index>``).
-    Another speed whose contact has other cells than the first one has their map and x under its index too.
+    Of each point x, y and all fields of one solve, on the same cells; ``solve`` says which. Of the smooth film of load
+    sharing x, thickness and pressure on its own nodes.
     """
-    arrays = {"speed": np.array([p.speed for p in points])}
-    if any(point.deterministic is None for point in points):
-        arrays |= _map_of(prepared, points[0])
+    arrays: dict[str, np.ndarray] = {"speed": np.array([point.speed for point in points])}
     for i, point in enumerate(points):
         film = point.balance.film if point.balance else None
-        found = {}
-        if point.deterministic is not None:
-            result = point.deterministic
-            found = {name: getattr(result, name) for name in OF_ONE_GAP} | {"spacing": np.array(result.spacing)}
-        elif film is not None:
-            found = {"film_x": film.x, "film_thickness": film.film_thickness, "film_pressure": film.pressure}
-        if point.deterministic is None and point.shows_contact:
-            found |= {"contact_pressure": point.pressure, "gap": point.gap}
-            if point.heights is not None and point.heights.shape != arrays["heights"].shape:
-                found |= _map_of(prepared, point)
-        arrays |= {f"{name}_{i}": array for name, array in found.items()}
+        if film is not None and point.deterministic is None:
+            arrays |= {f"film_x_{i}": film.x, f"film_thickness_{i}": film.film_thickness}
+            arrays[f"film_pressure_{i}"] = film.pressure
+        if point.fields is not None:
+            arrays |= {f"{name}_{i}": getattr(point.fields, name) for name in ("x", "y", *FIELDS)}
+            arrays[f"solve_{i}"] = np.array(point.fields.solve)
+        if point.deterministic is not None and point.deterministic.pressure is point.pressure:
+            arrays |= {f"{name}_{i}": getattr(point.deterministic, name) for name in OF_CELLS}
     return npz_bytes(arrays)
 
 
-def _map_of(prepared: Prepared, point: FrictionResult) -> dict[str, np.ndarray]:
-    """Heights, cells and x of the contact of ``point``; those that were solved first where it shows none."""
-    if point.heights is None or not point.shows_contact or point.deterministic is not None:
-        surface = prepared.surface
-        return {"heights": surface.heights, "spacing": np.array(surface.spacing), "contact_x": prepared.contact.x}
-    spacing = np.array([point.x[1] - point.x[0], point.y[1] - point.y[0]])
-    return {"heights": point.heights, "spacing": spacing, "contact_x": point.x}
+def vtk_bytes(point: FrictionResult) -> bytes:
+    """Return height [m], pressure [Pa], gap [m], film thickness [m] and shear stress [Pa] of the cells of one solve.
 
-
-def vtk_bytes(prepared: Prepared, point: FrictionResult) -> bytes:
-    """Height [m], contact pressure [Pa], gap [m]; constant along the line: film thickness [m], film pressure [Pa].
-
-    At the cells of the contact, in the plane z = 0 (warp by "height" to see the surface). ``point`` needs fields
-    (``fields=True``) and contact, or the deterministic model. What a point does not have is left out.
+    In the plane z = 0 (warp by "height" to see the surface).
     """
-    x = point.x
-    y = point.y
-    fields = {}
-    heights = prepared.surface.heights if point.heights is None else point.heights
-    if heights.shape == (x.size, y.size):
-        fields["height"] = heights - np.nanmean(heights)
-    fields |= {"contact_pressure": point.pressure, "gap": point.gap}
-    film = point.balance.film if point.balance else None
-    if film is not None:
-        pressure = np.interp(x, film.x, film.pressure, left=0.0, right=0.0)
-        for name, values in (("film_thickness", film.film_at(x)), ("film_pressure", pressure)):
-            fields[name] = np.repeat(values[:, None], y.size, axis=1)
-    return grid_bytes(x, y, fields, f"U = {point.speed:g} m/s")
+    fields = point.fields
+    assert fields is not None
+    names = {"height": "heights", "pressure": "pressure", "gap": "gap", "film_thickness": "film", "shear": "shear"}
+    arrays = {name: getattr(fields, of) for name, of in names.items()}
+    return grid_bytes(fields.x, fields.y, arrays, f"U = {point.speed:g} m/s, {fields.solve}")
 
 
 def write_moments(folder: Path | str, moments: Iterable[Moment]) -> None:

@@ -104,35 +104,40 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
 
 
 def plot_contact(path: Path, prepared, point) -> None:
-    """The contact of ``point``, a `lubfric.FrictionResult` with fields, on the cells of ``prepared``, as PNG."""
+    """Draw the fields of ``point``, a `lubfric.FrictionResult`, as PNG."""
     if point.deterministic is not None:
-        figure = _one_gap(point, prepared.scene.bodies.half_width)
+        figure = _one_gap(point.fields, point.speed, prepared.scene.bodies.half_width)
     else:
-        figure = _two_pressures(prepared, point)
+        figure = _two_pressures(prepared, point, point.fields)
     figure.savefig(path, dpi=150)
 
 
-def _one_gap(point, half_width: float):
+def plot_compared(path: Path, prepared, point) -> None:
+    """Draw the fields of the load-sharing model with which ``point`` is compared, as PNG."""
+    _two_pressures(prepared, point, point.compared_fields).savefig(path, dpi=150)
+
+
+def _one_gap(fields, speed: float, half_width: float):
     """Pressure, gap and shear around the Hertz strip, from above, in the part with the highest pressure."""
     from matplotlib.colors import LogNorm
 
-    near = np.abs(point.x) <= NEAR * half_width
-    x = point.x[near]
-    y = point.y
-    part = _part(x, y, int(point.pressure[near].max(axis=0).argmax()))
+    near = np.abs(fields.x) <= NEAR * half_width
+    x = fields.x[near]
+    y = fields.y
+    part = _part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
     figure = figures.new_figure(figsize=(10, 5.5), layout="compressed")
     for axes, (label, field, colours, norm) in zip(
         figure.subplots(1, 3, sharey=True),
         (
-            ("pressure (GPa)", point.pressure / 1e9, "magma_r", None),
-            ("gap (nm)", point.gap * 1e9, "viridis", LogNorm()),
-            ("shear stress (MPa)", point.deterministic.shear / 1e6, "cividis", None),
+            ("pressure (GPa)", fields.pressure / 1e9, "magma_r", None),
+            ("gap (nm)", fields.gap * 1e9, "viridis", LogNorm()),
+            ("shear stress (MPa)", fields.shear / 1e6, "cividis", None),
         ),
     ):
         figures.field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)
         _hertz_strip(axes, half_width)
         axes.label_outer()
-    figure.suptitle(f"U = {point.speed:g} m/s{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
+    figure.suptitle(f"U = {speed:g} m/s{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
     return figure
 
 
@@ -151,33 +156,34 @@ def _partly(y: np.ndarray, part: slice) -> str:
     return "" if part == slice(None) else f"; {some:.0f} of {1e6 * y[-1]:.0f} µm of the line"
 
 
-def _two_pressures(prepared, point):
+def _two_pressures(prepared, point, fields):
     """Map of the contact pressure; beside it film and surfaces on a section through the highest pressure.
 
     The section shows what the paper's Fig. 10 shows: the smooth film h, the separation h_s = h - epsilon as the
     counterface, and the rough surface, deformed (z - u) and undeformed (z). epsilon and u are known up to one constant.
     It is chosen so that u has zero mean over the section.
     """
-    heights = prepared.surface.heights if point.heights is None else point.heights
-    heights, x = heights - heights.mean(), point.balance.contact.x
-    contact = point.balance.contact.fields
+    contact = None if fields is None else point.balance.contact.fields
     film = point.balance.film
     half_width = prepared.scene.bodies.half_width
-    row = heights.shape[1] // 2 if contact is None else int(contact.pressure.max(axis=0).argmax())
-    in_section = film is not None and heights.shape[0] == x.size
+    row = 0 if fields is None else int(fields.pressure.max(axis=0).argmax())
+    if fields is not None and contact is None:
+        row = fields.y.size // 2
+    in_section = film is not None and fields is not None
     panels = [contact is not None or not in_section, in_section]
-    part = slice(None) if contact is None else _part(x, point.y, row)
-    slender = contact is not None and np.ptp(point.y[part]) > SLENDER * np.ptp(x)
+    part = slice(None) if contact is None else _part(fields.x, fields.y, row)
+    slender = contact is not None and np.ptp(fields.y[part]) > SLENDER * np.ptp(fields.x)
     ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
     figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0))
     axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
     both = worded(point.balance.contact_load, "N"), worded(point.balance.film_load, "N")
     loads = "U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
     if contact is not None:
-        point.plot_contact(axes[0], part).set_title("")  # it is above both
+        pressure = fields.pressure[:, part] / 1e9
+        figures.field_image(axes[0], fields.x, fields.y[part], pressure, "magma_r", "contact pressure (GPa)", vmin=0)
         _hertz_strip(axes[0], half_width)
-        axes[0].axhline(point.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
-        loads += _partly(point.y, part)
+        axes[0].axhline(fields.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
+        loads += _partly(fields.y, part)
     elif panels[0]:
         said = {"ha": "center", "va": "center", "transform": axes[0].transAxes}
         axes[0].text(0.5, 0.5, "no dry contact field\n(separated, or read from a contact curve)", **said)
@@ -185,10 +191,10 @@ def _two_pressures(prepared, point):
     loads += "; dashed: Hertz strip" if panels[0] else ": no contact"
     figure.suptitle(loads, fontsize=10)
     if in_section:
-        _section(axes[-1], x * 1e6, heights[:, row], film.film_at(x), contact, row)
+        _section(axes[-1], fields.x * 1e6, fields.heights[:, row], fields.film[:, row], contact, row)
         _hertz_strip(axes[-1], half_width)
         if contact is not None:
-            axes[-1].set_xlabel(f"x (µm) at y = {point.y[row] * 1e6:.1f} µm (dotted)")
+            axes[-1].set_xlabel(f"x (µm) at y = {fields.y[row] * 1e6:.1f} µm (dotted)")
     return figure
 
 

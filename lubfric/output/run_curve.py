@@ -3,7 +3,7 @@
 import math
 import re
 from collections.abc import Callable
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +24,7 @@ from ..units import numbers_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import SceneEstimate
 from .fields import fields_bytes, vtk_bytes
-from .pictures import plot_contact, plot_history, plot_stribeck, plot_traction
+from .pictures import plot_compared, plot_contact, plot_history, plot_stribeck, plot_traction
 
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
 WORTH = 8  # speeds from which a second process gains more than it costs
@@ -110,17 +110,16 @@ def _write(
     columns = read_table(folder.path / f"{name}.csv", contents[f"{name}.csv"])
     if _drawable(columns).any():
         folder.draw(f"{name}.png", _plot, columns, prepared.scene.name, numbers)
-    points = [p for p in curve.points if p is not None and (p.balance is not None or p.deterministic is not None)]
+    points = [p for p in curve.points if p is not None and (p.fields is not None or p.balance is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
-        contents["fields.npz"] = fields_bytes(prepared, points)
+        contents["fields.npz"] = fields_bytes(points)
         folder.draw("contact.png", plot_contact, prepared, points[0])
-        beside = replace(points[0], deterministic=None)
-        if points[0].deterministic is not None and beside.shows_contact:
-            folder.draw("sharing.png", plot_contact, prepared, beside)
+        if points[0].compared_fields is not None:
+            folder.draw("sharing.png", plot_compared, prepared, points[0])
     if arguments.vtk:
         touching = [p for p in points if p.shows_contact]
-        contents |= {f"contact_{i}.vtk": vtk_bytes(prepared, point) for i, point in enumerate(touching)}
+        contents |= {f"contact_{i}.vtk": vtk_bytes(point) for i, point in enumerate(touching)}
         if not touching:
             say("no .vtk file: none of the speeds of --fields has a contact with fields")
     law = _law(curve)

@@ -8,7 +8,8 @@ from functools import partial
 import numpy as np
 
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError
-from ..models.load_sharing import sampled, solve_balance
+from ..estimate import sampled
+from ..models.load_sharing import BalancedSample, LoadSharingSolution, solve_balance
 from ..models.shared import (
     Prepared,
     on_stack,
@@ -229,7 +230,7 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
     found = []
     for speed in speeds:
         try:
-            one = sampled(replace(prepared, sample=sample), speed)
+            one = _balanced(replace(prepared, sample=sample), speed)
         except LubfricError:
             found.append((sample.first, 0.0, math.nan, math.nan))
             continue
@@ -240,6 +241,13 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
         by_cells = one.change("gap") if same else math.inf
         found.append((one.count, by_cells, area, corrected / plastic if plastic else math.nan))
     return np.array(found, dtype=float).T
+
+
+def _balanced(prepared: Prepared, speed: float) -> BalancedSample:
+    """Return the strips that load sharing needs at ``speed`` [m/s], in steady balance."""
+    solution = sampled(prepared, speed)
+    assert isinstance(solution, LoadSharingSolution)
+    return solution.balanced
 
 
 def _mean(factors: np.ndarray) -> float:

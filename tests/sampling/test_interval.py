@@ -8,9 +8,8 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
-from lubfric.estimate import forecast
-from lubfric.models.deterministic.levels import levels_of
-from lubfric.models.load_sharing import control_for, sampled
+from lubfric.estimate import forecast, sampled
+from lubfric.models import Deterministic
 from lubfric.output.describe import describe_scene
 from verification.campaigns.hostile.soak_force import friction_force
 
@@ -185,7 +184,8 @@ def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(samp
     told = counted = 0.0
     for speed in speeds:
         one = forecast(prepared.scene, prepared.sample, prepared.surface, speed)
-        levels = levels_of(prepared, speed, control_for(prepared, sampled(prepared, speed)))
+        control = sampled(prepared, speed).control()
+        levels = sampled(prepared, speed, Deterministic(), control=control).levels
         solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]
         counted += sum(strip.work for strip in [*solved, *(strip for piece in levels.pieces for strip in piece)])
         told += one.seconds

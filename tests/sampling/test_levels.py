@@ -10,6 +10,8 @@ import pytest
 import scipy.stats
 
 import lubfric
+from lubfric.estimate import sampled
+from lubfric.models import Deterministic
 from lubfric.models.deterministic import (
     change_by_flow,
     levels,
@@ -24,7 +26,7 @@ from lubfric.models.deterministic.strip_on_two_grids import (
     solve_pair,
     strip_of,
 )
-from lubfric.models.load_sharing import sampled, solve_balance
+from lubfric.models.load_sharing import solve_balance
 from lubfric.models.load_sharing.control_variate import control_variate_of
 from lubfric.models.shared import on_strip
 from lubfric.models.shared.control_variate import ControlVariate
@@ -79,7 +81,7 @@ def test_f_is_that_of_other_strips_one_by_one(prepared, found):
 
 def test_the_effect_of_shorter_cells_is_that_on_other_strips():
     """Three strips of other seeds on cells of 3.6 and 1.8 µm at .1 m/s, beside what pieces of the scene add."""
-    found = levels.levels_of(prepared := lubfric.prepare(FINE), 0.1, None)
+    found = sampled(prepared := lubfric.prepare(FINE), 0.1, Deterministic()).levels
     alone = np.mean([pair.resolved.result.coefficient for pair in found.pairs])
     changes = []
     for k in range(3):
@@ -109,7 +111,7 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
 
         monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(7.2)))
         monkeypatch.setattr(shorter, "_refined", ladder)
-        found = levels.levels_of(lubfric.prepare(FINE, like=prepared), 0.1, None)
+        found = sampled(lubfric.prepare(FINE, like=prepared), 0.1, Deterministic()).levels
         truth = on(0.45).result.coefficient
         assert bool(found.shortest) == (order < 2)
         assert abs(found.numbers["coefficient"] / truth - 1) <= 1.1 * found.numerical <= 1.1 * most
@@ -124,12 +126,12 @@ def test_cells_are_shortened_twice_where_once_leaves_too_much(monkeypatch):
                 friction_at=pair.resolved.result.friction_at[:rows],
             ),
         )
-        found = levels.levels_of(lubfric.prepare(FINE, like=prepared), 0.1, None)
+        found = sampled(lubfric.prepare(FINE, like=prepared), 0.1, Deterministic()).levels
         assert bool(found.shortest) == (rows == 100)
     solved = pair.resolved
     monkeypatch.setattr(levels, "solve_pair", lambda *_: replace(pair, resolved=on(3.6), longer=on(3.6)))
     for acf in ("gaussian", "exponential"):  # no change between cells is believed only where heights are smooth
-        found = levels.levels_of(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, None)
+        found = sampled(lubfric.prepare(FINE.with_(surface={"acf": acf})), 0.1, Deterministic()).levels
         assert bool(found.pieces) == (acf == "exponential")
 
 
@@ -320,7 +322,7 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
     """Every strip of the line, solved by Eq. (8) as a line of its own: to first order f, the loads, the forces and the
     gap differ from those of the line as `control_variate_of` says, and over the line the differences are zero in the mean."""
     prepared = lubfric.prepare(SCENE.with_(numerics={"model": "load-sharing", "sampling_tolerance": 0.004}))
-    found = sampled(prepared, 0.005)
+    found = sampled(prepared, 0.005).balanced
     line = control_variate_of(prepared, found)
     rows = []
     scene = prepared.scene

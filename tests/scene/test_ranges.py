@@ -51,7 +51,7 @@ def test_an_end_that_is_not_solved_does_not_lose_the_point(monkeypatch):
     def fails(*args):
         raise lubfric.ConvergenceError("no balance")
 
-    monkeypatch.setattr("lubfric.estimate.ranges.solve_balance", fails)
+    monkeypatch.setattr("lubfric.models.load_sharing.answer.solve_balance", fails)
     known = f(SMALL.with_(bodies={HARDNESS: [1.2e9, 6e9]})).uncertainty
     assert np.isfinite(known.interval).all() and math.isnan(known.inputs)
     assert "hardness in its range: not in the interval" in known.text
@@ -120,7 +120,7 @@ def test_only_the_ends_of_ranges_are_solved(motion, monkeypatch):
         """Stand in for the march in time, which takes a minute here: only the number of solves counts."""
         return at_rest(scene, bodies[0].surface, speed, **options)
 
-    for place in ("models.deterministic.strip_on_two_grids", "estimate.ranges"):
+    for place in ("models.deterministic.strip_on_two_grids", "models.deterministic.answer"):
         monkeypatch.setattr(f"lubfric.{place}.solve_strip", counted(at_rest))
     monkeypatch.setattr("lubfric.models.deterministic.strip_on_two_grids.solve_moving_strip", counted(without_motion))
     numerics = {"model": "deterministic", "sampling": "patch", "tolerance": 0.2}

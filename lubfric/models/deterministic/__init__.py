@@ -1,7 +1,8 @@
 """One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
-from .levels import DIFFERENCE, Levels, levels_of, mean
+from .levels import DIFFERENCE, mean
+from .model import Deterministic, DeterministicSolution
 from .moving import Moment, RoughBody, moments, travelling
 from .moving_strip import (
     ECONOMICAL,

@@ -59,12 +59,12 @@ def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, flo
 
 
 def too_hot(heat: Heat) -> str:
-    """Why ``heat`` is more than was checked for one gap and one pressure, in words; "" if it is not."""
+    """Return why ``heat`` is more than was checked for the deterministic model, in words; "" if it is not."""
     factor = heat.film_factor
     change = heat.change
     if factor >= LEAST_FILM and change <= MOST_CHANGE:
         return ""
     return (
-        f"heat leaves {factor:.2g} of the film and takes {100 * change:.2g} % of f; with one gap and one pressure it "
+        f"heat leaves {factor:.2g} of the film and takes {100 * change:.2g} % of f; the deterministic model "
         f"was checked to {LEAST_FILM:g} and {100 * MOST_CHANGE:g} %"
     )

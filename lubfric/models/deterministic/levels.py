@@ -60,7 +60,7 @@ FEWEST = 3  # strips whose scatter tells an error
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Levels:
     """The sum over levels.
 
@@ -110,57 +110,70 @@ class TwoLevelEstimate:
         return max(required_strips(count, 1, most, error, limit, growth=GROWTH, spare=SPARE) for error, limit in errors)
 
 
-def levels_of(prepared: Prepared, speed: float, control: ControlVariate | None) -> Levels:
-    """Return the sum over levels at ``speed`` [m/s], not 0, for a scene with strips. ``control``: what a cheaper model
-    knows of these strips (None: there is no first level).
+def solve_strips(
+    prepared: Prepared, speed: float, count: int, strips: Sequence[StripOnTwoGrids] = ()
+) -> tuple[StripOnTwoGrids, ...]:
+    """Solve the first ``count`` strips at ``speed`` [m/s], not 0; ``strips``: the first of them, if they are solved."""
+    solved = list(strips) or [solve_pair(prepared, speed, None, 0)]
+    slope = solved[0].resolved.slope
+    return (*solved, *map_parts(solve_pair, range(len(solved), count), prepared, speed, slope))
 
-    Strips are solved until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
+
+def two_levels(
+    prepared: Prepared, pairs: Sequence[StripOnTwoGrids], control: ControlVariate | None
+) -> tuple[TwoLevelEstimate, int]:
+    """Return the estimate from these strips that needs fewer of them in all, and how many: with a ``control``, or as
+    the mean of the strips alone.
+
+    Strips are needed until the standard error of f is within ``numerics.sampling_tolerance``. With the first level, the
     difference of the models may leave a half-width of `DIFFERENCE` times ``numerics.model_tolerance`` beside it. No
-    more are solved than `MOST_WORK` allows. Finer cells follow if the change of f from longer cells is not within
-    ``numerics.tolerance``. Raises `ConvergenceError`.
+    more are wanted than `MOST_WORK` allows.
     """
-    pairs, both = _first_levels(prepared, speed, control)
+    numerics = prepared.scene.numerics
+    load = prepared.scene.bodies.load
+    most = max(1, min(prepared.sample.available, int(MOST_WORK / pairs[0].resolved.work)))
+    estimates = [_sum(prepared, pairs, one) for one in (control, None) if one is None or len(pairs) <= one.count]
+    estimates = [one for one in estimates if not one.line or 0 <= one.numbers["contact_load"] <= load]
+    counts = [one.wanted(numerics, len(pairs), most) for one in estimates]
+    best = next(k for k, one in enumerate(estimates) if not one.line or counts[k] <= min(counts[-1], one.line))
+    return estimates[best], max(counts[best], len(pairs))
+
+
+def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids], estimate: TwoLevelEstimate) -> Levels:
+    """Return the sum over levels at ``speed`` [m/s]: the ``estimate`` from these strips, changed by shorter cells if the
+    change of f from longer ones is not within ``numerics.tolerance``. Raises `ConvergenceError`."""
     pieces, shortest, by_cells, numerical = on_shorter_cells(prepared, speed, pairs)
-    numbers = changed(prepared, both.numbers, [(piece[1], piece[-1]) for piece in pieces])
+    numbers = changed(prepared, estimate.numbers, [(piece[1], piece[-1]) for piece in pieces])
     numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
     f = abs(numbers["coefficient"])
-    of_strips = add_errors(both.whole, replace(by_cells, error=by_cells.error * f))
-    difference = BlockError(min(both.difference.error, of_strips.error) / f, both.difference.freedom)
+    of_strips = add_errors(estimate.whole, replace(by_cells, error=by_cells.error * f))
+    difference = BlockError(min(estimate.difference.error, of_strips.error) / f, estimate.difference.freedom)
     by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
-    sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (both.between / f) ** 2))
+    sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     results = [pair.resolved.result for pair in pairs]
     films = tuple(mean(getattr(one, name) - one.coefficient for one in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
-    length = prepared.sample.length * max(both.line, len(pairs))
+    length = prepared.sample.length * max(estimate.line, len(pairs))
     first = pairs[0].resolved
     rest = first.rest if isinstance(first, MovingStrip) else first
     oil = prepared.scene.lubricant
     flow, inlet = (change_by_flow(rest, other) for other in (thinned_less(rest.problem.lubricant), oil))
-    parts = (both.line, tuple(pairs), pieces, shortest)
-    of_f = (sampling, difference, numerical)
-    return Levels(numbers, errors, films, flow, inlet, *parts, *of_f, length)
-
-
-def _first_levels(
-    prepared: Prepared, speed: float, control: ControlVariate | None
-) -> tuple[list[StripOnTwoGrids], TwoLevelEstimate]:
-    """The strips of the second level, as many as it takes, and the sum of the first two."""
-    sample = prepared.sample
-    numerics = prepared.scene.numerics
-    load = prepared.scene.bodies.load
-    pairs = [solve_pair(prepared, speed, None, 0)]
-    first = pairs[0].resolved
-    most = max(1, min(sample.available, int(MOST_WORK / first.work)))
-    while True:
-        estimates = [_sum(prepared, pairs, one) for one in (control, None) if one is None or len(pairs) <= one.count]
-        estimates = [one for one in estimates if not one.line or 0 <= one.numbers["contact_load"] <= load]
-        counts = [one.wanted(numerics, len(pairs), most) for one in estimates]
-        best = next(k for k, one in enumerate(estimates) if not one.line or counts[k] <= min(counts[-1], one.line))
-        if counts[best] <= len(pairs):
-            break
-        pairs += map_parts(solve_pair, range(len(pairs), counts[best]), prepared, speed, first.slope)
-    return pairs, estimates[best]
+    return Levels(
+        numbers=numbers,
+        errors=errors,
+        by_film=films,
+        by_flow=flow,
+        by_inlet=inlet,
+        line=estimate.line,
+        pairs=tuple(pairs),
+        pieces=pieces,
+        shortest=shortest,
+        sampling=sampling,
+        difference=difference,
+        numerical=numerical,
+        length=length,
+    )
 
 
 def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVariate | None) -> TwoLevelEstimate:

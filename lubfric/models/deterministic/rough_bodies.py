@@ -80,6 +80,6 @@ def too_costly(prepared: Prepared, speed: float, factors: tuple[int, int]) -> st
     if work <= MOST_WORK:
         return ""
     return (
-        "Eq. (8) alone: the roughness moves, and one strip with one gap and one pressure would take about "
+        "load sharing alone: the roughness moves, and one strip by the deterministic model would take about "
         f"{work:.2g} s of processor time, more than {MOST_WORK:g} s; numerics.model = 'deterministic' asks for it"
     )

@@ -6,13 +6,14 @@ assumptions of the model that a balance violates.
 """
 
 from .balance import Balance, solve_balance
+from .balanced_sample import BalancedSample
 from .control_variate import control_for
 from .decision import decided
 from .forces import Forces, forces
 from .limits import limits_exceeded
+from .model import LoadSharing, LoadSharingSolution
 from .model_error import load_sharing_error
 from .point import Point
 from .response import Response, Slopes, loads_at, quantities, touched_length, with_contact_area_scaled
 from .rough_film import LIMIT_RANGE, RoughFilm, RoughMap, rough_film
-from .sample_solution import SampleSolution, sampled
 from .scatter import Scatter, moment_error

@@ -19,7 +19,7 @@ from ..shared import (
     Prepared,
     on_strip,
 )
-from .sample_solution import SampleSolution
+from .balanced_sample import BalancedSample
 from .scatter import (
     friction_influence,
     gap_influence,
@@ -28,15 +28,16 @@ from .scatter import (
 )
 
 
-def control_for(prepared: Prepared, solution: SampleSolution) -> ControlVariate | None:
-    """Return the control of another model on the strips of ``prepared``; None where ``solution`` is on other cells, on a
+def control_for(solution: BalancedSample) -> ControlVariate | None:
+    """Return the control of another model on the strips of the scene; None where ``solution`` is on other cells, on a
     single patch, or does not know its own scatter."""
+    prepared = solution.prepared
     sample = prepared.sample
     same_strips = solution.sample.cells == sample.cells and not sample.is_single_patch
     return control_variate_of(prepared, solution) if same_strips and math.isfinite(solution.sampling) else None
 
 
-def control_variate_of(prepared: Prepared, found: SampleSolution) -> ControlVariate:
+def control_variate_of(prepared: Prepared, found: BalancedSample) -> ControlVariate:
     """Return the differences of the strips of ``found`` from their line. Where nothing touches, strips do not differ."""
     solved = found.solved
     response = found.response

@@ -109,7 +109,7 @@ def friction_influence(scene: Scene, contact: HalfSpaceContact, balance: Balance
         return np.zeros(contact.heights.shape[1])
     touching = state.fields.pressure > 0
     touched = max(float(touching.sum(axis=0).mean()) * contact.spacing[0], 1e-300)
-    lost = _film_stress(scene, contact, film) @ touching * contact.spacing[0]
+    lost = film_stress(scene, contact, film) @ touching * contact.spacing[0]
     by_load = response.rates["coefficient"] * response.log_load_ratio_per_gap
     force = balance.forces.total / scene.bodies.width
     slope = by_load * response.slopes.gap - response.slopes.touched * float(lost.mean()) / touched / force
@@ -129,7 +129,7 @@ def place_error(influence, step: float, sample: Sample, count: int, exact=None) 
     return max((e for e in (blocks, windows) if math.isfinite(e.error)), key=lambda e: e.error)
 
 
-def _film_stress(scene: Scene, contact: HalfSpaceContact, film: EHLResult) -> np.ndarray:
+def film_stress(scene: Scene, contact: HalfSpaceContact, film: EHLResult) -> np.ndarray:
     """Shear stress [Pa] (nx,) of ``film`` at the columns of ``contact``, signed as the friction."""
     sliding = scene.motion.slide_roll_ratio * film.entrainment_speed
     pressure = np.interp(contact.x, film.x, film.pressure)

@@ -40,6 +40,7 @@ from .statistics import (
     MATTERS,
     ORDER,
     SAFETY,
+    TOO_SHORT,
     BlockError,
     add_errors,
     block_error,

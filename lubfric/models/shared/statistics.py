@@ -18,6 +18,10 @@ CONFIDENCE = 0.95
 ORDER = 30  # degrees of freedom given to an error that is not counted from blocks
 FEW = 10.0  # effective contact spots below which an interval covers less often than it says
 MATTERS = 0.25  # of the sampling tolerance: an error below it needs no more of them
+TOO_SHORT = (
+    "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling and "
+    "surface.extension out, or give a map that is longer across the motion)"
+)
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,8 @@ from dataclasses import asdict
 import numpy as np
 
 import lubfric
-from lubfric.models.load_sharing import RoughMap, rough_film, sampled
+from lubfric.estimate import sampled
+from lubfric.models.load_sharing import RoughMap, rough_film
 from lubfric.models.shared import prepare
 
 from .case import Case
@@ -28,7 +29,7 @@ def quick(case: Case) -> dict[str, float]:
 def _places(case: Case, scene: lubfric.Scene, places) -> Iterator[dict[str, float]]:
     for place in places:
         prepared = prepare(scene, case.widened(place))
-        solution = sampled(prepared, case.speed)
+        solution = sampled(prepared, case.speed).balanced
         contact = solution.contact
         times = contact.heights.shape[0] // case.surface.shape[0]
         maps = [

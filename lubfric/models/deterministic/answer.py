@@ -1,31 +1,24 @@
-"""The deterministic model, one gap with one pressure, as a `FrictionResult`: its numbers, and what a reader has to
-know."""
+"""What the deterministic model says of one operating point: its numbers, their errors, warnings and fields."""
 
 import math
-import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any
+from functools import partial
 
-from ..models.deterministic import (
-    LEAST_FILM,
-    MOST_CHANGE,
-    DeterministicResult,
-    Levels,
-    levels_of,
-    mean,
-    strip_heat,
-    too_hot,
-    warmed,
-)
-from ..models.load_sharing import SampleSolution, control_for
-from ..models.shared import (
+import numpy as np
+
+from ...quantities import depending_on
+from ...samples import measured
+from ...scene import Scene, moves, value_of
+from ..contract import AtInputs, ContactFields, ModelAnswer
+from ..shared import (
+    TOO_SHORT,
+    BlockError,
     Decision,
     Heat,
     Prepared,
     Validity,
     error_by_heat,
-    of_error,
     of_heat,
     of_inlet,
     of_motion,
@@ -34,17 +27,13 @@ from ..models.shared import (
     percent,
     student,
 )
-from ..quantities import depending_on
-from ..samples import measured
-from ..scene import Scene, moves
-from .errors_of import TOO_SHORT
-from .ranges import with_ranges
-from .result import FrictionResult
-from .uncertainty import (
-    Uncertainty,
-    field_errors_of,
-    interval,
-)
+from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
+from .levels import Levels, mean
+from .moving_strip import MovingStrip, continued_strip
+from .point import Strip, solve_strip
+from .result import DeterministicResult
+from .rough_bodies import HARDNESS, bodies_of
+from .strip_on_two_grids import strip_of
 
 FEW_STRIPS = "not known from fewer than three strips"
 ONE_HEAT = "heat is found on one strip"
@@ -62,17 +51,13 @@ DRAWN = 0.1
 CUT = 0.1
 
 
-def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None, begun: float) -> FrictionResult:
-    """Solve the strips of ``prepared`` at ``speed`` [m/s], which is not 0; ``found``: the sample of Eq. (8) there, if
-    any. ``begun``: the starting time, by `time.perf_counter`. Raises `ConvergenceError`."""
+def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
+    """Return the answer of the strips of ``levels`` at ``speed`` [m/s], which is not 0."""
     scene = prepared.scene
-    levels = levels_of(prepared, speed, None if found is None else control_for(prepared, found))
     sample = prepared.sample
-    numerics = scene.numerics
     results = [pair.resolved.result for pair in levels.pairs]
     heat = strip_heat(scene, results[0])
-    numbers: dict[str, Any] = warmed(scene, levels.numbers, heat) | {"speed": speed}
-    f = numbers["coefficient"]
+    numbers = warmed(scene, levels.numbers, heat) | {"speed": speed}
     sampling = levels.sampling.error if math.isfinite(levels.sampling.error) else math.nan
     by_scatter = student(levels.difference.freedom) * levels.difference.error
     by_film = 0.0 if scene.bodies.boundary_film is not None else max(map(abs, levels.by_film))
@@ -83,38 +68,87 @@ def strips_answer(prepared: Prepared, speed: float, found: SampleSolution | None
         "heat, half of whose effect counts as its error": error_by_heat(heat, levels.by_inlet),
     }
     model = math.hypot(*parts_of_model.values())
-    known = Uncertainty(
-        numerical=levels.numerical,
-        sampling=sampling,
-        model=model,
-        interval=interval(f, levels.numerical, sampling, levels.sampling.freedom, model),
-        line_scatter=sampling * math.sqrt(levels.length / scene.bodies.width),
-        length=levels.length,
-        freedom=float(levels.sampling.freedom),
-        tolerance=numerics.sampling_tolerance,
-        notes=_sample_notes(prepared, sampling, levels.length),
-        largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
-    )
-    decision = _decision(scene, results, levels, heat)
-    of_heat = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
-    entries = (
-        *_entries(prepared, numbers, results, heat),
-        *of_error(levels.numerical, numerics.tolerance, _way_out(prepared)),
-        *_of_model(model, numerics.model_tolerance),
-    )
+    reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
     finest = levels.pieces[0][-1] if sample.is_single_patch and levels.pieces else levels.pairs[0].resolved
-    result = FrictionResult(
-        **(numbers | {"seconds": time.perf_counter() - begun}),
-        report=replace(results[0].report, notes=(decision.text, *(e.text for e in entries), known.text)),
-        uncertainty=known,
-        errors=field_errors_of(levels.errors | dict.fromkeys(of_heat, math.nan), FEW_STRIPS, of_heat),
-        decision=decision,
-        validity=entries,
-        balance=None if found is None or sample.is_single_patch else found.balance,
-        heights=None if found is None or sample.is_single_patch else found.contact.heights,  # type: ignore[attr-defined]
-        deterministic=finest.result,
+    start = levels.pairs[0].resolved if moves(scene) else finest
+    return ModelAnswer(
+        numbers=numbers,
+        numerical=levels.numerical,
+        sampling=BlockError(sampling, levels.sampling.freedom),
+        model_error=(model, model),
+        largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
+        report=replace(results[0].report, notes=()),
+        decision=_decision(scene, results, levels, heat),
+        errors=levels.errors | dict.fromkeys(reasons, math.nan),
+        why_no_error=FEW_STRIPS,
+        reasons=reasons,
+        length=levels.length,
+        notes=_sample_notes(prepared, sampling, levels.length),
+        warnings=(
+            *_entries(prepared, numbers, results, heat),
+            *_of_model(model, scene.numerics.model_tolerance),
+        ),
+        recommendation=_recommendation(prepared),
+        fields=fields_of(finest, "the patch" if sample.is_single_patch else "strip 1"),
+        details=finest.result,
+        at_inputs=lambda: _at_inputs(prepared, start, speed),
+        ends_without_change=partial(_stays_elastic, start, scene),
     )
-    return with_ranges(prepared, result, levels.pairs[0].resolved if moves(scene) else finest)
+
+
+def fields_of(strip: Strip, where: str) -> ContactFields:
+    """Return the fields of ``strip``; of roughness that moves those of its last moment."""
+    result = strip.result
+    heights = strip.problem.heights
+    moment = ", the last moment of its motion" if isinstance(strip, MovingStrip) else ""
+    return ContactFields(
+        solve=f"deterministic model on {where}{moment}",
+        x=result.x,
+        y=np.arange(result.pressure.shape[1]) * result.spacing[1],
+        heights=heights - heights.mean(),
+        pressure=result.pressure,
+        gap=result.gap,
+        film=result.gap,
+        shear=result.shear,
+    )
+
+
+def _stays_elastic(strip: Strip, scene: Scene, name: str, ends: tuple[Scene, ...]) -> bool:
+    """Return whether the input of this ``name`` is a hardness that no cell of ``strip`` reaches at any moment, neither in
+    its scene nor at the ``ends`` of the range."""
+    return name == HARDNESS and all(strip.peak_pressure < value_of(one, HARDNESS) for one in (scene, *ends))
+
+
+def _at_inputs(prepared: Prepared, strip: Strip, speed: float) -> AtInputs:
+    """Return f at other inputs, on the cells of ``strip``, which is solved at the prepared ones."""
+    result = strip.result
+    if isinstance(strip, MovingStrip):
+        assert strip.early is not None
+        result = strip.early
+    middle = _with_heat(prepared.scene, result)
+    return AtInputs(middle=middle, coefficient=partial(_at_end, prepared, strip, speed), in_processes=True)
+
+
+def _at_end(prepared: Prepared, strip: Strip, speed: float, scene: Scene) -> float:
+    """Return f at ``speed`` [m/s] of a ``scene`` that differs from the prepared one in inputs only, by the deterministic
+    model on the cells of ``strip``, which is solved at the prepared one and from which it begins.
+
+    These are the cells of the answer, because the change of f by the stress of an oil is up to three times as large on
+    cells twice as long. Where the roughness moves, it is a continuation of the strip (`continued_strip`), to be compared
+    with the same moments of the strip itself.
+    """
+    if isinstance(strip, MovingStrip):
+        result, _ = continued_strip(scene, bodies_of(prepared, 0, speed), speed, strip)
+        return _with_heat(scene, result)
+    surface, _ = strip_of(prepared, 0)
+    spacing = strip.problem.spacing
+    factors = (round(spacing[0] / surface.spacing[0]), round(spacing[1] / surface.spacing[1]))
+    return _with_heat(scene, solve_strip(scene, surface, speed, factors=factors, start=strip).result)
+
+
+def _with_heat(scene: Scene, result: DeterministicResult) -> float:
+    """Return f of ``result`` with the share that the temperatures of film and surfaces take away."""
+    return result.coefficient * (1 - strip_heat(scene, result).change)
 
 
 def _decision(scene: Scene, results: Sequence[DeterministicResult], levels: Levels, heat: Heat) -> Decision:
@@ -134,7 +168,7 @@ def _of_model(model: float, tolerance: float) -> Iterator[Validity]:
         yield Validity("error of f by the model", 100 * model, 100 * tolerance, "%", *OF_MODEL)
 
 
-def _way_out(prepared: Prepared) -> str:
+def _recommendation(prepared: Prepared) -> str:
     """What makes the error by the cells smaller: shorter ones, if the map has them."""
     scene = prepared.scene
     sample = prepared.sample

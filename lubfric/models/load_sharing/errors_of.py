@@ -1,42 +1,19 @@
-"""From the error of a gap to `Uncertainty` and to the errors of all reported quantities."""
+"""From the error of a gap to the errors of f and of all reported quantities."""
 
 import math
+from dataclasses import dataclass
 
-from ..models.load_sharing import (
-    Balance,
-    Forces,
-    SampleSolution,
-    Scatter,
-    load_sharing_error,
-)
-from ..models.shared import (
-    FEW,
-    ORDER,
-    BlockError,
-    error_by_heat,
-    percent,
-    too_few,
-)
-from ..quantities import depending_on
-from ..scene import (
-    Scene,
-    budget,
-    gap_not_resolved,
-    moves,
-)
-from .uncertainty import (
-    FieldErrors,
-    Uncertainty,
-    field_errors_of,
-    interval,
-)
+from ...quantities import depending_on
+from ...scene import Scene, budget, gap_not_resolved, moves
+from ..shared import FEW, ORDER, TOO_SHORT, BlockError, error_by_heat, percent, too_few
+from .balance import Balance
+from .balanced_sample import BalancedSample
+from .forces import Forces
+from .model_error import load_sharing_error
+from .scatter import Scatter
 
 PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
 NO_CELLS = "not known: this contact has no places along y to compare"
-TOO_SHORT = (
-    "not known: {:.2g} correlation lengths along y are too few for an interval (leave numerics.sampling and "
-    "surface.extension out, or give a map that is longer across the motion)"
-)
 NONE = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)
 EMPTY = "the error of Eq. (8) is not known where what arrives does not fill the gap"
@@ -45,8 +22,26 @@ MODEL_UNKNOWN = "the error of the model itself is not known and not in the inter
 MISSED = "not known: the patch is too short along y to tell what contact it misses"
 
 
-def errors_of(scene: Scene, found: SampleSolution) -> tuple[Uncertainty, FieldErrors]:
-    """Uncertainty of f, and errors by field."""
+@dataclass(frozen=True, kw_only=True)
+class PointErrors:
+    """Relative errors of f by source, and of the other numbers, by name.
+
+    ``why_not``: why an error is not known; ``reasons``: why that of some numbers is not, by name; ``notes``: what a
+    reader should know of them; ``model``: below and above f; ``area_needed``: `lubfric.estimate.Uncertainty`.
+    """
+
+    numerical: float
+    sampling: BlockError
+    model: tuple[float, float]
+    errors: dict[str, float]
+    why_not: str
+    reasons: dict[str, str]
+    notes: tuple[str, ...]
+    area_needed: float
+
+
+def errors_of(scene: Scene, found: BalancedSample) -> PointErrors:
+    """Return the errors of ``found``."""
     balance = found.balance
     response = found.response
     (of_film, of_gap, relative, of_area) = _numerical(found)
@@ -74,29 +69,25 @@ def errors_of(scene: Scene, found: SampleSolution) -> tuple[Uncertainty, FieldEr
     notes = _notes(found, scene, sampling)
     if not math.isfinite(sampling):
         sampling = math.nan
-    of_model, unknown = model_error(scene, found)
+    of_model, unknown = model_error(found)
     felt = response.per_film(forces, balance.contact.mean_film) if response is not None else forces.felt
     by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**felt)
     of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
     both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
-    known = Uncertainty(
-        numerical=relative,
-        sampling=sampling,
-        interval=interval(forces.coefficient, relative, sampling, error.freedom, *of_model),
-        line_scatter=sampling * math.sqrt(scatter.length / scene.bodies.width),
-        spots=scatter.spots,
-        length=scatter.length,
-        freedom=float(error.freedom),
-        tolerance=scene.numerics.sampling_tolerance,
-        area_needed=_area_needed(found, scene),
-        model=max(of_model),
-        notes=(*notes, *unknown),
-    )
     left_out = dict.fromkeys(depending_on("heat"), forces.heat.reason(scene)) if balance.film is not None else {}
-    return known, field_errors_of(errors | {"coefficient": both}, why, left_out)
+    return PointErrors(
+        numerical=relative,
+        sampling=BlockError(sampling, error.freedom),
+        model=of_model,
+        errors=errors | {"coefficient": both},
+        why_not=why,
+        reasons=left_out,
+        notes=(*notes, *unknown),
+        area_needed=_area_needed(found, scene),
+    )
 
 
-def _numerical(found: SampleSolution) -> tuple[float, float, float, float]:
+def _numerical(found: BalancedSample) -> tuple[float, float, float, float]:
     """The errors of solvers and grids: of the film, relative; of the mean gap at given load [m], by the closing of the
     volume and by the cells of the contact; of the film's shear stress, by its sum over nodes and by the heat left out
     of it, relative to f; of the contact area, relative."""
@@ -113,7 +104,7 @@ def _numerical(found: SampleSolution) -> tuple[float, float, float, float]:
         gap = (
             effect.remaining_change
             + found.second_order
-            + (budget.SLOPE * abs(found.corrected) or abs(found.left_by_root))
+            + (budget.SLOPE * abs(found.corrected_gap) or abs(found.left_by_root))
             + solved.contact.gap_error
         )
     read = solved.contact.area_error / max(solved.contact.real_contact_area_fraction, 1e-300)
@@ -124,7 +115,7 @@ def _numerical(found: SampleSolution) -> tuple[float, float, float, float]:
     return film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read
 
 
-def _contact_errors(scene: Scene, found: SampleSolution, film: float, gap: float, area: float) -> dict[str, float]:
+def _contact_errors(scene: Scene, found: BalancedSample, film: float, gap: float, area: float) -> dict[str, float]:
     """Relative errors where film and contact share the load, by the names of `FrictionResult`: the root of the sum of
     squares of the standard error by the surface and of the estimated error by solvers and grids.
 
@@ -184,9 +175,10 @@ def _shear_errors(found: Forces, film: float) -> dict[str, float]:
     return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 
 
-def model_error(scene: Scene, found: SampleSolution) -> tuple[tuple[float, float], tuple[str, ...]]:
+def model_error(found: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
     """Relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and why."""
     balance = found.balance
+    scene = found.prepared.scene
     if balance.film is None:
         return (NONE, ()) if scene.lubricant.inlet_film is None else (UNKNOWN, (EMPTY,))
     if not found.sample.is_resolved:
@@ -203,7 +195,7 @@ def model_error(scene: Scene, found: SampleSolution) -> tuple[tuple[float, float
     return load_sharing_error(film / sq if sq else math.inf, share, *(part / load for part in parts)), ()
 
 
-def _area_needed(found: SampleSolution, scene: Scene) -> float:
+def _area_needed(found: BalancedSample, scene: Scene) -> float:
     """How many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not known)."""
     sample = found.sample
     ends = sample.windows and found.count == sample.available
@@ -211,7 +203,7 @@ def _area_needed(found: SampleSolution, scene: Scene) -> float:
     return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
 
 
-def _notes(found: SampleSolution, scene: Scene, sampling: float) -> tuple[str, ...]:
+def _notes(found: BalancedSample, scene: Scene, sampling: float) -> tuple[str, ...]:
     asked = scene.numerics.sampling_tolerance
     sample = found.sample
     notes = []

@@ -1,0 +1,48 @@
+"""How many strips a point takes, and on which cells: asked of a model's solution until it needs no more."""
+
+from __future__ import annotations
+
+from ..models import LoadSharing, Model, SampleSolution
+from ..models.shared import ControlVariate, Prepared
+from ..samples import Sample
+
+LOAD_SHARING = LoadSharing()
+
+
+def sampled(
+    prepared: Prepared,
+    speed: float,
+    model: Model = LOAD_SHARING,
+    *,
+    native: bool = False,
+    control: ControlVariate | None = None,
+) -> SampleSolution:
+    """Solve ``prepared`` by ``model`` at ``speed`` [m/s] on as many strips, of cells as short, as its tolerances need.
+
+    More strips follow until the standard error of f is within ``numerics.sampling_tolerance``; shorter cells, each
+    time half as long, until their effect can be corrected for. ``native``: a single patch is solved on its own cells;
+    ``control``: what a cheaper model knows of these strips. Raises `ConvergenceError`.
+    """
+    sample = prepared.sample
+    if native and sample.is_single_patch:
+        sample = sample.native()
+    while True:
+        solution = _on_enough_strips(prepared, sample, speed, model, control)
+        if sample.cells.is_native or not solution.is_too_coarse():
+            return solution.corrected()
+        sample = sample.halved()
+
+
+def _on_enough_strips(
+    prepared: Prepared, sample: Sample, speed: float, model: Model, control: ControlVariate | None
+) -> SampleSolution:
+    """Return the solution on as many strips as it needs, or on fewer where the cells are too long for it anyway."""
+    count = model.first_strips(sample)
+    solution = model.solve(prepared, sample, count, speed, control=control)
+    while True:
+        count = solution.required_strips()
+        if count <= solution.count:
+            return solution
+        if not sample.cells.is_native and not solution.takes_more_strips_first() and solution.is_too_coarse():
+            return solution
+        solution = model.solve(prepared, sample, count, speed, start=solution, control=control)

@@ -1,0 +1,214 @@
+"""The contract of a model: all that you need to know to write one.
+
+A `Model` solves the first strips of a sample at one speed. Its `SampleSolution` says how many strips the tolerances
+need and whether their cells are too coarse; `lubfric.estimate` asks it until both are enough, corrects it, and builds
+the `FrictionResult` from its `ModelAnswer`. What else a model knows of its strips, it may hand to a dearer one as
+`ControlVariate`. The two models of lubfric, and one of 30 lines in tests/test_contracts.py, do no more than this.
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..errors import Report
+from ..samples import Sample
+from ..scene import Scene
+from .shared import BlockError, ControlVariate, Decision, Heat, Prepared, Validity, required_strips
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactFields:
+    """The fields of one solve, all on the same cells (nx, ny), x along the motion; 0 and NaN mean what they say.
+
+    Attributes
+    ----------
+    solve : which solve they are of, in words
+    x, y : cells [m], (nx,) around the line of contact, and (ny,)
+    heights : of the roughness of both bodies about their mean [m], out of them
+    pressure : of the asperity contacts [Pa]; of film and contact together by the deterministic model
+    gap : between the rough surfaces [m]
+    film : thickness of the smooth film [m], constant along y; by the deterministic model that of the rough gap
+    shear : shear stress [Pa]; NaN where the solve has none
+    """
+
+    solve: str
+    x: np.ndarray
+    y: np.ndarray
+    heights: np.ndarray
+    pressure: np.ndarray
+    gap: np.ndarray
+    film: np.ndarray
+    shear: np.ndarray
+
+    def __post_init__(self) -> None:
+        shape = (self.x.size, self.y.size)
+        for name in ("heights", "pressure", "gap", "film", "shear"):
+            if getattr(self, name).shape != shape:
+                raise ValueError(f"{name} {getattr(self, name).shape} is not on the cells {shape} of the other fields")
+
+    @property
+    def spacing(self) -> tuple[float, float]:
+        """(dx, dy) [m] of the cells; of a single row or column the other length."""
+        steps = [float(axis[1] - axis[0]) if axis.size > 1 else math.nan for axis in (self.x, self.y)]
+        known = [step for step in steps if math.isfinite(step)] or [math.nan]
+        return (steps[0] if math.isfinite(steps[0]) else known[0], steps[1] if math.isfinite(steps[1]) else known[0])
+
+
+@dataclass(frozen=True, kw_only=True)
+class AtInputs:
+    """f of a point at other inputs, from where it is solved.
+
+    ``middle``: f at its own inputs, as the others are compared with it; ``coefficient``: f of a scene that differs in
+    inputs only, which raises `ConvergenceError`; ``in_processes``: whether it may be sent to other processes.
+    """
+
+    middle: float
+    coefficient: Callable[[Scene], float]
+    in_processes: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModelAnswer:
+    """What a model says of one operating point on its sample: numbers, their errors, warnings, fields.
+
+    Attributes
+    ----------
+    numbers : quantities of a point by name (`lubfric.quantities`), among them ``coefficient``; those left out are NaN
+    numerical : relative error of f by solver and grids
+    sampling : relative standard error of f because the sample is finite; an error that is NaN is not known
+    model_error : relative error of f by the model itself, at 95 %, below and above f; NaN: not known
+    largest_in_model : the largest part of the model error, in words; "": one part only
+    errors : relative errors of the other numbers, by name
+    why_no_error, reasons : why an error is not known: of those not in ``errors``, and of some by name
+    length, spots, area_needed : of the sample (`lubfric.estimate.Uncertainty`)
+    notes : what a reader should know of these errors
+    report, decision : of the solve; what was modelled
+    warnings : limits of the model that are exceeded
+    recommendation : what makes the numerical error smaller
+    fields : of the solve; None if there are none
+    details : what the model keeps of its solve, for those who know it
+    at_inputs : makes what solves f again at other inputs; None: the model cannot
+    ends_without_change : names of inputs of which neither end changes anything, found without a solve
+    """
+
+    numbers: dict[str, float]
+    numerical: float
+    sampling: BlockError
+    model_error: tuple[float, float]
+    report: Report
+    decision: Decision
+    largest_in_model: str = ""
+    errors: dict[str, float] = field(default_factory=dict)
+    why_no_error: str = "not known"
+    reasons: dict[str, str] = field(default_factory=dict)
+    length: float = math.nan
+    spots: float = math.nan
+    area_needed: float = 1.0
+    notes: tuple[str, ...] = ()
+    warnings: tuple[Validity, ...] = ()
+    recommendation: str = "a larger numerics.tolerance"
+    fields: ContactFields | None = None
+    details: Any = None
+    at_inputs: Callable[[], AtInputs] | None = None
+    ends_without_change: Callable[[str, tuple[Scene, ...]], bool] = lambda name, ends: False
+
+
+class SampleSolution(ABC):
+    """The first ``count`` strips of a sample, solved by a model. Means over them are the answer.
+
+    Attributes
+    ----------
+    prepared, sample, count, speed : what was solved, at an entrainment speed [m/s]
+    sampling_error : relative standard error of f because the sample is finite
+    """
+
+    prepared: Prepared
+    sample: Sample
+    count: int
+    speed: float
+
+    @property
+    @abstractmethod
+    def sampling_error(self) -> BlockError:
+        """The relative standard error of f because the sample is finite."""
+
+    @abstractmethod
+    def answer(self) -> ModelAnswer:
+        """Return all that the model says of this point."""
+
+    def required_strips(self) -> int:
+        """Return the number of strips that the tolerances need: `count` if these are enough."""
+        tolerance = self.prepared.scene.numerics.sampling_tolerance
+        return required_strips(self.count, self.sample.first, self.sample.available, self.sampling_error, tolerance)
+
+    def is_too_coarse(self) -> bool:
+        """Return whether the cells of the sample have to be shorter; never asked on native ones."""
+        return False
+
+    def takes_more_strips_first(self) -> bool:
+        """Return whether more strips on these cells are cheaper than shorter cells."""
+        return False
+
+    def corrected(self) -> SampleSolution:
+        """Return this solution as native cells would change it, if the model knows."""
+        return self
+
+    def control(self) -> ControlVariate | None:
+        """Return what is known of the strips for a dearer model; None if nothing is."""
+        return None
+
+    def sufficient(self) -> str:
+        """Return why no dearer model is needed, in words; "" if one is."""
+        return ""
+
+    def heat(self) -> Heat | None:
+        """Return the heat of inlet, film and surfaces; None if the model knows none."""
+        return None
+
+    def warnings(self) -> tuple[Validity, ...]:
+        """Return the limits of the model that are exceeded, without the rest of the answer."""
+        return ()
+
+
+class Model(ABC):
+    """A way to compute the friction of strips of a rough surface at one speed."""
+
+    @property
+    @abstractmethod
+    def name(self) -> str:
+        """The name in ``numerics.model``."""
+
+    @abstractmethod
+    def solve(
+        self,
+        prepared: Prepared,
+        sample: Sample,
+        count: int,
+        speed: float,
+        *,
+        start: SampleSolution | None = None,
+        control: ControlVariate | None = None,
+    ) -> SampleSolution:
+        """Solve the first ``count`` strips of ``sample`` at ``speed`` [m/s].
+
+        ``start``: the solution of fewer of the same strips; ``control``: what a cheaper model knows of them. Raises
+        `ConvergenceError`.
+        """
+
+    def first_strips(self, sample: Sample) -> int:
+        """Return the number of strips that are solved first."""
+        return sample.first
+
+    def unable(self, prepared: Prepared, speed: float) -> str:
+        """Return why the model has no answer at all at ``speed`` [m/s], in words; "" if it has one."""
+        return ""
+
+    def declines(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
+        """Return why numerics.model = "auto" keeps the ``cheaper`` solution, in words; "" if it takes this model."""
+        return ""

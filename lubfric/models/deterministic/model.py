@@ -1,0 +1,91 @@
+"""The deterministic model as a `lubfric.models.Model`: one gap and one pressure on each strip by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from ...samples import Sample
+from ...scene import gap_not_resolved
+from ..contract import Model, ModelAnswer, SampleSolution
+from ..shared import BlockError, ControlVariate, Prepared
+from .answer import answer_of
+from .heat import too_hot
+from .levels import Levels, TwoLevelEstimate, levels_of, solve_strips, two_levels
+from .rough_bodies import too_costly
+from .strip_on_two_grids import StripOnTwoGrids, cells_of
+
+
+@dataclass(frozen=True, kw_only=True)
+class DeterministicSolution(SampleSolution):
+    """Strips that are solved one by one; the mean over them, with the ``control`` of a cheaper model or alone."""
+
+    prepared: Prepared
+    sample: Sample
+    speed: float
+    strips: tuple[StripOnTwoGrids, ...]
+    estimate: TwoLevelEstimate
+    wanted: int
+
+    @property
+    def count(self) -> int:  # type: ignore[override]
+        """The number of strips."""
+        return len(self.strips)
+
+    @property
+    def sampling_error(self) -> BlockError:
+        whole = self.estimate.whole
+        return BlockError(whole.error / abs(self.estimate.numbers["coefficient"]), whole.freedom)
+
+    def required_strips(self) -> int:
+        return self.wanted
+
+    @cached_property
+    def levels(self) -> Levels:
+        """The sum over levels, with the effect of shorter cells, which takes solves of its own."""
+        return levels_of(self.prepared, self.speed, self.strips, self.estimate)
+
+    def answer(self) -> ModelAnswer:
+        return answer_of(self.prepared, self.speed, self.levels)
+
+
+class Deterministic(Model):
+    """The film between rough surfaces in its own gap (docs/deterministic.md)."""
+
+    @property
+    def name(self) -> str:
+        return "deterministic"
+
+    def first_strips(self, sample: Sample) -> int:
+        return 1
+
+    def solve(
+        self,
+        prepared: Prepared,
+        sample: Sample,
+        count: int,
+        speed: float,
+        *,
+        start: SampleSolution | None = None,
+        control: ControlVariate | None = None,
+    ) -> DeterministicSolution:
+        solved = start.strips if isinstance(start, DeterministicSolution) else ()
+        strips = solve_strips(prepared, speed, count, solved)
+        estimate, wanted = two_levels(prepared, strips, control)
+        return DeterministicSolution(
+            prepared=prepared, sample=sample, speed=speed, strips=strips, estimate=estimate, wanted=wanted
+        )
+
+    def unable(self, prepared: Prepared, speed: float) -> str:
+        if speed == 0:
+            return "nothing is entrained"
+        if not prepared.sample.is_resolved:
+            return "the contact has no cells to solve strip by strip"
+        return "the surfaces are smooth" if prepared.surface.sq == 0 else ""
+
+    def declines(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
+        heat = cheaper.heat()
+        why = gap_not_resolved(prepared.scene, prepared.given) or ("" if heat is None else too_hot(heat))
+        if why:
+            return f"load sharing alone: {why}"
+        return too_costly(prepared, speed, cells_of(prepared.scene, prepared.sample))

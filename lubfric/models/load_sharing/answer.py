@@ -1,0 +1,178 @@
+"""What load sharing says of one operating point: its numbers, their errors, warnings and fields."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from ...contact import ContactResult, HalfSpaceContact, RoughContact
+from ...oil import estimate_in_words
+from ...scene import Scene
+from ..contract import AtInputs, ContactFields, ModelAnswer
+from ..shared import Validity, contact_on, exponents, on_stack, prepare
+from .balance import Balance, solve_balance
+from .balanced_sample import BalancedSample
+from .decision import decided
+from .errors_of import errors_of
+from .limits import limits_exceeded
+from .response import quantities, touched_length
+from .scatter import film_stress
+
+CLOSER = "f is good to that error; a tighter numerics.tolerance or a larger map makes it smaller"
+
+
+def answer_of(found: BalancedSample) -> ModelAnswer:
+    """Return the answer of ``found``."""
+    scene = found.prepared.scene
+    numbers = _numbers(found)
+    errors = errors_of(scene, found)
+    factors, _ = _cells(found)
+    sample = {"coarsening": factors, "strips": found.count, "change_by_cells": found.change("gap")}
+    oil = scene.lubricant.oil
+    temperature = scene.lubricant.temperature
+    estimated = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
+    report = found.balance.report
+    return ModelAnswer(
+        numbers=numbers,
+        numerical=errors.numerical,
+        sampling=errors.sampling,
+        model_error=errors.model,
+        report=replace(report, notes=(*report.notes, *estimated)),
+        decision=decided(scene, found.contact, found.balance, numbers["clearance"], "", **sample),
+        errors=errors.errors,
+        why_no_error=errors.why_not,
+        reasons=errors.reasons,
+        length=found.scatter.length,
+        spots=found.scatter.spots,
+        area_needed=errors.area_needed,
+        notes=errors.notes,
+        warnings=(*limits_of(found), *_finer(found.change("finer_grid_change"), scene.numerics.tolerance)),
+        recommendation=CLOSER,
+        fields=fields_of(found),
+        details=replace(found.balance, contact=replace(found.balance.contact, fields=found.solved.contact.fields)),
+        at_inputs=lambda: _at_inputs(found),
+    )
+
+
+def limits_of(found: BalancedSample) -> tuple[Validity, ...]:
+    """Return an entry for every limit of load sharing that ``found`` exceeds."""
+    return limits_exceeded(found.prepared, found.speed, found.balance, _cells(found)[1])
+
+
+def fields_of(found: BalancedSample) -> ContactFields | None:
+    """Return the fields of the contact as it was solved; None if it has no cells.
+
+    Where nothing touches, the gap is that of the undeformed surface below the film.
+    """
+    if not found.sample.is_resolved:
+        return None
+    solved = found.solved
+    contact = on_stack(found.prepared, found.sample, found.count)
+    return fields_on(contact, solved, solved.contact.fields, found.prepared.scene, _where(found))
+
+
+def _where(found: BalancedSample) -> str:
+    return "the patch" if found.sample.is_single_patch else f"the first {found.count} strips, joined"
+
+
+def fields_on(
+    contact: HalfSpaceContact, solved: Balance, fields: ContactResult | None, scene: Scene, where: str
+) -> ContactFields:
+    """Return the ``fields`` of ``contact`` (None: separated) in the balance ``solved``, on the part of the surface that
+    ``where`` says."""
+    shape = contact.heights.shape
+    film = np.full(contact.x.size, math.nan)
+    shear = np.full(contact.x.size, math.nan)
+    if solved.film is not None:
+        film = solved.film.film_at(contact.x)
+        if solved.forces.heat.heated is None:
+            shear = film_stress(scene, contact, solved.film)
+    slides = scene.motion.slide_roll_ratio != 0
+    pressure = np.zeros(shape) if fields is None else fields.pressure
+    boundary = scene.bodies.boundary_friction_coefficient * slides * pressure
+    return ContactFields(
+        solve=f"load sharing on {where}",
+        x=contact.x,
+        y=contact.y,
+        heights=contact.heights,
+        pressure=pressure,
+        gap=film[:, None] - contact.heights if fields is None else fields.gap,
+        film=np.broadcast_to(film[:, None], shape),
+        shear=np.where(pressure > 0, boundary, shear[:, None]),
+    )
+
+
+def _at_inputs(found: BalancedSample) -> AtInputs:
+    """Return f at other inputs, on the first strips or on the only contact."""
+    prepared = found.prepared
+    sample = prepared.sample
+    surface = prepared.surface
+    contact = contact_on(prepared, sample, sample.first)
+    start = solve_balance(prepared.scene, found.speed, contact, surface.sq)
+
+    def coefficient(scene: Scene) -> float:
+        there: RoughContact = contact
+        if scene.bodies.hardness != prepared.scene.bodies.hardness:
+            if sample.is_resolved:
+                there = replace(on_stack(prepared, sample, sample.first), hardness=scene.bodies.hardness)
+            else:
+                there = prepare(scene, surface).contact
+        return solve_balance(scene, found.speed, there, surface.sq, start).forces.coefficient
+
+    return AtInputs(middle=coefficient(prepared.scene), coefficient=coefficient)
+
+
+def _cells(found: BalancedSample) -> tuple[tuple[int, int], float]:
+    """Length of the cells that were solved, in cells of the map, along each axis; and the share of the load on the edge
+    columns, on the map's own cells."""
+    factors = found.sample.cells.coarsening
+    if found.sample.is_single_patch and factors != (1, 1):
+        return factors, found.effect.edge_load_ratio
+    return factors, found.contact.on_the_ends(found.solved.contact) / factors[0]
+
+
+def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
+    """A warning where cells half as long as the map's own would change f by more than ``tolerance``."""
+    if not change > tolerance:
+        return ()
+    what = "change of f by cells half as long, estimated"
+    remedy = "use a map on shorter cells"
+    consequence = "the map is too coarse for its roughness; the interval of f does not include that"
+    return (Validity(what, 100 * change, 100 * tolerance, "%", consequence, remedy),)
+
+
+def _numbers(found: BalancedSample) -> dict[str, float]:
+    """Return all numbers of the sample that load sharing has, by name."""
+    prepared = found.prepared
+    scene = prepared.scene
+    balance = found.balance
+    sq = prepared.surface.sq
+    contact = balance.contact
+    film = balance.film
+    loads = (balance.film_load, balance.contact_load)
+    separated = balance.contact_load == 0
+    touched = touched_length(contact) * found.effect.touched / found.effect.area
+    numbers = quantities(balance.forces, film, loads, contact.mean_film if separated else contact.mean_gap)
+    return numbers | {
+        "speed": found.speed,
+        "real_contact_area_fraction": contact.real_contact_area_fraction,
+        "real_contact_area": touched * scene.bodies.width,
+        "plastic_area_fraction": contact.plastic_area_fraction,
+        "film_to_roughness_ratio": numbers["central_film"] / sq if sq > 0 else math.inf,
+        "load_residual": (sum(loads) - scene.bodies.load) / scene.bodies.load,
+        "volume_residual": 0.0 if film is None or separated else found.solved.contact.volume_residual,
+        "clearance": (contact.mean_film - contact.mean_gap) / max(sq, 1e-12) if separated else math.nan,
+        "steepness": _steepness(found),
+    }
+
+
+def _steepness(found: BalancedSample) -> float:
+    """d ln(F_H/F_C)/d ln U: at a given division of the load the film grows as U^e, by closed forms at F_H. NaN where
+    film and contact do not share the load."""
+    response = found.response
+    balance = found.balance
+    if response is None or balance.film is None or balance.contact_load == 0:
+        return math.nan
+    scene = found.prepared.scene
+    line = replace(scene.line_contact(found.speed), load_per_width=balance.film_load / scene.bodies.width)
+    return -exponents(line)[2] * response.log_load_ratio_per_gap * balance.contact.mean_film

@@ -1,0 +1,95 @@
+"""The load-sharing model as a `lubfric.models.Model`: film and contact of a line of strips share one load."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ...samples import Sample
+from ..contract import Model, ModelAnswer, SampleSolution
+from ..shared import BlockError, ControlVariate, Heat, Prepared, Validity
+from .answer import answer_of, limits_of
+from .balanced_sample import BalancedSample, solve_sample
+from .control_variate import control_for
+from .errors_of import model_error
+
+
+@dataclass(frozen=True)
+class LoadSharingSolution(SampleSolution):
+    """The first strips joined to one line, with one film and one approach: a `BalancedSample`."""
+
+    balanced: BalancedSample
+
+    @property
+    def prepared(self) -> Prepared:  # type: ignore[override]
+        """The scene that was solved."""
+        return self.balanced.prepared
+
+    @property
+    def sample(self) -> Sample:  # type: ignore[override]
+        """The sample, on the cells that were solved."""
+        return self.balanced.sample
+
+    @property
+    def count(self) -> int:  # type: ignore[override]
+        """The number of its strips."""
+        return self.balanced.count
+
+    @property
+    def speed(self) -> float:  # type: ignore[override]
+        """The entrainment speed [m/s]."""
+        return self.balanced.speed
+
+    @property
+    def sampling_error(self) -> BlockError:
+        return self.balanced.sampling_error
+
+    def required_strips(self) -> int:
+        return self.balanced.required_strips()
+
+    def is_too_coarse(self) -> bool:
+        return self.balanced.is_too_coarse
+
+    def takes_more_strips_first(self) -> bool:
+        return self.balanced.takes_more_strips_first()
+
+    def corrected(self) -> LoadSharingSolution:
+        return LoadSharingSolution(self.balanced.corrected())
+
+    def control(self) -> ControlVariate | None:
+        return control_for(self.balanced)
+
+    def sufficient(self) -> str:
+        tolerance = self.prepared.scene.numerics.model_tolerance
+        if self.balanced.response is None and max(model_error(self.balanced)[0]) <= tolerance:
+            return "load sharing alone: the film is so thick that the roughness hardly matters"
+        return ""
+
+    def heat(self) -> Heat:
+        return self.balanced.balance.forces.heat
+
+    def warnings(self) -> tuple[Validity, ...]:
+        return limits_of(self.balanced)
+
+    def answer(self) -> ModelAnswer:
+        return answer_of(self.balanced)
+
+
+class LoadSharing(Model):
+    """Film and asperity contacts share the load, Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z)."""
+
+    @property
+    def name(self) -> str:
+        return "load-sharing"
+
+    def solve(
+        self,
+        prepared: Prepared,
+        sample: Sample,
+        count: int,
+        speed: float,
+        *,
+        start: SampleSolution | None = None,
+        control: ControlVariate | None = None,
+    ) -> LoadSharingSolution:
+        begin = start.balanced if isinstance(start, LoadSharingSolution) else None
+        return LoadSharingSolution(solve_sample(prepared, sample, count, speed, begin))

@@ -1,0 +1,151 @@
+"""Each contract, as any implementation has to keep it: `Sample`, `RoughContact.close`, `Model`, and a third model."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric.errors import CONVERGED, Report
+from lubfric.models import Deterministic, LoadSharing, Model, ModelAnswer, SampleSolution
+from lubfric.models.shared import BlockError, Decision
+from lubfric.samples import Sample
+
+PAPER = lubfric.load_scene("paper")
+TWO = PAPER.with_(counterface={"sq": 50e-9, "correlation_length": 4e-6})
+
+
+def measured(tmp_path) -> lubfric.Scene:
+    surface = lubfric.generate_surface((500, 240), 0.5e-6, sq=100e-9, correlation_length=5e-6, seed=3)
+    np.save(tmp_path / "map.npy", surface.heights)
+    given = {"file": str(tmp_path / "map.npy"), "spacing": 0.5e-6, "sq": None, "correlation_length": None}
+    return PAPER.with_(surface=given, contact={"shape": None, "spacing": None})
+
+
+@pytest.fixture(params=["generated", "two bodies", "measured", "patch", "flat"])
+def sample(request, tmp_path) -> Sample:
+    scenes = {
+        "generated": PAPER,
+        "two bodies": TWO,
+        "measured": measured(tmp_path),
+        "patch": PAPER.with_(numerics={"sampling": "patch"}),
+        "flat": lubfric.load_scene("flat"),
+    }
+    return lubfric.prepare(scenes[request.param]).sample
+
+
+class TestSample:
+    def test_a_strip_depends_on_its_number_alone(self, sample):
+        last = min(sample.available, 3) - 1
+        assert np.array_equal(sample.strip(last).heights, sample.strip(last).heights)
+        assert sample.strip(0).shape == (sample.cells.count, sample.rows)
+
+    def test_a_longer_sample_contains_a_shorter_one(self, sample):
+        if sample.available > 1:
+            stack = sample.stack(2).heights
+            middle = slice(sample.rows // 2, sample.rows - sample.rows // 4)  # away from where strips are joined
+            assert np.allclose(stack[:, middle], sample.strip(0).heights[:, middle], atol=1e-15)
+        assert sample.stack(1).shape[1] == sample.rows_of(1)
+
+    def test_native_cells_are_those_of_the_scene(self, sample):
+        native = sample.native()
+        assert native.cells.is_native and native.cells.coarse == pytest.approx(native.strip(0).spacing)
+        assert native.cells.count == sample.cells.count * sample.cells.coarsening[0]
+        assert native.lengths == sample.lengths and native.length == sample.length
+
+    def test_every_nth_cell_of_a_piece_is_a_coarse_one(self, sample):
+        piece = sample.piece(0)
+        thinned = sample.cells.thinned(piece.heights, sample.cells.coarsening)
+        assert thinned.shape[0] == sample.cells.axis().size == sample.cells.count
+        assert piece.spacing == pytest.approx(sample.cells.spacing)
+
+    def test_bodies_add_up(self, sample):
+        if sample.bodies or getattr(sample, "roughness", ())[1:]:
+            parts = sum(sample.of_body(k).strip(0).heights for k in (0, 1))
+            assert np.allclose(parts, sample.strip(0).heights, atol=1e-12)
+
+
+class TestModel:
+    @pytest.mark.parametrize("model", [LoadSharing(), Deterministic()], ids=lambda model: model.name)
+    def test_a_solution_says_all_that_the_estimate_asks(self, model):
+        prepared = lubfric.prepare(PAPER)
+        count = model.first_strips(prepared.sample)
+        solution = model.solve(prepared, prepared.sample, count, 0.03)
+        assert isinstance(solution, SampleSolution) and solution.count == count
+        assert solution.required_strips() >= count and solution.sampling_error.error > 0
+        answer = solution.corrected().answer()
+        assert 0 < answer.numbers["coefficient"] < 0.1 and answer.numerical > 0 and answer.report.converged
+        assert answer.fields.heights.shape == answer.fields.shear.shape == answer.fields.pressure.shape
+        again = model.solve(prepared, prepared.sample, count, 0.03, start=solution)
+        assert again.answer().numbers["coefficient"] == pytest.approx(
+            solution.answer().numbers["coefficient"], rel=1e-3
+        )
+
+    def test_neither_model_has_an_answer_without_its_needs(self):
+        flat = lubfric.prepare(lubfric.load_scene("flat"))
+        assert LoadSharing().unable(flat, 0.0) == "" and Deterministic().unable(flat, 0.03)
+        assert Deterministic().unable(lubfric.prepare(PAPER), 0.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Highest(SampleSolution):
+    """f = 1e5/m times the mean over strips of their highest summit, which needs no solve."""
+
+    prepared: lubfric.Prepared
+    sample: Sample
+    count: int
+    speed: float
+
+    @property
+    def values(self) -> np.ndarray:
+        return np.array([1e5 * self.sample.strip(k).heights.max() for k in range(self.count)])
+
+    @property
+    def sampling_error(self) -> BlockError:
+        error = self.values.std(ddof=1) / math.sqrt(self.count) / self.values.mean()
+        return BlockError(float(error), self.count - 1)
+
+    def answer(self) -> ModelAnswer:
+        load = self.prepared.scene.bodies.load
+        f = float(self.values.mean())
+        numbers = {"coefficient": f, "speed": self.speed, "contact_load": load, "film_load": 0.0}
+        return ModelAnswer(
+            numbers=numbers | {"boundary_force": f * load, "rolling_resistance": 0.0},
+            numerical=0.0,
+            sampling=self.sampling_error,
+            model_error=(0.5, 0.5),
+            report=Report("highest summit", CONVERGED, 1, 0.0, 1.0, {}),
+            decision=Decision("highest summit", "none", "none", 0.01, strips=self.count),
+            length=self.count * self.sample.length,
+        )
+
+
+class HighestSummit(Model):
+    """A third model, of no physics."""
+
+    name = "highest summit"
+
+    def solve(self, prepared, sample, count, speed, *, start=None, control=None):
+        return Highest(prepared=prepared, sample=sample, count=count, speed=speed)
+
+
+def test_a_third_model_answers_through_the_same_contract():
+    """The estimate takes strips until the standard error of their mean is as small as asked, and says so."""
+    for tolerance in (0.05, 0.02):
+        prepared = lubfric.prepare(PAPER.with_(numerics={"sampling_tolerance": tolerance}))
+        result = lubfric.friction(prepared, 0.03, model=HighestSummit())
+        values = [1e5 * prepared.sample.strip(k).heights.max() for k in range(result.decision.strips)]
+        assert result.coefficient == pytest.approx(np.mean(values), rel=1e-12)
+        error = np.std(values, ddof=1) / math.sqrt(len(values)) / result.coefficient
+        assert result.uncertainty.sampling == pytest.approx(error) and error <= tolerance
+        low, high = result.uncertainty.interval
+        assert high - low >= result.coefficient and math.isnan(result.min_film)
+        assert "highest summit" in result.decision.text or result.decision.model == "highest summit"
+    assert len(values) > prepared.sample.first
+
+
+def test_fields_of_other_cells_are_refused():
+    fields = lubfric.friction(PAPER, 0.03, model="load-sharing").fields
+    with pytest.raises(ValueError, match=r"gap .* is not on the cells"):
+        replace(fields, gap=fields.gap[::2])
