@@ -123,14 +123,25 @@ def worded(value: Any, unit: str) -> str:
 def with_interval(value: float, low: float, high: float, level: str = " at 95 %") -> str:
     """Return ``value`` with its interval, "0.0443 (0.0413 to 0.0473 at 95 %)": all with as many decimals as show two
     digits of half its width; without a finite interval to three digits, alone."""
-    half = 0.5 * (high - low)
-    if not 0 < half < math.inf:
+    digits = _decimals(low, high)
+    if digits is None:
         return f"{value:.3g}"
-    first = math.floor(math.log10(half))
-    if first > 1:
-        value, low, high = (round(number, 1 - first) for number in (value, low, high))
-    digits = min(max(0, 1 - first), MOST_DECIMALS)
-    return f"{value:.{digits}f} ({low:.{digits}f} to {high:.{digits}f}{level})"
+    return f"{round(value, digits):.{max(digits, 0)}f} ({interval_in_words(low, high)}{level})"
+
+
+def interval_in_words(low: float, high: float) -> str:
+    """Return "0.0413 to 0.0473", with as many decimals as `with_interval` has."""
+    digits = _decimals(low, high)
+    if digits is None:
+        return f"{low:.4g} to {high:.4g}"
+    return " to ".join(f"{round(end, digits):.{max(digits, 0)}f}" for end in (low, high))
+
+
+def _decimals(low: float, high: float) -> int | None:
+    """Return the decimals that show two digits of half the width of an interval; negative ones stand before the point.
+    None for an interval that is not finite, or a single number."""
+    half = 0.5 * (high - low)
+    return min(1 - math.floor(math.log10(half)), MOST_DECIMALS) if 0 < half < math.inf else None
 
 
 def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), depth: int = 3) -> Any:

@@ -7,10 +7,7 @@ import numpy as np
 
 from ..models.shared import percent, student, too_few
 from ..quantities import ESTIMATED, OF_UNCERTAINTY, Quantities, UncertaintyQuantities, described_in_doc
-
-# error of the share by load sharing over sqrt(s (1 - s)), and of f over sqrt(1 - s)
-# error of the film's shear by load sharing: times (film/Sq)², and at most
-EVEN = 0.1  # of half an interval: f farther off its middle is told with both ends
+from ..units import interval_in_words, with_interval
 
 
 @described_in_doc
@@ -44,9 +41,9 @@ class Uncertainty(UncertaintyQuantities[float]):
         of_sample = student(self.freedom) * self.sampling if self.sampling else 0.0
         parts = {
             "numerical": (self.numerical, "a smaller numerics.tolerance narrows it"),
-            "surface": (of_sample, "a smaller numerics.sampling_tolerance or a larger map narrows it"),
-            "model": (self.model, self.largest_in_model or "numerics.model = 'deterministic' narrows it"),
-            "inputs": (self.inputs, f"a measured {self.largest_input or 'value'} narrows it"),
+            "sampling": (of_sample, "a smaller numerics.sampling_tolerance or a larger map narrows it"),
+            "model-form": (self.model, self.largest_in_model or "numerics.model = 'deterministic' narrows it"),
+            "input": (self.inputs, f"a measured {self.largest_input or 'value'} narrows it"),
         }
         known = {name: part for name, part in parts.items() if math.isfinite(part[0]) and part[0] > 0}
         if not known or not math.isfinite(self.sampling):
@@ -62,28 +59,20 @@ class Uncertainty(UncertaintyQuantities[float]):
 
     @property
     def text(self) -> str:
-        """How sure f is, in words."""
-        first = f"f within {self.interval[0]:.4g} .. {self.interval[1]:.4g} (95 %): numerical {percent(self.numerical)}"
+        """The 95 % interval of f and the uncertainty budget, in words."""
         if not math.isfinite(self.sampling):
-            return "; ".join((f"f: numerical {percent(self.numerical)}, surface not known", *self.notes))
-        surface = f"surface {percent(self.sampling)} of a line of {1e3 * self.length:.3g} mm"
-        return "; ".join((f"{first}, {surface}, {self._others}", *self.notes))
-
-    @property
-    def _others(self) -> str:
-        inputs = f", inputs {percent(self.inputs)}" if self.inputs != 0 else ""
-        return f"model {percent(self.model)}{' and not in it' * math.isnan(self.model)}{inputs}"
+            return "; ".join((f"f: {self._budget('not known')}", *self.notes))
+        budget = self._budget(f"{percent(self.sampling)} of a line of {1e3 * self.length:.3g} mm")
+        return "; ".join((f"95 % interval of f {interval_in_words(*self.interval)}: {budget}", *self.notes))
 
     def short(self, coefficient: float) -> str:
-        """f = value, its interval (± half of it where both sides are alike), and the parts of the error."""
-        parts = f"numerical {percent(self.numerical)}, surface {percent(self.sampling)}, {self._others}"
-        if not math.isfinite(self.sampling):
-            return f"f = {coefficient:.4g} ({parts})"
-        low, high, half = *self.interval, 0.5 * (self.interval[1] - self.interval[0])
-        digits = min(max(0, 1 - math.floor(math.log10(half))), 7) if 0 < half < math.inf else 4
-        even = abs(low + high - 2 * coefficient) <= EVEN * half
-        within = f" ± {half:.1g}" if even else f", {low:.{digits}f} to {high:.{digits}f}"
-        return f"f = {coefficient:.{digits}f}{within} at 95 % ({parts})"
+        """Return f with its 95 % interval, and the uncertainty budget, in words."""
+        return f"f = {with_interval(coefficient, *self.interval)}; {self._budget(percent(self.sampling))}"
+
+    def _budget(self, sampling: str) -> str:
+        unknown = " (not included)" * math.isnan(self.model)
+        inputs = f", input {percent(self.inputs)}" if self.inputs != 0 else ""
+        return f"numerical {percent(self.numerical)}, sampling {sampling}, model-form {percent(self.model)}{unknown}{inputs}"
 
 
 @described_in_doc

@@ -6,6 +6,7 @@ from ..film import hertz
 from ..oil import estimate_in_words
 from ..quantities import KEYS, worded_value
 from ..scene import FRICTION, FRICTION_OVER, HISTORIES, Scene, source_of, typical
+from ..time import sampled_times, scene_at
 from ..units import worded
 
 SECTIONS = ("bodies", "lubricant", "motion", "surface", "counterface", "contact", "transient", "numerics")
@@ -44,12 +45,30 @@ def input_rows(scene: Scene, section: str) -> list[str]:
 
 def _bodies(scene: Scene) -> list[str]:
     b = scene.bodies
-    peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
-    return [
-        f"Hertz: half-width {worded(b.half_width, 'm')}, mean pressure {worded(b.mean_hertz_pressure, 'Pa')}, "
-        f"peak {worded(peak, 'Pa')}; {worded(b.load / b.width, 'N/m')}",
-        *(["contact spots: elastic (no bodies.hardness)"] if b.hardness is None else []),
-    ]
+    if scene.transient is None:
+        peak = hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime)
+        rows = [
+            f"Hertz: half-width {worded(b.half_width, 'm')}, mean pressure {worded(b.mean_hertz_pressure, 'Pa')}, "
+            f"peak {worded(peak, 'Pa')}; {worded(b.load / b.width, 'N/m')}"
+        ]
+    else:
+        low, high, time = _cycle_peak_pressure(scene)
+        rows = [
+            f"Hertz: peak pressure {worded((low, high), 'Pa').replace(' and ', ' to ')} over the run, largest at t = "
+            f"{worded(time, 's')}; half-width {worded(b.half_width, 'm')} at bodies.load and bodies.radius"
+        ]
+    if b.hardness is None:
+        rows.append("asperity contacts: elastic (no bodies.hardness)")
+    return rows
+
+
+def _cycle_peak_pressure(scene: Scene) -> tuple[float, float, float]:
+    """Return the smallest and the largest peak Hertz pressure [Pa] of a run in time, and the time [s] of the latter."""
+    times = sampled_times(scene)
+    bodies = [scene_at(scene, time, side).bodies for time in times for side in ("before", "at")]
+    peaks = [hertz.line_peak_pressure(b.load / b.width, b.radius, b.e_prime) for b in bodies]
+    largest = max(peaks)
+    return min(peaks), largest, times[peaks.index(largest) // 2]
 
 
 def _lubricant(scene: Scene) -> list[str]:
@@ -59,11 +78,15 @@ def _lubricant(scene: Scene) -> list[str]:
         rows += estimate_in_words(oil.oil, oil.temperature).replace(", alpha", "; alpha").split("; ")
     rows.append(f"viscosity over pressure: {oil.viscosity_law}; density over pressure: {oil.density_law}")
     if oil.newtonian:
-        rows.append("shear: Newtonian at any stress (no eyring_stress, no limiting_stress_coefficient)")
+        rows.append(
+            "shear: Newtonian at any stress (no lubricant.eyring_stress, no lubricant.limiting_stress_coefficient)"
+        )
     known = oil.heats and oil.temperature_coefficient is not None
-    why = "isothermal, how the viscosity falls with the temperature is not given"
-    told = "left out, as asked" if scene.numerics.heat == "off" else "of film and inlet, where it is known to matter"
-    return [*rows, f"heat: {told if known else why}"]
+    heat = "isothermal, because the fall of the viscosity with the temperature is not given"
+    if known:
+        heat = "film and inlet, where it changes f by more than its part of the tolerance"
+        heat = "isothermal (numerics.heat = 'off')" if scene.numerics.heat == "off" else heat
+    return [*rows, f"heat: {heat}"]
 
 
 def _motion(scene: Scene) -> list[str]:

@@ -43,7 +43,7 @@ def run_sweep(scene: Scene, arguments) -> None:
     what it has, then raises `ConvergenceError`.
     """
     ended: list[tuple] = []
-    speeds, chosen = _asked(scene, arguments.speeds, arguments.fields)
+    speeds, chosen = _requested(scene, arguments.speeds, arguments.fields)
     total = "some" if speeds == studies.AUTO else len(speeds)
     progress = _progress("U = {:<9.4g} m/s")
     names = ["stribeck.csv", "stribeck.png", "contact.png", "sharing.png", "law.json", "law.c"]
@@ -226,12 +226,12 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
         others = counted(len(noted) - 1, f"more {plural}")
         more = f" (the largest; result.json has {others})" if len(noted) > 1 else ""
-        said.append(f"error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{more}")
+        said.append(f"sampling error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{more}")
         if few and few != [at]:
             where = ", ".join(f"{value:.4g}" for value in few)
-            said.append(f"few spots carry the load at {where} {unit}: these intervals are too narrow")
+            said.append(f"few asperity contacts carry the load at {where} {unit}: these intervals are too narrow")
     if scene.numerics.accept and any(e.severe for i in range(len(curve.points)) for e in curve.entries(i)):
-        said.append("accepted although outside the range of the model: the coefficients marked are no answers")
+        said.append("accepted outside the range of the model (--accept): the coefficients that are marked mean nothing")
     return said
 
 
@@ -248,21 +248,25 @@ def _raise_if_failed(curve: studies.CurveResult) -> None:
     raise ConvergenceError(f"{', '.join(counts)}; first: {curve.errors[min(curve.errors)]}", curve.report)
 
 
-def _asked(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
-    """The speeds [m/s] of a command, or "auto", and those of them whose fields are wanted: these are added where they
-    are missing, in order if the others are in order."""
+def _requested(scene: Scene, speeds: str | None, fields: str | None) -> tuple:
+    """Return the speeds [m/s] to solve, or "auto", and those of them whose fields are drawn and written. The latter are
+    added where they are missing, in order if the others are in order; a line on stderr says so."""
     chosen = parse_speeds("--fields", fields) or [scene.motion.entrainment_speed]
     if speeds == studies.AUTO:
         return studies.AUTO, [abs(u) for u in chosen if u != 0]
-    asked = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
-    own = []
-    rising = asked == sorted(asked)
+    requested = parse_speeds("--speeds", speeds) or list(scene.motion.speeds) or [scene.motion.entrainment_speed]
+    solved = list(requested)
+    with_fields = []
     for speed in chosen:
-        near = [u for u in asked if math.isclose(u, speed, rel_tol=1e-9)]
-        own.append(near[0] if near else speed)
-        asked = asked if near else [*asked, speed]
-    validate.array("speeds", asked, "m/s", ndim=1)
-    return (sorted(asked) if rising else asked), own
+        near = [u for u in solved if math.isclose(u, speed, rel_tol=1e-9)]
+        with_fields.append(near[0] if near else speed)
+        solved += [] if near else [speed]
+    validate.array("speeds", solved, "m/s", ndim=1)
+    added = [f"{speed:.4g}" for speed in solved[len(requested) :]]
+    if added:
+        why = "whose fields are drawn (--fields)" if fields else "the scene's own speed, whose fields are drawn"
+        say(f"{counted(len(requested), 'speeds')} requested; added: {', '.join(added)} m/s, {why}")
+    return (sorted(solved) if requested == sorted(requested) else solved), with_fields
 
 
 def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float = FASTEST) -> list[float]:
@@ -316,6 +320,6 @@ def _progress(place: str) -> Callable:
         words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
         known = outcome.uncertainty
         largest = f"; {known.largest_part}" if known.largest_part else ""
-        say(f"{head}: {known.short(outcome.coefficient):<59} {words} ({outcome.seconds:.2f} s){largest}")
+        say(f"{head}: {known.short(outcome.coefficient):<59} {words} (wall-clock time {outcome.seconds:.2f} s){largest}")
 
     return on_point

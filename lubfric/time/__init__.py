@@ -7,5 +7,6 @@ from .march import Memory, Plan, Progress, Step, advance, checked_times, plan_of
 from .model import Output, Start, TimeModel
 from .result import TransientResult, friction_over_time, time_scale
 from .run import transient
+from .scene_in_time import sampled_times, scene_at
 from .start import speeds_of_run
 from .transient_deterministic import start_deterministic, work_of_run

@@ -190,3 +190,33 @@ def test_info_of_a_model_that_takes_too_long_says_that_the_interval_is_wide():
     assert "with a wide interval: the deterministic model would take too long" in text
     found = lubfric.friction(moving.with_(numerics={"sampling_tolerance": 0.2})).uncertainty
     assert found.model > 0.2 and np.isfinite(found.interval).all()
+
+
+def test_the_peak_pressure_of_a_run_in_time_is_that_of_its_cycle():
+    """Not that of the largest load on the mean radius: sqrt(F E'/(2 pi R L)) of a cam whose nose is sharp."""
+    load = Harmonic(mean=3.0, amplitude=2.0, frequency=50.0)
+    radius = Harmonic(mean=2e-3, amplitude=1.5e-3, frequency=50.0)
+    scene = SWINGING.with_(transient=lubfric.Transient(0.02, speed=0.1, load=load, radius=radius))
+    time = np.linspace(0.0, 0.02, 20001)
+    bodies = scene.bodies
+    force, curve = (np.array([history.at(t) for t in time]) for history in (load, radius))
+    peak = np.sqrt(force * bodies.e_prime / (2 * np.pi * curve * bodies.width)) / 1e6
+    told = describe_scene(scene)
+    low, high = told.partition("peak pressure ")[2].partition(" MPa over the run")[0].split(" to ")
+    assert float(low) == pytest.approx(peak.min(), rel=2e-3) and float(high) == pytest.approx(peak.max(), rel=2e-3)
+
+
+def test_the_speed_that_a_command_adds_is_reported(tmp_path, capsys):
+    text = SWINGING.with_(motion={"entrainment_speed": 0.05}, numerics={"model": "load-sharing"}).to_toml()
+    (tmp_path / "scene.toml").write_text(text)
+    assert main(["run", str(tmp_path / "scene.toml"), "--speeds", "0.01,0.1", "--out", str(tmp_path / "o")]) == 0
+    errors = capsys.readouterr().err
+    assert "2 speeds requested; added: 0.05 m/s, the scene's own speed, whose fields are drawn" in errors
+    assert "all 3 speeds are solved" in (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
+
+
+def test_init_leaves_the_choice_of_the_model_to_the_program(tmp_path):
+    assert main(["init", str(tmp_path / "mine.toml")]) == 0
+    scene = lubfric.load_scene(tmp_path / "mine.toml")
+    assert "model =" not in (tmp_path / "mine.toml").read_text() and scene.numerics.model == "auto"
+    assert scene.lubricant.limiting_stress_coefficient is not None

@@ -117,23 +117,31 @@ def test_the_parts_of_the_error_of_f_belong_together(point):
     assert 1e-4 < told.numerical < 0.01 and 0.01 < told.sampling < 0.2
 
 
-# how they are printed: ± only where both sides are alike, and never as if they held a model that is not known
+# how they are printed: one way for all, and never as if they included a model-form error that is not known
 
 KNOWN = {"numerical": 0.001, "sampling": 0.01, "model": 0.05}
 CASES = [
-    (KNOWN, (0.045, 0.055), "f = 0.0500 ± 0.005 at 95 % (numerical 0.1 %, surface 1 %, model 5 %)"),
+    (
+        KNOWN,
+        (0.045, 0.055),
+        "f = 0.0500 (0.0450 to 0.0550 at 95 %); numerical 0.1 %, sampling 1 %, model-form 5 %",
+    ),
     (
         KNOWN | {"inputs": 0.3},
         (0.035, 0.054),
-        "f = 0.0500, 0.0350 to 0.0540 at 95 % (numerical 0.1 %, surface 1 %, model 5 %, inputs 30 %)",
+        "f = 0.0500 (0.0350 to 0.0540 at 95 %); numerical 0.1 %, sampling 1 %, model-form 5 %, input 30 %",
     ),
-    (KNOWN | {"inputs": math.nan}, (0.045, 0.055), "model 5 %, inputs not known)"),
+    (KNOWN | {"inputs": math.nan}, (0.045, 0.055), "model-form 5 %, input not known"),
     (
         KNOWN | {"model": math.nan},
         (0.049, 0.051),
-        "± 0.001 at 95 % (numerical 0.1 %, surface 1 %, model not known and not in it)",
+        "(0.04900 to 0.05100 at 95 %); numerical 0.1 %, sampling 1 %, model-form not known (not included)",
     ),
-    (KNOWN | {"sampling": math.nan}, (math.nan, math.nan), "f = 0.05 (numerical 0.1 %, surface not known, model 5 %)"),
+    (
+        KNOWN | {"sampling": math.nan},
+        (math.nan, math.nan),
+        "f = 0.05; numerical 0.1 %, sampling not known, model-form 5 %",
+    ),
 ]
 
 
@@ -142,14 +150,14 @@ def test_an_interval_in_words(parts, interval, words):
     known = Uncertainty(**parts, interval=interval)
     assert known.short(0.05).endswith(words)
     if math.isnan(known.model):
-        assert "model not known and not in it" in known.text
+        assert "model-form not known (not included)" in known.text
 
 
 def test_the_largest_part_of_an_interval_is_named_with_what_narrows_it():
     known = Uncertainty(numerical=0.01, sampling=0.02, freedom=4.0, model=0.03, interval=(0.9, 1.1))
-    assert known.largest_part.startswith("largest part: surface 5.6 %")  # Student's t of four degrees: 2.78
+    assert known.largest_part.startswith("largest part: sampling 5.6 %")  # Student's t of four degrees: 2.78
     by_input = replace(known, inputs=0.2, largest_input="lubricant.eyring_stress")
-    assert by_input.largest_part == "largest part: inputs 20 %, a measured lubricant.eyring_stress narrows it"
+    assert by_input.largest_part == "largest part: input 20 %, a measured lubricant.eyring_stress narrows it"
     by_model = replace(known, model=0.3, largest_in_model="the boundary film: bodies.boundary_film narrows it")
-    assert by_model.largest_part == "largest part: model 30 %, the boundary film: bodies.boundary_film narrows it"
+    assert by_model.largest_part == "largest part: model-form 30 %, the boundary film: bodies.boundary_film narrows it"
     assert not replace(known, sampling=math.nan).largest_part
