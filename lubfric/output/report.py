@@ -203,7 +203,7 @@ def _budget(point: FrictionResult, place: str) -> str:
         else f"<span>{label}</span><span></span><span>not known</span>"
         for name, label in BUDGET.items()
     )
-    notes = _list([sentence(note) for note in known.notes])
+    notes = _list([sentence(note) for note in (known.largest_part, *known.notes) if note])
     return (
         f"<h2>Uncertainty budget</h2><p>Relative errors of f {escape(place)}; sampling is one standard error, the others "
         f'are at 95 %.</p><div class="budget">{rows}</div>{notes}'

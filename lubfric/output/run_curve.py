@@ -320,6 +320,8 @@ def _progress(place: str) -> Callable:
         words = ", ".join(f"{symbol} = {load}" for symbol, load in loads.items())
         known = outcome.uncertainty
         largest = f"; {known.largest_part}" if known.largest_part else ""
-        say(f"{head}: {known.short(outcome.coefficient):<59} {words} (wall-clock time {outcome.seconds:.2f} s){largest}")
+        say(
+            f"{head}: {known.short(outcome.coefficient):<59} {words} (wall-clock time {outcome.seconds:.2f} s){largest}"
+        )
 
     return on_point
