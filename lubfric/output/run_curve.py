@@ -2,6 +2,7 @@
 
 import math
 import re
+import time
 from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 from .. import studies
 from .._base import FolderLock, OwnFiles, figures, read_table, validate
 from .._base.jobs import parts_on
+from .._base.progress import progress_to
 from ..errors import ConvergenceError, InputError, ValidityError
 from ..models.shared import (
     Prepared,
@@ -28,6 +30,7 @@ from .pictures import plot_compared, plot_contact, plot_history, plot_stribeck, 
 
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
 WORTH = 8  # speeds from which a second process gains more than it costs
+PATIENCE = 5.0  # s between two lines on how far a point is
 
 
 def run_sweep(scene: Scene, arguments) -> None:
@@ -62,7 +65,8 @@ def run_sweep(scene: Scene, arguments) -> None:
         workers = _default_workers(scene, speeds)
     speeds_apart = speeds != studies.AUTO and len(speeds) >= max(2, workers)  # else the parts of each point are
     with studies.pool(workers) as executor, parts_on(None if speeds_apart else executor):
-        with run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds) as (folder, prepared, estimate):
+        begun = run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds)
+        with begun as (folder, prepared, estimate), progress_to(_moments_told()):
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
             curve = studies.stribeck(prepared, speeds, executor if speeds_apart else None, **options)
             _write(folder, prepared, curve, arguments, estimate, chosen)
@@ -306,6 +310,24 @@ def parse_ratios(text: str | None) -> list[float]:
                 raise InputError(f" {validate.shown(text)}", "--ratios", ways)
             return np.linspace(low, high, int(count)).tolist()
     return parse_speeds("--ratios", ":".join(parts) if parts else text, "-", LARGEST_RATIO)
+
+
+def _moments_told(interval: float = PATIENCE) -> Callable[[str, int, int], None]:
+    """Return what writes how far a point is, and the time left for this part of it, every ``interval`` [s] at most."""
+    begun = last = time.monotonic()
+
+    def report(what: str, done: int, total: int) -> None:
+        nonlocal begun, last
+        now = time.monotonic()
+        if done == 1:
+            begun = now
+        if now - last < interval or done < 2:
+            return
+        last = now
+        left = (now - begun) / (done - 1) * (total - done)
+        say(f"      {what}: step {done} of {total}, {left:.0f} s left")
+
+    return report
 
 
 def _progress(place: str) -> Callable:

@@ -140,3 +140,18 @@ def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys
     assert f"model {100 * table['model_error'][0]:.2g} %" in said
     assert main(["info", "paper", "--speeds", "0.001,0.3"]) == 0
     assert f"estimate: {capsys.readouterr().out.partition('cost: ')[2].splitlines()[0]}\n" in said
+
+
+def test_how_far_a_long_point_is_is_told_with_the_time_left(capsys, monkeypatch):
+    from lubfric.output import run_curve
+
+    clock = iter((0.0, 0.0, 1.0, 6.0, 7.0, 12.0))
+    monkeypatch.setattr(run_curve.time, "monotonic", lambda: next(clock))
+    report = run_curve._moments_told(5.0)
+    for done in range(1, 6):
+        report("moving roughness", done, 10)
+    lines = capsys.readouterr().err.splitlines()
+    assert [line.strip() for line in lines] == [
+        "moving roughness: step 3 of 10, 21 s left",
+        "moving roughness: step 5 of 10, 15 s left",
+    ]

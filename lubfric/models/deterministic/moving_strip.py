@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..._base.progress import report_progress
 from ...film import LineContact
 from ...scene import Scene
 from ...surface import Surface
@@ -19,7 +20,9 @@ from .problem import HERTZ_INLET, HERTZ_OUTLET, Problem, reach
 from .result import DeterministicResult, LoadSplit
 from .state import RUPTURED, State
 
-RESOLVED = 8  # cells in the Hertz half-width, from which on the pressure is moved with the roughness as a start
+RESOLVED = (
+    8  # cells in the Hertz half-width, from which on steps may be loose, and the pressure moves with the roughness
+)
 STEPS = 4.0  # LU factorisations in a step in time, about: for the estimate of the work
 KRYLOV = 25.0  # GMRES iterations in a step in time, about
 SMALL_WAVES = 3.0  # film of the smooth contact over Sq, from which on waves are small
@@ -121,7 +124,7 @@ def solve_moving_strip(
     most_steps : moments that count, at most (None: a whole pass of the map)
     for_continuation : whether `MovingStrip.early` is needed; a short map is followed beyond a pass for it
     """
-    effort = effort_of(scene, bodies, speed) if effort is None else effort
+    effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
     near = start.rest if isinstance(start, MovingStrip) else start
     rest = strip_at_rest(scene, bodies, speed, factors=factors, start=near, slope=slope, effort=effort)
     step, discarded, count = _steps_of(scene, bodies, speed, rest.problem.spacing[0], effort)
@@ -134,6 +137,7 @@ def solve_moving_strip(
     settled = rest.result.state
     for number, moment in enumerate(islice(passing, 1, 1 + last), 1):
         rows.append(_row(moment))
+        report_progress("moving roughness", number, last)
         if number == discarded:
             settled = moment.at.state
         if for_continuation and number == discarded + sum(early):
@@ -185,8 +189,9 @@ def continued_strip(
     begun = float(strip.times[strip.discarded - 1])
     passing = _passing(problem, bodies, speed, step, strip.effort, state, begun)
     rows = []
-    for moment in islice(passing, 1, 1 + sum(early)):
+    for number, moment in enumerate(islice(passing, 1, 1 + sum(early)), 1):
         rows.append(_row(moment))
+        report_progress("moving roughness once more", number, sum(early))
     return _mean(rows[-early[1] :], moment.result), sum(row["work"] for row in rows)
 
 
@@ -225,7 +230,7 @@ def strip_at_rest(
 ) -> Strip:
     """Solve the strip of `solve_moving_strip` with its roughness at rest, as it stands at time 0."""
     surface, upper = _together(bodies)
-    effort = effort_of(scene, bodies, speed) if effort is None else effort
+    effort = effort_of(scene, bodies, speed, factors) if effort is None else effort
     ends = _ends(scene, bodies, speed, effort)
     return solve_strip(scene, surface, speed, factors=factors, start=start, slope=slope, upper=upper, ends=ends)
 
@@ -289,25 +294,32 @@ def _mean(rows: Sequence[dict[str, Any]], last: DeterministicResult) -> Determin
     return replace(last, **parts, split=split)
 
 
-def effort_of(scene: Scene, bodies: Sequence[RoughBody], speed: float) -> MovingEffort:
-    """Return the `effort_for` the contact of ``scene`` at ``speed`` [m/s]."""
-    return effort_for(scene.line_contact(abs(speed)), _together(bodies)[0].sq)
+def effort_of(
+    scene: Scene, bodies: Sequence[RoughBody], speed: float, factors: tuple[int, int] = (1, 1)
+) -> MovingEffort:
+    """Return the `effort_for` the contact of ``scene`` at ``speed`` [m/s], on cells ``factors`` times as long as those of
+    the maps."""
+    surface, _ = _together(bodies)
+    return effort_for(scene.line_contact(abs(speed)), surface.sq, factors[0] * surface.spacing[0])
 
 
-def effort_for(contact: LineContact, sq: float) -> MovingEffort:
-    """Return the `MovingEffort` for roughness of ``sq`` [m] in a smooth ``contact``.
+def effort_for(contact: LineContact, sq: float, cell: float) -> MovingEffort:
+    """Return the `MovingEffort` for roughness of ``sq`` [m] in a smooth ``contact``, on cells [m] along x.
 
-    It is `ECONOMICAL` where f and the asperity load ratio were seen to keep within 0.5 %
-    (verification/campaigns/moving_effort). It is `TIGHT` where less lubricant arrives than a full inlet takes, because
-    the grid must hold where the gap fills; where the smooth film is wider than the Hertz strip, whose length the grid
-    and the discarded way are counted in; and where the roughness is small compared with the film, because what a loose
-    step leaves may then be as large as the waves.
+    It is `ECONOMICAL` where f keeps within 0.5 % of the tight one, and the asperity load ratio within 0.005
+    (verification/campaigns/moving_effort has the table). It is `TIGHT`
+
+    - where less lubricant arrives than a full inlet takes: the grid must hold where the gap fills;
+    - where the smooth film is wider than the Hertz strip, in whose length the grid and the discarded way are counted;
+    - where the roughness is small compared with the film: what a loose step leaves may be as large as the waves;
+    - where the Hertz strip has few cells: a cell that changes its kind moves a per cent of the load (0.013 was seen).
     """
     oil = contact.lubricant
     starved = oil.inlet_film is not None or oil.inlet_length is not None
     light = half_width(contact) > contact.half_width
     smooth = contact.moes_film > SMALL_WAVES * sq
-    return TIGHT if starved or light or smooth else ECONOMICAL
+    narrow = contact.half_width < RESOLVED * cell
+    return TIGHT if starved or light or smooth or narrow else ECONOMICAL
 
 
 def _steps_of(
@@ -334,6 +346,6 @@ def moving_work(
 ) -> float:
     """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
     `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
-    _, discarded, count = _steps(contact, cell, fastest, length, effort_for(contact, sq))
+    _, discarded, count = _steps(contact, cell, fastest, length, effort_for(contact, sq, cell))
     steps = discarded + count + (continuations + ON_LONGER) * sum(continued_moments(contact, cell, discarded))
     return AT_REST * work_of_steps(cells, STEPS, KRYLOV) + steps * work_of_steps(cells, STEPS, KRYLOV)

@@ -64,7 +64,7 @@ def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, fac
     (fx, fy) = factors
     (dx, dy) = sample.cells.coarse
     line = scene.line_contact(abs(speed))
-    effort = effort_for(line, sq)
+    effort = effort_for(line, sq, fx * dx)
     ends = reach(line, sq, inlet=effort.inlet, outlet=effort.outlet)
     cells = sum(ends) / (fx * dx) * sample.length / (fy * dy)
     fastest = abs(speed) * max(abs(ratio) for _, ratio in moving_bodies(scene))
