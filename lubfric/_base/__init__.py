@@ -3,6 +3,7 @@ root."""
 
 from .files import FolderLock, OwnFiles, clear_checked, clear_parts, read_checked, write_checked, write_whole
 from .host import with_default_errors
+from .memory import release_freed_memory, releasing_memory, resident_memory
 from .records import FieldsOnly, FrozenArrays, Renamed, Shown, changed
 from .roots import Root, increasing_root
 from .tables import (

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .._base import limited_work, unlimited_work, validate, with_default_errors
+from .._base import limited_work, releasing_memory, unlimited_work, validate, with_default_errors
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
 from ..errors import ConvergenceError, InputError
@@ -36,6 +36,7 @@ TIMES_ESTIMATE = 10.0
 LEAST_WORK = 30.0
 
 
+@releasing_memory
 @with_default_errors
 def friction(
     scene: Scene | Prepared,

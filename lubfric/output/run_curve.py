@@ -280,7 +280,8 @@ def parse_speeds(option: str, text: str | None, unit: str = "m/s", most: float =
         return []
     ranged = ":" in text
     words = text.split(":" if ranged else ",")
-    if not ranged and any(re.match(r"[+-]?0\d", word.strip()) for word in words):
+    like_decimals = len(words) == 2 and re.fullmatch(r"\s*[+-]?0\s*,\s*\d+\s*", text) is not None  # '0,1'
+    if not ranged and (like_decimals or any(re.match(r"[+-]?0\d", word.strip()) for word in words)):
         raise InputError(f"{option} {validate.shown(text)}: a comma separates values; write a point in decimals, 0.01")
     units = ["-" if i == 2 and ranged else unit for i in range(len(words))]
     numbers = numbers_of(option, words, units)

@@ -229,6 +229,9 @@ def _unit_alone(header: Header, statement: Statement, words: set[str], axis: str
     lateral = axis in ("x", "y") or spoken & {"lateral", "xy"}
     if "data" in spoken and spoken & {"unit", "units", "z"}:
         about_heights = True
+    if last and spoken <= {"unit", "units", "in", "all"}:  # a line 'um', or 'units: um'
+        unit = UNIT_WORDS[last]
+        about_heights = True
     if unit is None and about_heights and spoken & {"heights", "height", "z"}:
         unit = UNIT_WORDS[last] if last else None  # 'heights in nm'
     if unit is None and about_heights and (spoken & VALUE_UNIT or spoken & {"unit", "units"}):

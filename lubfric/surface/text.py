@@ -48,6 +48,7 @@ class NumberTable:
     numbers: np.ndarray
     header: Header
     titles: Lines
+    comments: Lines = field(default_factory=list)
     own_spacing: tuple[float, float] | None = None
     notes: tuple[str, ...] = ()
 
@@ -198,7 +199,7 @@ def _points(path, table: NumberTable, units, spacing) -> TextMap:
     numbers = table.numbers
     if numbers.shape[1] != 3:
         raise InputError(f" has {numbers.shape[1]} columns", f"path = {str(path)!r}", "exactly 3 (x y z)")
-    named = column_units(table.titles)
+    named = column_units([*table.titles, *table.comments])
     notes = table.notes
     if named is not None:
         if units is not None and [UNITS[unit] for unit in units] != [LENGTHS[unit] for unit in named[0]]:
@@ -371,7 +372,9 @@ def _table(path, text: str, decimal: str | None) -> NumberTable:
     if marked:
         notes.append(f"{counted(marked, 'marks')} of missing points taken for unmeasured")
     numbers = _numbers(path, lines, separator)
-    return NumberTable(numbers=numbers, header=header, titles=titles, own_spacing=own, notes=tuple(notes))
+    return NumberTable(
+        numbers=numbers, header=header, titles=titles, comments=comments, own_spacing=own, notes=tuple(notes)
+    )
 
 
 def _numbers(path, lines: Lines, separator) -> np.ndarray:

@@ -137,6 +137,8 @@ def test_the_command_line_takes_units():
     assert parse_speeds("--speeds", "1 mm/s:1 m/s:4") == pytest.approx([0.001, 0.01, 0.1, 1.0])
     assert parse_speeds("--speeds", "1mm/s,2cm/s") == [0.001, 0.02]
     assert parse_speeds("--ratios", "1 %,10 %", "-") == [0.01, 0.1]
+    with pytest.raises(lubfric.InputError, match="a comma separates values"):
+        parse_speeds("--speeds", "0,1")
     for option, text, unit in (
         ("--speeds", "0.001,2cm/s", "m/s"),
         ("--ratios", "1,5 %", "-"),

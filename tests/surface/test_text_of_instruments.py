@@ -323,3 +323,15 @@ def test_a_title_of_any_length_is_read_in_no_time(tmp_path):
         except InputError:
             pass
         assert time.process_time() - before < 0.5
+
+
+@pytest.mark.parametrize(
+    "line", ["# nm", "nm", "# units: nm", "Units: nm", "# Heights in nm", "z [nm]", "# z/nm", "Height (nm)"]
+)
+def test_a_line_that_names_the_unit_of_the_heights(tmp_path, line):
+    z = rough()
+    path = tmp_path / "map.txt"
+    path.write_text(f"{line}\n" + rows(z * 1e9))
+    np.testing.assert_allclose(read_surface(path, spacing=(DX, DY), **RAW).heights, z, atol=1e-15, rtol=0)
+    with pytest.raises(InputError, match="unit = 'um' is given"):
+        read_surface(path, spacing=(DX, DY), unit="um")

@@ -1,0 +1,62 @@
+"""Memory that was freed goes back to the system.
+
+glibc keeps freed blocks in its heap: after 45 points of varied scenes a process stood at 950 MB, of which 80 MB were in
+use. `release_freed_memory` returns them after a point, where they have become many.
+"""
+
+import ctypes
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from functools import wraps
+from typing import ParamSpec, TypeVar
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+# Bytes of resident memory, more than after the last release, from which freed blocks are returned: a release takes
+# about 1 ms a 100 MB.
+GROWTH = 64 * 2**20
+
+_STATM = "/proc/self/statm"  # of Linux; the second number is the resident pages
+
+
+def _malloc_trim() -> Callable[[int], int] | None:
+    """Return the function of glibc; None elsewhere."""
+    with suppress(OSError, AttributeError, TypeError):
+        return ctypes.CDLL(None).malloc_trim
+    return None
+
+
+_trim = _malloc_trim()
+_after_last = [0]  # bytes of resident memory after the last release
+
+
+def resident_memory() -> int:
+    """Return the bytes of this process that are in memory; 0 where the system does not say."""
+    try:
+        with open(_STATM, encoding="ascii") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    except (OSError, ValueError, IndexError):
+        return 0
+
+
+def release_freed_memory() -> None:
+    """Return freed blocks to the system, where resident memory has grown by `GROWTH` since the last time."""
+    if _trim is None or resident_memory() < _after_last[0] + GROWTH:
+        return
+    _trim(0)
+    _after_last[0] = resident_memory()
+
+
+def releasing_memory(function: Callable[P, T]) -> Callable[P, T]:
+    """Return the ``function`` such that memory which it used and freed goes back to the system when it ends."""
+
+    @wraps(function)
+    def wrapped(*args: P.args, **kwargs: P.kwargs) -> T:
+        try:
+            return function(*args, **kwargs)
+        finally:
+            release_freed_memory()
+
+    return wrapped
