@@ -1,0 +1,57 @@
+"""A process that solves many points does not grow."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import lubfric
+from lubfric._base import releasing_memory, resident_memory
+
+linux = pytest.mark.skipif(resident_memory() == 0, reason="the system does not say what is resident")
+
+
+@linux
+def test_freed_blocks_go_back_to_the_system():
+    """A heap of 400 MB of small blocks, freed but for the last: without a release it stays resident."""
+    script = """
+import numpy as np
+from lubfric._base import releasing_memory, resident_memory
+def work():
+    kept = [np.ones(12_000) for _ in range(4000)]
+    last = np.ones(12_000)
+    del kept
+    return last
+before = resident_memory()
+last = (releasing_memory(work) if {release} else work)()
+print(resident_memory() - before)
+"""
+    grown = [
+        int(
+            subprocess.run(
+                [sys.executable, "-c", script.replace("{release}", str(way))], capture_output=True, check=True
+            ).stdout
+        )
+        for way in (True, False)
+    ]
+    assert grown[0] < 50e6 < 200e6 < grown[1]
+
+
+@linux
+@pytest.mark.slow
+def test_points_of_varied_scenes_grow_by_less_than_200_megabytes():
+    """The growth from the 20th to the last of 300 points, each of another surface on another grid."""
+    draw = np.random.default_rng(3)
+    paper = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+    stood = []
+    for number in range(300):
+        scene = paper.with_(
+            contact={"shape": (int(draw.integers(110, 200)), int(draw.integers(110, 200)))},
+            surface={"seed": number, "sq": float(draw.uniform(5e-8, 2e-7)), "correlation_length": 6e-6},
+            bodies={"load": float(draw.uniform(2, 60))},
+        )
+        lubfric.friction(scene, float(10 ** draw.uniform(-2.5, -0.5)))
+        stood.append(resident_memory())
+    assert max(stood[20:]) - stood[0] < 200e6
+    assert releasing_memory(len)(stood) == 300
