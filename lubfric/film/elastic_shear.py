@@ -122,6 +122,7 @@ class _Laws:
     """The shear laws of a lubricant at the nodes: stress of a rate, and rate of a stress."""
 
     def __init__(self, lubricant: Lubricant, pressure: np.ndarray):
+        assert lubricant.shear_modulus is not None
         self.modulus = lubricant.shear_modulus
         self.viscosity = viscosity(lubricant, pressure)
         self.flow = lubricant.flow_law

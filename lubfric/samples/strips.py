@@ -225,7 +225,7 @@ def generated_strips(scene: Scene) -> GeneratedStrips:
         first=first,
         available=available,
         pieces=available,
-        exact_sq=len(bodies) == 1,
+        exact_sq=len(bodies) == 1 and bodies[0].sk is None,
         roughness=tuple(rough_bodies(scene)),
     )
 

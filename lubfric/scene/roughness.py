@@ -10,13 +10,15 @@ from typing import Any
 
 from .._base import Shown, changed, validate
 from ..errors import InputError
-from ..surface import ACFS, DECIMALS, FORMS, PER_SQ, units_of
+from ..surface import ACFS, DECIMALS, FORMS, PER_SQ, honed_sq, honing_of, units_of
 from .bodies import lengths
 
-NEEDED = "either 'file', or 'sq' (or 'ra', 'rz') and 'correlation_length' in m"
+NEEDED = "either 'file', or 'sq' (or 'ra', 'rz', or 'sk', 'spk' and 'svk') and 'correlation_length' in m"
 OPTIONS = {"acf": ACFS, "motion_axis": ("x", "y"), "decimal": DECIMALS, "form": FORMS}
 OPTIONS |= {"outliers": ("refuse", "keep", "mask"), "extension": ("none", "mirror")}
-GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize")  # fields of a generated map
+HONED = ("sk", "spk", "svk", "honing_angle", "groove_width")  # fields of a plateau-honed map
+GENERATED = ("correlation_length", "acf", "decay_level", "seed", "oversize", *HONED)  # fields of a generated map
+SAME_SQ = 1e-9  # relative difference of two Sq that are one
 
 
 @dataclass(frozen=True, repr=False)
@@ -47,6 +49,10 @@ class Roughness(Shown):
         shorter, the second what is longer
     motion_axis : the axis of the *file*, "x" or "y", that lies along the motion
     extension : "mirror" continues a map that is too short along x by its mirror image
+    sk, spk, svk : core height, reduced peak height, reduced dale height [m] of a generated plateau-honed map; ``sq``
+        follows from them
+    honing_angle : of such a map, between the two directions of its grooves [°], halved by the y axis (None: 50)
+    groove_width : correlation length across its grooves at 1/e [m] (None: the longer correlation length)
 
     Raises
     ------
@@ -70,9 +76,16 @@ class Roughness(Shown):
     s_filter: float | None = None
     l_filter: float | None = None
     extension: str = "none"
+    sk: float | None = None
+    spk: float | None = None
+    svk: float | None = None
+    honing_angle: float | None = None
+    groove_width: float | None = None
 
     def __post_init__(self):
         validate.python_fields(self, "surface")
+        if self.file is None and any(getattr(self, name) is not None for name in HONED):
+            object.__setattr__(self, "sq", self._honed_sq())
         if self.file is None and (self.sq is None or self.correlation_length is None):
             raise InputError(f" needs {NEEDED}", "surface")
         if isinstance(self.file, os.PathLike):
@@ -84,6 +97,33 @@ class Roughness(Shown):
             if value is not None:
                 object.__setattr__(self, name, check(f"surface.{name}", value))
         check_fields(changed(self))
+
+    def _honed_sq(self) -> float:
+        """Return the Sq [m] of a plateau-honed map, 0 where it is switched off by sq = 0. Raise `InputError` for keys
+        that do not go together."""
+        for name in HONED:
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, validate.of_key(f"surface.{name}", getattr(self, name)))
+        with in_section("surface"):
+            honing_of(self.sk, self.spk, self.svk, self.honing_angle, self.groove_width, (1.0, 1.0))
+        if self.sq == 0:
+            return 0.0
+        sq = honed_sq(self.sk, self.spk, self.svk)
+        if self.sq is not None and abs(self.sq - sq) > SAME_SQ * sq:
+            said = f" = {validate.shown(self.sq)} does not go with sk, spk and svk, from which Sq {sq:.4g} m follows"
+            raise InputError(said, "surface.sq", way_out="give sq, or sk, spk and svk (the others None)")
+        return sq
+
+
+@contextmanager
+def in_section(section: str) -> Iterator[None]:
+    """Put the ``section`` before the quantity of an `InputError`."""
+    try:
+        yield
+    except InputError as error:
+        if error.quantity and "." not in error.quantity:
+            error.quantity = f"{section}.{error.quantity}"
+        raise
 
 
 def check_fields(given: dict[str, Any]) -> None:
@@ -111,6 +151,8 @@ def named(section: str) -> Iterator[None]:
 def as_given(old: Roughness | None, values: dict[str, Any]) -> dict[str, Any]:
     """The fields that ``values`` change in ``old``. If a file replaces a generated map, the fields of the generated map
     go."""
+    if any(values.get(name) is not None for name in ("sk", "spk", "svk")) and "sq" not in values:
+        values = {"sq": None} | values  # it follows from them
     if old is not None and old.file is None and values.get("file") is not None:
         height = {} if any(key in values for key in PER_SQ) else {"sq": None}
         return height | {name: getattr(Roughness, name) for name in GENERATED} | values

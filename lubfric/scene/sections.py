@@ -102,7 +102,7 @@ def check_complete(name: str, table: dict) -> None:
 def _missing(section: str, table: dict) -> str:
     given = dict(table.get(section, {}))
     if section in ROUGH:
-        height = any(key in given for key in ("sq", *PER_SQ))
+        height = any(key in given for key in ("sq", *PER_SQ, "sk"))
         return "" if "file" in given or height and "correlation_length" in given else NEEDED
     try:
         plain = resolve(section, given)

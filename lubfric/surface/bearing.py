@@ -24,6 +24,7 @@ class Bearing:
     spk : reduced peak height Spk [m], the height of the triangle over Smr1 with the area of the peaks
     svk : reduced dale height Svk [m], the depth of the triangle over 1 - Smr2 with the area of the dales
     smr1, smr2 : material ratios [-] at which the core begins and ends
+    upper, lower : heights [m] at which the equivalent line has 0 and 100 %, as the heights are given
     """
 
     sk: float
@@ -31,6 +32,8 @@ class Bearing:
     svk: float
     smr1: float
     smr2: float
+    upper: float = 0.0
+    lower: float = 0.0
 
 
 def material_ratio(heights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -48,11 +51,12 @@ def bearing(heights: np.ndarray) -> Bearing:
     Sk is their difference. The areas of the curve above the upper and below the lower height become triangles of the
     same area. A map of equal heights has zeros.
     """
+    mean = float(np.mean(heights))
     ratio, heights = material_ratio(heights)
     count = heights.size
     width = min(max(round(CENTRAL * count), 1), count - 1)
     if count < 2 or heights[0] == heights[-1]:
-        return Bearing(sk=0.0, spk=0.0, svk=0.0, smr1=0.0, smr2=1.0)
+        return Bearing(sk=0.0, spk=0.0, svk=0.0, smr1=0.0, smr2=1.0, upper=mean, lower=mean)
     first = int(np.argmin(heights[:-width] - heights[width:]))
     part = slice(first, first + width + 1)
     slope, intercept = np.polynomial.polynomial.polyfit(ratio[part], heights[part], 1)[::-1]
@@ -68,4 +72,6 @@ def bearing(heights: np.ndarray) -> Bearing:
         svk=float(2.0 * dales.mean() / (1.0 - smr2)) if smr2 < 1 else 0.0,
         smr1=smr1,
         smr2=smr2,
+        upper=float(upper) + mean,
+        lower=float(lower) + mean,
     )

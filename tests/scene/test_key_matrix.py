@@ -568,7 +568,15 @@ ELSEWHERE = {  # keys that no corner undoes; the tests above, or those named, sh
         "shear_modulus",
     }  # the last: tests/film/test_elastic_shear.py; and, in tests/oil/test_shear_laws.py, the shear laws
     | {law.key for law in (*lubfric.oil.FLOW_LAWS, *lubfric.oil.LIMITS)},
-    "surface": {"file", *FILE},
+    "surface": {
+        "file",
+        *FILE,
+        "sk",
+        "spk",
+        "svk",
+        "honing_angle",
+        "groove_width",
+    },  # the last five: surface/test_honed.py
     "counterface": set(lubfric.Roughness.__dataclass_fields__),
     "numerics": {
         *("tolerance", "film_tolerance", "contact_tolerance", "balance_tolerance", "workers", "model", "grid"),

@@ -107,7 +107,7 @@ def drawn(histories: list[tuple[str, np.ndarray]]) -> Figure:
         right.axhline(table[2, 1] / table[2, 0], linestyle=":", color="0.5")
     left.axhspan(PUBLISHED_SQ, 1.0, color="0.9", label="published: down by up to 17 %")
     right.axhspan(PUBLISHED_SPEED, 1.0, color="0.9", label="published: down by up to 90 %")
-    left.set(xscale="log", xlabel="sliding in the contact (m)", ylabel="Sq over that as made", ylim=(0.6, 1.05))
+    left.set(xscale="log", xlabel="sliding in the contact (m)", ylabel="Sq over that as made", ylim=(0.5, 1.05))
     right.set(
         xscale="log", xlabel="sliding in the contact (m)", ylabel="lift-off speed over that as made", ylim=(0, 1.05)
     )
