@@ -36,6 +36,12 @@ def published_checks(name: str) -> tuple[Check, ...]:
     return outcome.checks
 
 
+def table_of(study: str, name: str) -> Cells:
+    """A table of a study as it stands."""
+    table = next(t for t in ran(study).tables if t.name == name)
+    return table.columns, [[str(cell) for cell in row] for row in table.rows]
+
+
 def waviness() -> Cells:
     """Small waves by both programs."""
     table = next(t for t in ran("deterministic").tables if t.name == "waviness")
@@ -144,6 +150,9 @@ TABLES: dict[str, Callable[[], Cells]] = {
     "publications": publications,
     **{f"published-{part.name}": partial(rows_beside, part.name) for part in PUBLISHED},
     "published-sources": sources_of,
+    "rough-strip": partial(table_of, "rough_strip", "rough-strip"),
+    "starved": partial(table_of, "starved", "starved"),
+    "sharing-in-time": partial(table_of, "sharing_in_time", "sharing-in-time"),
     "waviness": waviness,
     "transient": transient,
     "formulations": formulations,

@@ -19,9 +19,8 @@ LAWS = ("law-arana", "law-zhou", "law-patir", "law-doleschel")  # keys of refere
 RADIUS = 10e-3  # m
 MODULUS = 228e9  # Pa, E' of steel
 VISCOSITY = 0.02  # Pa s
-MAP = (160, 24)
-CELL = 5e-6  # m: 32 cells in a half-width
-LENGTHS = (40e-6, 25e-6)  # m: correlation lengths; theirs is not known
+MAP = (128, 32)  # cells, four in a correlation length
+LENGTHS = (10e-6, 20e-6, 40e-6)  # m: correlation lengths, a sixteenth to a quarter of a half-width; theirs is not known
 PRESSURE = 0.5e9  # Pa, of Hertz
 
 
@@ -59,9 +58,10 @@ def mixed(level: str) -> Iterator[Item]:
 def masjedi(level: str) -> Iterator[Check]:
     """The asperity load ratio of the deterministic model at the three roughnesses of Masjedi and Khonsari.
 
-    The load on gaps thinner than the boundary film is taken, with roughness at rest. Ours is the mean over two
-    correlation lengths, as theirs is not known, and three seeds at full level. The error is the spread between them and
-    half the difference that a boundary film of half and of twice its thickness makes."""
+    The load on gaps thinner than the boundary film is taken, with roughness at rest. Ours is the middle
+    of three correlation lengths, as theirs is not known, and the mean of two seeds (six at full level). The error is
+    half the spread over the lengths, and half the difference that a boundary film of half and of twice its thickness
+    makes."""
     case = references.MASJEDI_CASE
     width = 5e-3
     scene = lubfric.load_scene("paper").with_(
@@ -81,18 +81,20 @@ def masjedi(level: str) -> Iterator[Check]:
         },
     )
     speed = case["U"] * MODULUS * RADIUS / VISCOSITY
-    seeds = (1, 2, 3) if level == "full" else (1,)
+    seeds = range(1, 7) if level == "full" else (1, 2)
     films = (BOUNDARY_FILM / 2, BOUNDARY_FILM, 2 * BOUNDARY_FILM)
     for ratio, theirs in references.MASJEDI.items():
-        rows = []
+        by_length = []
         for length in LENGTHS:
+            rows = []
             for seed in seeds:
                 rough = {"sq": ratio * RADIUS, "correlation_length": length, "acf": "gaussian", "seed": seed}
-                surface = lubfric.generate_surface(MAP, CELL, **rough)
+                surface = lubfric.generate_surface(MAP, length / 4, **rough)
                 result = solve_strip(scene, surface, speed).result
                 rows.append([result.pressure[result.gap < film].sum() / result.pressure.sum() for film in films])
-        thin, usual, thick = np.mean(rows, axis=0)
-        spread = np.ptp([row[1] for row in rows])
+            by_length.append(np.mean(rows, axis=0))
+        thin, usual, thick = (np.max(by_length, axis=0) + np.min(by_length, axis=0)) / 2
+        spread = np.ptp([row[1] for row in by_length]) / 2
         error = float(np.hypot(spread, (thick - thin) / 2))
         name = f"asperity load ratio, Sq/R = {ratio:g}"
         note = "roughness at rest; their asperities have a statistical density, ours are those of a surface"
