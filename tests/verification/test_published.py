@@ -18,7 +18,10 @@ def test_both_errors_are_summed_by_squares_and_the_deviation_is_told_in_them():
     one = beside("f", 1.10, 1.00, (0.06, 0.08), "somebody")
     assert one.grade == "A" and one.units == pytest.approx(1.0) and one.tolerance == pytest.approx(0.1)
     assert not beside("f", 1.11, 1.00, (0.06, 0.08), "somebody").passed
-    named = against("grubin", "film", 2.0, 2.5, 0.01)
+    with pytest.raises(ValueError, match="cause = 'mine'"):
+        beside("f", 1.0, 1.0, (0.1, 0.1), "somebody", cause="mine")
+    named = against("grubin", "film", 2.0, 2.5, 0.01, cause="theirs")
+    assert named.cause == "theirs"
     assert named.errors == pytest.approx((0.02, 0.125)) and "A. N. Grubin" in named.source
 
 
@@ -50,7 +53,7 @@ def test_one_that_differs_ends_with_1_and_is_listed(tmp_path, monkeypatch, capsy
     monkeypatch.setattr(references, "FLASH_HERTZ", 1.2)
     assert main(["published", "--only", "heat", "--out", str(tmp_path)]) == 1
     out = capsys.readouterr().out
-    assert "1 of 12 differ by more than both errors:" in out
+    assert "1 of 12 differ by more than both errors; whose it is: unknown 1." in out
     assert "0 of 12 leave open more than 25%" in out
     assert "flash temperature, Hertz band: ours 1.111, theirs 1.2" in out
 

@@ -20,7 +20,7 @@ RADIUS = 10e-3  # m
 MODULUS = 228e9  # Pa, E' of steel
 VISCOSITY = 0.02  # Pa s
 MAP = (128, 32)  # cells, four in a correlation length
-LENGTHS = (10e-6, 20e-6, 40e-6)  # m: correlation lengths, a sixteenth to a quarter of a half-width; theirs is not known
+LENGTHS = (5e-6, 10e-6, 20e-6)  # m: correlation lengths, from a 32nd to an eighth of a half-width; theirs is not known
 PRESSURE = 0.5e9  # Pa, of Hertz
 
 

@@ -20,6 +20,7 @@ from .report import SolveError, require
 from .ripple import stored
 from .sharing import Bodies, cell_means, root, share_load
 
+REST = (0.0, 0.0, 0.0)
 SMALLEST_SPEED = 1e-3  # of U0: below it the film has no inlet in these variables
 
 
@@ -63,47 +64,75 @@ def share_in_time(
     require(
         abs(speed(0.0) / contact.entrainment_speed - 1) < 1e-9, f"speed(0) = {speed(0.0)} m/s", "that of the contact"
     )
-    begun = share_load(bodies, refinements=refinements, tolerance=tolerance)
+    begun = share_load(bodies, refinements=refinements, tolerance=1e-3)
     at = ehl.solve_ehl(contact, refinements=refinements)[-1]
-    state = started(at, begun.film)
     unit = step * contact.entrainment_speed / contact.half_width
-    yield moment_of(bodies, at, state, begun.film_load, 0.0)
+    start = started(at, begun.film)
+    steady = Moving(at, 0.0, 0.0, REST, unit, 1.0)
+    state, moment, split = balanced(bodies, steady, start, begun.split, 0.0, tolerance, max_evaluations)
+    yield moment
     now = content(at, state.P, film_of(at, state))
     before = now
-    split = begun.split
     count = 0
     while True:
         count += 1
-        rates = BDF2 if count > 1 else EULER
-        pace = speed(count * step) / contact.entrainment_speed
+        time = count * step
+        pace = speed(time) / contact.entrainment_speed
         require(pace > SMALLEST_SPEED, f"speed = {pace:g} U0", f"> {SMALLEST_SPEED:g} U0")
-        tried: dict[float, tuple[TransientFilmState, SharedMoment]] = {}
-
-        def mismatch(value: float) -> float:
-            """(gap - film)/(gap + film) at ln(F_H/F_C) = ``value``."""
-            film_load = bodies.load / (1 + np.exp(-value))
-            solved = stepped(at, state, now, before, rates, unit, pace, film_load / bodies.load)
-            moment = moment_of(bodies, at, solved, film_load, count * step)
-            tried[value] = solved, moment
-            return (moment.mean_gap - moment.mean_film) / (moment.mean_gap + moment.mean_film)
-
-        def residual_of(value: float) -> float:
-            moment = tried[value][1]
-            return abs(moment.mean_gap - moment.mean_film) / (moment.mean_gap + moment.mean_film)
-
-        def done() -> bool:
-            return min(map(residual_of, tried), default=1.0) <= tolerance or len(tried) >= max_evaluations
-
-        root(mismatch, done, split, 0.05)
-        split = min(tried, key=residual_of)
-        if residual_of(split) > tolerance:
-            raise SolveError(
-                f"load sharing in time: t = {count * step:g} s, volumes differ by {residual_of(split):.1e}"
-            )
-        state, moment = tried[split]
+        moving = Moving(at, now, before, BDF2 if count > 1 else EULER, unit, pace)
+        state, moment, split = balanced(bodies, moving, state, split, time, tolerance, max_evaluations)
         before = now
         now = content(at, state.P, film_of(at, state))
         yield moment
+
+
+@dataclass(frozen=True)
+class Moving:
+    """A step in time of the film ``at`` the whole load: what it held ``now`` and ``before``, the rates of BDF2 or Euler (0:
+    a steady film), its length [b/U0], and the speed over U0."""
+
+    at: ehl.EHLSolution
+    now: np.ndarray | float
+    before: np.ndarray | float
+    rates: tuple[float, float, float]
+    length: float
+    pace: float
+
+
+def balanced(
+    bodies: Bodies,
+    moving: Moving,
+    start: TransientFilmState,
+    guess: float,
+    time: float,
+    tolerance: float,
+    max_evaluations: int,
+) -> tuple[TransientFilmState, SharedMoment, float]:
+    """The film at the end of a step, the division of the load, and ln(F_H/F_C) at which the volumes agree."""
+    tried: dict[float, tuple[TransientFilmState, SharedMoment]] = {}
+
+    def mismatch(split: float) -> float:
+        """(gap - film)/(gap + film) at ln(F_H/F_C) = ``split``."""
+        film_load = bodies.load / (1 + np.exp(-split))
+        state = stepped(moving, start, film_load / bodies.load)
+        tried[split] = state, moment_of(bodies, moving.at, state, film_load, time)
+        return signed(split)
+
+    def signed(split: float) -> float:
+        moment = tried[split][1]
+        return (moment.mean_gap - moment.mean_film) / (moment.mean_gap + moment.mean_film)
+
+    def residual(split: float) -> float:
+        return abs(signed(split))
+
+    def done() -> bool:
+        return min(map(residual, tried), default=1.0) <= tolerance or len(tried) >= max_evaluations
+
+    root(mismatch, done, guess, 0.05)
+    split = min(tried, key=residual)
+    if residual(split) > tolerance:
+        raise SolveError(f"load sharing in time: t = {time:g} s, volumes differ by {residual(split):.1e}")
+    return *tried[split], split
 
 
 def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> TransientFilmState:
@@ -116,7 +145,7 @@ def started(at: ehl.EHLSolution, film: ehl.EHLSolution) -> TransientFilmState:
     middle = int(np.argmin(np.abs(at.body.x)))
     gap = film.at(np.array([0.0]))[1][0] / at.contact.film_unit
     state = TransientFilmState(P, gap - float((at.body.compliance @ P)[middle]), P <= 0)
-    return stepped(at, state, 0.0, 0.0, (0.0, 0.0, 0.0), 1.0, 1.0, share)
+    return stepped(Moving(at, 0.0, 0.0, REST, 1.0, 1.0), state, share)
 
 
 def film_of(at: ehl.EHLSolution, state: TransientFilmState) -> np.ndarray:
@@ -125,18 +154,13 @@ def film_of(at: ehl.EHLSolution, state: TransientFilmState) -> np.ndarray:
 
 
 def stepped(
-    at: ehl.EHLSolution,
-    start: TransientFilmState,
-    now: np.ndarray | float,
-    before: np.ndarray | float,
-    rates: tuple[float, float, float],
-    step: float,
-    pace: float,
-    share: float,
-    tolerance: float = 1e-8,
-    max_iterations: int = 60,
+    moving: Moving, start: TransientFilmState, share: float, tolerance: float = 1e-8, max_iterations: int = 60
 ) -> TransientFilmState:
-    """The film at the end of a step [b/U0] at a speed ``pace`` U0, under a ``share`` of the whole load."""
+    """The film at the end of a step under a ``share`` of the whole load."""
+    at = moving.at
+    rates = moving.rates
+    pace = moving.pace
+    step = moving.length
     body = at.body
     line = body.line
     film = replace(at.film, speed_parameter=at.film.speed_parameter * pace)
@@ -149,7 +173,7 @@ def stepped(
         H = H0 + body.x**2 / 2 + body.compliance @ P
         flow = assemble(film, P, H)
         then = content(at, P, H)
-        gain = (rates[0] * then + rates[1] * now + rates[2] * before) / step
+        gain = (rates[0] * then + rates[1] * moving.now + rates[2] * moving.before) / step
         lost = pace * flow.residual + gained.assemble(line, c=gain)
         load = float(weights @ P / HERTZ_LOAD - share)
         error = max(np.abs(lost[~held]).sum() / abs(pace * flow.inflow), abs(load) / share, -P.min())

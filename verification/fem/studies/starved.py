@@ -60,8 +60,11 @@ def half_width() -> float:
     return LineContact.of(CASE | OIL).half_width
 
 
-def film_from(place: float, cells: int, bodies: dict[int, Discretisation]) -> RoughStripFilm:
-    """The film by finite elements, with the lubricant from ``place`` [half-widths] upstream on."""
+def film_from(
+    place: float, cells: int, bodies: dict[int, Discretisation], start: RoughStripFilm | None = None
+) -> RoughStripFilm:
+    """The film by finite elements, with the lubricant from ``place`` [half-widths] upstream on; ``start``: one with
+    another inlet."""
     contact = LineContact.of(CASE | OIL)
     b = contact.half_width
     step = (place + OUTLET) * b / (cells - 1)
@@ -75,7 +78,7 @@ def film_from(place: float, cells: int, bodies: dict[int, Discretisation]) -> Ro
     )
     grid = Discretisation(problem, bodies.get(cells))
     bodies[cells] = grid
-    return solve_rough(grid)
+    return solve_rough(grid, start)
 
 
 def fed_with(layer: float, cells: int, bodies: dict[int, Discretisation]) -> RoughStripFilm:
@@ -84,10 +87,11 @@ def fed_with(layer: float, cells: int, bodies: dict[int, Discretisation]) -> Rou
     known: dict[float, RoughStripFilm] = {}
 
     def excess(place: float) -> float:
-        known[place] = film_from(place, cells, bodies)
+        last = next(reversed(known.values()), None)
+        known[place] = film_from(place, cells, bodies, last)
         return known[place].flow / speed / layer - 1
 
-    place = brentq(excess, 1.02, FLOODED, xtol=1e-4)
+    place = brentq(excess, FLOODED, 1.05, xtol=1e-3)
     return known.get(place) or film_from(place, cells, bodies)
 
 
