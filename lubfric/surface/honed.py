@@ -107,7 +107,8 @@ def _stratified(honing: Honing, plateau: np.ndarray, families: list[np.ndarray])
             return heights
         if not (reached > 0).all():
             break
-        upper, lower = curve.upper, curve.lower
+        upper = curve.upper
+        lower = curve.lower
         core = np.clip(heights, lower, upper)
         peaks = np.maximum(heights - upper, 0.0) / reached[1]
         dales = np.minimum(heights - lower, 0.0) / reached[2]

@@ -38,7 +38,8 @@ def running_in(level: str, run: Run = Run()) -> Iterator[Item]:
     rows = []
     for (kind, _), columns in solved:
         table = np.array(columns)
-        dented, last = table[:, 1], table[:, -1]
+        dented = table[:, 1]
+        last = table[:, -1]
         yield Check(f"{kind}: Sq after over before", last[1], PUBLISHED_SQ, 0.17, "Hansen et al. 2020", REPORTED)
         ratio = last[2] / table[2, 0]
         yield Check(
