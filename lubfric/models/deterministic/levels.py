@@ -45,16 +45,13 @@ from .strip_on_two_grids import (
 )
 
 DIFFERENCE = 0.95  # of numerics.model_tolerance: half-width that the scatter of the difference may leave
-# scatter of the deterministic f between strips over that of blocks; less that of a line
-ALONE = 1.3
-LINED = 1.2
-# strips that the scatter of blocks weighs as much as, and its degrees of freedom at most
-PRIOR = 3
-FREEDOM = 5
+ALONE = 1.3  # scatter of the deterministic f between strips over that of blocks
+LINED = 1.2  # the same of its difference from a line of load sharing
+PRIOR = 3  # strips that the scatter of blocks weighs as much as
+FREEDOM = 5  # degrees of freedom of that scatter, at most
 BALANCED = 1.3  # times (scatter of f between strips)²: bias of strips that balance the load each by itself
-# of the number of strips, which are dear: see `required_strips`
-GROWTH = (4.0, 2.0)
-SPARE = (1.1, 1.2)
+GROWTH = (4.0, 2.0)  # factors by which the number of strips may grow, first and later (`required_strips`)
+SPARE = (1.1, 1.2)  # what is spared of them there
 MOST_WORK = 120.0  # s, counted: of the strips of one point
 FEWEST = 3  # strips whose scatter tells an error
 OTHER_FILMS = ("at_half_film", "at_twice_film")  # f, with another boundary film
@@ -194,7 +191,7 @@ def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVari
 
 
 def mean(values) -> float:
-    """Of any iterable."""
+    """Return the mean of any iterable."""
     return float(np.mean(list(values)))
 
 
@@ -229,6 +226,8 @@ def _scatter(
     if count == 1:
         return BlockError(math.sqrt(by_blocks), min(within.freedom, FREEDOM))
     by_strips = float(np.var(f, ddof=1))
+    if not math.isfinite(by_blocks):  # a short strip has no blocks
+        return BlockError(math.sqrt(by_strips / count), count - 1)
     pooled = (PRIOR * by_blocks + (count - 1) * by_strips) / (PRIOR + count - 1)
     if sample.windows and count >= FEWEST and by_strips > pooled:
         return BlockError(math.sqrt(by_strips / count), count - 1)

@@ -12,29 +12,24 @@ from .linear import ACCURACY, Change, System
 from .problem import Problem
 from .state import TOUCHING, Iterate, State, TimeHistory, evaluated, residuals, update_active_sets
 
-# of h that a step must leave, and floors it may go below that
-KEEP = 0.2
-BELOW = 3.0
-SHORTEST = 0.1  # step, whatever the gap says
-HALVINGS = 10
-GROWTH = 1.05
-SURGE = 2.0
-# steps in which the residual has to fall to that part of what it was
-PATIENCE = 20
-PROGRESS = 0.95
+KEEP = 0.2  # of the gap: what a step must leave in every cell
+BELOW = 3.0  # floors by which a cell may nevertheless sink below the floor
+SHORTEST = 0.1  # of a Newton step: what is taken, whatever the gap of a cell says
+HALVINGS = 10  # of a step, at most, while the mass residual grows
+GROWTH = 1.05  # factor by which the residual may grow in a step
+SURGE = 2.0  # the same, in a step as short as `SHORTEST`
+PATIENCE = 20  # steps in which the residual has to fall
+PROGRESS = 0.95  # of what it was: how far
 FIRST = 3.0  # times dx/U: the first step in time
-# the first growth after so many Newton steps and fewer
-SHRINK = 0.5
-GROW = (2.0, 1.5)
-EASY = 5
-# times dx/U: shorter, the steps in time have failed; longer, they have arrived
-LEAST = 1e-3
-LAST = 1e5
+SHRINK = 0.5  # factor of a step in time after one that was not solved
+GROW = (2.0, 1.5)  # factors after one that was: after at most `EASY` Newton steps, and after more
+EASY = 5  # Newton steps
+LEAST = 1e-3  # times dx/U: below it the steps in time have failed
+LAST = 1e5  # times dx/U: above it the film is steady
 INNER = 8  # Newton steps in a step in time
-# how well they solve it: at most, and of the imbalance that is left to settle
-LOOSE = 0.1
-PART = 0.3
-SETTLED = 1e-5  # of that imbalance: the film is steady
+LOOSE = 0.1  # residual of a step in time, at most
+PART = 0.3  # of the steady imbalance of mass: the residual of a step in time
+SETTLED = 1e-5  # steady imbalance of mass at which the film has settled
 
 
 @dataclass

@@ -29,15 +29,12 @@ from ...surface import Surface
 
 FLOOR = 1e-9  # m
 BOUNDARY_FILM = 20e-9  # m: nearest to published shares of the load (docs/deterministic.md)
-# the undeformed gap at the ends of the grid, in Sq
-ROUGH_INLET = 14.0
-ROUGH_OUTLET = 5.0
-# the ends, at least, in Hertz half-widths
-HERTZ_INLET = 3.0
-HERTZ_OUTLET = 1.8
-# and in sqrt(2 R h) of the smooth film
-FILM_INLET = 1.5
-FILM_OUTLET = 0.8
+ROUGH_INLET = 14.0  # Sq: the undeformed gap at the inlet end of the grid, at least
+ROUGH_OUTLET = 5.0  # Sq: the same at the outlet end
+HERTZ_INLET = 3.0  # Hertz half-widths from the middle to the inlet end, at least
+HERTZ_OUTLET = 1.8  # Hertz half-widths to the outlet end, at least
+FILM_INLET = 1.5  # sqrt(2 R h) of the smooth film from the middle to the inlet end, at least
+FILM_OUTLET = 0.8  # sqrt(2 R h) to the outlet end, at least
 LARGEST = 2**20  # cells
 
 

@@ -13,35 +13,30 @@ from .problem import Problem
 from .result import DeterministicResult, assemble
 from .state import FLUID, RUPTURED, State, evaluated, residuals
 
-TOLERANCE = 1e-5
-# LU factorisations: from a state nearby, from the dry contact, in time
-NEAR = 40
-DIRECT = 50
-MARCHED = 500
-MOST = 800  # of all ways together, unless it is said
+TOLERANCE = 1e-5  # the largest residual of a solution, unless another is given
+NEAR = 40  # LU factorisations from a state nearby, at most
+DIRECT = 50  # LU factorisations from the dry contact, at most
+MARCHED = 500  # LU factorisations in time, at most
+MOST = 800  # LU factorisations of all ways together, unless another number is given
 FASTER = (16.0, 256.0)  # times the speed: where a cold start is tried when it fails at the speed itself
-LOOSE = 1e-3  # tolerance of solutions on the way
-# what a step in ln(speed) grows by, and the least one
-LONGER = 1.5
-SHORTEST = 0.05
+LOOSE = 1e-3  # residual of solutions on the way
+LONGER = 1.5  # factor of a step in ln(speed) after one that was solved
+SHORTEST = 0.05  # the least step in ln(speed)
 ADVICE = "longer cells may lead there, or a higher speed"
-# limiting stress over the pressure, and at ambient [Pa], of the fluid that starts
-THIN_STRESS = 0.09
-THIN_OFFSET = 2e6
-# a Newtonian
-DRY_TOLERANCE = 1e-4
+THIN_STRESS = 0.09  # limiting stress over the pressure of the fluid from which a Newtonian one starts
+THIN_OFFSET = 2e6  # Pa: its limiting stress at ambient pressure
+DRY_TOLERANCE = 1e-4  # of the dry contact
 RUPTURE = 0.55  # of sqrt(2 R h): a little behind where a rigid film ruptures, 0.475
-# share of the load on spots from which on a finer grid starts from its dry contact
-SHARP = 0.02
-WORSE = 2.0
-WET = 0.1  # share up to which the film of longer cells is laid on the dry contact of shorter ones
+SHARP = 0.02  # asperity load ratio, from which on a finer grid starts from its dry contact
+WORSE = 2.0  # times the residuals of the dry start: a start with larger ones is not taken
+WET = 0.1  # asperity load ratio, up to which the film of longer cells is laid on the dry contact of shorter ones
 WHOLE = 0.3  # of a Newton step: from there the solution follows by longer ones, or not at all
 
 
 def solve_point(
     problem: Problem, *, start: State | None = None, least=0.0, tolerance=TOLERANCE, most=MOST
 ) -> DeterministicResult:
-    """Gap, pressure and friction of ``problem`` on its own grid.
+    """Solve gap, pressure and friction of ``problem`` on its own grid.
 
     Tried in turn until one converges:
 
@@ -62,9 +57,9 @@ def solve_point(
         tried.append(attempt)
         if attempt[1].residual <= tolerance:
             break
-    name, found = min(tried, key=lambda one: one[1].residual if one[1].residual >= 0 else math.inf)
-    worst = found.residual if math.isfinite(found.residual) else math.inf
-    ways = ", ".join(f"{way} ({one.residual:.1e})" for way, one in tried)
+    name, result = min(tried, key=lambda attempt: attempt[1].residual if attempt[1].residual >= 0 else math.inf)
+    worst = result.residual if math.isfinite(result.residual) else math.inf
+    ways = ", ".join(f"{way} ({ended.residual:.1e})" for way, ended in tried)
     spent = f"{work.factorisations} of {most} factorisations"
     report = Report(
         "deterministic mixed film",
@@ -72,7 +67,7 @@ def solve_point(
         iterations=work.factorisations,
         residual=worst,
         tolerance=tolerance,
-        residuals=found.residuals,
+        residuals=result.residuals,
         history=tuple(work.history),
         evaluations=work.krylov,
         notes=(
@@ -81,7 +76,7 @@ def solve_point(
         ),
         advice=f"tried in {spent}, with the residual left: {ways}; {ADVICE}",
     )
-    return returned(assemble(found.at, report))
+    return returned(assemble(result.at, report))
 
 
 def _attempts(
@@ -99,22 +94,22 @@ def _attempts(
         thin = replace(problem, contact=replace(problem.contact, lubricant=limited))
         helped = newton(thin, cold, work, tolerance=tolerance, most=DIRECT)
         if helped.residual <= tolerance:
-            found = newton(problem, helped.at.state, work, tolerance=tolerance, most=DIRECT)
-            yield "from a fluid with a limiting stress", found
+            result = newton(problem, helped.at.state, work, tolerance=tolerance, most=DIRECT)
+            yield "from a fluid with a limiting stress", result
     if start is not None:
         yield "in time from a neighbouring state", _in_time(problem, start, tolerance, work)
     for times in FASTER:
         fast = problem.at_speed(times * problem.speed)
         helped = newton(fast, dry_start(fast, dry), work, tolerance=LOOSE, most=DIRECT)
         if helped.residual <= LOOSE:
-            found = _from_faster(problem, helped.at.state, times, tolerance, work)
-            yield "step by step from a faster speed", found
+            result = _from_faster(problem, helped.at.state, times, tolerance, work)
+            yield "step by step from a faster speed", result
     if start is None:
         yield "in time from the dry contact", _in_time(problem, cold, tolerance, work)
 
 
 def dry_contact(problem: Problem, tolerance=DRY_TOLERANCE) -> ContactResult:
-    """The rough bodies pressed together without fluid under the whole load."""
+    """Press the rough bodies together without fluid under the whole load."""
     return solve_contact(
         problem.rigid_gap,
         problem.spacing,
@@ -128,7 +123,7 @@ def dry_contact(problem: Problem, tolerance=DRY_TOLERANCE) -> ContactResult:
 
 
 def dry_start(problem: Problem, dry: ContactResult) -> State:
-    """The pressure of the ``dry`` contact, and its gap plus Moes' film. Behind contact and film the film has
+    """Return the pressure of the ``dry`` contact, and its gap plus Moes' film. Behind contact and film the film has
     ruptured."""
     p = dry.pressure
     film = problem.contact.moes_film
@@ -139,19 +134,21 @@ def dry_start(problem: Problem, dry: ContactResult) -> State:
 
 
 def _from_faster(problem: Problem, state: State, times: float, tolerance, work: Work) -> NewtonResult:
-    """To ``problem`` from a solution at so many ``times`` its speed, through speeds in between."""
+    """Follow the solution from so many ``times`` the speed of ``problem`` to it, through speeds in between."""
     left = math.log(times)
     step = left / 2
     while True:
         to = max(left - step, 0.0)
         goal = tolerance if to == 0 else max(tolerance, LOOSE)
-        found = newton(problem.at_speed(math.exp(to) * problem.speed), state, work, tolerance=goal, most=NEAR)
-        if found.residual <= goal:
-            left, state, step = to, found.at.state, LONGER * step
+        result = newton(problem.at_speed(math.exp(to) * problem.speed), state, work, tolerance=goal, most=NEAR)
+        if result.residual <= goal:
+            left = to
+            state = result.at.state
+            step *= LONGER
         else:
             step = (left - to) / 2
         if left == 0 or step < SHORTEST:
-            return found
+            return result
 
 
 def _in_time(problem: Problem, state: State, tolerance, work: Work) -> NewtonResult:
@@ -160,8 +157,8 @@ def _in_time(problem: Problem, state: State, tolerance, work: Work) -> NewtonRes
 
 
 def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> tuple[State | None, float]:
-    """The state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells; and
-    the least Newton step to take from there.
+    """Return the state of ``result``, a solution of ``coarse``, on the smaller cells of ``problem``, linear between cells;
+    and the least Newton step to take from there.
 
     Where asperities carry much of the load, their spots are too sharp to be interpolated to smaller cells. Then the dry
     contact of the finer grid is taken, with half of the pressure of the film between the spots. (With none of it
