@@ -19,12 +19,14 @@ def result_of(
     name: str,
     begun: float,
     *,
+    fine: bool = False,
     why: str = "",
     cheaper: tuple[str, ModelAnswer] | None = None,
 ) -> FrictionResult:
     """Return the result of the ``answer`` of the model ``name``.
 
-    ``begun``: the starting time, by `time.perf_counter`; ``why``: the reason for this model, in words; ``cheaper``: name
+    ``begun``: the starting time, by `time.perf_counter`; ``fine``: whether its fields are solved again on cells fine
+    enough to look at; ``why``: the reason for this model, in words; ``cheaper``: name
     and answer of the model whose strips it took as control.
     """
     scene = prepared.scene
@@ -60,7 +62,7 @@ def result_of(
         errors=field_errors_of(answer.errors, answer.why_no_error, answer.reasons),
         decision=decision,
         validity=validity,
-        fields=answer.fields,
+        fields=answer.fine_fields() if fine and answer.fine_fields is not None else answer.fields,
         compared_fields=None if cheaper is None else cheaper[1].fields,
         details=details | {name: answer.details},
     )

@@ -44,7 +44,7 @@ def friction(
     *,
     tolerance: float | None = None,
     model: str | Model | None = None,
-    fields: bool = False,
+    fields: bool | str = False,
     raise_on_failure: bool = True,
     workers: int = 1,
 ) -> FrictionResult:
@@ -64,7 +64,8 @@ def friction(
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
     model : "load-sharing", "deterministic", or "auto": the cheapest that is good enough; None: the scene's. Or a
         `lubfric.models.Model` of your own
-    fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on theirs)
+    fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on theirs);
+        "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for ``result.fields``
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises
     workers : processes that solve strips of the surface and ends of input ranges side by side, where there are several.
         The numbers do not depend on it. A script that asks for more than one needs ``if __name__ == "__main__":``
@@ -83,13 +84,14 @@ def friction(
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     prepared = at_speed(prepared, speed)
-    validate.instance("fields", fields, (bool, np.bool_), "True or False")
+    if fields != "fine":
+        validate.instance("fields", fields, (bool, np.bool_), "True, False or 'fine'")
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     numerics = prepared.scene.numerics
     limit = most_work(prepared, speed)
     with told_doubts(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
         with limited_work(limit):
-            result = _solved(prepared, speed, chosen, native=bool(fields), begun=begun)
+            result = _solved(prepared, speed, chosen, native=bool(fields), fine=fields == "fine", begun=begun)
         result = with_methods(prepared, result)
     if not math.isfinite(result.coefficient):
         raise InputError(
@@ -107,25 +109,31 @@ def friction(
     return result
 
 
-def _solved(prepared: Prepared, speed: float, model: Model | None, *, native: bool, begun: float) -> FrictionResult:
+def _solved(
+    prepared: Prepared, speed: float, model: Model | None, *, native: bool, fine: bool, begun: float
+) -> FrictionResult:
     """Return the result of the cheapest model that is good enough.
 
     Load sharing gives it without entrainment, where its own error is within ``numerics.model_tolerance``, and where the
     deterministic model has no answer; that model gives it otherwise. ``model``: takes their place.
     """
     if model is not None:
-        return result_of(prepared, sampled(prepared, speed, model, native=native).answer(), model.name, begun)
+        return result_of(
+            prepared, sampled(prepared, speed, model, native=native).answer(), model.name, begun, fine=fine
+        )
     requested = prepared.scene.numerics.model
     cheap, dear = MODELS
     if requested == cheap.name or dear.unable(prepared, speed):
-        return result_of(prepared, sampled(prepared, speed, cheap, native=native).answer(), cheap.name, begun)
+        return result_of(
+            prepared, sampled(prepared, speed, cheap, native=native).answer(), cheap.name, begun, fine=fine
+        )
     if requested == dear.name and prepared.sample.is_single_patch:  # a cheaper model has no control for it
-        return result_of(prepared, sampled(prepared, speed, dear).answer(), dear.name, begun)
+        return result_of(prepared, sampled(prepared, speed, dear).answer(), dear.name, begun, fine=fine)
     cheaper = sampled(prepared, speed, cheap, native=native)
     if requested == "auto":
         why = cheaper.sufficient() or dear.declines(prepared, speed, cheaper)
         if why or any(entry.severe for entry in cheaper.warnings()):
-            return result_of(prepared, cheaper.answer(), cheap.name, begun, why=why)
+            return result_of(prepared, cheaper.answer(), cheap.name, begun, fine=fine, why=why)
     try:
         answer = sampled(prepared, speed, dear, control=cheaper.control()).answer()
     except ConvergenceError as error:
@@ -133,9 +141,9 @@ def _solved(prepared: Prepared, speed: float, model: Model | None, *, native: bo
             raise
         why = f"the {dear.name} model was not solved ({error})"
         with unlimited_work():
-            return result_of(prepared, cheaper.answer(), cheap.name, begun, why=why)
+            return result_of(prepared, cheaper.answer(), cheap.name, begun, fine=fine, why=why)
     compared = None if prepared.sample.is_single_patch else (cheap.name, cheaper.answer())
-    return result_of(prepared, answer, dear.name, begun, cheaper=compared)
+    return result_of(prepared, answer, dear.name, begun, fine=fine, cheaper=compared)
 
 
 def most_work(prepared: Prepared, speed: float) -> float:

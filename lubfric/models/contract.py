@@ -33,6 +33,7 @@ class ContactFields:
     heights : of the roughness of both bodies about their mean [m], out of them
     pressure : of the asperity contacts [Pa]; of film and contact together by the deterministic model
     gap : between the rough surfaces [m]
+    deflection : of both bodies by the pressure [m], up to a constant; of a deterministic solve with its dents
     film : thickness of the smooth film [m], constant along y; by the deterministic model that of the rough gap
     shear : shear stress [Pa]; NaN where the solve has none
     """
@@ -43,12 +44,13 @@ class ContactFields:
     heights: np.ndarray
     pressure: np.ndarray
     gap: np.ndarray
+    deflection: np.ndarray
     film: np.ndarray
     shear: np.ndarray
 
     def __post_init__(self) -> None:
         shape = (self.x.size, self.y.size)
-        for name in ("heights", "pressure", "gap", "film", "shear"):
+        for name in ("heights", "pressure", "gap", "deflection", "film", "shear"):
             if getattr(self, name).shape != shape:
                 raise ValueError(f"{name} {getattr(self, name).shape} is not on the cells {shape} of the other fields")
 
@@ -92,6 +94,7 @@ class ModelAnswer:
     warnings : limits of the model that are exceeded
     recommendation : what makes the numerical error smaller
     fields : of the solve; None if there are none
+    fine_fields : solves a part of the surface again on cells fine enough to look at; None: ``fields`` are all there is
     details : what the model keeps of its solve, for those who know it
     at_inputs : makes what solves f again at other inputs; None: the model cannot
     ends_without_change : names of inputs of which neither end changes anything, found without a solve
@@ -114,6 +117,7 @@ class ModelAnswer:
     warnings: tuple[Validity, ...] = ()
     recommendation: str = "a larger numerics.tolerance"
     fields: ContactFields | None = None
+    fine_fields: Callable[[], ContactFields] | None = None
     details: Any = None
     at_inputs: Callable[[], AtInputs] | None = None
     ends_without_change: Callable[[str, tuple[Scene, ...]], bool] = lambda name, ends: False

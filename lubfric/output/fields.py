@@ -11,15 +11,23 @@ from .._base import validate, write_whole
 from ..estimate import FrictionResult
 from ..models.deterministic import Moment
 
-FIELDS = ("heights", "pressure", "gap", "film", "shear")  # of `lubfric.models.ContactFields`, all on the same cells
-OF_CELLS = ("fill", "dent", "touching", "spots", "wet")  # more of a `DeterministicResult`, on the same cells
+FIELDS = (
+    "heights",
+    "pressure",
+    "gap",
+    "deflection",
+    "film",
+    "shear",
+)  # of `lubfric.models.ContactFields`, all on the same cells
+OF_STRIP = ("x", "pressure", "gap", "fill", "shear", "dent", "touching", "spots", "wet")  # of a `DeterministicResult`
 
 
 def fields_bytes(points: list[FrictionResult]) -> bytes:
     """Return the fields of some speeds as arrays named ``<quantity>_<index>``, and ``speed``; SI units.
 
     Of each point x, y and all fields of one solve, on the same cells; ``solve`` says which. Of the smooth film of load
-    sharing x, thickness and pressure on its own nodes.
+    sharing x, thickness and pressure on its own nodes; of the first strip of the deterministic model all its fields, on
+    the cells of the answer, under names that begin with ``strip_``.
     """
     arrays: dict[str, np.ndarray] = {"speed": np.array([point.speed for point in points])}
     for i, point in enumerate(points):
@@ -30,8 +38,10 @@ def fields_bytes(points: list[FrictionResult]) -> bytes:
         if point.fields is not None:
             arrays |= {f"{name}_{i}": getattr(point.fields, name) for name in ("x", "y", *FIELDS)}
             arrays[f"solve_{i}"] = np.array(point.fields.solve)
-        if point.deterministic is not None and point.deterministic.pressure is point.pressure:
-            arrays |= {f"{name}_{i}": getattr(point.deterministic, name) for name in OF_CELLS}
+        strip = point.deterministic
+        if strip is not None:
+            arrays |= {f"strip_{name}_{i}": getattr(strip, name) for name in OF_STRIP}
+            arrays[f"strip_spacing_{i}"] = np.array(strip.spacing)
     return npz_bytes(arrays)
 
 

@@ -137,7 +137,7 @@ def _one_gap(fields, speed: float, half_width: float):
         figures.field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)
         _hertz_strip(axes, half_width)
         axes.label_outer()
-    figure.suptitle(f"U = {speed:g} m/s{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
+    figure.suptitle(f"U = {speed:g} m/s; {fields.solve}{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
     return figure
 
 
@@ -163,22 +163,22 @@ def _two_pressures(prepared, point, fields):
     counterface, and the rough surface, deformed (z - u) and undeformed (z). epsilon and u are known up to one constant.
     It is chosen so that u has zero mean over the section.
     """
-    contact = None if fields is None else point.balance.contact.fields
+    touching = fields is not None and bool(fields.pressure.any())
     film = point.balance.film
     half_width = prepared.scene.bodies.half_width
     row = 0 if fields is None else int(fields.pressure.max(axis=0).argmax())
-    if fields is not None and contact is None:
+    if fields is not None and not touching:
         row = fields.y.size // 2
     in_section = film is not None and fields is not None
-    panels = [contact is not None or not in_section, in_section]
-    part = slice(None) if contact is None else _part(fields.x, fields.y, row)
-    slender = contact is not None and np.ptp(fields.y[part]) > SLENDER * np.ptp(fields.x)
+    panels = [touching or not in_section, in_section]
+    part = slice(None) if not touching else _part(fields.x, fields.y, row)
+    slender = touching and np.ptp(fields.y[part]) > SLENDER * np.ptp(fields.x)
     ratios = [0.55 if slender else 1.0, 1.0][: sum(panels)]
     figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0))
     axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
     both = worded(point.balance.contact_load, "N"), worded(point.balance.film_load, "N")
     loads = "U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
-    if contact is not None:
+    if touching:
         pressure = fields.pressure[:, part] / 1e9
         figures.field_image(axes[0], fields.x, fields.y[part], pressure, "magma_r", "contact pressure (GPa)", vmin=0)
         _hertz_strip(axes[0], half_width)
@@ -191,9 +191,9 @@ def _two_pressures(prepared, point, fields):
     loads += "; dashed: Hertz strip" if panels[0] else ": no contact"
     figure.suptitle(loads, fontsize=10)
     if in_section:
-        _section(axes[-1], fields.x * 1e6, fields.heights[:, row], fields.film[:, row], contact, row)
+        _section(axes[-1], fields, row, touching=touching)
         _hertz_strip(axes[-1], half_width)
-        if contact is not None:
+        if touching:
             axes[-1].set_xlabel(f"x (µm) at y = {fields.y[row] * 1e6:.1f} µm (dotted)")
     return figure
 
@@ -204,16 +204,19 @@ def _hertz_strip(axes, half_width: float) -> None:
     axes.set_xlabel("x (µm), along the motion")
 
 
-def _section(axes, micro, surface, smooth, contact, row: int) -> None:
-    """Heights above the mean of the rough surface, as high as the thinnest film and the summits need."""
+def _section(axes, fields, row: int, *, touching: bool) -> None:
+    """Draw heights above the mean of the rough surface, as high as the thinnest film and the summits need."""
+    micro = fields.x * 1e6
+    surface = fields.heights[:, row]
+    smooth = fields.film[:, row]
     drawn = [surface]
     axes.plot(micro, smooth * 1e9, color=figures.GREEN, label="smooth film h")
     axes.plot(micro, surface * 1e9, color=figures.GREY, lw=0.8, ls="--", label="rough surface, not pressed")
-    if contact is not None:
-        deflection = contact.displacement[:, row]
+    if touching:
+        deflection = fields.deflection[:, row]
         drawn.append(surface - deflection + deflection.mean())
         axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, pressed")
-        axes.plot(micro, (contact.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="counterface, as if smooth")
+        axes.plot(micro, (fields.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="counterface, as if smooth")
     low = 1e9 * min(z.min() for z in drawn)
     high = 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
     room = 0.15 * (high - low)

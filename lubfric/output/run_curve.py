@@ -4,7 +4,7 @@ import math
 import re
 import time
 from collections.abc import Callable
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,8 @@ from .. import studies
 from .._base import FolderLock, OwnFiles, figures, read_table, validate
 from .._base.jobs import parts_on
 from .._base.progress import progress_to
-from ..errors import ConvergenceError, InputError, ValidityError
+from ..errors import ConvergenceError, InputError, LubfricError, ValidityError
+from ..estimate import FrictionResult, friction
 from ..models.shared import (
     Prepared,
     Validity,
@@ -96,6 +97,16 @@ def run_traction(scene: Scene, arguments) -> None:
     _raise_if_failed(curve)
 
 
+def _on_fine_cells(prepared: Prepared, point: FrictionResult) -> FrictionResult:
+    """Return ``point`` with fields on cells fine enough to look at, for which a part of the surface is solved again."""
+    try:
+        again = friction(prepared, point.speed, fields="fine", raise_on_failure=False)
+    except LubfricError as error:
+        say(f"the fields are on the cells of the strips, as finer ones were not solved: {error}")
+        return point
+    return replace(point, fields=again.fields)
+
+
 def _write(
     folder: RunFolder,
     prepared: Prepared,
@@ -117,6 +128,7 @@ def _write(
     points = [p for p in curve.points if p is not None and (p.fields is not None or p.balance is not None)]
     points.sort(key=lambda p: chosen.index(p.speed))
     if points:
+        points[0] = _on_fine_cells(prepared, points[0])
         contents["fields.npz"] = fields_bytes(points)
         folder.draw("contact.png", plot_contact, prepared, points[0])
         if points[0].compared_fields is not None:

@@ -12,6 +12,7 @@ from ..errors import InputError
 from ..scene import Roughness, Scene
 from ..surface import Surface, correlation_length
 
+ACROSS = 40  # cells across the Hertz strip in a picture: an asperity contact of the paper has five across
 CELLS_PER_LENGTH = 4.0  # of the correlation length
 CELLS_PER_HALF_WIDTH = 2.0  # of the Hertz strip, along x
 EVEN = 4  # cells along x come in fours
@@ -55,6 +56,15 @@ class Cells:
             cells = cells.halved()
             steps.append(cells.coarsening)
         return steps
+
+    def to_look_at(self, half_width: float) -> tuple[int, int]:
+        """Return the longest coarsening, from that of these cells down to native ones, that leaves `ACROSS` cells in the
+        Hertz strip of this ``half_width`` [m]; native cells where they are longer."""
+        longest = 2 * half_width / ACROSS
+        for coarsening in self.ladder():
+            if max(n * step for n, step in zip(coarsening, self.spacing)) <= longest:
+                return coarsening
+        return (1, 1)
 
     def rows(self, length: float) -> int:
         """Number of cells along y of a strip of about ``length`` [m]: one that suits the Fourier transform."""

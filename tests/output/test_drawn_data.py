@@ -182,7 +182,7 @@ def test_the_picture_of_the_roughness_is_the_beginning_of_a_long_line(figures, s
 def test_fields_are_written_the_right_way_round(solved):
     prepared, point = solved
     with np.load(io.BytesIO(fields_bytes([point]))) as kept:
-        for name in ("heights", "pressure", "gap", "film", "shear"):
+        for name in ("heights", "pressure", "gap", "deflection", "film", "shear"):
             np.testing.assert_array_equal(kept[f"{name}_0"], getattr(point.fields, name))
         assert np.diff(kept["x_0"]) == pytest.approx(1.1e-6) and np.diff(kept["y_0"]) == pytest.approx(1.7e-6)
         assert kept["speed"] == [0.01] and "load sharing" in str(kept["solve_0"])

@@ -24,6 +24,7 @@ from ..shared import (
     of_motion,
     of_pressure,
     of_thickness,
+    on_piece,
     percent,
     student,
 )
@@ -32,9 +33,11 @@ from .levels import Levels, mean
 from .moving_strip import MovingStrip, continued_strip
 from .point import Strip, solve_strip
 from .result import DeterministicResult
-from .rough_bodies import HARDNESS, bodies_of
+from .rough_bodies import HARDNESS, bodies_of, map_of
 from .strip_on_two_grids import strip_of
 
+DRAWN_LENGTH = 10.0  # half-widths of the Hertz strip along y that are solved again for a picture
+LEAST_DRAWN = 8.0  # correlation lengths along y of the same, at least
 FEW_STRIPS = "not known from fewer than three strips"
 ONE_HEAT = "heat is found on one strip"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
@@ -90,6 +93,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         ),
         recommendation=_recommendation(prepared),
         fields=fields_of(finest, "the patch" if sample.is_single_patch else "strip 1"),
+        fine_fields=None if moves(scene) else partial(fine_fields_of, prepared, speed),
         details=finest.result,
         at_inputs=lambda: _at_inputs(prepared, start, speed),
         ends_without_change=partial(_stays_elastic, start, scene),
@@ -108,9 +112,21 @@ def fields_of(strip: Strip, where: str) -> ContactFields:
         heights=heights - heights.mean(),
         pressure=result.pressure,
         gap=result.gap,
+        deflection=result.gap - strip.problem.rigid_gap - result.approach,
         film=result.gap,
         shear=result.shear,
     )
+
+
+def fine_fields_of(prepared: Prepared, speed: float) -> ContactFields:
+    """Return the fields of a piece of the surface on cells fine enough to look at, solved by itself."""
+    sample = prepared.sample
+    half_width = prepared.scene.bodies.half_width
+    cells = sample.cells.to_look_at(half_width)
+    contact = on_piece(prepared, sample, 0, cells, max(LEAST_DRAWN, DRAWN_LENGTH * half_width / sample.lengths[1]))
+    strip = solve_strip(prepared.scene, map_of(prepared, contact), speed)
+    where = "the patch" if sample.is_single_patch else "a piece of the surface"
+    return fields_of(strip, f"{where}, on cells of {contact.spacing[0] * 1e6:.3g} x {contact.spacing[1] * 1e6:.3g} µm")
 
 
 def _stays_elastic(strip: Strip, scene: Scene, name: str, ends: tuple[Scene, ...]) -> bool:

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from ...contact import ContactResult, HalfSpaceContact, RoughContact
 from ...oil import estimate_in_words
 from ...scene import Scene
 from ..contract import AtInputs, ContactFields, ModelAnswer
-from ..shared import Validity, contact_on, exponents, on_stack, prepare
+from ..shared import Validity, contact_on, exponents, on_piece, on_stack, prepare
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .decision import decided
@@ -49,6 +50,7 @@ def answer_of(found: BalancedSample) -> ModelAnswer:
         warnings=(*limits_of(found), *_finer(found.change("finer_grid_change"), scene.numerics.tolerance)),
         recommendation=CLOSER,
         fields=fields_of(found),
+        fine_fields=partial(fine_fields_of, found) if found.sample.is_resolved else None,
         details=replace(found.balance, contact=replace(found.balance.contact, fields=found.solved.contact.fields)),
         at_inputs=lambda: _at_inputs(found),
     )
@@ -69,6 +71,24 @@ def fields_of(found: BalancedSample) -> ContactFields | None:
     solved = found.solved
     contact = on_stack(found.prepared, found.sample, found.count)
     return fields_on(contact, solved, solved.contact.fields, found.prepared.scene, _where(found))
+
+
+def fine_fields_of(found: BalancedSample) -> ContactFields:
+    """Return the fields of a piece of the surface on cells fine enough to look at, under the film and the load of the
+    whole sample."""
+    prepared = found.prepared
+    scene = prepared.scene
+    sample = found.sample
+    cells = sample.cells.to_look_at(scene.bodies.half_width)
+    contact = on_piece(prepared, sample, 0, cells)
+    balance = found.balance
+    if balance.film is None:
+        state = contact.close(contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)
+    else:
+        state = found.point.pressed(contact, balance.film, balance.contact_load, None)
+    where = "the patch" if sample.is_single_patch else "a piece of the surface"
+    words = f"{where}, on cells of {contact.spacing[0] * 1e6:.3g} x {contact.spacing[1] * 1e6:.3g} µm"
+    return fields_on(contact, balance, state.fields, scene, words)
 
 
 def _where(found: BalancedSample) -> str:
@@ -97,6 +117,7 @@ def fields_on(
         heights=contact.heights,
         pressure=pressure,
         gap=film[:, None] - contact.heights if fields is None else fields.gap,
+        deflection=np.zeros(shape) if fields is None else fields.displacement,
         film=np.broadcast_to(film[:, None], shape),
         shear=np.where(pressure > 0, boundary, shear[:, None]),
     )
