@@ -83,11 +83,11 @@ def number_and_unit(text: str) -> tuple[str, str] | None:
     """Return the number and the unit (perhaps none) of a text such as "12 mm"; None where it does not begin with a
     number, has a decimal comma, or is too long."""
     text = text.strip().replace("\N{MINUS SIGN}", "-")
-    found = _NUMBER.match(text) if len(text) <= LONGEST else None
-    if found is None:
+    number = _NUMBER.match(text) if len(text) <= LONGEST else None
+    if number is None:
         return None
-    unit = text[found.end() :]
-    return None if unit[:1].isdigit() or unit[:1] in (".", ",") else (found[0], unit.strip())
+    unit = text[number.end() :]
+    return None if unit[:1].isdigit() or unit[:1] in (".", ",") else (number[0], unit.strip())
 
 
 def unit_for(values: Any, unit: str) -> str:
@@ -160,19 +160,19 @@ def without_unit(name: str, value: Any, unit: str, named: Iterable[str] = (), de
         return value
     if value.strip().lower() == "inf":
         return math.inf
-    found = number_and_unit(value)
+    parts = number_and_unit(value)
     row = UNITS[kind_of(unit)]
     shown = value if len(value) < 40 else f"{value[:40]} ..."
     examples = [f"'20{other if other == '%' else ' ' + other}'" for other in row if other not in ("", "-")][:5]
     plain = "a plain number" if unit == "-" else f"a plain number in {unit}"
     allowed = f"{plain}, or one with a unit in quotes: {', '.join(examples)}"
     allowed += f", or a range [low, high], or a name: {', '.join(named)}" if named else ""
-    if found is None or not found[1]:
+    if parts is None or not parts[1]:
         none = " is no number with a unit, and no name that is known" if named else " is no number with a unit"
         none += ": write a point in decimals, 1.5" if re.match(r"\s*[+-]?\d{1,40},\d", value) else ""
-        said = " has no unit: leave the quotes out, or add one" if found else none
+        said = " has no unit: leave the quotes out, or add one" if parts else none
         raise InputError(f" = {shown!r}{said}", name, allowed)
-    (digits, written) = found
+    (digits, written) = parts
     given = spelled(written)
     if given not in row:
         other = next((si for si, units in UNITS.items() if given in units), "")
@@ -205,8 +205,8 @@ def numbers_of(name: str, words: list[str], units: list[str]) -> list[float]:
 
 def in_si(name: str, text: str) -> tuple[float, str]:
     """The number that ``text`` with a unit gives, in SI, and that SI unit. Raises `InputError`, as `without_unit`."""
-    found = number_and_unit(text)
-    unit = next((si for si, row in UNITS.items() if found and spelled(found[1]) in row), "-")
+    parts = number_and_unit(text)
+    unit = next((si for si, row in UNITS.items() if parts and spelled(parts[1]) in row), "-")
     return without_unit(name, text, unit), unit
 
 

@@ -76,10 +76,10 @@ def _part(drawn: str, name: str) -> str:
 
 def write_checked(path, *content, sync: bool = True) -> None:
     """`write_whole`, with a checksum in front for `read_checked`."""
-    found = hashlib.sha256()
+    checksum = hashlib.sha256()
     for piece in content:
-        found.update(piece)
-    write_whole(path, MARK + found.hexdigest().encode() + b"\n", *content, sync=sync)
+        checksum.update(piece)
+    write_whole(path, MARK + checksum.hexdigest().encode() + b"\n", *content, sync=sync)
 
 
 def read_checked(path) -> bytes | None:

@@ -127,9 +127,9 @@ def read_columns(
     for name, unit in zip(names, units):
         places = _places(headings, name)
         if len(places) != 1:
-            found = f"{len(places)} columns" if places else "no column"
+            count = f"{len(places)} columns" if places else "no column"
             raise InputError(
-                f"file {path.name} has {found} {name!r}{'' if places else nearest(name, known)}; "
+                f"file {path.name} has {count} {name!r}{'' if places else nearest(name, known)}; "
                 f"it has: {', '.join(headings)}"
             )
         heading = headings[places[0]]
@@ -203,8 +203,8 @@ def _places(headings: Sequence[str], name: str) -> list[int]:
     """Return where the column ``name`` stands: that has this heading, this heading less its unit, or this one less that
     of ``name``."""
     ways = (lambda text: text == name, lambda text: name_and_unit(text)[0] == name, name_and_unit(name)[0].__eq__)
-    found = ([i for i, text in enumerate(headings) if way(text)] for way in ways)
-    return next(filter(None, found), [])
+    ways_found = ([i for i, text in enumerate(headings) if way(text)] for way in ways)
+    return next(filter(None, ways_found), [])
 
 
 def name_and_unit(heading: str) -> tuple[str, str | None]:

@@ -186,8 +186,8 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
     """
     a = real_array(name, value, unit)
     if np.ma.is_masked(value):
-        told = f" has {np.ma.count_masked(value)} of {a.size} values masked"
-        raise InputError(told, name, f"none (finite values in {unit})")
+        said = f" has {np.ma.count_masked(value)} of {a.size} values masked"
+        raise InputError(said, name, f"none (finite values in {unit})")
     if a.ndim != ndim:
         raise InputError(f" has {a.ndim} axes (shape {a.shape})", name, f"exactly {ndim} [{unit}]")
     if a.size == 0:
@@ -196,8 +196,8 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
         furthest = max(float(a.max()), -float(a.min()))  # NaN where any value is
     if not math.isfinite(furthest):
         bad = a.size - np.count_nonzero(np.isfinite(a))
-        told = f" has {bad} of {a.size} values that are NaN or infinite"
-        raise InputError(told, name, f"finite values in {unit}")
+        said = f" has {bad} of {a.size} values that are NaN or infinite"
+        raise InputError(said, name, f"finite values in {unit}")
     most = SANE.get(unit, (LEAST, LARGEST))[1]
     if furthest > most:
         raise InputError(f" reaches {furthest:g} {unit}", name, f"up to {most:g} {unit}")
@@ -206,10 +206,10 @@ def array(name: str, value: Any, unit: str, *, ndim: int) -> np.ndarray:
 
 def numbers(name: str, values: Any, unit: str, most: float) -> np.ndarray:
     """One number, or a list of them, as an array (n,) of its own, of magnitudes up to ``most``."""
-    found = array(name, listed(values), unit, ndim=1).copy()
-    for value in found.tolist():
+    values_given = array(name, listed(values), unit, ndim=1).copy()
+    for value in values_given.tolist():
         number(name, value, unit, minimum=-most, maximum=most)
-    return found
+    return values_given
 
 
 def listed(values: Any) -> Any:
@@ -234,21 +234,23 @@ def real_array(name: str, value: Any, unit: str) -> np.ndarray:
     """``value`` as an array of floats of any shape, in which NaN and infinity may stand. A mask is dropped."""
     odd = _odd_entry(value, DEEPEST)
     try:
-        found = np.empty(0) if odd else np.asarray(value)
-        if found.dtype.kind == "U":
-            found = np.asarray(in_plain(name, value, unit))
-        if found.dtype.kind == "O":
-            found = np.array([_real(x) for x in found.ravel()], dtype=float).reshape(found.shape)
+        numbers_given = np.empty(0) if odd else np.asarray(value)
+        if numbers_given.dtype.kind == "U":
+            numbers_given = np.asarray(in_plain(name, value, unit))
+        if numbers_given.dtype.kind == "O":
+            numbers_given = np.array([_real(x) for x in numbers_given.ravel()], dtype=float).reshape(
+                numbers_given.shape
+            )
     except InputError:
         raise
     except (TypeError, ValueError, OverflowError, RecursionError):
         instead = f"its .heights [{unit}]" if hasattr(value, "heights") else ""
-        told = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"
-        raise InputError(told, name, instead) from None
-    if odd or found.dtype.kind not in NUMBERS:
-        raise InputError(f" holds {odd or f'values of type {found.dtype}'}", name, f"real numbers in {unit}")
+        said = f" is {'a height map, ' if instead else ''}not an array of numbers in {unit}"
+        raise InputError(said, name, instead) from None
+    if odd or numbers_given.dtype.kind not in NUMBERS:
+        raise InputError(f" holds {odd or f'values of type {numbers_given.dtype}'}", name, f"real numbers in {unit}")
     with np.errstate(over="ignore"):
-        return found.astype(float, copy=False)
+        return numbers_given.astype(float, copy=False)
 
 
 def _odd_entry(value: Any, depth: int) -> str:
@@ -271,8 +273,8 @@ def choice(name: str, value: Any, options: Iterable) -> Any:
 def nearest(word: Any, options: Iterable, cutoff: float = 0.4) -> str:
     """' (did you mean ...?)' or an empty string; ``cutoff``: the least likeness, 0 to 1."""
     text = word[:LONGEST_SHOWN] if isinstance(word, str) else shown(word)
-    found = difflib.get_close_matches(text, [str(o) for o in options], n=1, cutoff=cutoff)
-    return f" (did you mean {found[0]!r}?)" if found else ""
+    matches = difflib.get_close_matches(text, [str(o) for o in options], n=1, cutoff=cutoff)
+    return f" (did you mean {matches[0]!r}?)" if matches else ""
 
 
 def installed(name: str, extra: str) -> Any:

@@ -18,7 +18,7 @@ from ..models.shared import (
     refused,
     unmodelled_effects,
 )
-from ..scene import FASTEST, Scene, told_doubts
+from ..scene import FASTEST, Scene, warn_unusual_values
 from .answer import result_of
 from .full_load import full_load_numbers
 from .methods import with_methods
@@ -89,7 +89,7 @@ def friction(
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     numerics = prepared.scene.numerics
     limit = most_work(prepared, speed)
-    with told_doubts(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
+    with warn_unusual_values(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
         with limited_work(limit):
             result = _solved(prepared, speed, chosen, native=bool(fields), fine=fields == "fine", begun=begun)
         result = with_methods(prepared, result)

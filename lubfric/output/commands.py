@@ -274,11 +274,11 @@ class RunFolder:
         result,
         units,
         law: Law | str = "",
-        doubts=(),
+        unusual_values=(),
         **numbers: object,
     ) -> None:
         """Add the scene with its defaults, the picture of the roughness and the page, and put all of a run in the place
-        of an earlier one; its record, which names the files, last as result.json. Then violated assumptions, ``doubts``
+        of an earlier one; its record, which names the files, last as result.json. Then violated assumptions, ``unusual_values``
         and files are said, and what was saved for a resume is removed."""
         with suppress(InputError):  # a path that is not Unicode has no place in a scene file
             self.contents[RESOLVED] = prepared.scene.to_toml().encode()
@@ -290,7 +290,7 @@ class RunFolder:
         )
         whole = plain({"files": sorted([*self.contents, RESULT])} | record)
         self.contents[RESULT] = json.dumps(whole, indent=1, allow_nan=False).encode()
-        self.put(OUTPUTS, (*record["validity"], *doubts))
+        self.put(OUTPUTS, (*record["validity"], *unusual_values))
         Store(self.unfinished).clear()
         clear_checked(self.unfinished.parent)
 

@@ -24,7 +24,7 @@ from ..samples import (
     sample_of,
     takes_strips,
 )
-from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, moves, told_doubts
+from ..scene import CHANGING, Harmonic, History, Scene, Table, gap_not_resolved, moves, warn_unusual_values
 from ..studies import CHOSEN, in_words, span
 from ..surface import Surface, correlation_length, rms_slope
 from ..time import TIME_SHARE, speeds_of_run, work_of_run
@@ -71,7 +71,7 @@ class SceneEstimate:
 def describe_scene(scene: Scene, speeds: Sequence[float] | str = ()) -> str:
     """Inputs, regime numbers (Hertz, Moes M and L, lambda at its speeds) and the plan, as text. Nothing is solved.
     ``speeds`` [m/s]: instead of those of the scene; "auto": about those that a curve would choose."""
-    with told_doubts(scene):
+    with warn_unusual_values(scene):
         sample = sample_of(scene)
         surface = sample.first_map()
         check_grid(scene, surface)

@@ -131,8 +131,8 @@ def scene_from_table(table: dict, folder: Path, name: str) -> Scene:
                 check_fields(given)  # refuses keys that do not apply, whatever their value
         if section != "transient" and (section in table or section != "counterface"):
             parts[section] = made_section(section, given)
-    found = {k: ends for s in SECTIONS if s in table for k, ends in ranges_of(s, table[s]).items()}
-    return Scene(**parts, name=table.get("name", name), transient=plan, ranges=as_ranges(found))
+    ranges = {k: ends for s in SECTIONS if s in table for k, ends in ranges_of(s, table[s]).items()}
+    return Scene(**parts, name=table.get("name", name), transient=plan, ranges=as_ranges(ranges))
 
 
 def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
@@ -144,23 +144,23 @@ def _plan(table: dict, folder: Path) -> tuple[dict, Transient | None]:
     table = {k: dict(v) if isinstance(v, dict) else v for k, v in table.items()}
     given = table.get("transient", {})
     places = {name: key.split(".") for name, key in HISTORIES.items()}
-    found = {n: history(f"transient.{n}", given.pop(n), UNITS[n], folder) for n in HISTORIES if n in given}
+    histories = {n: history(f"transient.{n}", given.pop(n), UNITS[n], folder) for n in HISTORIES if n in given}
     for name, (section, key) in places.items():
         value = table.get(section, {}).get(key)
         if value is None and name == "sliding":
             table.get(section, {}).pop(key, None)
         if isinstance(value, dict) or (value is not None and name == "sliding"):
-            if name in found:
+            if name in histories:
                 raise InputError(f"[transient] {name} and [{section}] {key} are both histories; give one of them")
-            found[name] = history(f"{section}.{key}", table[section].pop(key), UNITS[name], folder)
-    if not found and "transient" not in table:
+            histories[name] = history(f"{section}.{key}", table[section].pop(key), UNITS[name], folder)
+    if not histories and "transient" not in table:
         return table, None
     if "duration" not in given:
         raise InputError("a scene with a history needs [transient] with duration in s")
-    plan = made_section("transient", {**given, **found})
+    plan = made_section("transient", {**given, **histories})
     for name, (section, key) in places.items():
-        if name in found and name != "sliding" and key not in table.get(section, {}):
-            value = found[name].range(plan.duration)[1] if name == "load" else found[name].before(0.0)
+        if name in histories and name != "sliding" and key not in table.get(section, {}):
+            value = histories[name].range(plan.duration)[1] if name == "load" else histories[name].before(0.0)
             table.setdefault(section, {})[key] = value
     return table, plan
 

@@ -160,23 +160,23 @@ class Table(History):
 
     def stops(self, duration: float) -> tuple[float, ...]:
         """The corners, of every period."""
-        found = [*corners(np.array(self.times), np.array(self.values)), self.times[-1]]
-        return tuple(time for time in self._in_every_period(found, duration) if time > 0.0)
+        stop_times = [*corners(np.array(self.times), np.array(self.values)), self.times[-1]]
+        return tuple(time for time in self._in_every_period(stop_times, duration) if time > 0.0)
 
     def jumps(self, duration: float) -> tuple[float, ...]:
         """Times [s] at which the value jumps, 0 <= t < duration."""
         t = np.array(self.times)
         v = np.array(self.values)
-        found = t[1:][(np.diff(t) == 0.0) & (np.diff(v) != 0.0)]
+        jump_times = t[1:][(np.diff(t) == 0.0) & (np.diff(v) != 0.0)]
         if self.repeat and v[0] != v[-1]:
-            found = np.append(found, t[-1])
-        return self._in_every_period(found, duration)
+            jump_times = np.append(jump_times, t[-1])
+        return self._in_every_period(jump_times, duration)
 
     def _in_every_period(self, times, duration: float) -> tuple[float, ...]:
         """The ``times`` of the table, in every period, from 0 to before ``duration``."""
         laps = np.arange(math.ceil(duration / self.times[-1]) if self.repeat else 1)
-        found = np.unique(np.asarray(times, float)[None, :] + laps[:, None] * self.times[-1])
-        return tuple(found[(found >= 0.0) & (found < duration)].tolist())
+        every_time = np.unique(np.asarray(times, float)[None, :] + laps[:, None] * self.times[-1])
+        return tuple(every_time[(every_time >= 0.0) & (every_time < duration)].tolist())
 
     def range(self, duration: float) -> tuple[float, float]:
         inside = [v for t, v in zip(self.times, self.values) if self.repeat or 0.0 <= t <= duration]
@@ -236,7 +236,7 @@ def corners(times: np.ndarray, values: np.ndarray) -> list[float]:
     t = times.tolist()
     v = values.tolist()
     miss = allowed.tolist()
-    found = []
+    corner_times = []
     start = 0
     low = -math.inf
     high = math.inf
@@ -245,7 +245,7 @@ def corners(times: np.ndarray, values: np.ndarray) -> list[float]:
             start = j - 1
             low = -math.inf
             high = math.inf
-            found.append(t[start])
+            corner_times.append(t[start])
         if t[j] == t[j - 1]:
             start = j
             low = -math.inf
@@ -254,4 +254,4 @@ def corners(times: np.ndarray, values: np.ndarray) -> list[float]:
         run = t[j] - t[start]
         low = max(low, (v[j] - miss[j] - v[start]) / run)
         high = min(high, (v[j] + miss[j] - v[start]) / run)
-    return found
+    return corner_times

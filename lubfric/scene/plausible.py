@@ -6,6 +6,7 @@ usual.
 
 from contextlib import contextmanager
 from functools import cache
+from typing import Any
 
 from .._base import packaged
 from ..errors import ConvergenceError, InputError
@@ -49,18 +50,18 @@ def slip(name: str, value) -> str | None:
     return ""
 
 
-def doubts(scene) -> tuple[tuple[str, float, float, str, str], ...]:
-    """The values of a scene that are outside their usual range: key, value, the bound that it exceeds, their unit, and
+def unusual_values(scene: Any) -> tuple[tuple[str, float, float, str, str], ...]:
+    """Return the values of a scene that are outside their usual range: key, value, the bound that it exceeds, their unit, and
     what the value may have been meant to be, or ""."""
-    found = []
+    unusual = []
     for name, q in KEYS.items():
         section, _, key = name.rpartition(".")
         value = _index(scene) if key == "viscosity_index" else getattr(getattr(scene, section, None), key, None)
         for one in value if isinstance(value, (list, tuple)) else (value,):
             meant = None if one is None else slip(name, one)
             if meant is not None:
-                found.append((name, float(one), q.usual[abs(one) > q.usual[1]], q.unit, meant))
-    return tuple(found)
+                unusual.append((name, float(one), q.usual[abs(one) > q.usual[1]], q.unit, meant))
+    return tuple(unusual)
 
 
 def _index(scene) -> float | None:
@@ -84,11 +85,11 @@ def naming_slips(section: str, values: dict):
 
 
 @contextmanager
-def told_doubts(scene):
+def warn_unusual_values(scene):
     """Add the unusual values of a scene to an `InputError` or `ConvergenceError`: they are its likely cause."""
     try:
         yield
     except (InputError, ConvergenceError) as error:
-        for name, value, _, unit, meant in doubts(scene):
+        for name, value, _, unit, meant in unusual_values(scene):
             error.hint(f"{name} = {value:g} {unit} is unusual{meant and '; ' + meant}")
         raise

@@ -97,7 +97,7 @@ class Scene(Shown):
         The short forms of scene files may be used as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.
         """
         new: dict[str, Any] = {}
-        found: dict[str, tuple[float, float] | None] = {}
+        ranges: dict[str, tuple[float, float] | None] = {}
         for section, values in sections.items():
             if section not in self.__dataclass_fields__:
                 near = validate.nearest(section, self.__dataclass_fields__)
@@ -106,10 +106,10 @@ class Scene(Shown):
                 raise InputError(f"scene has no section {section!r}{near}{way_out}")
             new[section] = changed_section(section, getattr(self, section), values)
             if section in SECTIONS:
-                found |= ranges_of(section, values)
+                ranges |= ranges_of(section, values)
         made = replace(self, **new, ranges=())
         kept = {name: ends for name, *ends in self.ranges if value_of(made, name) == value_of(self, name)}
-        return replace(made, ranges=as_ranges(kept | found))
+        return replace(made, ranges=as_ranges(kept | ranges))
 
     def at_ends(self) -> Iterator[tuple[str, Scene, Scene]]:
         """Each key that is known to a range only, and the scene at both ends of it."""
@@ -224,8 +224,10 @@ def as_ranges(found: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
 def gap_not_resolved(scene: Scene, given: bool = False) -> str:
     """The first key of ``scene`` that the deterministic model does not take, and what it takes, in words; "" if it
     takes all. ``given``: one map was given to `lubfric.prepare`, for all its bodies."""
-    found = _not_taken(scene, given)
-    return next((f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in found), "")
+    refusals = _not_taken(scene, given)
+    return next(
+        (f"{name} = {value!r} (the deterministic model has {instead})" for name, value, instead in refusals), ""
+    )
 
 
 def check_resolved_gap(scene: Scene, given: bool = False) -> None:

@@ -94,9 +94,11 @@ def check_complete(name: str, table: dict) -> None:
 
     A section whose keys contradict each other is left to the check that says so.
     """
-    lacking = [f"[{section}] needs {missing}" for section in NEEDED_SECTIONS if (missing := _missing(section, table))]
-    if lacking:
-        raise InputError(f"scene {name} is not complete: {'; '.join(lacking)}")
+    incomplete = [
+        f"[{section}] needs {missing}" for section in NEEDED_SECTIONS if (missing := _missing(section, table))
+    ]
+    if incomplete:
+        raise InputError(f"scene {name} is not complete: {'; '.join(incomplete)}")
 
 
 def _missing(section: str, table: dict) -> str:

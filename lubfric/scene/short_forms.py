@@ -179,12 +179,12 @@ def resolve_oil(given: dict, old) -> dict:
     temperature = given.pop("temperature", getattr(old, "temperature", None))
     if temperature is None:
         raise InputError("[lubricant] with an oil needs its temperature in K, or temperature_celsius")
-    found = fields_of(oil.with_(**changed), temperature)
+    oil_fields = fields_of(oil.with_(**changed), temperature)
     if before is not None:
-        found["density_law"] = old.density_law
+        oil_fields["density_law"] = old.density_law
         if old.temperature_coefficient != before.temperature_coefficient(old.temperature):
-            found["temperature_coefficient"] = old.temperature_coefficient  # it was given
-    return found | given
+            oil_fields["temperature_coefficient"] = old.temperature_coefficient  # it was given
+    return oil_fields | given
 
 
 def _check_temperature(given: dict, old) -> None:
@@ -252,9 +252,9 @@ def _oil(source: dict, before: Oil | None) -> Oil:
 
 def only_one(section: str, given: dict, *keys: str) -> None:
     """At most one of ``keys`` (each a key, or several that go together joined by '+') is given."""
-    found = [key for key in keys if any(k in given for k in key.split("+"))]
-    if len(found) > 1:
-        names = " and ".join(found)
+    given_keys = [key for key in keys if any(k in given for k in key.split("+"))]
+    if len(given_keys) > 1:
+        names = " and ".join(given_keys)
         raise InputError(f"[{section}] has {names}, which say the same thing; give one of {', '.join(keys)}")
 
 

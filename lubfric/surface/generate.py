@@ -88,8 +88,8 @@ def generate_surface(
     }
     surface = surface_generator(shape, spacing, **of)(seed)
     first, *lengths = surface.notes
-    found = (f"{note}, found {_found_length(surface, axis, decay_level)}" for axis, note in enumerate(lengths))
-    return replace(surface, notes=(first, *found))
+    length_notes = (f"{note}, found {_found_length(surface, axis, decay_level)}" for axis, note in enumerate(lengths))
+    return replace(surface, notes=(first, *length_notes))
 
 
 def surface_generator(
@@ -227,7 +227,7 @@ def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
     from scipy import fft
 
     acf = fft.irfft2(spectrum, shape)
-    found = []
+    cutoffs = []
     for axis, line in enumerate((acf[:, 0], acf[0, :])):
         half = shape[axis] // 2 + 1
         length = first_crossing(np.arange(half) * spacing[axis], line[:half] / acf[0, 0], level)
@@ -236,8 +236,8 @@ def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
             said = f" = {lengths[axis]:g} m cannot be had: a periodic map of {size} with this cutoff has {length:g} m"
             allowed = f"within {LENGTH_TOLERANCE:.0%} (generate a larger map and crop it)"
             raise InputError(said, f"correlation_length along {'xy'[axis]}", allowed)
-        found.append(length)
-    return found
+        cutoffs.append(length)
+    return cutoffs
 
 
 def _found_length(surface, axis, level) -> str:

@@ -109,10 +109,10 @@ class Surface(FrozenArrays, Shown):
         most = np.nanmax(z)
         reach = 0.4 * (high - low)  # to some four times Sq, were the heights normally distributed
         ends = {"vmin": max(least, low - reach), "vmax": min(most, high + reach)}
-        beyond = least < ends["vmin"], most > ends["vmax"]
-        extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get(beyond, "neither")
+        clipped = least < ends["vmin"], most > ends["vmax"]
+        extend = {(True, True): "both", (True, False): "min", (False, True): "max"}.get(clipped, "neither")
         figures.field_image(axes, x, y, z, "cividis", "height (nm)", extend, **ends)
-        ends_in_words = f"\nlowest {least:.4g}, highest {most:.4g} nm" if any(beyond) else ""
+        ends_in_words = f"\nlowest {least:.4g}, highest {most:.4g} nm" if any(clipped) else ""
         axes.set_title(f"Sq = {self.sq * 1e9:.4g} nm{ends_in_words}")
         return axes
 
@@ -155,8 +155,8 @@ class Surface(FrozenArrays, Shown):
         more = True
         while more:
             filled = prepare.harmonic_fill(self.heights, mask, self.spacing)
-            found = prepare.outliers(filled, mask, self.periodic_axes) != 0
-            mask, more = mask & ~found, found.any()
+            outlying = prepare.outliers(filled, mask, self.periodic_axes) != 0
+            mask, more = mask & ~outlying, outlying.any()
         count = np.count_nonzero(np.isfinite(self.heights) & ~mask)
         around = f"{prepare.WINDOW} x {prepare.WINDOW} points around"
         note = f"{count or 'no'} outliers masked (over {prepare.LIMIT:g} deviations off {around})"
@@ -302,12 +302,12 @@ class Surface(FrozenArrays, Shown):
 def _mask(given: Any, heights: Any, shape: tuple[int, ...]) -> np.ndarray | None:
     """A copy of the mask ``given``, without the points that a masked array masks. None where every point is
     measured."""
-    found = np.ones(shape, bool) if given is None else np.array(given)
-    if found.dtype.kind != "b" or found.shape != shape:
-        said = f" has shape {found.shape} and type {found.dtype}"
+    measured = np.ones(shape, bool) if given is None else np.array(given)
+    if measured.dtype.kind != "b" or measured.shape != shape:
+        said = f" has shape {measured.shape} and type {measured.dtype}"
         raise InputError(said, "mask", f"true (measured) and false in shape {shape}")
     if np.ma.is_masked(heights):
-        found &= ~np.ma.getmaskarray(heights)
-    if found.size and not found.any():
-        raise InputError(f"mask has 0 measured points of {found.size}; allowed: at least 1")
-    return None if found.all() else found
+        measured &= ~np.ma.getmaskarray(heights)
+    if measured.size and not measured.any():
+        raise InputError(f"mask has 0 measured points of {measured.size}; allowed: at least 1")
+    return None if measured.all() else measured

@@ -84,13 +84,13 @@ def _interpolated(heights, index, position, spacing) -> np.ndarray:
     nodes = tuple(part[there] for part in index)
     for _ in range(ROUNDS):
         full = grid if measured.all() else harmonic_fill(grid, measured, spacing)
-        missed = target[there] - level - map_coordinates(full, points, order=3, mode="mirror")
-        grid[nodes] += missed
-        if np.sqrt(np.mean(missed**2)) <= SETTLED * scale:
+        remainder = target[there] - level - map_coordinates(full, points, order=3, mode="mirror")
+        grid[nodes] += remainder
+        if np.sqrt(np.mean(remainder**2)) <= SETTLED * scale:
             break
     else:
         raise InputError(
-            f"heights of points off a uniform grid: interpolation misses them by {np.sqrt(np.mean(missed**2)):.2g}",
+            f"heights of points off a uniform grid: interpolation misses them by {np.sqrt(np.mean(remainder**2)):.2g}",
             way_out="resample the points on a uniform grid first",
         )
     return np.where(measured, grid + level, np.nan)

@@ -67,13 +67,13 @@ def _normal_solution(z, weight, along, powers) -> dict[tuple[int, int], float] |
     values = np.linalg.eigvalsh(matrix)
     if values[0] <= DEPENDENT * values[-1]:
         return None
-    found = np.zeros(len(powers))
+    coefficients = np.zeros(len(powers))
     rest = z
     for _ in range(2):
         right = along[0].T @ rest @ along[1]
-        found = found + np.linalg.solve(matrix, np.array([right[p, q] for p, q in powers]))
-        rest = np.where(weight > 0, z - _polynomial(dict(zip(powers, found)), along), 0.0)
-    return dict(zip(powers, found.tolist()))
+        coefficients = coefficients + np.linalg.solve(matrix, np.array([right[p, q] for p, q in powers]))
+        rest = np.where(weight > 0, z - _polynomial(dict(zip(powers, coefficients)), along), 0.0)
+    return dict(zip(powers, coefficients.tolist()))
 
 
 def _polynomial(terms, along) -> np.ndarray:
@@ -129,9 +129,9 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
     measured = heights if mask is None else heights[mask]
     middle = float(np.median(measured))
     deviation = GAUSSIAN * float(np.median(np.abs(measured - middle))) or float(measured.std())
-    found = np.zeros(heights.shape)
+    deviations = np.zeros(heights.shape)
     if deviation == 0:
-        return found
+        return deviations
     far = np.abs(heights - middle) > LIMIT * deviation
     where = np.nonzero(far if mask is None else far & mask)
     parts = [tuple(at[i : i + CHUNK] for at in where) for i in range(0, where[0].size, CHUNK)]
@@ -143,8 +143,8 @@ def outliers(heights: np.ndarray, mask: np.ndarray | None, periodic: tuple[bool,
     around = [np.median(windows[part], axis=(1, 2)) for part in parts]
     off = (heights[where] - np.concatenate([np.empty(0), *around])) / deviation
     same_side = np.sign(off) == np.sign(heights[where] - middle)
-    found[where] = np.where((np.abs(off) > LIMIT) & same_side, off, 0.0)
-    return found
+    deviations[where] = np.where((np.abs(off) > LIMIT) & same_side, off, 0.0)
+    return deviations
 
 
 def gaussian_mean(

@@ -34,15 +34,15 @@ def rz(surface) -> tuple[float, float]:
     shorter map."""
     wanted = next((length for most, length in SAMPLING if sa(surface) <= most), 8e-3)
     measured = np.isfinite(surface.heights) if surface.mask is None else surface.mask
-    found = []
+    mean_heights = []
     z = np.where(measured, surface.heights, np.nan)
     for axis, step in enumerate(surface.spacing):
         lines = np.moveaxis(z, axis, 0)
         points = min(len(lines), max(2, round(wanted / step)))
         pieces = lines[: len(lines) // points * points].reshape(-1, points, lines.shape[1])
         heights = np.fmax.reduce(pieces, axis=1) - np.fmin.reduce(pieces, axis=1)
-        found.append((float(np.nanmean(heights)) if np.isfinite(heights).any() else 0.0, points * step))
-    return max(found)
+        mean_heights.append((float(np.nanmean(heights)) if np.isfinite(heights).any() else 0.0, points * step))
+    return max(mean_heights)
 
 
 def ssk(surface) -> float:

@@ -224,15 +224,15 @@ def _stated_scales(path, table: NumberTable, units) -> list[float]:
     """Return the units [m] of x, y, z by separate lines of the header, for both of which there must be one."""
     stated = [table.header.stated.get(name) for name in ("xy unit", "xy unit", "z unit")]
     scales = []
-    for place, found in enumerate(stated):
+    for place, statement in enumerate(stated):
         given = None if units is None else UNITS[units[place]]
-        if found is not None and given is not None and found.value != given:
-            said = f"unit = {units[place]!r} is given, and file {path.name} says {found.unit}: {found.worded()}"
+        if statement is not None and given is not None and statement.value != given:
+            said = f"unit = {units[place]!r} is given, and file {path.name} says {statement.unit}: {statement.worded()}"
             raise InputError(said, way_out="leave unit out, or remove the wrong line from the file")
-        if found is None and given is None:
+        if statement is None and given is None:
             said = f"file {path.name} states the unit of {'the heights' if place == 2 else 'x and y'} nowhere"
             raise InputError(said, way_out="give unit = (unit of x, of y, of z), such as ('mm', 'mm', 'um')")
-        scales.append(found.value if found is not None else given)
+        scales.append(statement.value if statement is not None else given)
     return scales
 
 
@@ -405,10 +405,10 @@ def _own_spacing(path, comments: Lines) -> tuple[float, float] | None:
         if len(pair) not in (1, 2):
             said = f"spacing in {path.name}: {validate.shown(line)}"
             raise InputError(said, allowed="'# spacing = dx dy' in m")
-        found = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
-        if spacing not in (None, found):
-            raise InputError(f"file {path.name} states its spacing twice: {spacing} and {found} m")
-        spacing = found
+        stated = validate.spacing("spacing", pair if len(pair) == 2 else pair[0])
+        if spacing not in (None, stated):
+            raise InputError(f"file {path.name} states its spacing twice: {spacing} and {stated} m")
+        spacing = stated
     return spacing
 
 
@@ -446,9 +446,9 @@ def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
 
 def _is_heading(path, number: int, text: str) -> bool:
     """Whether a line is a name with a mark and one number ('Width: 10 um'), or states something of the table."""
-    found = statements(number, text)
-    numbers = sum(len(statement.numbers) for statement in found)
-    if found and numbers == 1 and found[0].words and re.search(r"[:=;,\t]", text):
+    parts = statements(number, text)
+    numbers = sum(len(statement.numbers) for statement in parts)
+    if parts and numbers == 1 and parts[0].words and re.search(r"[:=;,\t]", text):
         return True
     return bool(read_header(Path(path).name, [(number, text)]).lines_read)
 

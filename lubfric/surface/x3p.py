@@ -108,10 +108,10 @@ def _path(name: str) -> str:
 
 def _check_sum(what: str, data: bytes, stated: str) -> None:
     """Raise `InputError` where the MD5 checksum ``stated`` in the file is not that of the ``data``."""
-    found = hashlib.md5(data, usedforsecurity=False).hexdigest()
-    if stated and stated.lower() != found:
+    computed = hashlib.md5(data, usedforsecurity=False).hexdigest()
+    if stated and stated.lower() != computed:
         raise _bad(
-            f"MD5 checksum of {what}", f"{stated[:40]} (that of the data is {found})", "equal ones: copy it again"
+            f"MD5 checksum of {what}", f"{stated[:40]} (that of the data is {computed})", "equal ones: copy it again"
         )
 
 
@@ -184,9 +184,9 @@ def _heights(root, values) -> np.ndarray:
 
 
 def _increment(root, axis, axis_type="I") -> float:
-    found = _text(root, f"Record1/Axes/{axis}/AxisType")
-    if found != axis_type:
-        raise _bad(f"{axis} AxisType", found, f"{axis_type} (uniform spacing)")
+    axis_kind = _text(root, f"Record1/Axes/{axis}/AxisType")
+    if axis_kind != axis_type:
+        raise _bad(f"{axis} AxisType", axis_kind, f"{axis_type} (uniform spacing)")
     step = _number(root, f"Record1/Axes/{axis}/Increment")
     if not step > 0:
         raise _bad(f"{axis} Increment", f"{step:g} m", "(0, inf) m")

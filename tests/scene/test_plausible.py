@@ -7,7 +7,7 @@ import pytest
 
 import lubfric
 from lubfric.quantities import KEYS
-from lubfric.scene import doubts
+from lubfric.scene import unusual_values
 from lubfric.scene.plausible import slip
 from lubfric.units import converted
 
@@ -16,7 +16,7 @@ OIL = {"grade": "ISO VG 68", "viscosity_index": 95, "temperature": 343.15}
 
 @pytest.mark.parametrize("name", ["paper", "flat"])
 def test_built_in_scenes_are_usual(name):
-    assert doubts(lubfric.load_scene(name)) == ()
+    assert unusual_values(lubfric.load_scene(name)) == ()
 
 
 @pytest.mark.parametrize("name", [name for name, q in KEYS.items() if q.meant])
@@ -34,7 +34,7 @@ def test_a_usual_value_in_each_mistaken_unit_is_found_out(name):
 
 
 def test_a_value_that_no_unit_explains_is_still_told():
-    ((name, value, limit, unit, _),) = doubts(lubfric.load_scene("paper").with_(bodies={"radius": 900.0}))
+    ((name, value, limit, unit, _),) = unusual_values(lubfric.load_scene("paper").with_(bodies={"radius": 900.0}))
     assert (name, value, limit, unit) == ("bodies.radius", 900.0, 1.0, "m")
 
 

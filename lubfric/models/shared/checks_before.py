@@ -8,7 +8,7 @@ import numpy as np
 from ...errors import InputError
 from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
-from ...scene import doubts
+from ...scene import unusual_values
 from ...surface import correlation_length, rms_slope
 from .checks import (
     of_motion,
@@ -35,7 +35,7 @@ def beforehand(scene, surface) -> tuple[Validity, ...]:
     """Entries for values far from the usual, for the bodies and for the map."""
     unusual = [
         Validity(name, value, limit, unit, "unusual", meant or "check the value and its unit")
-        for name, value, limit, unit, meant in doubts(scene)
+        for name, value, limit, unit, meant in unusual_values(scene)
     ]
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
     return (*unusual, *of_bodies(scene.bodies), *of_map(rms_slope(surface)[2], surface.shape[1] / cells[1], cells))

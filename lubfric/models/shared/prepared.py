@@ -25,7 +25,7 @@ from ...samples import (
     together,
 )
 from ...samples import check_grid as check_map
-from ...scene import Bodies, Scene, check_resolved_gap, told_doubts
+from ...scene import Bodies, Scene, check_resolved_gap, warn_unusual_values
 from ...surface import Surface
 from .checks_before import beforehand
 from .memo import Memo, OperatorKey, PieceKey, PieceMapKey, StackKey, StripKey
@@ -118,7 +118,7 @@ def prepare(
             return prepared
         maps = (like.surface, *like.sample.bodies) if like.given else ()
         contact = None if like.own else like.contact
-    with told_doubts(scene):
+    with warn_unusual_values(scene):
         sample = sample_of(scene, maps, is_given=contact is not None)
         return _on_sample(scene, sample, contact, is_given=bool(maps) or contact is not None)
 
@@ -128,7 +128,7 @@ def prepare_on_maps(scene: Scene, read: tuple[Surface, ...]) -> Prepared:
     again."""
     if scene.numerics.model == "deterministic":
         check_resolved_gap(scene)
-    with told_doubts(scene):
+    with warn_unusual_values(scene):
         return _on_sample(scene, sample_of(scene, read=read), None, is_given=False)
 
 
