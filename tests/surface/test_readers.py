@@ -313,7 +313,7 @@ def test_xyz_with_decimal_commas_and_titles(tmp_path):
     assert np.allclose(surface.heights, z, atol=1e-15) and surface.spacing == pytest.approx(STEP)
     assert surface.notes == (
         "line 1 skipped as a title: 'X;Y;Z'",
-        "line 2 skipped as a title: '\u00b5m;\u00b5m;\u00b5m'",
+        "line 2 read as a title: '\u00b5m;\u00b5m;\u00b5m'",
         "decimal comma",
         "columns in um, um, um by '\u00b5m;\u00b5m;\u00b5m'",
     )
