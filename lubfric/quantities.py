@@ -145,6 +145,16 @@ class PointQuantities(Quantities[T]):
         "m", "full-load film thickness", "h_F", note="central film of smooth surfaces under F_T, by Moes' formula"
     )
     lambda_ratio: T = quantity("-", "lambda ratio", "Λ", note="full-load film thickness over Sq")
+    boundary_film_load: T = quantity(
+        "N",
+        "load on gaps below the boundary film",
+        note="asperity load, first part: rubs with f_b; by load sharing alone the load of the rough contact",
+    )
+    saturated_film_load: T = quantity(
+        "N",
+        "load on thicker films whose shear stress is at its limit",
+        note="asperity load, second part: the limit of the oil, or f_b p of a Newtonian one; NaN by load sharing alone",
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -168,6 +178,13 @@ class UncertaintyQuantities(Generic[T]):
     length: T = quantity("m", "length of the line of rough surface", column="line_length", default=math.nan)
     area_needed: T = quantity("-", "how many times more of a measured map is needed", note="1: enough", default=1.0)
     model: T = quantity("-", "relative error of f by the model, at 95 %", column="model_error", default=math.nan)
+    fluid: T = quantity(
+        "-",
+        "part of the model-form error: the limiting stress of a Newtonian lubricant is not known",
+        column="fluid_error",
+        note="not counted against numerics.model_tolerance",
+        default=0.0,
+    )
     inputs: T = quantity("-", "relative change of f by the ranges of inputs", column="input_error", default=0.0)
 
 
@@ -176,7 +193,16 @@ NUMBERS = ("speed", *(name for name in _OF_POINT if name != "speed"))  # of a re
 QUANTITIES = {name: _OF_POINT[name] for name in NUMBERS[1:]}
 ESTIMATED = tuple(quantities(Quantities))  # those with an error of their own
 OF_UNCERTAINTY = quantities(UncertaintyQuantities)
-NOT_IN_TIME = {"shear_force", "real_contact_area", "film_to_roughness_ratio", "clearance", "steepness", "seconds"}
+NOT_IN_TIME = {
+    "boundary_film_load",
+    "saturated_film_load",
+    "shear_force",
+    "real_contact_area",
+    "film_to_roughness_ratio",
+    "clearance",
+    "steepness",
+    "seconds",
+}
 INTERVAL = {
     "interval_low": Quantity("-", "lower end of the 95 % interval of f"),
     "interval_high": Quantity("-", "upper end of the 95 % interval of f"),

@@ -44,6 +44,7 @@ def result_of(
         tolerance=numerics.sampling_tolerance,
         area_needed=answer.area_needed,
         model=max(answer.model_error),
+        fluid=answer.by_limit,
         largest_in_model=answer.largest_in_model,
         notes=answer.notes,
     )

@@ -11,6 +11,7 @@ from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
 from ..errors import ConvergenceError, InputError
 from ..models import Deterministic, LoadSharing, Model
+from ..models.load_sharing import Calibrated, CalibratedSolution, least_half_width
 from ..models.shared import (
     Prepared,
     at_speed,
@@ -27,6 +28,7 @@ from .power import with_power_loss
 from .result import FrictionResult
 from .sampled import sampled
 
+CALIBRATED = Calibrated()
 MODELS = (LoadSharing(), Deterministic())  # the cheapest first
 
 # Times the estimate of a point: the counted work that it may take where numerics.max_work does not say.
@@ -62,7 +64,8 @@ def friction(
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
-    model : "load-sharing", "deterministic", or "auto": the cheapest that is good enough; None: the scene's. Or a
+    model : "load-sharing", "calibrated", "deterministic", or "auto": the cheapest that is good enough; None: the
+        scene's. Or a
         `lubfric.models.Model` of your own
     fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on theirs);
         "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for ``result.fields``
@@ -127,6 +130,9 @@ def _solved(
         return result_of(
             prepared, sampled(prepared, speed, cheap, native=native).answer(), cheap.name, begun, fine=fine
         )
+    if requested == CALIBRATED.name:
+        answer = sampled(prepared, speed, CALIBRATED, native=native).answer()
+        return result_of(prepared, answer, CALIBRATED.name, begun, fine=fine)
     if requested == dear.name and prepared.sample.is_single_patch:  # a cheaper model has no control for it
         return result_of(prepared, sampled(prepared, speed, dear).answer(), dear.name, begun, fine=fine)
     cheaper = sampled(prepared, speed, cheap, native=native)
@@ -134,6 +140,11 @@ def _solved(
         why = cheaper.sufficient() or dear.declines(prepared, speed, cheaper)
         if why or any(entry.severe for entry in cheaper.warnings()):
             return result_of(prepared, cheaper.answer(), cheap.name, begun, fine=fine, why=why)
+        if prepared.scene.numerics.model_tolerance >= least_half_width():
+            calibrated = CalibratedSolution(cheaper.balanced)
+            if calibrated.friction.error <= prepared.scene.numerics.model_tolerance:
+                why = "its error is within numerics.model_tolerance"
+                return result_of(prepared, calibrated.answer(), CALIBRATED.name, begun, fine=fine, why=why)
     try:
         answer = sampled(prepared, speed, dear, control=cheaper.control()).answer()
     except ConvergenceError as error:

@@ -66,7 +66,7 @@ def _lubricant(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
         "Dowson-Higginson": lubricant.density_law == "dowson-higginson",
         "Eyring stress": lubricant.eyring_stress is not None and slides,
         "Carreau": lubricant.carreau is not None,
-        "limiting stress": lubricant.limiting_stress_coefficient is not None and slides,
+        "limiting stress": lubricant.limit is not None and slides,
         "viscosity over temperature": oil is not None,
         "viscosity index": oil is not None and "viscosity_index" in oil.said,
         "So and Klaus": estimate == "so-klaus",
@@ -82,5 +82,5 @@ def _heat(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
         "film heat": warm,
         "flash": result.flash_temperature_rise > 0,
         "hot Eyring stress": warm and lubricant.flow_law is not None,
-        "hot limiting stress": warm and lubricant.limiting_stress_coefficient is not None,
+        "hot limiting stress": warm and lubricant.limit is not None,
     }

@@ -85,6 +85,7 @@ class ModelAnswer:
     numerical : relative error of f by solver and grids
     sampling : relative standard error of f because the sample is finite; an error that is NaN is not known
     model_error : relative error of f by the model itself, at 95 %, below and above f; NaN: not known
+    by_limit : part of ``model_error`` because the limiting stress of a Newtonian lubricant is not known
     largest_in_model : the largest part of the model error, in words; "": one part only
     errors : relative errors of the other numbers, by name
     why_no_error, reasons : why an error is not known: of those not in ``errors``, and of some by name
@@ -106,6 +107,7 @@ class ModelAnswer:
     model_error: tuple[float, float]
     report: Report
     decision: Decision
+    by_limit: float = 0.0
     largest_in_model: str = ""
     errors: dict[str, float] = field(default_factory=dict)
     why_no_error: str = "not known"

@@ -2,6 +2,7 @@
 1/Pa."""
 
 from .lubricant import (
+    AS_BOUNDARY,
     NO_LIQUID,
     ROELANDS_LOG_VISCOSITY,
     Lubricant,

@@ -24,6 +24,9 @@ CARRIED = 0.12
 NO_LIQUID = 1e10  # Pa: no oil flows there
 
 
+AS_BOUNDARY = "f_b"  # limiting_stress_coefficient of a Newtonian lubricant whose limit is stated to be f_b p
+
+
 @dataclass(frozen=True, repr=False)
 class Lubricant(Shown):
     """A lubricant at one temperature.
@@ -44,7 +47,8 @@ class Lubricant(Shown):
         None: Newtonian
     carreau : [G [Pa], n [-]], critical stress and exponent of Carreau's law, 0.1 <= n < 1, in place of Eyring's; None
     limiting_stress_coefficient : Lambda > 0 [-]: |tau| <= tau_0 + Lambda p (Bair & Winer 1979,
-        doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit
+        doi:10.1115/1.3453342, typically 0.03-0.1); None: no limit; "f_b": Newtonian up to f_b p, as both models take it
+        without a limit, and known to be so: f is not held to depend on the limits of oils
     limiting_stress_offset : tau_0 >= 0 [Pa], the limit at ambient pressure (about 1-5 MPa)
     temperature : T0 [K] at which all of this holds, and temperature_coefficient : beta = -d ln(eta)/dT >= 0 there at
         ambient pressure [1/K]; None: the heat of the film is not known
@@ -68,7 +72,7 @@ class Lubricant(Shown):
     viscosity_law: str = "roelands"
     density_law: str = "constant"
     eyring_stress: float | None = None
-    limiting_stress_coefficient: float | None = None
+    limiting_stress_coefficient: float | str | None = None
     limiting_stress_offset: float = 1e6
     temperature: float | None = None
     temperature_coefficient: float | None = None
@@ -80,6 +84,7 @@ class Lubricant(Shown):
     shear_modulus: float | None = None
 
     def __post_init__(self):
+        stated = self._state_limit()
         validate.python_fields(self, "lubricant")
         validate.in_range("lubricant", self, prefix="")
         alpha = "pressure_viscosity_coefficient"
@@ -97,6 +102,23 @@ class Lubricant(Shown):
             object.__setattr__(self, law.key, law.checked(getattr(self, law.key)))
         if self.temperature is not None:
             checked_temperature(self.temperature, "lubricant.temperature")
+        if stated:
+            object.__setattr__(self, LimitingStress.key, AS_BOUNDARY)
+
+    def _state_limit(self) -> bool:
+        """Take `AS_BOUNDARY` out of the fields, so that they can be checked as numbers; return whether it was there."""
+        if self.limiting_stress_coefficient != AS_BOUNDARY:
+            return False
+        if self.eyring_stress is not None or self.carreau is not None:
+            said = f" = {AS_BOUNDARY!r} is for a Newtonian lubricant, and this one has a law of its flow"
+            raise InputError(said, LimitingStress.key, "a number, or leave eyring_stress and carreau out")
+        object.__setattr__(self, LimitingStress.key, None)
+        return True
+
+    @property
+    def limited_by_boundary_friction(self) -> bool:
+        """True where the limit of a Newtonian lubricant is stated to be f_b p."""
+        return self.limiting_stress_coefficient == AS_BOUNDARY
 
     @property
     def shear_laws(self) -> tuple[ShearLaw, ...]:
@@ -111,6 +133,8 @@ class Lubricant(Shown):
     @property
     def limit(self) -> LimitingStress | None:
         """The law of its largest stress; None: it has none."""
+        if self.limited_by_boundary_friction:
+            return None
         return next((law(self) for law in LIMITS if getattr(self, law.key) is not None), None)
 
     @property

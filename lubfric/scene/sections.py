@@ -5,7 +5,7 @@ from typing import Any
 
 from .._base import packaged, validate
 from ..errors import InputError
-from ..oil import Lubricant
+from ..oil import AS_BOUNDARY, Lubricant
 from ..quantities import KEYS
 from ..surface import PER_SQ
 from ..units import without_unit
@@ -55,7 +55,8 @@ def read_value(section: str, key: str, value: Any) -> tuple[Any, tuple[float, fl
     if name not in KEYS:
         return value, None
     known = typical(name)
-    given = without_unit(name, validate.python_value(value), KEYS[name].unit, known)
+    words = {**known, AS_BOUNDARY: AS_BOUNDARY} if name == "lubricant.limiting_stress_coefficient" else known
+    given = without_unit(name, validate.python_value(value), KEYS[name].unit, words)
     if isinstance(given, str) and given in known:
         given = known[given]
     if not known or not isinstance(given, (list, tuple)):

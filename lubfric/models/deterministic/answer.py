@@ -19,6 +19,8 @@ from ..shared import (
     Prepared,
     Validity,
     error_by_heat,
+    limit_bounds,
+    limit_in_words,
     of_heat,
     of_inlet,
     of_motion,
@@ -48,6 +50,8 @@ OF_MODEL = (
     "the boundary film, the law of the flow, heat, or the scatter between the models leaves that",
     "give bodies.boundary_film if you know it, or a longer map",
 )
+OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
+LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LOOSER = "a larger numerics.tolerance"
 # lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
 DRAWN = 0.1
@@ -71,6 +75,8 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         "heat, half of whose effect counts as its error": error_by_heat(heat, levels.by_inlet),
     }
     model = math.hypot(*parts_of_model.values())
+    by_limit = _by_limit(scene, results)
+    parts_of_model[OF_LIMIT] = max(by_limit)
     reasons = dict.fromkeys(depending_on("heat"), heat.reason(scene) or ONE_HEAT)
     finest = levels.pieces[0][-1] if sample.is_single_patch and levels.pieces else levels.pairs[0].resolved
     start = levels.pairs[0].resolved if moves(scene) else finest
@@ -78,7 +84,8 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         numbers=numbers,
         numerical=levels.numerical,
         sampling=BlockError(sampling, levels.sampling.freedom),
-        model_error=(model, model),
+        model_error=(math.hypot(model, by_limit[0]), math.hypot(model, by_limit[1])),
+        by_limit=max(by_limit),
         largest_in_model=max(parts_of_model, key=lambda part: parts_of_model[part]),
         report=replace(results[0].report, notes=()),
         decision=_decision(scene, results, levels, heat),
@@ -86,7 +93,7 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         why_no_error=FEW_STRIPS,
         reasons=reasons,
         length=levels.length,
-        notes=_sample_notes(prepared, sampling, levels.length),
+        notes=(*_sample_notes(prepared, sampling, levels.length), *filter(None, [limit_in_words(by_limit)])),
         warnings=(
             *_entries(prepared, numbers, results, heat),
             *_of_model(model, scene.numerics.model_tolerance),
@@ -98,6 +105,13 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         at_inputs=lambda: _at_inputs(prepared, start, speed),
         ends_without_change=partial(_stays_elastic, start, scene),
     )
+
+
+def _by_limit(scene: Scene, results: Sequence[DeterministicResult]) -> tuple[float, float]:
+    """Return by how much f may be lower and higher, relative, by the unknown limit of a Newtonian oil."""
+    f, low, high = (mean(getattr(result, name) for result in results) for name in LIMITED)
+    saturated = mean(result.split.saturated / result.load for result in results)
+    return limit_bounds(scene, saturated, f, (low, high))
 
 
 def fields_of(strip: Strip, where: str) -> ContactFields:
@@ -222,13 +236,12 @@ def _words_of_levels(levels: Levels) -> str:
 
 def _division(results: Sequence[DeterministicResult]) -> str:
     """The load that rubs with f_b, by its parts, in words."""
-    touching, thin, capped = (
+    touching, thin, saturated = (
         100 * mean(getattr(result.split, name) / result.load for result in results)
-        for name in ("touching", "thin", "capped")
+        for name in ("touching", "thin", "saturated")
     )
     return (
-        f"load on touching cells {touching:.3g} %, on gaps below the boundary film {thin:.3g} %, on thicker Newtonian "
-        f"films at f_b p {capped:.3g} %"
+        f"asperity load: boundary film {thin:.3g} % (touching cells {touching:.3g} %), saturated film {saturated:.3g} %"
     )
 
 
@@ -248,7 +261,7 @@ def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]
     cut = mean(result.split.capped / result.load for result in results)
     if cut > CUT:
         consequence = "a Newtonian film would be sheared above f_b p there; its stress was limited to that"
-        remedy = "choose lubricant.eyring_stress or a limiting stress"
+        remedy = 'give lubricant.limiting_stress_coefficient (or "f_b" if that is meant) or eyring_stress'
         yield Validity("share of the load on a saturated film", cut, CUT, "", consequence, remedy)
     drawn = mean(result.drawn for result in results)
     if drawn > DRAWN:

@@ -14,7 +14,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...errors import Report
-from ...oil import shear_stress
+from ...oil import Lubricant, shear_stress
+from ..shared import LIMIT_RANGE
+from .problem import Problem
 from .state import FLUID, TOUCHING, Iterate, State
 
 PRESSED = 50e6  # Pa: below it no Newtonian film is taken to be at its cap
@@ -23,11 +25,13 @@ PRESSED = 50e6  # Pa: below it no Newtonian film is taken to be at its cap
 @dataclass(frozen=True)
 class LoadSplit:
     """Load [N/m] on touching cells (h = floor); on gaps ``thin``ner than the boundary film, touching ones among them;
-    and on thicker Newtonian films at their cap f_b p, ``capped``."""
+    on thicker Newtonian films at their cap f_b p, ``capped``; and on all thicker films whose stress is at its limit,
+    ``saturated``: that of the oil, or f_b p of a Newtonian one."""
 
     touching: float
     thin: float
     capped: float
+    saturated: float
 
     @property
     def spots(self) -> float:
@@ -46,7 +50,8 @@ class DeterministicResult:
     - boundary: f_b p over the spots. couette: shear of the film by the sliding. rolling: by the gradient of pressure,
       and pressure on the flanks of a rough surface 2. Both with what is upstream of the grid. coefficient: (boundary +
       couette + rolling)/load, of surface 2 against its sliding (`Problem`); at_half_film, at_twice_film: with half and
-      twice the boundary film. split: the load on spots, and its parts.
+      twice the boundary film; at_least_limit, at_most_limit: with the limiting stress of a Newtonian lubricant at the
+      ends of `LIMIT_RANGE` times p instead of f_b p, on the same fields. split: the load on spots, and its parts.
     - rolling_resistance: of both surfaces together, against U: pressure gradient, and pressure on the flanks of all
       roughness.
     - flow_film [m]: flow/U. min_gap, central_gap (mean at x = 0) and mean_gap (over the strip, the columns with |x| <=
@@ -72,6 +77,8 @@ class DeterministicResult:
     coefficient: float
     at_half_film: float
     at_twice_film: float
+    at_least_limit: float
+    at_most_limit: float
     boundary: float
     couette: float
     rolling: float
@@ -156,6 +163,23 @@ def rubbing(at: Iterate, law, film: float) -> Rubbing:
     )
 
 
+def at_its_limit(lubricant: Lubricant, pressure: np.ndarray, stress: np.ndarray) -> np.ndarray:
+    """Return where the ``stress`` [Pa] of ``lubricant`` is its limiting stress at the ``pressure`` [Pa]."""
+    if lubricant.limit is None:
+        return np.zeros(pressure.shape, bool)
+    return stress >= (1 - 1e-9) * lubricant.limit.critical(pressure)[0]
+
+
+def with_limit(problem: Problem, rubs: Rubbing, pressure: np.ndarray, law: np.ndarray, limit: float) -> float:
+    """Return the change of f [-] if the stress of a Newtonian film above `PRESSED` were at most ``limit`` times the
+    ``pressure`` [Pa] instead of f_b times it; ``law`` [Pa]: the stress without a limit."""
+    if not problem.lubricant.newtonian:
+        return 0.0
+    films = (rubs.wet | (rubs.spots & ~rubs.thin)) & (pressure > PRESSED)
+    change = np.where(films, np.minimum(law, limit * pressure) - rubs.stress, 0.0)
+    return float(change.sum()) * problem.spacing[0] / pressure.shape[1] / problem.load
+
+
 def assemble(at: Iterate, report: Report) -> DeterministicResult:
     """The result at a solved state."""
     problem = at.problem
@@ -171,7 +195,9 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
     rubs, *others = (rubbing(at, law, times * problem.boundary_film) for times in (1.0, 0.5, 2.0))
     coefficients = [float(one.friction.mean()) / problem.load for one in (rubs, *others)]
     spots = rubs.spots
-    loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, rubs.thin, spots & ~rubs.thin))
+    capped = spots & ~rubs.thin
+    saturated = capped | (rubs.wet & at_its_limit(problem.sheared or problem.lubricant, p, law))
+    loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, rubs.thin, capped, saturated))
     strip = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
     return DeterministicResult(
         x=problem.x,
@@ -187,6 +213,8 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         coefficient=coefficients[0],
         at_half_film=coefficients[1],
         at_twice_film=coefficients[2],
+        at_least_limit=coefficients[0] + with_limit(problem, rubs, p, law, LIMIT_RANGE[0]),
+        at_most_limit=coefficients[0] + with_limit(problem, rubs, p, law, LIMIT_RANGE[1]),
         boundary=float(rubs.boundary.mean()),
         couette=float(rubs.couette.mean()),
         rolling=float(rubs.rolling.mean()),

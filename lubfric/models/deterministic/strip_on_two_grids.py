@@ -119,6 +119,8 @@ def numbers_of(prepared: Prepared, result: DeterministicResult) -> dict[str, flo
         "rolling_force": result.rolling * width,
         "rolling_resistance": result.rolling_resistance * width,
         "boundary_force": result.boundary * width,
+        "boundary_film_load": result.split.thin * width,
+        "saturated_film_load": result.split.saturated * width,
         "real_contact_area_fraction": result.spot_fraction,
         "real_contact_area": result.spot_length * width,
         "plastic_area_fraction": result.plastic_fraction,

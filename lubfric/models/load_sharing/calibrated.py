@@ -18,14 +18,13 @@ import numpy as np
 
 from ..._base import packaged
 from ...scene import Scene, moves, moving_bodies
-from ..shared import Prepared, on_strip
+from ..shared import Prepared, limit_bounds, on_strip
 from .balance import Balance, solve_balance
 from .rough_film import RoughFilm, RoughMap, rough_film
 
 MOST = 1.5  # of the features "contrast" and "rolling", which grow without end where f tends to 0
 ROLLING = 8.0  # of the rolling part of f: what pressure on the flanks of moving roughness may add (docs/uncertainty.md)
 FLANKS = 1.5  # lambda ratio from which on that falls, with the square of it
-SATURATED = 0.05  # share of the load on saturated Newtonian films from which on f depends on the limit of the oil
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,6 +47,19 @@ class CalibratedFriction:
     by_limit: tuple[float, float]
     cases: int
     outside: tuple[str, ...] = ()
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Model-form error of f at 95 %, relative, below and above: the bounds, the boundary film where the scene does
+        not give it, and the limit of the oil."""
+        by_film = max(map(abs, self.by_film))
+        down, up = (math.hypot(bound, by_film, limit) for bound, limit in zip(self.bounds, self.by_limit))
+        return min(down, 1.0), up
+
+    @property
+    def error(self) -> float:
+        """The larger side without the limit of the oil: what counts against ``numerics.model_tolerance``."""
+        return math.hypot(max(self.bounds), max(map(abs, self.by_film)))
 
 
 def calibrated_friction(prepared: Prepared, speed: float, line: Balance) -> CalibratedFriction:
@@ -79,7 +91,7 @@ def calibrated_friction(prepared: Prepared, speed: float, line: Balance) -> Cali
         bounds=bounds,
         bias=bias,
         by_film=(0.0, 0.0) if scene.bodies.boundary_film is not None else _changes(film),
-        by_limit=limit_bounds(scene, film),
+        by_limit=limit_bounds(scene, film.saturated_film, film.coefficient, (film.at_least_limit, film.at_most_limit)),
         cases=fit["cases"],
         outside=tuple(outside),
     )
@@ -100,7 +112,7 @@ def features(scene: Scene, film: RoughFilm) -> dict[str, float]:
     the load on the boundary film exchanges; the load ratio of the ``contact``; and the part of ``rolling`` in f."""
     f = abs(film.coefficient)
     friction = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
-    return numbers_of(film.coefficient, film.boundary_film, friction, film.contact, film.rolling / max(f, 1e-12))
+    return numbers_of(film.coefficient, film.asperity, friction, film.contact, film.rolling / max(f, 1e-12))
 
 
 def numbers_of(f: float, boundary: float, friction: float, contact: float, rolling: float) -> dict[str, float]:
@@ -162,13 +174,12 @@ def _changes(film: RoughFilm) -> tuple[float, float]:
     return film.at_half_film / film.coefficient - 1, film.at_twice_film / film.coefficient - 1
 
 
-def limit_bounds(scene: Scene, film: RoughFilm) -> tuple[float, float]:
-    """Return by how much f may be lower and higher, relative, because the limiting stress of a Newtonian oil is not
-    known: zeros where less than `SATURATED` of the load is on saturated films."""
-    if not scene.lubricant.newtonian or film.saturated_film < SATURATED:
-        return 0.0, 0.0
-    ends = film.at_least_limit / film.coefficient - 1, film.at_most_limit / film.coefficient - 1
-    return max(0.0, -min(ends)), max(0.0, *ends)
+def least_half_width() -> float:
+    """Return the least half-width that calibrated load sharing can have, relative."""
+    fits = calibration().values()
+    return min(
+        math.expm1(fit["quantile"] * math.exp(fit["spread"]["one"] - abs(fit["spread"]["contact"]))) for fit in fits
+    )
 
 
 @cache

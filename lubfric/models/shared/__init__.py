@@ -50,5 +50,6 @@ from .statistics import (
     student,
     too_few,
 )
+from .unknown_limit import LIMIT_RANGE, SATURATED, limit_bounds, limit_in_words
 from .unmodelled import UnmodelledEffect, effect_in_words, unmodelled_effects
 from .validity import Validity, entries_of, gathered, in_a_cell, refused, sentence

@@ -37,7 +37,7 @@ class Solved:
         """What σ may depend on."""
         n = self.numbers
         rolling = n["rolling"] / n["coefficient"]
-        return numbers_of(n["coefficient"], n["boundary_film"], float(self.row["friction"]), n["contact"], rolling)
+        return numbers_of(n["coefficient"], n["asperity"], float(self.row["friction"]), n["contact"], rolling)
 
 
 def cases(motion: str, folder: Path = TABLES) -> Iterator[Solved]:

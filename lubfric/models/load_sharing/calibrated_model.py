@@ -1,0 +1,117 @@
+"""Calibrated load sharing as a `lubfric.models.Model`: the solution of load sharing, with f and the error of `calibrated`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from ...samples import Sample
+from ..contract import Model, ModelAnswer, SampleSolution
+from ..shared import ControlVariate, Prepared, limit_in_words, percent
+from .answer import answer_of
+from .calibrated import CalibratedFriction, calibrated_friction
+from .model import LoadSharing, LoadSharingSolution
+
+IN_WORDS = "load sharing, calibrated"
+
+
+@dataclass(frozen=True)
+class CalibratedSolution(LoadSharingSolution):
+    """The strips by load sharing; f of their `RoughFilm`, with the error that the campaign gives it."""
+
+    @cached_property
+    def friction(self) -> CalibratedFriction:
+        """Return f and its error."""
+        return calibrated_friction(self.prepared, self.speed, self.balanced.balance)
+
+    def corrected(self) -> CalibratedSolution:
+        return CalibratedSolution(self.balanced.corrected())
+
+    def answer(self) -> ModelAnswer:
+        return calibrated_answer(self.prepared, answer_of(self.balanced), self.friction)
+
+
+class Calibrated(Model):
+    """Load sharing with the roughness that the film flattens, its shear summed over cells, and a calibrated error."""
+
+    @property
+    def name(self) -> str:
+        return "calibrated"
+
+    def solve(
+        self,
+        prepared: Prepared,
+        sample: Sample,
+        count: int,
+        speed: float,
+        *,
+        start: SampleSolution | None = None,
+        control: ControlVariate | None = None,
+    ) -> CalibratedSolution:
+        return CalibratedSolution(LoadSharing().solve(prepared, sample, count, speed, start=start).balanced)
+
+
+def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: CalibratedFriction) -> ModelAnswer:
+    """Return ``answer``, of Eqs. (8) and (9), with f, the forces and the error of calibrated load sharing."""
+    scene = prepared.scene
+    load = scene.bodies.load
+    film = friction.film
+    force = friction.coefficient * load
+    thin = min(film.boundary_film, 1.0) * load
+    boundary = scene.bodies.boundary_friction_coefficient * thin * (scene.motion.slide_roll_ratio != 0)
+    numbers = {
+        "coefficient": friction.coefficient,
+        "contact_load": thin,
+        "film_load": load - thin,
+        "boundary_film_load": thin,
+        "saturated_film_load": film.saturated_film * load,
+        "boundary_force": boundary,
+        "shear_force": force - boundary,
+        "couette_force": force - boundary - answer.numbers["rolling_force"],
+        "load_residual": 0.0,
+    }
+    notes = list(answer.notes)
+    if friction.outside:
+        outside = "; ".join(friction.outside)
+        notes.append(f"outside the range of the solved cases behind the model-form error, which is widened: {outside}")
+    if words := limit_in_words(friction.by_limit):
+        notes.append(words)
+    return replace(
+        answer,
+        numbers=answer.numbers | numbers,
+        model_error=friction.sides,
+        by_limit=max(friction.by_limit),
+        largest_in_model=_largest(friction),
+        notes=tuple(notes),
+        decision=replace(answer.decision, model=IN_WORDS, notes=(in_words(friction), *answer.decision.notes)),
+    )
+
+
+def _largest(friction: CalibratedFriction) -> str:
+    parts = {
+        f"the error of the model on {friction.cases} solved cases: numerics.model = 'deterministic' narrows it": max(
+            friction.bounds
+        ),
+        "the boundary film, whose thickness is not given: bodies.boundary_film narrows it": max(
+            map(abs, friction.by_film)
+        ),
+        "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it": max(
+            friction.by_limit
+        ),
+    }
+    return max(parts, key=lambda part: parts[part])
+
+
+def in_words(friction: CalibratedFriction) -> str:
+    """Return what the answer rests on, in words."""
+    low, high = friction.bounds
+    text = f"load sharing, calibrated on {friction.cases} solved cases: model-form -{percent(low)} / +{percent(high)}"
+    if any(friction.by_film):
+        half, twice = friction.by_film
+        text += f"; f by half the boundary film {100 * half:+.2g} %, by twice {100 * twice:+.2g} %"
+    film = friction.film
+    return (
+        f"{text}; asperity load: boundary film {percent(film.boundary_film)}, saturated film "
+        f"{percent(film.saturated_film)}; numerics.model = 'deterministic' narrows f, at the cost that `lubfric info` "
+        "estimates"
+    )

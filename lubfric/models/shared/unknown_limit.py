@@ -1,0 +1,37 @@
+"""The limiting shear stress of an oil that nobody gave, and what it does to f.
+
+At the pressure of asperities a Newtonian film would carry any stress. Both models cut it at f_b p, which is no property
+of the oil. Where such films carry load, f is therefore known only as far as the limit of oils is.
+"""
+
+from ...scene import Scene
+
+# limiting stress over pressure: mineral oils from .047 (Höglund 1999, in Arana et al. 2019), traction fluids to .1 (SKF,
+# Rolling bearings; Bair and Winer 1989 .088); typical.toml has them by name
+LIMIT_RANGE = (0.05, 0.10)
+SATURATED = 0.05  # share of the load on saturated films from which on f is held to depend on that
+
+
+def limit_bounds(scene: Scene, saturated: float, coefficient: float, ends: tuple[float, float]) -> tuple[float, float]:
+    """Return by how much f may be lower and higher, relative, because the limiting stress of the oil is not known.
+
+    Zeros where the scene has a shear law or states f_b as the limit, and where the share ``saturated`` of the load is
+    at most `SATURATED`. ``ends``: f with the limit at the ends of `LIMIT_RANGE`, of which ``coefficient`` is f.
+    """
+    oil = scene.lubricant
+    if not oil.newtonian or oil.limited_by_boundary_friction or saturated <= SATURATED or not coefficient:
+        return 0.0, 0.0
+    low, high = sorted((1 - end / coefficient for end in ends), reverse=True)
+    return max(low, 0.0), max(-high, 0.0)
+
+
+def limit_in_words(bounds: tuple[float, float]) -> str:
+    """Return what the unknown limit does to f, in words; "" where that is nothing."""
+    if not any(bounds):
+        return ""
+    low, high = LIMIT_RANGE
+    return (
+        f"the film between the asperities is at its limit, f_b p, and the limiting stress of the oil is not known: with "
+        f"{low:g} to {high:g} p f is {-100 * bounds[0]:+.2g} to {100 * bounds[1]:+.2g} %; give "
+        'lubricant.limiting_stress_coefficient, or "f_b" if f_b p is meant'
+    )

@@ -1,0 +1,152 @@
+"""Calibrated load sharing, and the limit of an oil that nobody gave."""
+
+import csv
+import math
+from importlib.resources import files
+
+import lubfric
+import numpy as np
+import pytest
+from lubfric.models.load_sharing.calibrated import calibration, half_width, numbers_of, widening
+from lubfric.models.load_sharing.rough_film import RoughMap, flattened
+from verification.campaigns.calibration.fit import fitted
+
+PAPER = lubfric.load_scene("paper")
+HEAVIER = PAPER.with_(
+    bodies={"load": 60.0},
+    lubricant={"viscosity": 0.1, "eyring_stress": 5e6, "limiting_stress_coefficient": 0.06},
+    numerics={"sampling_tolerance": 0.1, "tolerance": 0.03},
+)
+ROUGH = np.sin(2 * np.pi * np.arange(32) / 32)[:, None] * np.ones(8) * 1e-7
+
+
+def line(speed=0.03, **lubricant):
+    return PAPER.with_(lubricant=lubricant).line_contact(speed)
+
+
+def test_a_film_without_viscosity_leaves_roughness_as_it_is():
+    thin = line(viscosity_law="constant", viscosity=1e-9, pressure_viscosity_coefficient=0.0)
+    left = flattened(thin, RoughMap(ROUGH, 0.0), (1e-6, 1e-6), np.full(32, 1e8), 1e-7, 0.06, 1.0)
+    assert np.allclose(left.heights, ROUGH, rtol=1e-3, atol=1e-12)
+    assert np.abs(left.pressure).max() < 1e-2 * PAPER.bodies.e_prime * np.pi / 32e-6 * 1e-7
+
+
+def test_a_stiff_film_presses_roughness_flat_by_the_pressure_of_the_half_space():
+    """A wave of amplitude r needs E' k r/4; the film gives by its own bulk modulus, some 1e-7 E' k/12 GPa of it."""
+    left = flattened(line(), RoughMap(ROUGH, 0.0), (1e-6, 1e-6), np.full(32, 2e9), 1e-8, 0.06, 1.0)
+    wave = 2 * np.pi / 32e-6
+    assert left.heights.std() < 0.1 * ROUGH.std()
+    assert left.pressure.max() == pytest.approx(PAPER.bodies.e_prime * wave / 4 * ROUGH.max(), rel=0.1)
+
+
+def test_waves_that_move_with_the_lubricant_keep_what_passes_the_inlet():
+    """In pure rolling nothing changes between inlet and outlet: one amplitude, whatever the pressure."""
+    contact = line(0.03)
+    left = [
+        flattened(contact, RoughMap(ROUGH, 0.03), (1e-6, 1e-6), np.full(32, p), 1e-7, 0.0, 1.0).heights
+        for p in (1e7, 1e9)
+    ]
+    assert np.allclose(*left, rtol=1e-6, atol=1e-15)
+    assert 0 < left[0].std() < ROUGH.std()
+
+
+def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load_sharing():
+    speed = 0.1
+    results = {
+        model: lubfric.friction(HEAVIER.with_(numerics={"model": model}), speed)
+        for model in ("calibrated", "deterministic", "load-sharing")
+    }
+    low, high = results["calibrated"].uncertainty.interval
+    assert low < results["deterministic"].coefficient < high
+    wide = results["load-sharing"].uncertainty.interval
+    assert high - low < wide[1] - wide[0]
+    parts = results["calibrated"].boundary_force + results["calibrated"].shear_force
+    assert parts / HEAVIER.bodies.load == pytest.approx(results["calibrated"].coefficient, rel=1e-12)
+    assert results["calibrated"].decision.model == "load sharing, calibrated"
+    assert f"calibrated on {calibration()['rest']['cases']} solved cases" in results["calibrated"].decision.text
+
+
+def test_a_loose_model_tolerance_lets_auto_answer_by_calibrated_load_sharing():
+    loose = HEAVIER.with_(bodies={"boundary_film": 2e-8}, numerics={"model_tolerance": "90 %"})
+    assert lubfric.friction(loose, 0.1).decision.model == "load sharing, calibrated"
+    tight = loose.with_(numerics={"model_tolerance": 0.05})
+    assert lubfric.friction(tight, 0.1).decision.model == "deterministic"
+
+
+def test_bounds_widen_outside_the_campaign_and_the_result_says_so():
+    light = lubfric.friction(PAPER.with_(numerics={"model": "calibrated"}), 0.1)
+    assert "outside the range of the solved cases" in light.uncertainty.text
+    assert widening([]) == 1.0 < widening([0.5]) < widening([1.0]) <= widening([9.0])
+
+
+def test_the_spread_grows_with_the_contrast_of_film_and_boundary_friction():
+    fit = calibration()["rest"]
+    widths = [half_width(numbers_of(0.05, share, 0.12, 0.5, 0.0), fit) for share in (0.0, 0.1, 0.4)]
+    assert widths[0] < widths[1] < widths[2]
+    alike = half_width(numbers_of(0.12, 0.4, 0.12, 0.5, 0.0), fit)
+    assert alike == pytest.approx(half_width(numbers_of(0.12, 0.0, 0.12, 0.5, 0.0), fit))
+
+
+def test_the_fit_finds_a_known_bias_and_spread():
+    rng = np.random.default_rng(1)
+    contrast = rng.uniform(0, 1.5, 3000)
+    features = np.stack([np.ones(3000), contrast], axis=1)
+    errors = 0.1 + np.exp(-2.0 + 0.8 * contrast) * rng.standard_t(6, 3000)
+    bias, factors, error = fitted(errors, features)
+    assert bias == pytest.approx(0.1, abs=0.01)
+    assert factors == pytest.approx([-2.0, 0.8], abs=0.08)
+    assert 0 < error < 0.01
+
+
+def test_tables_have_every_kind_and_calibration_was_fitted_to_them():
+    for motion in ("rest", "rolling"):
+        text = (files("verification") / f"campaigns/calibration/tables/{motion}.csv").read_text()
+        rows = [row for row in csv.DictReader(text.splitlines()) if not row["failure"]]
+        assert {row["fluid"] for row in rows} == {"newtonian", "eyring", "limit", "low-limit"}
+        assert {row["lay"] for row in rows} == {"isotropic", "across", "along", "plateau"}
+        assert 0.8 * len(rows) <= calibration()[motion]["cases"] <= len(rows)
+
+
+# the limit of an oil that nobody gave
+
+
+@pytest.fixture(scope="module")
+def newtonian():
+    return lubfric.friction(PAPER, 0.03)
+
+
+def test_a_newtonian_answer_holds_solved_answers_at_the_ends_of_what_oils_have(newtonian):
+    low, high = newtonian.uncertainty.interval
+    for limit in (0.05, 0.10):
+        solved = lubfric.friction(PAPER.with_(lubricant={"limiting_stress_coefficient": limit}), 0.03)
+        assert low < solved.coefficient < high
+    assert 0.15 < newtonian.uncertainty.fluid <= newtonian.uncertainty.model
+    assert "limiting stress of the oil is not known" in newtonian.uncertainty.text
+
+
+def test_a_stated_limit_of_f_b_takes_the_band_away_and_leaves_f(newtonian):
+    stated = lubfric.friction(PAPER.with_(lubricant={"limiting_stress_coefficient": "f_b"}), 0.03)
+    assert stated.coefficient == newtonian.coefficient
+    assert stated.uncertainty.fluid == 0.0
+    assert stated.uncertainty.model < newtonian.uncertainty.model
+
+
+def test_a_stated_limit_of_f_b_is_for_newtonian_oils_and_survives_a_file(tmp_path):
+    with pytest.raises(lubfric.InputError, match="is for a Newtonian lubricant"):
+        PAPER.with_(lubricant={"limiting_stress_coefficient": "f_b", "eyring_stress": 5e6})
+    scene = PAPER.with_(lubricant={"limiting_stress_coefficient": "f_b"})
+    file = tmp_path / "scene.toml"
+    file.write_text(scene.to_toml())
+    assert lubfric.load_scene(file) == scene
+
+
+def test_the_asperity_load_does_not_jump_with_the_law_of_the_oil(newtonian):
+    """A limit of f_b p as a law of the oil, and as the cap of a Newtonian one: the same load at a limit, in two parts."""
+    limited = lubfric.friction(
+        PAPER.with_(lubricant={"limiting_stress_coefficient": PAPER.bodies.boundary_friction_coefficient}), 0.03
+    )
+    load = PAPER.bodies.load
+    shares = [(r.boundary_film_load / load, r.saturated_film_load / load) for r in (newtonian, limited)]
+    assert shares[0] == pytest.approx(shares[1], abs=0.05)
+    assert shares[0][1] > 0.25
+    assert math.isnan(lubfric.friction(PAPER, 0.03, model="load-sharing").saturated_film_load)
