@@ -4,9 +4,10 @@ import csv
 import math
 from importlib.resources import files
 
-import lubfric
 import numpy as np
 import pytest
+
+import lubfric
 from lubfric.models.load_sharing.calibrated import calibration, half_width, numbers_of, widening
 from lubfric.models.load_sharing.rough_film import RoughMap, flattened
 from verification.campaigns.calibration.fit import fitted
