@@ -17,7 +17,10 @@ from lubfric.output.pictures import plot_contact, plot_history, plot_stribeck, p
 from lubfric.studies import csv_bytes, plot_map
 
 UNITS = {  # of the columns of results, typed by hand
-    **dict.fromkeys("contact_load film_load shear_force couette_force rolling_force boundary_force".split(), "N"),
+    **dict.fromkeys(
+        "contact_load film_load boundary_film_load saturated_film_load shear_force couette_force rolling_force boundary_force".split(),
+        "N",
+    ),
     **dict.fromkeys(("min_film", "central_film", "mean_gap", "full_load_film"), "m"),
     **dict.fromkeys(("flash_temperature_rise", "film_temperature_rise"), "K"),
     **{"speed": "m/s", "real_contact_area": "m2", "seconds": "s", "line_length": "m"},

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from ..._base import packaged
+from ...samples import Sample
 from ...scene import Scene, moves, moving_bodies
 from ..shared import Prepared, limit_bounds, on_strip
 from .balance import Balance, solve_balance
@@ -62,16 +63,15 @@ class CalibratedFriction:
         return math.hypot(max(self.bounds), max(map(abs, self.by_film)))
 
 
-def calibrated_friction(prepared: Prepared, speed: float, line: Balance) -> CalibratedFriction:
-    """Return f of ``prepared``, whose sample is resolved, at ``speed`` [m/s], not 0. ``line``: its balance of load
+def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: Balance) -> CalibratedFriction:
+    """Return f of ``prepared``, whose ``sample`` is resolved, at ``speed`` [m/s], not 0. ``line``: its balance of load
     sharing on all strips; the rough film is that of the first one, and the ratio of their f by Eq. (9) corrects for it.
     Raises `ConvergenceError`."""
     scene = prepared.scene
-    sample = prepared.sample
     contact = on_strip(prepared, sample, 0)
     start = replace(line, contact=replace(line.contact, fields=None)) if line.response is not None else None
     balance = solve_balance(scene, speed, contact, prepared.surface.sq, start)
-    film = rough_film(scene, speed, contact, balance, rough_maps(prepared, contact.heights, speed))
+    film = rough_film(scene, speed, contact, balance, rough_maps(prepared, sample, contact.heights, speed))
     here = balance.forces.coefficient
     there = line.forces.coefficient
     of_line = there / here if here > 0 < there else 1.0
@@ -97,13 +97,12 @@ def calibrated_friction(prepared: Prepared, speed: float, line: Balance) -> Cali
     )
 
 
-def rough_maps(prepared: Prepared, heights: np.ndarray, speed: float) -> list[RoughMap]:
+def rough_maps(prepared: Prepared, sample: Sample, heights: np.ndarray, speed: float) -> list[RoughMap]:
     """Return the map of each rough body on the first strip, whose ``heights`` [m] are those of all, and its speed along
     x at U = ``speed`` [m/s]."""
     bodies = moving_bodies(prepared.scene)
     if len({ratio for _, ratio in bodies}) < 2 or prepared.joint:
         return [RoughMap(heights, speed * bodies[0][1])]
-    sample = prepared.sample
     return [RoughMap(sample.of_body(k).strip(0).heights, speed * ratio) for k, (_, ratio) in enumerate(bodies)]
 
 

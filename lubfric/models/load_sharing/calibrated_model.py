@@ -22,7 +22,7 @@ class CalibratedSolution(LoadSharingSolution):
     @cached_property
     def friction(self) -> CalibratedFriction:
         """Return f and its error."""
-        return calibrated_friction(self.prepared, self.speed, self.balanced.balance)
+        return calibrated_friction(self.prepared, self.sample, self.speed, self.balanced.balance)
 
     def corrected(self) -> CalibratedSolution:
         return CalibratedSolution(self.balanced.corrected())

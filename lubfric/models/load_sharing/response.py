@@ -144,6 +144,7 @@ def quantities(found: Forces, film: EHLResult | None, loads: tuple[float, float]
     return {
         "coefficient": found.coefficient,
         "contact_load": loads[1],
+        "boundary_film_load": loads[1],
         "film_load": loads[0],
         "shear_force": found.shear.total,
         "couette_force": found.shear.couette,
