@@ -15,6 +15,7 @@ from lubfric.models import Deterministic
 from lubfric.models.deterministic import (
     change_by_flow,
     levels,
+    moving_point_work,
     solve_strip,
 )
 from lubfric.models.deterministic import (
@@ -339,3 +340,15 @@ def test_a_line_knows_how_its_strips_differ_when_each_is_balanced_alone(prepared
         assert np.std(alone - told) < 0.4 * np.std(alone)
     total = line.numbers["boundary_force"] + line.numbers["couette_force"] + line.numbers["rolling_force"]
     assert total == pytest.approx(scene.bodies.load * line.numbers["coefficient"], rel=1e-9)
+
+
+@pytest.mark.parametrize("bodies, speed", [({}, 0.01), ({"hertz_pressure": 0.6e9}, 1.0)])
+def test_the_work_of_moving_roughness_is_estimated_within_a_factor_of_two(bodies, speed):
+    """Counted work, of one strip and the ends of a range, before and after it is solved; not a clock."""
+    patch = {"shape": (48, 16), "spacing": 90e-6 / 32}
+    scene = SCENE.with_(motion=ROLLING, contact=patch, bodies=bodies, numerics={"sampling": "patch"})
+    prepared = lubfric.prepare(scene.with_(lubricant={"eyring_stress": 5e6}))
+    estimate = moving_point_work(
+        prepared.scene, prepared.sample, prepared.surface.sq, speed, cells_of(prepared.scene, prepared.sample)
+    )
+    assert 0.5 < solve_pair(prepared, speed, None, 0).resolved.work / estimate < 2
