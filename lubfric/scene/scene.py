@@ -75,9 +75,9 @@ class Scene(Shown):
             raise InputError(
                 said, "lubricant.shear_modulus", way_out="leave it out: runs in time have no elastic shear"
             )
-        if self.transient is not None and not self.lubricant.floods:
-            said = " does not go with inlet_length or inlet_film"
-            raise InputError(said, "transient", way_out="runs in time are flooded")
+        if self.transient is not None and self.lubricant.inlet_film is not None:
+            said = " does not go with lubricant.inlet_film"
+            raise InputError(said, "transient", way_out="give inlet_length, or a flooded inlet, for a run in time")
         if length is not None and length <= half_width:
             said = f" = {length:g} m lies inside the dry contact, where no film begins"
             raise InputError(said, "lubricant.inlet_length", f"more than its half-width {half_width:.4g} m")
@@ -258,6 +258,8 @@ def _not_taken(scene: Scene, given: bool) -> Iterator[tuple[str, Any, str]]:
             yield name, value, f"{', '.join(map(repr, allowed))}{why}"
     if scene.transient is not None and scene.numerics.heat == "on":
         yield "numerics.heat", "on", "'auto', 'off' (in time the model is isothermal)"
+    if scene.transient is not None and scene.lubricant.inlet_length is not None:
+        yield "lubricant.inlet_length", scene.lubricant.inlet_length, "None (in time the model is flooded)"
     bodies = moving_bodies(scene)
     if len({u for _, u in bodies}) > 1 and given:
         yield "counterface", "a second rough body", "at a slide-roll ratio other than 0 a map of its own"

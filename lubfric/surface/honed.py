@@ -107,11 +107,9 @@ def _stratified(honing: Honing, plateau: np.ndarray, families: list[np.ndarray])
             return heights
         if not (reached > 0).all():
             break
-        upper = curve.upper
-        lower = curve.lower
-        core = np.clip(heights, lower, upper)
-        peaks = np.maximum(heights - upper, 0.0) / reached[1]
-        dales = np.minimum(heights - lower, 0.0) / reached[2]
+        core = np.clip(heights, curve.lower, curve.upper)
+        peaks = np.maximum(heights - curve.upper, 0.0) / reached[1]
+        dales = np.minimum(heights - curve.lower, 0.0) / reached[2]
         heights = core / reached[0] + peaks + dales
         heights = heights - heights.mean()
     raise InputError(

@@ -47,6 +47,7 @@ def solve_transient_ehl(
     viscosity_law: str = "roelands",
     density_law: str = "constant",
     initial_film: float | None = None,
+    inlet_length: float | None = None,
     tolerance: float = 1e-3,
     time_tolerance: float | None = None,
     first_step: float | None = None,
@@ -60,6 +61,7 @@ def solve_transient_ehl(
     entrainment_speed : [m/s], any sign, also 0; a number or a history
     e_prime [Pa], pressure_viscosity_coefficient [1/Pa], viscosity_law, density_law : see `lubfric.Lubricant`
     times : output times [s], increasing, the first >= 0; a step ends at each
+    inlet_length : distance [m] upstream at which the lubricant begins, with p = 0 there; None: fully flooded
     initial_film : start at t = 0 from the undeformed parabola at this height [m], full of lubricant without pressure;
         None: from the steady state of the values before t = 0
     tolerance, time_tolerance : relative error of the film by the grid, 1e-5 to 0.1, and in a step (None: 1 % of it)
@@ -84,7 +86,7 @@ def solve_transient_ehl(
         validate.positive("e_prime", e_prime, "Pa"),
         checked_history("entrainment_speed", entrainment_speed, "m/s", duration, positive=False),
         eta,
-        Lubricant(eta.at(0.0), pressure_viscosity_coefficient, viscosity_law, density_law),
+        Lubricant(eta.at(0.0), pressure_viscosity_coefficient, viscosity_law, density_law, inlet_length=inlet_length),
         duration,
         initial_film,
     )

@@ -12,6 +12,9 @@ Mass is balanced in control volumes around the nodes. The Couette flow takes fil
 interpolation. The Poiseuille flow takes a centred film and the logarithmic mean of the fluidity. At both end nodes P
 equals the pressure of the film outside (`outside`).
 
+A lubricant that begins at a distance upstream (``inlet``) has P = 0 there and farther upstream, and fills the gap from
+there on; without entrainment on either side.
+
 The equation r of every node holds in the sense ``P >= 0, r >= 0, P r = 0``. In the cavitated zone r > 0 is the rate at
 which the gap grows beyond the lubricant that flows in. Where the film forms again, the zone behind the rupture counts
 as full: mass is conserved in the pressurised film, but not through cavitation.
@@ -27,6 +30,12 @@ from .march import Memory
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(24)
 _POINTS, _WEIGHTS = 0.5 * (_POINTS + 1.0), 0.5 * _WEIGHTS
+
+
+# relative distance from the inlet within which a node lies on it
+AT_INLET = 1e-9
+# pressure or load beyond an end without lubricant, and its derivatives by flow, squeeze rate and film
+NO_PRESSURE = (0.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -117,7 +126,8 @@ class StepTerms:
 @dataclass(frozen=True)
 class StepEquations:
     """The equations of one implicit step, with a ``memory`` of the past: at a speed u, a load M, a curvature c =
-    R_ref/R and an ambient viscosity nu, relative to the reference. ``spring``: carries load beside the film."""
+    R_ref/R and an ambient viscosity nu, relative to the reference. ``spring``: carries load beside the film; ``inlet``:
+    distance [X] upstream at which the lubricant begins (None: it floods the inlet)."""
 
     grid: FixedGrid
     problem: FilmProblem
@@ -127,6 +137,15 @@ class StepEquations:
     curvature: float = 1.0
     viscosity: float = 1.0
     spring: Spring | None = None
+    inlet: float | None = None
+
+    @property
+    def dry(self) -> np.ndarray:
+        """Whether each node lies upstream of the lubricant, (n + 1,)."""
+        if self.inlet is None:
+            return np.zeros(self.grid.n + 1, bool)
+        upstream = -self.grid.x * np.sign(self.speed) if self.speed else np.abs(self.grid.x)
+        return upstream >= self.inlet * (1.0 - AT_INLET)
 
     def evaluate(self, z: np.ndarray) -> StepTerms:
         """All equations at z."""
@@ -150,15 +169,20 @@ class StepEquations:
         stored = memory.rate * (rho[0] * H - memory.film) * grid.weights
         r = np.empty_like(P)
         r[1:-1] = stored[1:-1] + flux[1:] - flux[:-1]
+        dry = self.dry
         ends = []
         carried = float(grid.weights @ P)
         for end, sign in ((0, 1.0), (-1, -1.0)):
+            if dry[end]:
+                ends.append((NO_PRESSURE, NO_PRESSURE))
+                continue
             flow = sign * flux[end] + stored[end]
             rate = memory.rate * (H[end] - memory.film[end])
             pressure, load = outside(abs(grid.x[end]), H[end], self.curvature, self.viscosity, sign * speed, flow, rate)
             r[end] = P[end] - pressure[0]
             carried += load[0] if pressure[0] > 0.0 else 0.0
             ends.append((pressure, load))
+        r[dry] = P[dry]
         shared = self.spring.at(H) if self.spring else (0.0, 0.0)
         flows = (up_rho, up_H), (mid_rho, mid_H), fluidity, gradient, thin, flux, stored
         balance = carried + shared[0] - self.load
@@ -192,6 +216,9 @@ class StepEquations:
             J[end, end] += 1.0
             if pressure[0] > 0.0:
                 J[n + 1] += slope(*load)
+        dry = np.flatnonzero(self.dry)
+        J[dry] = 0.0
+        J[dry, dry] = 1.0
         if self.spring is not None and t.spring[1]:
             J[n + 1, :-1] += t.spring[1] * (self.spring.weights @ grid.kernel)
             J[n + 1, -1] += t.spring[1] * self.spring.weights.sum()

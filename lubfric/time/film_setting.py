@@ -58,6 +58,12 @@ class Setting:
     grid: FixedGrid
 
     @property
+    def inlet(self) -> float | None:
+        """Distance upstream at which the lubricant begins, in units of x; None: it floods the inlet."""
+        length = self.contact.lubricant.inlet_length
+        return None if length is None else length / self.problem.length_unit
+
+    @property
     def load_unit(self) -> float:
         """The unit of the load [N]."""
         return self.problem.contact.e_prime * self.problem.film_unit * self.contact.width
@@ -79,6 +85,7 @@ class Setting:
             reference.radius / c.radius.before(time),
             c.viscosity.before(time) / reference.lubricant.viscosity,
             spring,
+            self.inlet,
         )
 
     def solve(self, time: float, memory: Memory | None, z: np.ndarray, spring: Spring | None = None) -> Step:
@@ -123,6 +130,12 @@ def make_setting(
 
     edges = edge(share * load[0], radius[0]), edge(load[1], radius[1])
     x = symmetric_nodes(finer * RESOLUTION * math.sqrt(3e-3 / tolerance), edges, films, reach / problem.length_unit)
+    length = contact.lubricant.inlet_length
+    if length is not None and length < x[-1] * problem.length_unit:
+        every_other = x[len(x) // 2 % 2 :: 2]  # nodes of the coarser grid of `discretisation` too
+        inlet = length / problem.length_unit
+        nearest = every_other[np.argmin(np.abs(every_other - inlet))]
+        x = x * (inlet / nearest)
     return Setting(contact, problem, make_fixed_grid(x))
 
 
