@@ -97,7 +97,7 @@ class Quantities(Generic[T]):
         note="film at the centre under the load F_H: the central film thickness where F_C = 0; NaN at U = 0",
     )
     mean_gap: T = quantity("m", "mean separation", error="film", note="mean gap of the rough surfaces over A")
-    film_to_roughness_ratio: T = quantity("-", "central separation over Sq", "h_c/Sq", error="film")
+    film_to_roughness_ratio: T = quantity("-", "central separation over Sq", error="film")
     inlet_film_factor: T = quantity(
         *("-", "factor on the film by the heat of its inlet"),
         error="heat",

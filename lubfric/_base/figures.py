@@ -1,19 +1,48 @@
 """Pictures: what they share, and results drawn on given axes or on new ones of pyplot."""
 
 import io
-from typing import Any
+from collections.abc import Callable
+from functools import wraps
+from importlib.resources import files
+from typing import Any, TypeVar
 
 import numpy as np
 
 from ..quantities import axis_label
+from ..units import converted, printed, unit_for
+
+Plot = TypeVar("Plot", bound=Callable[..., Any])
 
 BLUE = "#1f5a94"
 RED = "#b3392f"
 GREEN = "#2f7d4f"
 GREY = "#6b6b6b"
 FRICTION = axis_label("coefficient")
-LETTER = 3.8  # pt: width of one in a key, about
+KEY_SIZE = 8.0  # pt: of the letters of a key, at most
+LETTER = 3.8  # pt: width of a letter of that size, about
 SLENDER = 4.0  # ratio of the sides beyond which a map is not drawn to scale
+
+
+def styled(plot: Plot) -> Plot:
+    """Decorator: what ``plot`` draws has the style of pictures.mplstyle."""
+
+    @wraps(plot)
+    def drawn(*args: Any, **options: Any) -> Any:
+        from matplotlib import rc_context, rc_params_from_file
+
+        style = rc_params_from_file(str(files(__package__) / "pictures.mplstyle"), use_default_template=False)
+        chosen = next((value for value in (*args, *options.values()) if hasattr(value, "fonts")), None)
+        with rc_context({**style, **(chosen.fonts() if chosen is not None else {})}):
+            return plot(*args, **options)
+
+    return drawn  # type: ignore[return-value]
+
+
+def in_unit_for(values: np.ndarray, unit: str) -> tuple[np.ndarray, str]:
+    """Return ``values`` in the SI ``unit`` in the unit of people in which the largest is 1 or more, and its name."""
+    finite = np.abs(values[np.isfinite(values)])
+    name = unit_for([float(finite.max(initial=0.0))], unit)
+    return converted(values, unit, name), printed(name)
 
 
 def new_figure(*args, layout: Any = "constrained", **kwargs):
@@ -55,11 +84,11 @@ def axes_or_new(ax, layout="constrained"):
 
 
 def friction_lines(axes, x, parts, **style) -> None:
-    """f, and its parts from the contact spots and from the film, over ``x``. ``parts``: three arrays; ``style``: of the
-    first."""
+    """Draw f, and its parts from the asperities and from the film, over ``x``. ``parts``: three arrays; ``style``: of
+    the first."""
     f, contact, film = parts
     axes.plot(x, f, **{"color": BLUE, "label": "friction coefficient"} | style)
-    for part, color, label in ((contact, RED, "from the contact spots"), (film, GREEN, "from the film")):
+    for part, color, label in ((contact, RED, "asperity friction"), (film, GREEN, "fluid friction")):
         lone = {"marker": "_", "ms": 20} if np.size(x) == 1 else {}
         axes.plot(x, part, color=color, lw=1, ls=(0, (4, 4)), label=label, **lone)  # f shows through where it is all
 
@@ -70,11 +99,11 @@ def widened(x, *values):
 
 
 def load_shares(axes, x, share) -> None:
-    """Share of the load on the contact, and the rest on the film, over ``x``."""
+    """Draw the asperity load ratio, and above it the film load ratio, over ``x``."""
     x, share = widened(x, share)
-    axes.fill_between(x, 0, share, color=RED, alpha=0.5, lw=0, label="contact $F_C$")
-    axes.fill_between(x, share, 1, color=GREEN, alpha=0.3, lw=0, label="film $F_H$")
-    axes.set(ylim=(0, 1), ylabel="share of the load (-)")
+    axes.fill_between(x, 0, share, color=RED, alpha=0.5, lw=0, label="asperity load $F_C/F_T$")
+    axes.fill_between(x, share, 1, color=GREEN, alpha=0.3, lw=0, label="film load $F_H/F_T$")
+    axes.set(ylim=(0, 1), ylabel="load ratio (-)")
 
 
 def plain_ticks(axis) -> None:
@@ -107,14 +136,17 @@ def speed_label(speed: np.ndarray) -> str:
 def key_above(axes, columns: int = 3) -> int:
     """The key of the lines above the axes, where it hides none, in so many ``columns`` at most as the figure has room
     for; returns the number of rows."""
+    from matplotlib import rcParams
+
     labels = axes.get_legend_handles_labels()[1]
-    room = 72 * 0.8 * axes.figure.get_figwidth() / LETTER
+    size = min(rcParams["legend.fontsize"], KEY_SIZE) if not isinstance(rcParams["legend.fontsize"], str) else KEY_SIZE
+    room = 72 * 0.8 * axes.figure.get_figwidth() / (LETTER * size / KEY_SIZE)
     rows = -(-len(labels) // columns)
     count = len(labels)
     while rows < count and sum(9 + max(map(len, labels[i : i + rows])) for i in range(0, count, rows)) > room:
         rows += 1
     place = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0), "borderaxespad": 0.2}
-    axes.legend(ncols=-(-len(labels) // max(rows, 1)) or 1, frameon=False, fontsize=8, **place)
+    axes.legend(ncols=-(-len(labels) // max(rows, 1)) or 1, frameon=False, fontsize=size, **place)
     return rows
 
 
@@ -127,6 +159,7 @@ def field_image(axes, x, y, values, colours: str, label: str, extend: str = "nei
     slender = not 1 / SLENDER <= ratio <= SLENDER
     aspect = "auto" if slender else "equal"
     image = axes.imshow(values.T, origin="lower", aspect=aspect, cmap=colours, extent=extent, **options)
+    axes.grid(False)
     axes.figure.colorbar(image, ax=axes, label=label, extend=extend)
     axes.set(xlabel="x (µm), along the motion")
     axes.set(ylabel=f"y (µm), along the line{' (not to scale)' if slender else ''}")

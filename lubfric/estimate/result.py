@@ -121,8 +121,8 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         """The pressure of the rough contact in the plane, in some ``rows`` along the line; returns the axes. Needs
         ``fields=True``, and contact."""
         axes = figures.axes_or_new(ax)
-        pressure = self.pressure[:, rows] / 1e9
-        figures.field_image(axes, self.x, self.y[rows], pressure, "magma_r", "contact pressure (GPa)", vmin=0)
+        pressure, unit = figures.in_unit_for(self.pressure[:, rows], "Pa")
+        figures.field_image(axes, self.x, self.y[rows], pressure, "magma_r", f"contact pressure ({unit})", vmin=0)
         axes.set_title(f"U = {self.speed:g} m/s, $F_C$ = {self.contact_load:.4g} N, $F_H$ = {self.film_load:.4g} N")
         return axes
 

@@ -2,6 +2,7 @@
 time."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -10,54 +11,136 @@ import numpy as np
 from .._base import figures
 from ..studies import friction_over_speed, interval_band
 from ..time import friction_over_time, time_scale
-from ..units import worded
+from ..units import converted, printed, unit_for, worded
 
 WHOLE = 3.0  # times as long along y as along x: no more is drawn whole
 FRAMES = 150  # of an animation at most, spread over the run
+PANELS = ("friction", "load", "film")  # of a Stribeck curve, from the top
+PANEL_HEIGHTS = {"friction": 3.6, "load": 2.1, "film": 2.3}  # inch, at the usual width
+WIDTH = 7.0  # inch: of a picture
+INCH = 0.0254  # m
+LEAST_SCALE = 0.8  # of the heights: panels of a narrow picture are no lower
+NARROW = 4.5  # inch: narrower pictures have smaller fonts
+LOWEST = 0.2  # of the smallest f, where a logarithmic axis of f begins
 SLENDER = 1.5  # times as long along y as along x: a narrow picture
+PANEL_GAP = 0.15  # inch between panels, so that a colour bar does not touch the next panel
 QUANTILES = 401  # of the heights, of a bearing curve
 NEAR = 4.0  # half-widths of the Hertz strip around which a gap is drawn
 
 
+@dataclass(frozen=True, kw_only=True)
+class PictureOptions:
+    """What a user may choose of the picture of a curve or a run in time.
+
+    Attributes
+    ----------
+    panels : of a Stribeck curve, of "friction", "load" and "film"
+    x_scale, y_scale : "linear" or "log", of the axis of speeds, ratios or times, and of f; None: by the data
+    width : of the figure [m]; a journal's column is some 85 mm wide. None: `WIDTH`
+    """
+
+    panels: tuple[str, ...] = PANELS
+    x_scale: str | None = None
+    y_scale: str | None = None
+    width: float | None = None
+
+    def size(self, heights: Sequence[float]) -> tuple[float, float]:
+        """Return width and height [inch] of a figure with panels of these ``heights`` [inch] at the usual width."""
+        width = WIDTH if self.width is None else self.width / INCH
+        return width, max(width / WIDTH, LEAST_SCALE) * sum(heights)
+
+    def scale(self, axes, *, friction=None, f: np.ndarray | None = None) -> None:
+        """Set the scales that the user chose: of x on ``axes``, and on the axes ``friction`` that of ``f``."""
+        if self.x_scale:
+            axes.set_xscale(self.x_scale)
+        if friction is not None and self.y_scale:
+            if self.y_scale == "log" and f is not None and np.any(f > 0):
+                friction.set_ylim(LOWEST * float(np.min(f[f > 0])), 2.0 * float(np.nanmax(f)))
+            friction.set_yscale(self.y_scale)
+            figures.plain_ticks(friction.yaxis)
+
+    def fonts(self) -> dict[str, float]:
+        """Return the sizes of fonts [pt] that differ from the style: those of a narrow picture are smaller."""
+        if self.width is None or self.width / INCH > NARROW:
+            return {}
+        small = dict.fromkeys(("font.size", "axes.labelsize", "figure.titlesize"), 8.0)
+        return small | dict.fromkeys(("xtick.labelsize", "ytick.labelsize"), 7.0) | {"legend.fontsize": 6.0}
+
+
+@figures.styled
 def plot_stribeck(
-    path: Path, columns: dict[str, np.ndarray], title: str, entries: Sequence[Sequence[Any]], measured=None
+    path: Path,
+    columns: dict[str, np.ndarray],
+    title: str,
+    entries: Sequence[Sequence[Any]],
+    measured=None,
+    options: PictureOptions = PictureOptions(),
 ) -> None:
-    """Coefficient, load split and lambda ratio over entrainment speed.
+    """Draw f, the load ratios and the film over the entrainment speed.
 
     ``columns``: arrays by name as `lubfric._base.read_table` gives them; speeds that failed are left out. ``entries``:
     for each row, the assumptions that are violated (`lubfric.Validity`). ``measured``: a `lubfric.Measured` over speed,
     drawn beside the curve.
     """
-    figure = figures.new_figure(figsize=(7, 8))
-    top, middle, bottom = figure.subplots(3, 1, sharex=True, gridspec_kw={"height_ratios": [3, 2, 2]})
-    order = friction_over_speed(top, columns)
+    panels = [name for name in PANELS if name in options.panels]
+    heights = [PANEL_HEIGHTS[name] for name in panels]
+    figure = figures.new_figure(figsize=options.size(heights))
+    shown = figure.subplots(len(panels), 1, sharex=True, squeeze=False, gridspec_kw={"height_ratios": heights})[:, 0]
+    axes = dict(zip(panels, shown))
+    good = np.isfinite(columns["coefficient"]) & (columns["speed"] != 0)
+    order = np.flatnonzero(good)[np.argsort(np.abs(columns["speed"][good]))]
     c = type(columns)((name, column[order]) for name, column in columns.items())
     speed = np.abs(c["speed"])
-    film = c["central_film"] * 1e9
-    if measured is not None:
-        measured.draw(top)
-        top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
-    _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
+    if "friction" in axes:
+        top = axes["friction"]
+        friction_over_speed(top, columns)
+        if measured is not None:
+            measured.draw(top)
+            top.set_ylim(bottom=min(top.get_ylim()[0], 1.1 * measured.coefficient.min()))
+        _mark(figure, top, speed, c["coefficient"], [entries[i] for i in order])
+        top.set(xlabel="")
     figure.suptitle(title)
-    top.set(xlabel="")
-    figures.load_shares(middle, speed, c["contact_load"] / (c["contact_load"] + c["film_load"]))
-    figures.key_above(middle)
-    bottom.loglog(speed, film, "o-", color=figures.GREEN, ms=4, label="central film")
-    sq = film / c["film_to_roughness_ratio"]
+    if "load" in axes:
+        figures.load_shares(axes["load"], speed, c["contact_load"] / (c["contact_load"] + c["film_load"]))
+        figures.key_above(axes["load"])
+    if "film" in axes:
+        _films(axes["film"], speed, c)
+    last = shown[-1]
+    last.set(xscale="log", xlabel=figures.speed_label(c["speed"]))
+    options.scale(last, friction=axes.get("friction"), f=c["coefficient"])
+    for each in shown:
+        figures.plain_ticks(each.xaxis)
+    figure.savefig(path)
+
+
+def _films(axes, speed: np.ndarray, c: dict[str, np.ndarray]) -> None:
+    """Draw the full-load film thickness and the central separation over ``speed``, and the roughness to compare."""
+    separation = c["central_film"]
+    film = c.get("full_load_film", np.full(speed.shape, np.nan))
+    unit = unit_for(separation.tolist(), "m")
+    scale = 1.0 / converted(1.0, unit, "m")
+    if np.isfinite(film).any():
+        axes.loglog(speed, film * scale, "o-", color=figures.GREEN, ms=4, label="full-load film thickness")
+    axes.loglog(speed, separation * scale, "s--", color=figures.BLUE, ms=3, lw=1, label="central separation")
+    sq = separation / c["film_to_roughness_ratio"]
     if np.isfinite(sq).all() and (sq > 0).all():  # not of smooth surfaces
-        for times, dashes, name in ((1, "--", f"Sq = {sq[0]:.3g} nm"), (3, ":", "3 Sq: summits hardly touch")):
-            bottom.axhline(times * sq[0], color=figures.GREY, lw=0.8, ls=dashes, label=name)
-    figures.key_above(bottom)
-    bottom.set(ylabel="film thickness (nm)", xlabel=figures.speed_label(c["speed"]))
-    for axis in (bottom.xaxis, bottom.yaxis):
-        figures.plain_ticks(axis)
-    figure.savefig(path, dpi=150)
+        for times, dashes, name in ((1, "--", f"Λ = 1 (Sq = {worded(float(sq[0]), 'm')})"), (3, ":", "Λ = 3")):
+            axes.axhline(times * sq[0] * scale, color=figures.GREY, lw=0.8, ls=dashes, label=name)
+    figures.key_above(axes, 2)
+    axes.set(ylabel=f"film thickness ({printed(unit)})")
+    figures.plain_ticks(axes.yaxis)
 
 
+@figures.styled
 def plot_traction(
-    path: Path, columns: dict[str, np.ndarray], title: str, entries: Sequence[Sequence[Any]], measured=None
+    path: Path,
+    columns: dict[str, np.ndarray],
+    title: str,
+    entries: Sequence[Sequence[Any]],
+    measured=None,
+    options: PictureOptions = PictureOptions(),
 ) -> None:
-    """Friction over the slide-roll ratio, and below, where heat was found, temperatures. Arguments as of
+    """Draw f over the slide-roll ratio, and below, where they were computed, temperatures. Arguments as of
     `plot_stribeck`."""
     good = np.flatnonzero(np.isfinite(columns["coefficient"]))
     order = good[np.argsort(columns["ratio"][good])]
@@ -65,7 +148,7 @@ def plot_traction(
     ratio = c["ratio"]
     load = c["contact_load"] + c["film_load"]
     warm = bool((c["flash_temperature_rise"] > 0).any() or (c["film_temperature_rise"] > 0).any())
-    figure = figures.new_figure(figsize=(7, 6.5 if warm else 4.5))
+    figure = figures.new_figure(figsize=options.size([6.5 if warm else 4.5]))
     top, *others = figure.subplots(1 + warm, 1, sharex=True, squeeze=False, height_ratios=[3, 2][: 1 + warm]).flat
     interval_band(top, ratio, c)
     parts = c["coefficient"], c["boundary_force"] / load, c["shear_force"] / load
@@ -74,15 +157,16 @@ def plot_traction(
     figure.suptitle(title)
     top.set_ylabel(figures.FRICTION)
     for bottom in others:
-        bottom.plot(ratio, c["flash_temperature_rise"], "-", color=figures.RED, label="surfaces (flash)")
-        bottom.plot(ratio, c["film_temperature_rise"], "-", color=figures.GREEN, label="film above the surfaces")
+        bottom.plot(ratio, c["flash_temperature_rise"], "-", color=figures.RED, label="surfaces (flash temperature)")
+        bottom.plot(ratio, c["film_temperature_rise"], "-", color=figures.GREEN, label="film, above the surfaces")
         bottom.set(ylabel="largest temperature rise (K)")
         figures.key_above(bottom)
     last = others[-1] if others else top
     last.set_xlabel("slide-roll ratio (-)")
     figures.log_if_wide(last, "x", ratio)
+    options.scale(last, friction=top, f=c["coefficient"])
     figures.plain_ticks(last.xaxis)
-    figure.savefig(path, dpi=150)
+    figure.savefig(path)
 
 
 def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> None:
@@ -93,28 +177,30 @@ def _mark(figure, axes, speed, coefficient, entries: list[Sequence[Any]]) -> Non
     everywhere = minor.all()
     for chosen, marker, color, label in (
         (minor & (not everywhere), "o", figures.GREY, "with warnings"),
-        (severe, "x", figures.RED, "no answer (accepted)"),
+        (severe, "x", figures.RED, "outside the model (accepted)"),
     ):
         if chosen.any():
             axes.plot(speed[chosen], coefficient[chosen], marker, ms=9, mfc="none", mec=color, label=label)
     if names := dict.fromkeys(entry.what for violated in entries for entry in violated):
         head = "warnings, at all points: " if everywhere else "warnings: "
-        figure.supxlabel(head + "; ".join(names), fontsize=8, color=figures.GREY, wrap=True)
+        figure.supxlabel(head + "; ".join(names), fontsize="small", color=figures.GREY, wrap=True)
     figures.key_above(axes)
 
 
+@figures.styled
 def plot_contact(path: Path, prepared, point) -> None:
     """Draw the fields of ``point``, a `lubfric.FrictionResult`, as PNG."""
     if point.deterministic is not None:
         figure = _one_gap(point.fields, point.speed, prepared.scene.bodies.half_width)
     else:
         figure = _two_pressures(prepared, point, point.fields)
-    figure.savefig(path, dpi=150)
+    figure.savefig(path)
 
 
+@figures.styled
 def plot_compared(path: Path, prepared, point) -> None:
     """Draw the fields of the load-sharing model with which ``point`` is compared, as PNG."""
-    _two_pressures(prepared, point, point.compared_fields).savefig(path, dpi=150)
+    _two_pressures(prepared, point, point.compared_fields).savefig(path)
 
 
 def _one_gap(fields, speed: float, half_width: float):
@@ -125,16 +211,18 @@ def _one_gap(fields, speed: float, half_width: float):
     x = fields.x[near]
     y = fields.y
     part = _part(x, y, int(fields.pressure[near].max(axis=0).argmax()))
-    figure = figures.new_figure(figsize=(10, 5.5), layout="compressed")
-    for axes, (label, field, colours, norm) in zip(
+    figure = figures.new_figure(figsize=(10.5, 5.5), layout="compressed")
+    figure.get_layout_engine().set(w_pad=PANEL_GAP)
+    for axes, (label, unit, field, colours, norm) in zip(
         figure.subplots(1, 3, sharey=True),
         (
-            ("pressure (GPa)", fields.pressure / 1e9, "magma_r", None),
-            ("gap (nm)", fields.gap * 1e9, "viridis", LogNorm()),
-            ("shear stress (MPa)", fields.shear / 1e6, "cividis", None),
+            ("pressure", "Pa", fields.pressure, "magma_r", None),
+            ("gap", "m", fields.gap, "viridis", LogNorm()),
+            ("shear stress", "Pa", fields.shear, "cividis", None),
         ),
     ):
-        figures.field_image(axes, x, y[part], field[near][:, part], colours, label, norm=norm)
+        values, name = figures.in_unit_for(field[near][:, part], unit)
+        figures.field_image(axes, x, y[part], values, colours, f"{label} ({name})", norm=norm)
         _hertz_strip(axes, half_width)
         axes.label_outer()
     figure.suptitle(f"U = {speed:g} m/s; {fields.solve}{_partly(y, part)}; dashed: Hertz strip", fontsize=10)
@@ -179,14 +267,15 @@ def _two_pressures(prepared, point, fields):
     both = worded(point.balance.contact_load, "N"), worded(point.balance.film_load, "N")
     loads = "U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
     if touching:
-        pressure = fields.pressure[:, part] / 1e9
-        figures.field_image(axes[0], fields.x, fields.y[part], pressure, "magma_r", "contact pressure (GPa)", vmin=0)
+        pressure, unit = figures.in_unit_for(fields.pressure[:, part], "Pa")
+        label = f"contact pressure ({unit})"
+        figures.field_image(axes[0], fields.x, fields.y[part], pressure, "magma_r", label, vmin=0)
         _hertz_strip(axes[0], half_width)
         axes[0].axhline(fields.y[row] * 1e6, color=figures.GREEN, lw=0.8, ls=":")
         loads += _partly(fields.y, part)
     elif panels[0]:
         said = {"ha": "center", "va": "center", "transform": axes[0].transAxes}
-        axes[0].text(0.5, 0.5, "no dry contact field\n(separated, or read from a contact curve)", **said)
+        axes[0].text(0.5, 0.5, "no field of the dry contact\n(separated, or read from a contact curve)", **said)
         axes[0].set_axis_off()
     loads += "; dashed: Hertz strip" if panels[0] else ": no contact"
     figure.suptitle(loads, fontsize=10)
@@ -211,12 +300,12 @@ def _section(axes, fields, row: int, *, touching: bool) -> None:
     smooth = fields.film[:, row]
     drawn = [surface]
     axes.plot(micro, smooth * 1e9, color=figures.GREEN, label="smooth film h")
-    axes.plot(micro, surface * 1e9, color=figures.GREY, lw=0.8, ls="--", label="rough surface, not pressed")
+    axes.plot(micro, surface * 1e9, color=figures.GREY, lw=0.8, ls="--", label="rough surface, undeformed")
     if touching:
         deflection = fields.deflection[:, row]
         drawn.append(surface - deflection + deflection.mean())
-        axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, pressed")
-        axes.plot(micro, (fields.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="counterface, as if smooth")
+        axes.plot(micro, drawn[-1] * 1e9, color=figures.GREY, lw=1, label="rough surface, deformed")
+        axes.plot(micro, (fields.gap[:, row] + drawn[-1]) * 1e9, color=figures.RED, label="smooth counterface")
     low = 1e9 * min(z.min() for z in drawn)
     high = 1e9 * max(*(z.max() for z in drawn), 1.2 * smooth.min())
     room = 0.15 * (high - low)
@@ -224,6 +313,7 @@ def _section(axes, fields, row: int, *, touching: bool) -> None:
     figures.key_above(axes, 2)
 
 
+@figures.styled
 def plot_surface(path: Path, prepared) -> None:
     """The map that the scene of ``prepared`` has, to scale, of a long line the beginning; and the bearing
     (Abbott-Firestone) curve of the whole of it."""
@@ -239,42 +329,51 @@ def plot_surface(path: Path, prepared) -> None:
     bearing.plot(100 * higher, heights, color=figures.BLUE)
     bearing.set(xlim=(0, 100), xlabel="bearing area (%)", ylabel="height (nm)")
     bearing.set_title(f"all of it: Sq = {1e9 * surface.sq:.4g} nm, Ssk = {surface.ssk:.3g}", fontsize=10)
-    figure.savefig(path, dpi=150)
+    figure.savefig(path)
 
 
-def plot_history(path: Path, columns: dict[str, np.ndarray], title: str) -> None:
-    """Speed and load, film, shares of the load, and friction over time, from the columns of history.csv."""
+@figures.styled
+def plot_history(
+    path: Path, columns: dict[str, np.ndarray], title: str, options: PictureOptions = PictureOptions()
+) -> None:
+    """Draw speed and load, film, load ratios and f over time, from the columns of history.csv."""
     c = columns
     t = c["time"] * time_scale(c["time"][-1])[0]
-    figure = figures.new_figure(figsize=(7.5, 9))
+    figure = figures.new_figure(figsize=options.size([2.2, 2.2, 2.2, 2.6]))
     first, second, third, fourth = figure.subplots(4, 1, sharex=True)
     first.plot(t, c["entrainment_speed"], color="k")
     first.axhline(0.0, color=figures.GREY, lw=0.6)
     first.set_ylabel("entrainment speed U (m/s)")
     figure.suptitle(title)
     load = first.twinx()
+    load.grid(False)
+    load.spines["right"].set_visible(True)
     load.plot(t, c["load"], color=figures.GREY, lw=1.2, ls="--")
     load.set_ylim(0.0, 1.15 * c["load"].max())
     load.set_ylabel("load $F_T$ (N), dashed", color=figures.GREY)
+    unit = unit_for(c["central_film"].tolist(), "m")
+    scale = 1.0 / converted(1.0, unit, "m")
     for name, label, style in (
-        ("central_film", "central film", {"color": figures.GREEN}),
-        ("min_film", "minimum film", {"color": figures.GREEN, "lw": 1, "ls": "--"}),
-        ("mean_gap", "mean gap over the Hertz strip", {"color": figures.GREY, "lw": 0.9, "ls": ":"}),
+        ("central_film", "central separation", {"color": figures.GREEN}),
+        ("min_film", "smallest film", {"color": figures.GREEN, "lw": 1, "ls": "--"}),
+        ("mean_gap", "mean separation over the Hertz strip", {"color": figures.GREY, "lw": 0.9, "ls": ":"}),
     ):
-        second.plot(t, c[name] * 1e9, label=label, **style)
-    second.set(ylabel="film thickness (nm)", ylim=(0.0, None))
+        second.plot(t, c[name] * scale, label=label, **style)
+    second.set(ylabel=f"film thickness ({printed(unit)})", ylim=(0.0, None))
     figures.load_shares(third, t, c["contact_load"] / c["load"])
     for axes in (second, third):
         figures.key_above(axes)
     error = c.get("sampling_error", np.zeros(0))
     if np.any(error > 0):
         low, high = (c["coefficient"] * (1 + sign * 2 * error) for sign in (-1, 1))
-        fourth.fill_between(t, low, high, color=figures.BLUE, alpha=0.2, lw=0, label="95 %: finite surface alone")
+        fourth.fill_between(t, low, high, color=figures.BLUE, alpha=0.2, lw=0, label="95 % interval, sampling alone")
     friction_over_time(fourth, c)
     fourth.set_xlim(t[0], t[-1])
-    figure.savefig(path, dpi=150)
+    options.scale(fourth, friction=fourth, f=c["coefficient"])
+    figure.savefig(path)
 
 
+@figures.styled
 def animate(path: Path, result, half_width: float) -> None:
     """GIF of pressure and film along the contact over time."""
     count = result.time.size

@@ -5,6 +5,7 @@ import re
 import time
 from collections.abc import Callable
 from dataclasses import asdict, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -23,12 +24,15 @@ from ..models.shared import (
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
 from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, moves
-from ..units import numbers_of
+from ..units import number_of, numbers_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import SceneEstimate
 from .fields import fields_bytes, vtk_bytes
-from .pictures import plot_compared, plot_contact, plot_history, plot_stribeck, plot_traction
+from .pictures import PANELS, PictureOptions, plot_compared, plot_contact, plot_history, plot_stribeck, plot_traction
 
+SCALES = ("linear", "log")  # of an axis
+NARROWEST = 0.05  # m: width of a picture
+WIDEST = 0.6  # m: width of a picture
 TABLES = {"history": "a run in time", "traction": "a traction curve", "stribeck": "a Stribeck curve"}
 WORTH = 8  # speeds from which a second process gains more than it costs
 PATIENCE = 5.0  # s between two lines on how far a point is
@@ -191,20 +195,42 @@ def plot_again(arguments) -> None:
         raise InputError(f"{folder} holds no stribeck.csv; give a folder that 'lubfric run' wrote")
     if given and name != "stribeck":
         raise InputError(f"--measured is drawn beside a Stribeck curve, and {folder} holds {TABLES[name]}")
+    options = _picture_options(arguments, name)
     columns = read_table(folder / f"{name}.csv")
     record = read_record(folder)
+    title = record["scene"]["name"]
     if name == "history":
-        again: tuple = plot_history, columns, figures.plain_words(record["scene"]["name"])
+        again: Callable = partial(plot_history, columns=columns, title=figures.plain_words(title), options=options)
     else:
-        again = _plot, columns, record["scene"]["name"], _points_of(folder / f"{name}.csv", columns, record)
+        points = _points_of(folder / f"{name}.csv", columns, record)
+        again = partial(_plot, columns=columns, title=title, points=points, options=options)
     if given:
         if len(given) < 3:
             raise InputError("--measured needs --speed and --coefficient, the headings of its columns")
-        again += (studies.read_measured(arguments.measured, coefficient=arguments.coefficient, speed=arguments.speed),)
+        columns_of = {"coefficient": arguments.coefficient, "speed": arguments.speed}
+        again = partial(again, measured=studies.read_measured(arguments.measured, **columns_of))
     check_outputs(arguments, folder, [f"{name}.png"])
-    content = made(f"{name}.png", *again)
+    content = made(f"{name}.png", again)
     with FolderLock(folder):
         OwnFiles(folder).replace({f"{name}.png": content})
+
+
+def _picture_options(arguments, name: str) -> PictureOptions:
+    """Return the options of the picture of the table ``name`` by the ``arguments`` of ``lubfric plot``."""
+    panels = PANELS
+    if arguments.panels is not None:
+        if name != "stribeck":
+            raise InputError(f"--panels chooses parts of a Stribeck curve, and this is {TABLES[name]}; leave it out")
+        panels = tuple(validate.choice("--panels", word.strip(), PANELS) for word in arguments.panels.split(","))
+    scales = {option: getattr(arguments, option) for option in ("x_scale", "y_scale")}
+    for option, scale in scales.items():
+        if scale is not None:
+            validate.choice(f"--{option.replace('_', '-')}", scale, SCALES)
+    width = None
+    if arguments.width is not None:
+        number = number_of("--width", arguments.width, "m")
+        width = validate.number("--width", number, "m", minimum=NARROWEST, maximum=WIDEST)
+    return PictureOptions(panels=panels, width=width, **scales)
 
 
 def _points_of(source: Path, columns, record: dict) -> list[dict]:
@@ -219,7 +245,9 @@ def _points_of(source: Path, columns, record: dict) -> list[dict]:
     return points
 
 
-def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
+def _plot(
+    path, columns, title: str, points: list[dict], measured=None, options: PictureOptions = PictureOptions()
+) -> None:
     """The picture of the table of a curve; ``points``: those of its record."""
     unknown = {"value": math.nan, "limit": math.nan}  # numbers that are not finite are null in a record
     known = [[{k: v for k, v in entry.items() if v is not None} for entry in point["validity"]] for point in points]
@@ -227,7 +255,7 @@ def _plot(path, columns, title: str, points: list[dict], measured=None) -> None:
     title = figures.plain_words(title)
     if "ratio" in columns:
         title = f"{title}, U = {columns['speed'][np.isfinite(columns['coefficient'])][0]:g} m/s"
-    (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured)
+    (plot_traction if "ratio" in columns else plot_stribeck)(path, columns, title, entries, measured, options)
 
 
 def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:

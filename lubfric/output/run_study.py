@@ -53,6 +53,7 @@ def run_study(arguments) -> None:
         raise ConvergenceError(said, report, result)
 
 
+@figures.styled
 def _picture(path: Path, result: studies.StudyResult) -> None:
     """Draw what a study found: curves over the speed; operating points with their power loss; of one speed, f over what
     is varied: one number, two as a map, else all points in the order of f."""
@@ -66,7 +67,7 @@ def _picture(path: Path, result: studies.StudyResult) -> None:
         studies.plot_points(result, "coefficient", upper).set_xlabel("")
         studies.plot_points(result, "power_loss", lower)
         figure.suptitle(title)
-        figure.savefig(path, dpi=150)
+        figure.savefig(path)
         return
     if numbers and len(keys) == 2 and "speed" not in keys and len(result.dims) == 3:
         studies.plot_map(path, result, keys[0], keys[1], title)
@@ -86,7 +87,7 @@ def _picture(path: Path, result: studies.StudyResult) -> None:
         _draw_intervals(axes, np.arange(1, order.size + 1), result, order)
         axes.set_xlabel("points, in the order of their f (study.csv says which)")
         figure.suptitle(title)
-    figure.savefig(path, dpi=150)
+    figure.savefig(path)
 
 
 def _draw_intervals(axes, over: np.ndarray, result: studies.StudyResult, order=slice(None)) -> None:
@@ -191,9 +192,10 @@ def _record(found: studies.FitResult) -> dict:
     }
 
 
+@figures.styled
 def _draw(path: Path, found: studies.FitResult) -> None:
     figure = figures.new_figure(figsize=(7, 6.5))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
     found.plot(top).set_xlabel("")
     found.plot_residuals(bottom)
-    figure.savefig(path, dpi=150)
+    figure.savefig(path)

@@ -4,6 +4,7 @@ import io
 from pathlib import Path
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from .._base import __version__, figures, files, table_bytes, validate, write_whole
 from ..errors import InputError
@@ -15,7 +16,7 @@ from .interpolate import through
 from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
-BAND = "95 %: solvers, grids, surface, inputs, model"
+BAND = "95 % interval"
 # lines, lines with a label, points of a line between solved ones
 MOST = 500
 NAMED = 10
@@ -178,14 +179,20 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
     x, y = (over, f) if line is None else line
 
     def at(error: np.ndarray) -> np.ndarray:
-        return error if line is None else np.interp(np.log(x), np.log(over), error)
+        """Return ``error`` at x, by monotone cubics between the points, which never overshoot them."""
+        if line is None or np.count_nonzero(np.isfinite(error)) < 2:
+            return error if line is None else np.full(np.shape(x), np.nan)
+        good = np.isfinite(error)
+        return PchipInterpolator(np.log(over[good]), error[good], extrapolate=False)(np.log(x))
 
     moves = np.where(f == 0, np.nan, f)
     low, high = (at(columns.get(f"interval_{end}", unknown) / moves - 1) for end in ("low", "high"))
     if not np.isfinite(low).any():
         return
     known = np.isfinite(columns.get("model_error", unknown))
-    band = BAND + ("" if known.all() else " (where known)" if known.any() else " (not known)")
+    band = BAND + (
+        "" if known.all() else ", model-form error where known" if known.any() else ", without model-form error"
+    )
     ends = y * (1 + low), y * (1 + high)
     ax.fill_between(*figures.widened(x, *ends), color=figures.BLUE, alpha=0.2, lw=0, label=band)
     for name, times, dashes in OF_INTERVAL:
@@ -195,7 +202,9 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
             within = np.maximum(y * (1 - error), ends[0]), np.minimum(y * (1 + error), ends[1])  # a part of the whole
             wide, *sides = figures.widened(x, *within)
             ax.plot(wide, sides[0], **thin)
-            ax.plot(wide, sides[1], **thin, label=f"of it: {name.partition('_')[0].replace('sampling', 'surface')}")
+            ax.plot(
+                wide, sides[1], **thin, label=f"{name.partition('_')[0].replace('model', 'model-form')} error alone"
+            )
 
 
 def friction_over_speed(axes, columns: dict[str, np.ndarray], **style) -> np.ndarray:

@@ -154,7 +154,7 @@ class TransientResult(Shown):
         (low, high) = self.uncertainty.interval.T
         if (high > low).any():
             time = self.time * time_scale(self.time[-1])[0]
-            label = f"95 %: finite surface{', range of f_b' * bool(np.any(self.inputs))}"
+            label = f"95 % interval: sampling{', range of f_b' * bool(np.any(self.inputs))}"
             axes.fill_between(time, low, high, color=figures.BLUE, alpha=0.2, lw=0, label=label)
         friction_over_time(axes, self.columns)
         return axes

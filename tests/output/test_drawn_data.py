@@ -12,9 +12,11 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric._base.figures import field_image, new_figure
+from lubfric.output import main
 from lubfric.output.fields import fields_bytes, grid_bytes
 from lubfric.output.pictures import plot_contact, plot_history, plot_stribeck, plot_surface, plot_traction
 from lubfric.studies import csv_bytes, plot_map
+from lubfric.studies.tables import interval_band
 
 UNITS = {  # of the columns of results, typed by hand
     **dict.fromkeys(
@@ -69,6 +71,7 @@ COLUMNS = {
     "shear_force": np.array([0.05, 0.05, np.nan, 0.1]),
     "central_film": np.array([1e-7, 0.3e-7, np.nan, 4.5e-7]),
     "film_to_roughness_ratio": np.array([1.0, 0.3, np.nan, 4.5]),
+    "full_load_film": np.array([0.9e-7, 0.2e-7, np.nan, 4.5e-7]),
     "interval_low": np.array([0.04, 0.08, np.nan, 0.019]),
     "interval_high": np.array([0.06, 0.10, np.nan, 0.022]),
     "flash_temperature_rise": np.array([7.0, 3.0, np.nan, 21.0]),
@@ -82,20 +85,60 @@ def test_a_curve_is_drawn_by_its_table(figures):
     top, middle, bottom = figures[0].axes
     for label, expected in (
         ("friction coefficient", [0.09, 0.05, 0.02]),
-        ("from the contact spots", [0.4 / 5, 0.2 / 5, 0.0]),
-        ("from the film", [0.05 / 5, 0.05 / 5, 0.1 / 5]),
+        ("asperity friction", [0.4 / 5, 0.2 / 5, 0.0]),
+        ("fluid friction", [0.05 / 5, 0.05 / 5, 0.1 / 5]),
     ):
         np.testing.assert_allclose(data(top, label), [[0.01, 0.1, 1.0], expected], rtol=1e-12)
     np.testing.assert_allclose(
-        edges(top, "95 %: solvers, grids, surface, inputs, model (not known)"),
+        edges(top, "95 % interval, without model-form error"),
         [[0.08, 0.04, 0.019], [0.1, 0.06, 0.022]],
     )
     np.testing.assert_allclose(data(top, "with warnings"), [[1.0], [0.02]])
-    np.testing.assert_allclose(edges(middle, "contact $F_C$"), [[0, 0, 0], [0.8, 0.4, 0.0]], atol=1e-12)
-    np.testing.assert_allclose(edges(middle, "film $F_H$"), [[0.8, 0.4, 0.0], [1, 1, 1]], atol=1e-12)
-    np.testing.assert_allclose(bottom.lines[0].get_data(), [[0.01, 0.1, 1.0], [30, 100, 450]])
-    assert [line.get_ydata()[0] for line in bottom.lines[1:]] == pytest.approx([100, 300])  # Sq, and three times that
+    np.testing.assert_allclose(edges(middle, "asperity load $F_C/F_T$"), [[0, 0, 0], [0.8, 0.4, 0.0]], atol=1e-12)
+    np.testing.assert_allclose(edges(middle, "film load $F_H/F_T$"), [[0.8, 0.4, 0.0], [1, 1, 1]], atol=1e-12)
+    np.testing.assert_allclose(data(bottom, "full-load film thickness"), [[0.01, 0.1, 1.0], [20, 90, 450]])
+    np.testing.assert_allclose(data(bottom, "central separation"), [[0.01, 0.1, 1.0], [30, 100, 450]])
+    assert [line.get_ydata()[0] for line in bottom.lines[2:]] == pytest.approx([100, 300])  # Sq, and three times that
     assert "(m/s)" in bottom.get_xlabel() and "(nm)" in bottom.get_ylabel() and "(-)" in middle.get_ylabel()
+
+
+def test_the_band_between_the_points_has_no_bulges():
+    """Between two points its relative width stays between theirs, and it passes through them."""
+    speed = np.geomspace(0.01, 1.0, 5)
+    width = np.array([0.05, 0.05, 0.3, 0.02, 0.02])
+    f = np.array([0.09, 0.07, 0.04, 0.03, 0.05])
+    fine = np.geomspace(0.01, 1.0, 401)
+    line = np.exp(np.interp(np.log(fine), np.log(speed), np.log(f)))
+    axes = new_figure().subplots()
+    interval_band(
+        axes, speed, {"coefficient": f, "interval_low": f * (1 - width), "interval_high": f * (1 + width)}, (fine, line)
+    )
+    low, high = edges(axes, "95 % interval, without model-form error")
+    for band, sign in ((high, 1), (low, -1)):
+        relative = sign * (band / line - 1)
+        np.testing.assert_allclose(relative[::100], width, rtol=1e-9)
+        piece = np.minimum(np.arange(401) // 100, 3)
+        ends = np.sort([width[piece], width[piece + 1]], axis=0)
+        assert (relative >= ends[0] - 1e-12).all() and (relative <= ends[1] + 1e-12).all()
+
+
+def test_a_picture_is_drawn_as_the_command_asks(figures, tmp_path, monkeypatch):
+    """Panels, scales of the axes, and a width for the column of a journal."""
+    asked = []
+    monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", lambda *_, **__: asked.append(_[-1]))
+    scene = tmp_path / "s.toml"
+    scene.write_text(SCENE.with_(motion={"entrainment_speed": 0.1}).to_toml())
+    out = str(tmp_path / "out")
+    main(["run", str(scene), "--speeds", "0.1,1", "--out", out])
+    main(["plot", out, "--panels", "friction, film", "--x-scale", "linear", "--y-scale", "log", "--width", "85 mm"])
+    plot_stribeck("x.png", COLUMNS, "title", [()] * 4, options=asked[-1])
+    top, bottom = figures[-1].axes
+    assert figures[-1].get_figwidth() == pytest.approx(85 / 25.4)
+    assert top.get_yscale() == "log" and bottom.get_xscale() == "linear" and "film" in bottom.get_ylabel()
+    low, high = top.get_ylim()
+    assert 0 < low < 0.02 and high > 0.09
+    for wrong in (["--panels", "torque"], ["--y-scale", "cubic"], ["--width", "1 mm"]):
+        assert main(["plot", out, *wrong]) == 2
 
 
 def test_one_speed_has_numbers_on_its_axis_and_a_part_is_no_more_than_the_whole(figures):
@@ -114,25 +157,34 @@ def test_a_traction_curve_is_drawn_by_its_table(figures):
     plot_traction("x.png", columns, "title", [()] * 4)
     top, bottom = figures[0].axes
     np.testing.assert_allclose(data(top, "friction coefficient"), [[0.01, 0.1, 1.0], [0.09, 0.05, 0.02]])
-    np.testing.assert_allclose(data(bottom, "surfaces (flash)"), [[0.01, 0.1, 1.0], [3.0, 7.0, 21.0]])
-    np.testing.assert_allclose(data(bottom, "film above the surfaces"), [[0.01, 0.1, 1.0], [0.5, 1.0, 30.0]])
+    np.testing.assert_allclose(data(bottom, "surfaces (flash temperature)"), [[0.01, 0.1, 1.0], [3.0, 7.0, 21.0]])
+    np.testing.assert_allclose(data(bottom, "film, above the surfaces"), [[0.01, 0.1, 1.0], [0.5, 1.0, 30.0]])
     assert "(K)" in bottom.get_ylabel() and "slide-roll ratio (-)" == bottom.get_xlabel()
 
 
 def test_a_history_is_drawn_by_its_table(figures):
     t = np.array([0.0, 0.01, 0.02])
     columns = {"time": t, "entrainment_speed": np.array([0.1, -0.2, 0.3]), "load": np.array([5.0, 6.0, 8.0])}
-    columns |= {"central_film": t + 1e-7, "min_film": t + 0.5e-7, "mean_gap": t + 2e-7, "sliding_speed": 0 * t + 0.2}
+    columns |= {
+        "central_film": 1e-6 * t + 1e-7,
+        "min_film": 1e-6 * t + 0.5e-7,
+        "mean_gap": 1e-6 * t + 2e-7,
+        "sliding_speed": 0 * t + 0.2,
+    }
     columns |= {"contact_load": np.array([1.0, 3.0, 2.0]), "coefficient": np.array([0.03, 0.05, 0.04])}
     columns |= {"boundary_force": 0 * t + 0.1, "couette_force": 0 * t + 0.04, "rolling_force": 0 * t + 0.01}
     plot_history("x.png", columns, "title")
     first, second, third, fourth, load = figures[0].axes
     np.testing.assert_allclose(first.lines[0].get_data(), [[0, 10, 20], [0.1, -0.2, 0.3]])
     np.testing.assert_allclose(load.lines[0].get_data(), [[0, 10, 20], [5, 6, 8]])
-    for label, least in (("central film", 100.0), ("minimum film", 50.0), ("mean gap over the Hertz strip", 200.0)):
-        np.testing.assert_allclose(data(second, label), [[0, 10, 20], 1e9 * t + least])
-    np.testing.assert_allclose(edges(third, "contact $F_C$")[1], [0.2, 0.5, 0.25])
-    np.testing.assert_allclose(data(fourth, "from the film"), [[0, 10, 20], 0.05 / columns["load"]])
+    for label, least in (
+        ("central separation", 100.0),
+        ("smallest film", 50.0),
+        ("mean separation over the Hertz strip", 200.0),
+    ):
+        np.testing.assert_allclose(data(second, label), [[0, 10, 20], 1e3 * t + least])
+    np.testing.assert_allclose(edges(third, "asperity load $F_C/F_T$")[1], [0.2, 0.5, 0.25])
+    np.testing.assert_allclose(data(fourth, "fluid friction"), [[0, 10, 20], 0.05 / columns["load"]])
     assert "(nm)" in second.get_ylabel() and fourth.get_xlabel() == "time (ms)" and "(N)" in load.get_ylabel()
 
 
@@ -151,7 +203,10 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     plot_contact("x.png", prepared, point)
     above, section = figures[0].axes[:2]
     (image,) = above.images
-    np.testing.assert_allclose(image.get_array(), point.pressure.T / 1e9)
+    label = next(axes.get_ylabel() for axes in figures[0].axes if "pressure" in axes.get_ylabel())
+    unit = {"contact pressure (GPa)": 1e9, "contact pressure (MPa)": 1e6}[label]
+    np.testing.assert_allclose(image.get_array(), point.pressure.T / unit)
+    assert 1 <= image.get_array().max() < 1000  # a unit that fits the data
     row = int(np.argmax(point.pressure.max(axis=0)))
     dotted = [line.get_ydata()[0] for line in above.lines if line.get_linestyle() == ":"]
     assert dotted == pytest.approx([1.7 * row])
@@ -160,10 +215,10 @@ def test_the_picture_of_a_contact_holds_its_fields(figures, solved):
     assert dashed == pytest.approx([-half, half])
     x, film = data(section, "smooth film h")
     np.testing.assert_allclose(film, 1e9 * point.balance.film.film_at(x * 1e-6))
-    _, surface = data(section, "rough surface, not pressed")
+    _, surface = data(section, "rough surface, undeformed")
     np.testing.assert_allclose(surface, 1e9 * (prepared.surface.heights[:, row] - prepared.surface.heights.mean()))
-    _, under = data(section, "counterface, as if smooth")
-    _, deformed = data(section, "rough surface, pressed")
+    _, under = data(section, "smooth counterface")
+    _, deformed = data(section, "rough surface, deformed")
     np.testing.assert_allclose(under - deformed, 1e9 * point.gap[:, row], atol=1e-6)
     assert "(nm)" in section.get_ylabel()
     low, high = section.get_ylim()

@@ -77,7 +77,7 @@ def test_a_curve_is_drawn_on_given_axes(curve):
     assert curve.plot(ax, label="mine", color="k") is ax
     found = lines(ax)
     np.testing.assert_array_equal(found["mine"], np.stack([curve.speed, curve.coefficient], axis=1))
-    parts = found["from the contact spots"][:, 1] + found["from the film"][:, 1]
+    parts = found["asperity friction"][:, 1] + found["fluid friction"][:, 1]
     np.testing.assert_allclose(parts, curve.coefficient, rtol=1e-12)
     assert ax.get_xscale() == "log" and "m/s" in ax.get_xlabel()
 
@@ -93,7 +93,7 @@ def test_a_lone_point_shows_the_shares_of_its_load():
 def test_a_history_and_its_loop_are_drawn(history):
     found = lines(history.plot(axes()))
     np.testing.assert_allclose(found["friction coefficient"][:, 0], history.time * 1e3)
-    parts = found["from the contact spots"][:, 1] + found["from the film"][:, 1]
+    parts = found["asperity friction"][:, 1] + found["fluid friction"][:, 1]
     np.testing.assert_allclose(parts, found["friction coefficient"][:, 1], rtol=1e-9)
     loop = history.plot_loop(axes()).lines[0].get_xydata()
     np.testing.assert_array_equal(loop, np.stack([history.entrainment_speed, history.coefficient], axis=1))
