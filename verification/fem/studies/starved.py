@@ -4,6 +4,7 @@ The elements are those of `solvers.rough_ehl` with a smooth surface, on two grid
 both by the second order of the elements; the observed order is a check of its own.
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -23,7 +24,9 @@ OUTLET = 1.4  # half-widths
 GRIDS = {"quick": (48, 64, 96), "default": (64, 96, 128), "full": (96, 144, 192)}
 ACROSS = 2  # nodes over a period: nothing changes across
 ORDER = 2.0  # of bilinear elements
-FLOODED = 3.0  # half-widths: no more flow with a longer inlet, to 1 %
+CLOSE = 0.1  # half-widths between two inlets: the film of one starts that of the other
+NARROWEST = 1.05  # half-widths
+FLOODED = 2.4  # half-widths: within 1 % of the flow of a longer inlet
 SOURCE = "finite elements with the same inlet, extrapolated from two grids"
 ALLOWED = {"smallest film": 0.01, "film at x = 0": 0.01, "flow film": 0.01}
 
@@ -87,11 +90,12 @@ def fed_with(layer: float, cells: int, bodies: dict[int, Discretisation]) -> Rou
     known: dict[float, RoughStripFilm] = {}
 
     def excess(place: float) -> float:
-        last = next(reversed(known.values()), None)
-        known[place] = film_from(place, cells, bodies, last)
+        near = min(known, key=lambda other: abs(other - place), default=math.inf)
+        start = known[near] if abs(near - place) < CLOSE else None
+        known[place] = film_from(place, cells, bodies, start)
         return known[place].flow / speed / layer - 1
 
-    place = brentq(excess, FLOODED, 1.05, xtol=1e-3)
+    place = brentq(excess, NARROWEST, FLOODED, xtol=1e-3)
     return known.get(place) or film_from(place, cells, bodies)
 
 
