@@ -347,5 +347,6 @@ def moving_work(
     """Estimate the counted work [s of a usual core] of `solve_moving_strip` on so many ``cells``, and of so many
     `continued_strip`; on cells [m] along x, for a ``fastest`` body [m/s] whose map has this ``length`` [m]."""
     _, discarded, count = _steps(contact, cell, fastest, length, effort_for(contact, sq, cell))
-    steps = discarded + count + (continuations + ON_LONGER) * sum(continued_moments(contact, cell, discarded))
+    once_more = sum(continued_moments(contact, cell, discarded))
+    steps = discarded + max(count, once_more) + (continuations + ON_LONGER) * once_more
     return AT_REST * work_of_steps(cells, STEPS, KRYLOV) + steps * work_of_steps(cells, STEPS, KRYLOV)
