@@ -82,6 +82,14 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def checked_workers(workers: int, executor) -> int:
+    """Return the number of processes; raises `InputError` for a wrong one, and for one beside an ``executor``."""
+    workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
+    if workers > 1 and executor is not None:
+        raise InputError(" and an executor are given", "workers", "one of both")
+    return workers
+
+
 @contextmanager
 def pool(workers: int):
     """An executor of ``workers`` processes, which start at once. They end with this process, however it ends. None for

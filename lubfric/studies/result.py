@@ -12,7 +12,7 @@ from functools import partial
 import numpy as np
 
 from .._base import Shown, validate, with_default_errors
-from .._base.processes import checked_executor, spread
+from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import Scene
@@ -219,7 +219,15 @@ class StudyResult(Shown):
 
 @with_default_errors
 def study(
-    scene: Scene | StudyPlan, vary=None, speeds=None, *, points=None, executor=None, store=None, on_progress=None
+    scene: Scene | StudyPlan,
+    vary=None,
+    speeds=None,
+    *,
+    points=None,
+    executor=None,
+    store=None,
+    on_progress=None,
+    workers: int = 1,
 ) -> StudyResult:
     """Friction of a scene at every combination of given values, and at every entrainment speed or operating point.
 
@@ -243,6 +251,8 @@ def study(
     store : folder that receives every finished point at once. The same study, or a longer one, goes on from there and
         computes nothing twice. On a cluster all processes must see it
     on_progress : called as on_progress(done, total) when points (with "auto": curves) have ended
+    workers : processes of this machine that share the points, in the place of an executor. A script that asks for more
+        than one needs ``if __name__ == "__main__":``
 
     Returns
     -------
@@ -258,6 +268,9 @@ def study(
     if plan is scene and any(given is not None for given in (vary, speeds, points)):
         raise InputError("vary, speeds and points belong to the plan; give a scene with them, or a plan alone")
     executor = checked_executor(executor)
+    if checked_workers(workers, executor) > 1:
+        with pool(workers) as processes:
+            return study(plan, executor=processes, store=store, on_progress=on_progress)
     with opened(store) as kept:
         kept.add(PLAN, tuple(getattr(plan, name) for name in PLAN_FIELDS))
         return StudyResult.of_rows(plan, *_carried_out(plan, executor, kept, on_progress))

@@ -6,7 +6,8 @@ from functools import cached_property, partial
 import numpy as np
 
 from .._base import validate, with_default_errors, write_whole
-from .._base.processes import checked_executor, spread
+from .._base.jobs import parts_on
+from .._base.processes import checked_executor, checked_workers, pool, spread
 from ..errors import ITERATION_LIMIT, InputError, Report
 from ..estimate import FrictionResult
 from ..models.shared import (
@@ -125,6 +126,7 @@ def stribeck(
     store=None,
     on_point=None,
     raise_on_failure: bool = True,
+    workers: int = 1,
 ) -> StribeckResult:
     """The Stribeck curve of a scene: friction over the entrainment speed.
 
@@ -143,6 +145,8 @@ def stribeck(
     store : a folder that receives every point as it ends. The same call, or one with other speeds, goes on from there
     on_point : called as on_point(done, total, speed, outcome), with a result or an exception, as points end
     raise_on_failure : False returns a curve with failed points
+    workers : processes of this machine that share the speeds, or the parts of each point where there are fewer speeds;
+        in the place of an executor. A script that asks for more than one needs ``if __name__ == "__main__":``
 
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
@@ -150,6 +154,12 @@ def stribeck(
     executor, prepared = checked_executor(executor), at_tolerance(scene, tolerance, model)
     if not asked:
         span(prepared.scene, prepared.surface.sq)  # raises where there is no range to choose from
+    if checked_workers(workers, executor) > 1:
+        options = {"fields": fields, "store": store, "on_point": on_point, "raise_on_failure": raise_on_failure}
+        with pool(workers) as processes:
+            apart = len(asked) >= workers
+            with parts_on(None if apart else processes):
+                return stribeck(prepared, speeds, processes if apart else None, **options)
     found: dict[float, Outcome] = {}
     try:
         with opened(store) as folder:

@@ -125,6 +125,17 @@ def test_paths_and_numbers_of_numpy_are_kept_with_the_plan(tmp_path):
     same(lubfric.open_study(tmp_path), study)
 
 
+def test_any_number_of_processes_gives_the_same_bits(serial):
+    """Of a study, of a curve whose speeds they share, and of one with fewer speeds than processes."""
+    same(lubfric.study(SCENE, VARY, SPEEDS, workers=2), serial)
+    for speeds in (SPEEDS, SPEEDS[:1]):
+        one, two = (lubfric.stribeck(SCENE, speeds, workers=workers) for workers in (1, 2))
+        np.testing.assert_array_equal(one.coefficient, two.coefficient)
+        np.testing.assert_array_equal(one.uncertainty.interval, two.uncertainty.interval)
+    with ThreadPoolExecutor(1) as executor, pytest.raises(lubfric.InputError, match="workers"):
+        lubfric.stribeck(SCENE, SPEEDS, executor, workers=2)
+
+
 @pytest.mark.parametrize("kind", [ThreadPoolExecutor, ProcessPoolExecutor])
 def test_any_executor_gives_the_same_bits(serial, kind, tmp_path):
     with kind(2) as executor:
