@@ -5,68 +5,119 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, ProcessPoolExecutor
 from contextlib import contextmanager
+from itertools import islice
 from queue import SimpleQueue
+from typing import Any
 
 from ..errors import InputError
 from . import validate
 
-WATCH = 0.2  # s between two looks at whether the command still lives
+# Time between two looks at whether the command still lives [s].
+WATCH = 0.2
+
+# Most processes of a command.
 MOST_WORKERS = 1024
-LAST = 2.0  # s that an interrupted process is waited for
+
+# Time that an interrupted process is waited for [s].
+LAST = 2.0
+
+# Time that a scheduler has to answer [s].
+CONNECT = 10.0
+
+# Jobs that an executor holds at a time: more than any cluster has workers, and few enough to hold in memory.
+IN_FLIGHT = 4096
+
+# Times that an executor may lose a job before it is done here.
+ATTEMPTS = 3
+
 ENDING = (signal.SIGINT, signal.SIGTERM)
 MASKS = hasattr(signal, "pthread_sigmask")
 
 
 def checked_executor(executor):
-    """``executor``, None or a `concurrent.futures.Executor`; raises `InputError` for anything else."""
+    """Return ``executor``: None, a `concurrent.futures.Executor`, or that of a ``dask.distributed.Client``. Raises
+    `InputError` for anything else."""
+    if hasattr(executor, "get_executor"):
+        return executor.get_executor()
     if executor is not None and not hasattr(executor, "submit"):
-        raise InputError(f"executor = {validate.shown(executor)}; allowed: None or a concurrent.futures.Executor")
+        allowed = "None, a concurrent.futures.Executor or a dask.distributed.Client"
+        raise InputError(f"executor = {validate.shown(executor)}; allowed: {allowed}")
     return executor
 
 
-def spread(executor, jobs: Sequence[Callable[[], Iterator]]) -> Iterator:
+@contextmanager
+def cluster(address: str):
+    """Yield an executor of the Dask cluster whose scheduler listens at ``address``, such as "tcp://host:8786". Raises
+    `InputError` where none does."""
+    distributed = validate.installed("distributed", "cluster")
+    try:
+        client = distributed.Client(address, timeout=CONNECT)
+    except (OSError, ValueError, TimeoutError) as error:
+        said = f" = {validate.shown(address)}: no Dask scheduler answers ({validate.shown(str(error))})"
+        way_out = "start one with 'dask scheduler', and give its address, tcp://host:8786"
+        raise InputError(said, "--cluster", way_out=way_out) from None
+    try:
+        yield client.get_executor()
+    finally:
+        client.close(timeout=CONNECT)
+
+
+def spread(executor, jobs: Iterable[Callable[[], Iterator]]) -> Iterator:
     """Yield what the ``jobs`` yield. Done here, the values come at once; from an executor, those of a job come when it
     has ended.
 
-    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`. A job must pickle (a
-    `functools.partial` of what can be imported), and must catch what it may rightly raise. Any other exception is an
-    error of the program: jobs not yet begun are cancelled, and it is raised. A *worker* may be lost: killed, or its
-    machine gone. Then its jobs, and those of a pool that broke with it, are done here.
+    ``executor``: None (here, one after the other) or a `concurrent.futures.Executor`, which holds `IN_FLIGHT` jobs at
+    most at a time. A job must pickle (a `functools.partial` of what can be imported), and must catch what it may rightly
+    raise. Any other exception is an error of the program: jobs not yet begun are cancelled, and it is raised. A *worker*
+    or a scheduler may be lost: killed, or its machine gone. Then its jobs go to the executor again, and are done here if
+    it takes them no more or loses them `ATTEMPTS` times.
     """
     if executor is None:
         for job in jobs:
             yield from job()
         return
+    left = iter(jobs)
     ended: SimpleQueue = SimpleQueue()  # `concurrent.futures.wait` would leave locks behind when it is interrupted
-    waiting = {}
-    lost = []
-    for job in jobs:
+    waiting: dict[Any, tuple[Callable, int]] = {}
+    here: list[Callable[[], Iterator]] = []
+
+    def submit(job: Callable[[], Iterator], attempt: int) -> None:
         try:
-            waiting[executor.submit(_attempt, job)] = job
-        except BrokenExecutor:  # by a worker that was lost before
-            lost.append(job)
-    for future in waiting:
+            future = executor.submit(_attempt, job)
+        except (BrokenExecutor, RuntimeError, OSError):  # by a worker that was lost before, or an executor that is shut
+            here.append(job)
+            return
+        waiting[future] = (job, attempt)
         future.add_done_callback(ended.put)
+
     try:
-        while waiting:
-            future = ended.get()
-            job = waiting.pop(future)
-            try:
-                done, value = future.result()
-            except Exception:  # `_attempt` raises nothing: this is the executor's own
-                lost.append(job)
-                continue
-            if not done:
-                raise value
-            yield from value
+        for job in islice(left, IN_FLIGHT):
+            submit(job, 1)
+        while waiting or here:
+            if not waiting:
+                yield from here.pop()()
+            else:
+                future = ended.get()
+                job, attempt = waiting.pop(future)
+                try:
+                    done, value = future.result()
+                except Exception:  # `_attempt` raises nothing: this is the executor's own
+                    if attempt < ATTEMPTS:
+                        submit(job, attempt + 1)
+                    else:
+                        here.append(job)
+                    continue
+                if not done:
+                    raise value
+                yield from value
+            for job in islice(left, 1):
+                submit(job, 1)
     finally:
         for future in waiting:
             future.cancel()
-    for job in lost:
-        yield from job()
 
 
 def _attempt(job):

@@ -22,6 +22,8 @@ def run_study(arguments) -> None:
     """Plan, solve, write study.csv, study.png and report.html (and study.nc, study.parquet), and say the least and the
     largest f and power loss."""
     workers = validate.integer("--workers", arguments.workers, minimum=1, maximum=studies.MOST_WORKERS)
+    if arguments.cluster is not None and workers > 1:
+        raise InputError("--cluster and --workers both say who solves; give one of them")
     plan = studies.load_study(arguments.study, arguments.points)
     if arguments.explain:
         answer(plan.explain(arguments.out) + "\n")
@@ -32,7 +34,8 @@ def run_study(arguments) -> None:
     check_outputs(arguments, arguments.out, [*names, "study.png", "report.html"])
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
-    with keeping(lambda: _kept(arguments.out)), studies.pool(workers) as executor:
+    workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
+    with keeping(lambda: _kept(arguments.out)), workers_of as executor:
         result = studies.study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:

@@ -1,6 +1,6 @@
 """Many points: sweeps, studies, curves, fits, and the store that keeps them."""
 
-from .._base.processes import MOST_WORKERS, pool, processors
+from .._base.processes import MOST_WORKERS, cluster, pool, processors
 from .choose import AUTO, CHOSEN, span
 from .codec import classes_of, fits
 from .curve import CurveResult, csv_bytes

@@ -15,8 +15,8 @@ from ..models.shared import (
 from ..quantities import counted, worded_value
 from .choose import CHOSEN, first_speeds
 from .operating_points import POINT
-from .points import stored_rows
 from .store import Store
+from .study_table import StudyTable
 
 # Factor within which times are estimated, about.
 WITHIN = 3.0
@@ -56,16 +56,13 @@ def explain(plan, store=None) -> str:
         lines.append(f"      about {CHOSEN} speeds that each curve chooses")
     if plan.scene.transient is not None:
         lines.append("  steady   every point; what changes in time in the scene ([transient]) is left out")
-    requested = plan.requested
-    rows, ended = stored_rows(Store(store), requested)
-    left = [
-        (scene, tuple(u for u in requested[key] if u not in rows[key]))
-        for key, scene in dict(zip(plan.keys, plan.scenes)).items()
-        if key not in ended and not (requested[key] and len(rows[key]) == len(requested[key]))
-    ]
-    held = len(ended) if plan.chooses_speeds else sum(map(len, rows.values()))
+    table = StudyTable(plan)
+    table.read(Store(store))
+    scenes = plan.scenes
+    left = [(scenes[curve], speeds) for curve, _, speeds in table.left()]
+    held = len(table.ended) if plan.chooses_speeds else table.solved
     if held:
-        total = len(rows) if plan.chooses_speeds else sum(map(len, requested.values()))
+        total = len(plan.requested) if plan.chooses_speeds else sum(map(len, plan.requested.values()))
         what = "curves" if plan.chooses_speeds else "points"
         lines.append(f"  kept     {held} of {total} {what} are in {store} already")
     if not left:

@@ -3,7 +3,7 @@ numbers. A point is a function of its scene and speed alone, so one process or m
 several, give the same bits."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 from ..errors import InputError, LubfricError, ValidityError
@@ -18,10 +18,9 @@ from ..quantities import NUMBERS
 from ..samples import measured, whole_maps
 from ..scene import Scene
 from .choose import chosen, each_once, first_speeds
-from .store import CHOSEN, OUTCOME, Store, digest, fingerprint_without_files, point_key
+from .store import OUTCOME, Store, digest, fingerprint_without_files, point_key, shared
 
 Outcome = FrictionResult | LubfricError
-Rows = dict[str, dict[float, dict[str, Any]]]  # by the key of a curve and the speed [m/s], in the order of solving
 SPEED = "speed"
 STATUS = "status"
 CONVERGED = "converged"
@@ -47,7 +46,7 @@ def solved(
     kept : speeds at which film and contact are kept, which chosen ones include
     folder : of the store, or None
     """
-    store = Store(folder)
+    store = Store(folder if shared(folder) else None)
     done: tuple[float, ...] = ()
     model: Prepared | LubfricError
     try:
@@ -76,6 +75,12 @@ def solved(
         if not isinstance(model, MapError):
             store.add(digest(key), (done, True))
         yield key, math.nan, None
+
+
+def solved_together(tasks: Sequence[tuple[Scene, str, tuple[float, ...]]], folder: str | None = None) -> Iterator:
+    """Yield what `solved` yields of each of the ``tasks`` (scene, key, speeds)."""
+    for scene, key, speeds in tasks:
+        yield from solved(scene, key, speeds, folder=folder)
 
 
 def outcome_of(prepared: Prepared, speed: float, fields: bool = False) -> Outcome:
@@ -139,21 +144,3 @@ def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
     numbers |= zip(("uncertainty_low", "uncertainty_high"), outcome.uncertainty.interval)
     numbers |= zip(("power_loss_low", "power_loss_high"), outcome.power_loss_interval)
     return {STATUS: outcome.report.status, VALIDITY: in_a_cell(outcome.validity), **numbers}
-
-
-def stored_rows(store: Store, requested: Mapping[str, Sequence[float]]) -> tuple[Rows, set[str]]:
-    """Return the `Rows` that a store has of the ``requested`` speeds [m/s] of each key (none: those that its curve
-    chose), and the keys of the curves that chose all their speeds."""
-    rows: Rows = {key: {} for key in requested}
-    ended: set[str] = set()
-    for key, speeds in requested.items():
-        chosen_so_far, complete = ((), False) if speeds else store.get(digest(key), CHOSEN) or ((), False)
-        if complete:
-            ended.add(key)
-        for speed in speeds or chosen_so_far:
-            outcome = store.get(point_key(key, speed), OUTCOME)
-            if outcome is not None:
-                rows[key][speed] = row_of(speed, outcome)
-            elif not speeds:
-                ended.discard(key)  # a record of it was damaged
-    return rows, ended

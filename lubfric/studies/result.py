@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, is_dataclass
 from functools import partial
 
@@ -17,18 +17,19 @@ from ..errors import InputError
 from ..quantities import NUMBERS
 from ..scene import Scene
 from ..units import worded
-from .choose import MOST
 from .interpolate import Interpolant, through
 from .law import law_of_study
 from .operating_points import DURATION, POINT, mean_over_cycle
-from .plan import StudyPlan, plan_study
-from .points import CONVERGED, MISSING, SPEED, STATUS, UNUSED, VALIDITY, Rows, row_of, solved, stored_rows
-from .store import PLANNED, Store, opened
+from .plan import StudyPlan, plan_study, scenes_of
+from .points import CONVERGED, MISSING, SPEED, UNUSED, MapError, solved_together
+from .store import PLANNED, Store, digest, opened, point_key
+from .study_table import StudyTable
 from .tables import label, plot, to_csv, to_frame, to_netcdf, to_parquet, to_xarray
 
 PLAN = "plan"  # its key in the store
 PLAN_FIELDS = ("scene", "axes", "speeds", "keys", "point_speeds", "coordinates")  # what is stored of it
-TOGETHER = 8  # speeds of a curve that a process of an executor receives at once, with one preparation of the scene
+# Points that a process of an executor receives at once.
+TOGETHER = 8
 
 
 @dataclass(frozen=True, repr=False)
@@ -58,31 +59,6 @@ class StudyResult(Shown):
     plot, law = plot, law_of_study
     to_csv, to_frame, to_parquet = to_csv, to_frame, to_parquet
     to_xarray, to_netcdf = to_xarray, to_netcdf
-
-    @classmethod
-    def of_rows(cls, plan: StudyPlan, rows: Rows, ended: set[str]) -> StudyResult:
-        """The result of the ``rows``, in the order of a plan; ``ended``: as of `stored_rows`."""
-        chosen = plan.chooses_speeds
-        most = MOST if chosen else 1 if plan.paired else len(plan.speeds)
-        table = (len(plan.keys), most)
-        columns = {name: np.full(table, np.nan) for name in NUMBERS if chosen or name != SPEED}
-        status = np.full(table, UNUSED if chosen else MISSING, dtype=object)
-        validity = np.full(table, "", dtype=object)
-        words = {STATUS: status, VALIDITY: validity}
-        for curve, key in enumerate(plan.keys):
-            own = rows[key]
-            for at, speed in enumerate(own if chosen else plan.speeds_at(curve)):
-                for name, value in own.get(speed, {}).items():
-                    if name in words:
-                        words[name][curve, at] = value
-                    elif chosen or name != SPEED:
-                        columns.setdefault(name, np.full(table, np.nan))[curve, at] = value
-            if chosen and key not in ended:
-                status[curve, min(len(own), most - 1)] = MISSING
-        used = 1 + int(np.flatnonzero((status != UNUSED).any(axis=0)).max(initial=0))
-        shape = plan.curve_shape if plan.paired else (*plan.curve_shape, used)
-        cut = {name: column[:, :used].reshape(shape) for name, column in (columns | words).items()}
-        return cls(plan, {name: cut[name] for name in columns}, cut[STATUS], cut[VALIDITY])
 
     @property
     def chosen(self) -> bool:
@@ -246,10 +222,10 @@ def study(
         load, radius, speed (or u1 and u2), slide_roll_ratio (or sliding_speed), temperature, or any key of a scene; also
         position, angle, time and duration, which change no number (`lubfric.studies.operating_points`). The result has
         a dimension "point", and no "speed"; ``vary`` adds dimensions
-    executor : None, or any `concurrent.futures.Executor` (process pool, ``dask.distributed.Client.get_executor()``,
+    executor : None, a ``dask.distributed.Client``, or any `concurrent.futures.Executor` (a process pool,
         ``mpi4py.futures.MPIPoolExecutor``)
     store : folder that receives every finished point at once. The same study, or a longer one, goes on from there and
-        computes nothing twice. On a cluster all processes must see it
+        computes nothing twice. Workers that do not see it send their points to this process, which keeps them
     on_progress : called as on_progress(done, total) when points (with "auto": curves) have ended
     workers : processes of this machine that share the points, in the place of an executor. A script that asks for more
         than one needs ``if __name__ == "__main__":``
@@ -273,37 +249,70 @@ def study(
             return study(plan, executor=processes, store=store, on_progress=on_progress)
     with opened(store) as kept:
         kept.add(PLAN, tuple(getattr(plan, name) for name in PLAN_FIELDS))
-        return StudyResult.of_rows(plan, *_carried_out(plan, executor, kept, on_progress))
+        return _result(_carried_out(plan, executor, kept, on_progress))
 
 
-def _carried_out(plan: StudyPlan, executor, store: Store, on_progress: Callable | None) -> tuple[Rows, set[str]]:
-    requested = plan.requested
-    rows, ended = stored_rows(store, requested)
-    scenes = dict(zip(plan.keys, plan.scenes))  # equal scenes once
-    total = len(requested) if plan.chooses_speeds else sum(map(len, requested.values()))
+def _carried_out(plan: StudyPlan, executor, store: Store, on_progress: Callable | None) -> StudyTable:
+    """Return the table of all points of a plan, those in the ``store`` and those that are solved now."""
+    table = StudyTable(plan)
+    table.read(store)
+    total = len(plan.requested) if plan.chooses_speeds else sum(map(len, plan.requested.values()))
 
-    def tell() -> None:
+    def report() -> None:
         if on_progress:
-            on_progress(len(ended) if plan.chooses_speeds else sum(map(len, rows.values())), total)
+            on_progress(len(table.ended) if plan.chooses_speeds else table.solved, total)
 
-    tell()
-    jobs = []
-    for key, scene in scenes.items():
-        left = tuple(u for u in requested[key] if u not in rows[key])
-        size = TOGETHER if executor is not None else max(len(left), 1)
-        batches = [left[i : i + size] for i in range(0, len(left), size)]
-        if plan.chooses_speeds and key not in ended:
-            rows[key].clear()  # they come again, from the store, in the order in which they were chosen
-            batches = [()]
-        jobs += [partial(solved, scene, key, batch, folder=store.root) for batch in batches]
+    report()
+    jobs = _jobs(plan, list(table.left()), store, TOGETHER if executor is not None else None)
+    if plan.chooses_speeds:  # points of a curve come again, in the order in which they were chosen
+        for key in {*plan.keys} - table.ended:
+            table.forget(key)
     for key, speed, outcome in spread(executor, jobs):
         if outcome is None:
-            ended.add(key)
+            table.end(key)
+            _keep(store, digest(key), (table.chosen(key), True))
         else:
-            rows[key][speed] = row_of(speed, outcome)
+            table.put(key, speed, outcome)
+            if not isinstance(outcome, MapError):
+                _keep(store, point_key(key, speed), outcome)
         if outcome is None or not plan.chooses_speeds:
-            tell()
-    return rows, ended
+            report()
+    return table
+
+
+def _jobs(plan: StudyPlan, left: list, store: Store, together: int | None) -> Iterator[Callable[[], Iterator]]:
+    """Yield the jobs of what is ``left`` to solve (`StudyTable.left`), with at most so many points ``together``; None: a
+    curve each, done here."""
+    scenes = enumerate(scenes_of(plan.scene, plan.axes))
+    tasks: list[tuple[Scene, str, tuple[float, ...]]] = []
+    count = 0
+    for curve, key, speeds in sorted(left):
+        scene = next(scene for place, scene in scenes if place == curve)
+        size = together or max(len(speeds), 1)
+        for batch in [speeds[i : i + size] for i in range(0, len(speeds), size)] or [()]:
+            tasks.append((scene, key, batch))
+            count += len(batch) or size
+            if count >= size:
+                yield partial(solved_together, tuple(tasks), store.root)
+                tasks = []
+                count = 0
+    if tasks:
+        yield partial(solved_together, tuple(tasks), store.root)
+
+
+def _keep(store: Store, key: str, record) -> None:
+    """Keep a ``record`` that a worker could not, as it does not see the folder of the store."""
+    if not store.has(key):
+        store.add(key, record)
+
+
+def _result(table: StudyTable) -> StudyResult:
+    """Return the result of a ``table``."""
+    columns, status, validity = table.cut()
+    names = [name for name in NUMBERS if name in columns or name != SPEED or table.plan.chooses_speeds]
+    missing = np.full(status.shape, np.nan)
+    ordered = {name: columns.get(name, missing) for name in names}
+    return StudyResult(table.plan, ordered | columns, status, validity)
 
 
 @with_default_errors
@@ -328,4 +337,6 @@ def open_study(folder) -> StudyResult:
     if plan is None or len(plan.keys) != math.prod(plan.curve_shape):
         way_out = "give the folder of one, or run the study again in this folder, which writes its plan anew"
         raise InputError(f"{folder} holds no study, or its plan is damaged; {way_out}")
-    return StudyResult.of_rows(plan, *stored_rows(store, plan.requested))
+    table = StudyTable(plan)
+    table.read(store)
+    return _result(table)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .._base import FolderLock, clear_checked, clear_parts, files, read_checked, validate, write_checked
+from .._base import LOCK, FolderLock, clear_checked, clear_parts, files, read_checked, validate, write_checked
 from ..errors import ConvergenceError, InputError, LubfricError, OutputError, Report, ValidityError
 from ..estimate import FrictionResult
 from ..film import EHLResult
@@ -79,6 +79,15 @@ class Store:
             return None
         return _error(found) if isinstance(found, Failure) else found
 
+    @property
+    def empty(self) -> bool:
+        """Whether there is no record at all."""
+        return self.folder is None or not self.folder.is_dir()
+
+    def has(self, key: str) -> bool:
+        """Return whether there is a record of ``key``, sound or not."""
+        return self.folder is not None and os.path.lexists(self._path(key))
+
     def known(self, keys: Iterable[str], kind: Any = Any) -> dict:
         """All sound records of ``keys``."""
         found = {key: self.get(key, kind) for key in keys} if self.folder is not None and self.folder.is_dir() else {}
@@ -107,6 +116,12 @@ def opened(folder, classes: dict[str, type] = CLASSES, name: str = "store"):
         clear_parts(folder)
         clear_parts(folder / POINTS)
         yield Store(os.path.abspath(folder), classes)
+
+
+def shared(folder: str | None) -> bool:
+    """Return whether this process sees the ``folder`` of a store that another one has `opened`. A worker on another
+    machine may not; then the process that planned the work keeps what comes back."""
+    return folder is not None and os.path.exists(os.path.join(folder, LOCK))
 
 
 def point_key(scene_key: str, speed: float, fields: bool = False) -> str:

