@@ -87,14 +87,15 @@ def friction(
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
     prepared = at_speed(prepared, speed)
-    if fields != "fine":
+    fine = isinstance(fields, str) and fields == "fine"
+    if not fine:
         validate.instance("fields", fields, (bool, np.bool_), "True, False or 'fine'")
     workers = validate.integer("workers", workers, minimum=1, maximum=MOST_WORKERS)
     numerics = prepared.scene.numerics
     limit = most_work(prepared, speed)
     with warn_unusual_values(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
         with limited_work(limit):
-            result = _solved(prepared, speed, chosen, native=bool(fields), fine=fields == "fine", begun=begun)
+            result = _solved(prepared, speed, chosen, native=bool(fields), fine=fine, begun=begun)
         result = with_methods(prepared, result)
     if not math.isfinite(result.coefficient):
         raise InputError(

@@ -85,13 +85,13 @@ def solve_balance(
     notes: tuple[str, ...] = ()
     if not _certainly_touching(scene, speed, contact):
         try:
-            found = _film_alone(Point(scene, speed, contact, _first_settings(scene, alone=True)))
+            separated = _film_alone(Point(scene, speed, contact, _first_settings(scene, alone=True)))
         except ConvergenceError as error:  # then a balance in contact, one of a kind, is what excludes separation
             notes = (f"the film of the whole load was not solved ({error})",)
         else:
-            if found.contact.volume_residual <= 0:
-                return found
-            alone = found.film
+            if separated.contact.volume_residual <= 0:
+                return separated
+            alone = separated.film
     settings = replace(_first_settings(scene), correctable=correctable)
     if start is not None and start.film is not None and start.film.entrainment_speed == speed:
         settings = start.settings or settings
@@ -103,8 +103,8 @@ def _dry(scene: Scene, contact: RoughContact, why: str = "no entrainment: all co
     shape = contact.x**2 / (2 * scene.bodies.radius)
     state = contact.close(shape, load)
     report = _report(scene, CONVERGED, (0.0,), state, None, (why,))
-    found = forces(scene, None, state, load)
-    return Balance(0.0, load, None, state, found, report, respond(scene, contact, state, load, shape))
+    friction = forces(scene, None, state, load)
+    return Balance(0.0, load, None, state, friction, report, respond(scene, contact, state, load, shape))
 
 
 def _film_alone(point: Point) -> Balance:
@@ -112,15 +112,15 @@ def _film_alone(point: Point) -> Balance:
     load = point.scene.bodies.load
     trial = point.trial(load, 0.0)
     while True:
-        found = forces(point.scene, trial.film, trial.contact, 0.0)
-        cells = _cells(point, trial.film, found)
+        friction = forces(point.scene, trial.film, trial.contact, 0.0)
+        cells = _cells(point, trial.film, friction)
         if cells == point.settings.film_cells:
             break
         point = replace(point, settings=replace(point.settings, film_cells=cells))
         trial = point.trial(load, 0.0, trial)
     notes = ("separated: the film clears the summits",)
     report = _report(point.scene, CONVERGED, (0.0,), trial.contact, trial.film, notes)
-    return Balance(load, 0.0, trial.film, trial.contact, found, report, settings=point.settings)
+    return Balance(load, 0.0, trial.film, trial.contact, friction, report, settings=point.settings)
 
 
 def _certainly_touching(scene: Scene, speed: float, contact: RoughContact) -> bool:
@@ -247,8 +247,8 @@ def _root(point: Point, log_load_ratio: float, slope: float | None, step: float,
     lowest = max(math.log((load - most) / most), BOUNDS[0]) if most < load else BOUNDS[0]
 
     def residual(x: float, last: Trial | None) -> tuple[float, Trial]:
-        found = point.trial(*loads_at(load, x), last)
-        return found.contact.volume_residual, found
+        trial = point.trial(*loads_at(load, x), last)
+        return trial.contact.volume_residual, trial
 
     tolerance = point.settings.balance_tolerance
     fed = point.scene.lubricant.inlet_film is not None
@@ -262,9 +262,9 @@ def _balance(point: Point, root: Root, response: Response) -> Balance:
     trial = root.payload
     scene = point.scene
     report = _report(scene, root.status, root.history, trial.contact, trial.film, (), point.settings.balance_tolerance)
-    found = forces(scene, trial.film, trial.contact, trial.contact_load)
+    friction = forces(scene, trial.film, trial.contact, trial.contact_load)
     loads = trial.film_load, trial.contact_load
-    return Balance(*loads, trial.film, trial.contact, found, report, response, point.settings)
+    return Balance(*loads, trial.film, trial.contact, friction, report, response, point.settings)
 
 
 def _first_settings(scene: Scene, alone: bool = False) -> Settings:
@@ -306,12 +306,12 @@ def _tightened(now: float, needed: float) -> float:
     return now if now <= budget.SLACK * needed else needed
 
 
-def _cells(point: Point, film: EHLResult, found: Forces) -> int:
+def _cells(point: Point, film: EHLResult, friction: Forces) -> int:
     """Least number of cells of the film: twice its present number where the sum of its shear stress is not exact
     enough. It stays where that sum is of stresses that no oil carries."""
     numerics = point.scene.numerics
     now = point.settings.film_cells
-    resolved = found.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(found.shear)
+    resolved = friction.quadrature <= budget.SHEAR_SUM * numerics.tolerance or meaningless(friction.shear)
     if numerics.film_tolerance is not None or resolved:
         return now
     return min(2 * film.cells, max(budget.MOST_CELLS, now))

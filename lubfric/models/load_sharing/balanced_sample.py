@@ -289,8 +289,8 @@ def _reference(prepared: Prepared, speed: float, sample: Sample) -> Balance | No
         except LubfricError:
             return None
 
-    found = prepared.memo.get(ReferenceKey(sample.cells.coarsening, "balance", nearest, speed > 0), make)
-    return found if found is not None and found.response is not None else None
+    balance = prepared.memo.get(ReferenceKey(sample.cells.coarsening, "balance", nearest, speed > 0), make)
+    return balance if balance is not None and balance.response is not None else None
 
 
 def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) -> CellEffect:
@@ -305,10 +305,10 @@ def _effect(prepared: Prepared, point: Point, balance: Balance, sample: Sample) 
         def make() -> CellEffect:
             return effect_of_cells(prepared, there, reference, sample)
 
-        found = prepared.memo.get(
+        effect = prepared.memo.get(
             ReferenceKey(sample.cells.coarsening, "effect of cells", there.speed, there.speed > 0), make
         )
-        more = found.at_load(balance.contact_load).remaining_change - found.remaining_change
+        more = effect.at_load(balance.contact_load).remaining_change - effect.remaining_change
         if response.relative("coefficient", more) <= REFERENCED * prepared.scene.numerics.tolerance:
-            return found
+            return effect
     return effect_of_cells(prepared, point, balance, sample)

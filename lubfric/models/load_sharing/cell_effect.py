@@ -208,8 +208,8 @@ def mean_error(steps: Sequence[CellStep]) -> BlockError:
     no scatter: it is taken to be as large as the changes themselves.
     """
     if all(math.isfinite(step.error.error) for step in steps):
-        found = add_errors(*(step.error for step in steps))
-        return BlockError(found.error / len(steps), found.freedom)
+        within = add_errors(*(step.error for step in steps))
+        return BlockError(within.error / len(steps), within.freedom)
     gaps = np.array([step.gap for step in steps])
     few = gaps.size < FEWEST
     scatter = float(np.sqrt(np.mean(gaps**2))) if few else float(np.std(gaps, ddof=1))

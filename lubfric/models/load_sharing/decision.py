@@ -19,8 +19,8 @@ def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: fl
     heat = ""
     if film is not None:
         heat = balance.forces.heat.text(tolerance)
-        if (missed := balance.forces.quadrature) > budget.SHEAR_SUM * tolerance:
-            text = f"the film's friction is not resolved (a pressure spike?): estimated error {100 * missed:.1g} % of f"
+        if (error := balance.forces.quadrature) > budget.SHEAR_SUM * tolerance:
+            text = f"the film's friction is not resolved (a pressure spike?): estimated error {100 * error:.1g} % of f"
             notes = (*notes, text)
     return Decision(
         model="load sharing",

@@ -70,8 +70,8 @@ def errors_of(scene: Scene, found: BalancedSample) -> PointErrors:
     if not math.isfinite(sampling):
         sampling = math.nan
     of_model, unknown = model_error(found)
-    felt = response.per_film(forces, balance.contact.mean_film) if response is not None else forces.felt
-    by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**felt)
+    film_sensitivity = response.per_film(forces, balance.contact.mean_film) if response is not None else forces.felt
+    by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**film_sensitivity)
     of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
     both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
     left_out = dict.fromkeys(depending_on("heat"), forces.heat.reason(scene)) if balance.film is not None else {}
@@ -151,21 +151,21 @@ def _area_errors(scene: Scene, balance: Balance, scatter: Scatter) -> dict[str, 
     return {name: error / value if value > 0 else math.nan for name, (value, error) in zip(names, finite)}
 
 
-def _given_load(found: Forces, film: float) -> dict[str, float]:
+def _given_load(friction: Forces, film: float) -> dict[str, float]:
     """Errors of what depends on a film at a given load, whose relative error is ``film``. Where the heat of the inlet
     is left out, its factor is off by what is known of it; a temperature rise that was left out has no error (NaN)."""
-    heat = found.heat
+    heat = friction.heat
     of_heat = dict.fromkeys(depending_on("heat"), film if heat.heated else math.nan)
     of_heat["inlet_film_factor"] = math.nan if heat.inlet is None else film + heat.film_factor - heat.inlet.factor
-    return dict.fromkeys(depending_on("film"), film) | of_heat | _shear_errors(found, film)
+    return dict.fromkeys(depending_on("film"), film) | of_heat | _shear_errors(friction, film)
 
 
-def _shear_errors(found: Forces, film: float) -> dict[str, float]:
+def _shear_errors(friction: Forces, film: float) -> dict[str, float]:
     """Relative errors of the film's friction and its parts, by the relative error ``film`` of the film and by the sums
     over its nodes. The rolling part is a small difference of large numbers, so its error is large."""
-    shear = found.shear
+    shear = friction.shear
     rolling = film * max(abs(shear.rolling), shear.rolling_parts)
-    heat = found.heat.left_out * found.total
+    heat = friction.heat.left_out * friction.total
     parts = {
         "shear_force": (shear.total, film * abs(shear.couette) + rolling + heat),
         "couette_force": (shear.couette, film * abs(shear.couette) + heat),

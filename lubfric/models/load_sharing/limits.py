@@ -26,11 +26,11 @@ def limits_exceeded(prepared, speed: float, balance: Balance, ends: float) -> tu
     entries += of_patches(scene, prepared.surface.heights, balance.contact.real_contact_area_fraction)
     if film is not None:
         peak = float(film.pressure.max())
-        found = balance.forces
-        force = abs(found.coefficient) * scene.bodies.load
+        friction = balance.forces
+        force = abs(friction.coefficient) * scene.bodies.load
         entries += of_inlet(scene, film.contact, film.flow_film, force)
-        entries += of_film(scene, thickness, peak, found.shear, balance.film_load, force, found.heat)
-        typical = typical_heat(scene, film, balance.contact, balance.contact_load, force, found.shear)
+        entries += of_film(scene, thickness, peak, friction.shear, balance.film_load, force, friction.heat)
+        typical = typical_heat(scene, film, balance.contact, balance.contact_load, force, friction.shear)
         entries += of_typical_heat(scene, typical)
         if scene.numerics.film_deflection == "hydrodynamic" and balance.contact_load > 0:
             entries += of_deflection(scene, balance.contact.mean_gap)

@@ -138,25 +138,27 @@ def respond(
     return Response(slopes, ds_dgap, {name: _log_rate(low[name], high[name]) for name in low}, film_load / load)
 
 
-def quantities(found: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float) -> dict[str, float]:
-    """The numbers of a point that a balance determines, by name (`lubfric.quantities`). ``found``: forces of the
+def quantities(
+    friction: Forces, film: EHLResult | None, loads: tuple[float, float], mean_gap: float
+) -> dict[str, float]:
+    """The numbers of a point that a balance determines, by name (`lubfric.quantities`). ``friction``: forces of the
     ``film`` (None: none), which carries the first of ``loads`` [N], and of the contact, which carries the second."""
     return {
-        "coefficient": found.coefficient,
+        "coefficient": friction.coefficient,
         "contact_load": loads[1],
         "boundary_film_load": loads[1],
         "film_load": loads[0],
-        "shear_force": found.shear.total,
-        "couette_force": found.shear.couette,
-        "rolling_force": found.shear.rolling,
-        "rolling_resistance": found.shear.resistance,
-        "boundary_force": found.boundary,
+        "shear_force": friction.shear.total,
+        "couette_force": friction.shear.couette,
+        "rolling_force": friction.shear.rolling,
+        "rolling_resistance": friction.shear.resistance,
+        "boundary_force": friction.boundary,
         "min_film": math.nan if film is None else film.min_film,
         "central_film": math.nan if film is None else film.central_film,
         "mean_gap": mean_gap,
-        "inlet_film_factor": found.heat.inlet_film_factor,
-        "flash_temperature_rise": found.heat.flash,
-        "film_temperature_rise": found.heat.film,
+        "inlet_film_factor": friction.heat.inlet_film_factor,
+        "flash_temperature_rise": friction.heat.flash,
+        "film_temperature_rise": friction.heat.film,
     }
 
 

@@ -158,7 +158,7 @@ def moment_error(
         return math.nan
     slope = -softness / (contact_load / width)
     values = gap_influence(strip_gap(contact, state), line_load(contact, state), slope)
-    found = block_error(values, contact.spacing[1], correlation_length)
+    influence_error = block_error(values, contact.spacing[1], correlation_length)
     shares = contact_load / total, film_load / total
-    split = found.error / (softness * shares[1] + thinning * state.mean_film * shares[0])
-    return abs((viscous * shares[0] - boundary * shares[1]) / friction) * split if found.freedom else math.nan
+    split = influence_error.error / (softness * shares[1] + thinning * state.mean_film * shares[0])
+    return abs((viscous * shares[0] - boundary * shares[1]) / friction) * split if influence_error.freedom else math.nan

@@ -181,8 +181,8 @@ def of_heat(scene, heat) -> Iterator[Validity]:
     tolerance = scene.numerics.tolerance
     if heat.used:
         spread = abs(heat.inlet.other / max(heat.inlet.factor, 1e-12) - 1)
-        beyond = abs(scene.motion.slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
-        if beyond and spread > tolerance:
+        extrapolated = abs(scene.motion.slide_roll_ratio) > SLIDING or heat.inlet.thermal_number > LARGEST
+        if extrapolated and spread > tolerance:
             yield Validity(
                 "difference of two published inlet heating factors",
                 spread,

@@ -92,16 +92,16 @@ def of_map(slope: float, lengths: float, cells: Iterable[float] = ()) -> Iterato
 def expected(scene, surface, speeds) -> tuple[tuple[float | None, Validity], ...]:
     """Pairs (speed [m/s], entry). The speed is None if the entry is about bodies or map. Films are those expected
     under the whole load."""
-    found = [(None, entry) for entry in beforehand(scene, surface)]
+    entries_by_speed = [(None, entry) for entry in beforehand(scene, surface)]
     if scene.numerics.model == "deterministic":
-        return tuple(found)
+        return tuple(entries_by_speed)
     for speed in speeds:
         if speed == 0:
             continue
         film = scene.line_contact(speed).expected_film
         entries = [*of_motion(scene, speed, film), *_of_film(scene, speed, film)]
-        found += [(speed, entry) for entry in entries]
-    return tuple(found)
+        entries_by_speed += [(speed, entry) for entry in entries]
+    return tuple(entries_by_speed)
 
 
 def _of_film(scene, speed: float, film: float) -> list[Validity]:

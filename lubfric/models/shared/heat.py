@@ -112,7 +112,7 @@ def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
     if numerics.heat == "off" or not lubricant.heats or speed == 0:
         return None, False
     bodies = scene.bodies
-    found = inlet_heat(
+    inlet = inlet_heat(
         viscosity=lubricant.viscosity,
         temperature_coefficient=lubricant.temperature_coefficient,
         conductivity=lubricant.conductivity,
@@ -120,19 +120,19 @@ def inlet_at(scene, speed: float) -> tuple[InletHeat | None, bool]:
         slide_roll_ratio=scene.motion.slide_roll_ratio,
         pressure_ratio=4 / math.pi * bodies.mean_hertz_pressure / bodies.e_prime,
     )
-    wanted = numerics.heat == "on" or 1 - found.factor > budget.INLET * numerics.tolerance
-    return found, wanted
+    wanted = numerics.heat == "on" or 1 - inlet.factor > budget.INLET * numerics.tolerance
+    return inlet, wanted
 
 
 def film_lubricant(scene, speed: float) -> Lubricant:
     """The lubricant with which the film is solved: with the viscosity in the heated inlet at which Moes' film is
     thinner by the factor of `inlet_at`."""
-    found, used = inlet_at(scene, speed)
-    if found is None or not used or found.factor > 1 - NOTHING:
+    inlet, used = inlet_at(scene, speed)
+    if inlet is None or not used or inlet.factor > 1 - NOTHING:
         return scene.lubricant
-    if found.factor <= 0:
+    if inlet.factor <= 0:
         raise InputError(
-            f"heat of the inlet: thermal number eta0 beta U²/k = {found.thermal_number:.3g} leaves no film by the "
+            f"heat of the inlet: thermal number eta0 beta U²/k = {inlet.thermal_number:.3g} leaves no film by the "
             f"factor of Gupta et al. (1992); allowed: up to about {LARGEST:g}, or numerics.heat = 'off' (speed, "
             "viscosity, temperature_coefficient and their units?)"
         )
@@ -143,8 +143,8 @@ def film_lubricant(scene, speed: float) -> Lubricant:
         made = replace(lubricant, viscosity=lubricant.viscosity * math.exp(log_share))
         return math.log(replace(whole, lubricant=made).moes_film / whole.moes_film)
 
-    wanted = math.log(found.factor)
-    share = math.log(found.factor) / 0.7
+    wanted = math.log(inlet.factor)
+    share = math.log(inlet.factor) / 0.7
     for _ in range(6):  # the exponent of the viscosity changes slowly, between 0.5 and 1
         share *= wanted / thinner(share)
     return replace(lubricant, viscosity=lubricant.viscosity * math.exp(share))
@@ -169,14 +169,14 @@ def point_heat(scene, film, contact, contact_load, force: float, shear) -> tuple
     peclet = peclet_at(scene, film.entrainment_speed)
     if numerics.heat != "on" and change <= budget.HEAT * numerics.tolerance:
         return Heat(inlet, used, change, None, peclet), warm, None
-    found = heated_film(lubricant, *nodes)
+    heated = heated_film(lubricant, *nodes)
     (x, *_, around) = nodes
-    change = change_by(found.stress)
+    change = change_by(heated.stress)
 
     def stress(at, pressure, thickness):
-        return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, found.wall))[0]
+        return heated_stress(lubricant, pressure, thickness, around.sliding, np.interp(at, x, heated.wall))[0]
 
-    return Heat(inlet, used, change, found, peclet), warm, stress
+    return Heat(inlet, used, change, heated, peclet), warm, stress
 
 
 def _nodes(scene, film, contact, contact_load: float, force: float):

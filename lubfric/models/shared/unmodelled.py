@@ -47,15 +47,17 @@ def unmodelled_effects(
     """
     bodies = scene.bodies
     rubbing, friction = known or _parts(scene, sq, speed)
-    found = [] if speed == 0 or not friction > 0 else _of_film(scene, sq, speed, known)
-    told = any("boundary_friction" in name for name, *_ in scene.ranges) or bodies.boundary_friction_table is not None
-    if friction > 0 and not told:
+    effects = [] if speed == 0 or not friction > 0 else _of_film(scene, sq, speed, known)
+    is_stated = (
+        any("boundary_friction" in name for name, *_ in scene.ranges) or bodies.boundary_friction_table is not None
+    )
+    if friction > 0 and not is_stated:
         what = f"another additive, a coating or a tribofilm (f_b x {RUBBED:g})"
-        found.append(
+        effects.append(
             (what, (RUBBED - 1) * rubbing / friction, "give bodies.boundary_friction_coefficient = [low, high]")
         )
     ends = 2 * bodies.half_width / bodies.width
-    found.append(
+    effects.append(
         (
             "the ends of the line, edge pressure and misalignment",
             ends,
@@ -63,7 +65,7 @@ def unmodelled_effects(
         )
     )
     tolerance = scene.numerics.tolerance
-    kept = [lack for lack in found if not abs(lack[1]) <= tolerance]
+    kept = [lack for lack in effects if not abs(lack[1]) <= tolerance]
     return tuple(sorted(kept, key=lambda lack: -abs(lack[1]) if math.isfinite(lack[1]) else 0.0))
 
 
@@ -85,27 +87,27 @@ def _of_film(scene: Scene, sq: float, speed: float, known) -> list[UnmodelledEff
             after = _scaled(rubs, before, after, known)
         return after[1] / (known or before)[1] - 1
 
-    found: list[UnmodelledEffect] = []
+    effects: list[UnmodelledEffect] = []
     if lubricant.floods:
-        told = f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if not, give lubricant.inlet_length"
+        words = f"the inlet is flooded if oil reaches {1e3 * reach:.2g} mm ahead of the contact line; if not, give lubricant.inlet_length"
         size = math.nan if narrow and alone else change(scene, sq, STARVED)  # the rolling part may fall by more
-        found.append((f"a starved inlet (film x {STARVED:g})", size, told))
-    told = f"oil in the inlet {WARMER:g} K warmer than the given temperature"
-    found.append((told, change(warm, sq), "give lubricant.temperature as it is at the inlet of the contact"))
+        effects.append((f"a starved inlet (film x {STARVED:g})", size, words))
+    words = f"oil in the inlet {WARMER:g} K warmer than the given temperature"
+    effects.append((words, change(warm, sq), "give lubricant.temperature as it is at the inlet of the contact"))
     if sq > 0:
-        told = f"running-in of the surface (Sq x {WORN:g})"
-        found.append(
-            (told, change(scene, WORN * sq), "give a height map measured after running-in, or use lubfric.run_in")
+        words = f"running-in of the surface (Sq x {WORN:g})"
+        effects.append(
+            (words, change(scene, WORN * sq), "give a height map measured after running-in, or use lubfric.run_in")
         )
         at_rest = scene.numerics.model == "load-sharing" and moves(scene)  # the other model moves it
         if at_rest and line.expected_film < THICK * sq:
-            found.append(
+            effects.append(
                 ("motion of the roughness through the contact", math.nan, "numerics.model = 'deterministic' models it")
             )
     if scene.bodies.e_prime < SOFT:
-        told = f"a cover that is thinner than {1e3 * DEEP * line.half_width:.2g} mm, and its damping"
-        found.append((told, math.nan, "give e_prime so that the contact is as wide as measured"))
-    return found
+        words = f"a cover that is thinner than {1e3 * DEEP * line.half_width:.2g} mm, and its damping"
+        effects.append((words, math.nan, "give e_prime so that the contact is as wide as measured"))
+    return effects
 
 
 def _scaled(f_b: float, before, after, known) -> tuple[float, float]:
