@@ -1,10 +1,15 @@
 """How dataclasses of results and scenes behave: arrays stay read-only, derived values are not pickled, and they print
 as one line, or as the call that makes them."""
 
+import base64
+import io
 from dataclasses import MISSING, fields
+from html import escape
 from typing import Any, ClassVar
 
 import numpy as np
+
+from ..errors import LubfricError
 
 
 class FrozenArrays:
@@ -51,6 +56,30 @@ class Shown:
         if facts := self._facts():
             return f"<{type(self).__name__}: {', '.join(f'{k} {v}' if k else v for k, v in facts.items())}>"
         return f"{type(self).__name__}({', '.join(f'{name}={value!r}' for name, value in changed(self).items())})"
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows: a table of what it prints, and its picture where it has a method ``plot``."""
+        facts = self._facts() or {name: repr(value) for name, value in changed(self).items()}
+        cells = (f"<tr><th>{escape(name)}</th><td>{escape(text)}</td></tr>" for name, text in facts.items())
+        table = f"<table><caption>{type(self).__name__}</caption>{''.join(cells)}</table>"
+        return f"<div>{table}{_picture_of(self)}</div>"
+
+
+def _picture_of(shown: Any) -> str:
+    """Return the picture that ``shown.plot(axes)`` draws, as an image of HTML; "" where there is nothing to draw."""
+    if not hasattr(type(shown), "plot"):
+        return ""
+    from .figures import new_figure
+
+    figure = new_figure(figsize=(7, 4.5))
+    try:
+        shown.plot(figure.subplots())
+    except LubfricError:  # no point of it has an answer
+        return ""
+    content = io.BytesIO()
+    figure.savefig(content, format="png", dpi=100)
+    data = base64.b64encode(content.getvalue()).decode()
+    return f'<img alt="{type(shown).__name__}" src="data:image/png;base64,{data}">'
 
 
 def changed(part: Any) -> dict[str, Any]:

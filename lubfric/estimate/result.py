@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from .._base import Renamed, Shown, figures, packaged
+from .._base import Renamed, Shown, figures, packaged, validate
 from ..errors import InputError, Report
 from ..models import ContactFields
 from ..models.deterministic import DeterministicResult
@@ -19,6 +19,7 @@ from ..models.shared import (
     Validity,
 )
 from ..quantities import PointQuantities, described_in_doc, in_words
+from .bibtex import bibtex
 from .uncertainty import FieldErrors, Uncertainty
 
 
@@ -73,9 +74,10 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
             facts["warnings"] = "; ".join(entry.what for entry in self.validity)
         return facts
 
-    def cite(self) -> str:
-        """The papers behind what was used for this result, one a line, the model's first."""
-        return cited(self.methods)
+    def cite(self, format: str = "text") -> str:
+        """Return the papers behind what was used for this result, the model's first: one a line, or with ``format``
+        "bibtex" as BibTeX entries."""
+        return cited(self.methods, format)
 
     @property
     def balance(self) -> Balance | None:
@@ -138,12 +140,15 @@ def _interval(interval: tuple[float, float]) -> str:
     return f" ({low:.4g} to {high:.4g} at 95 %)" if np.isfinite(low) and np.isfinite(high) else ""
 
 
-def cited(methods: Iterable[str]) -> str:
-    """The papers of ``methods`` (keys of papers.toml), one a line, the model's first."""
+def cited(methods: Iterable[str], format: str = "text") -> str:
+    """Return the papers of ``methods`` (keys of papers.toml), the model's first, in the ``format`` "text" or
+    "bibtex"."""
+    validate.choice("format", format, ("text", "bibtex"))
     used = set(methods)
-    return "\n".join(paper for name, paper in packaged(__package__, "papers.toml").items() if name in used)
+    lines = [paper for name, paper in packaged(__package__, "papers.toml").items() if name in used]
+    return bibtex(lines) if format == "bibtex" else "\n".join(lines)
 
 
-def together(points) -> str:
-    """The papers of several results, each once, one a line."""
-    return cited(name for point in points for name in point.methods)
+def together(points: Iterable[FrictionResult], format: str = "text") -> str:
+    """Return the papers of several results, each once, in the ``format`` of `cited`."""
+    return cited((name for point in points for name in point.methods), format)

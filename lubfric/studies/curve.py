@@ -68,9 +68,10 @@ class CurveResult(Shown):
         values = getattr(self, name).tolist()
         return gathered([(value, self.entries(i)) for i, value in enumerate(values)], unit, plural)
 
-    def cite(self) -> str:
-        """The papers behind what was used at any of the points, one a line, the model's first."""
-        return together(point for point in self.points if point is not None)
+    def cite(self, format: str = "text") -> str:
+        """Return the papers behind what was used at any of the points, the model's first: one a line, or with
+        ``format`` "bibtex" as BibTeX entries."""
+        return together((point for point in self.points if point is not None), format)
 
     def _facts(self) -> dict[str, str]:
         name, symbol, unit, plural = self.SWEPT

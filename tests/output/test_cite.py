@@ -1,6 +1,7 @@
 """A result cites what it used, and nothing else; the command tells its version."""
 
 import importlib.metadata
+import re
 from functools import cache
 
 import numpy
@@ -8,6 +9,8 @@ import pytest
 from scene_text import paper_scene
 
 import lubfric
+from lubfric._base import packaged
+from lubfric.estimate.result import cited
 from lubfric.output import main
 
 
@@ -110,3 +113,26 @@ def test_the_command_tells_its_version(capsys):
         main(["--version"])
     assert ended.value.code == 0 and capsys.readouterr().out.strip() == f"lubfric {lubfric.__version__}"
     assert importlib.metadata.version("lubfric")
+
+
+def test_papers_come_as_bibtex():
+    """Every line once, with its authors, year and DOI; keys differ."""
+    lines = [line for line in packaged("lubfric.estimate", "papers.toml").values()]
+    text = cited(packaged("lubfric.estimate", "papers.toml"), "bibtex")
+    keys = re.findall(r"@misc\{([^,]+),", text)
+    assert len(keys) == len(set(keys)) == len(lines) and text.count("{") == text.count("}")
+    first = text.partition("\n}")[0]
+    for words in (
+        "@misc{Akchurin2015,",
+        "author = {A. Akchurin and R. Bosman and P. M. Lugt and M. van Drogen}",
+        "doi = {10.1007/s11249-015-0536-z}",
+        "year = {2015}",
+        "howpublished = {Tribology Letters 59:19}",
+    ):
+        assert words in first
+    dois = re.findall(r"doi:(10\.[^\s,;]+[^\s,;:])", "\n".join(lines))
+    assert len(dois) > 15 and all(f"doi = {{{doi}}}" in text for doi in dois)
+    point = lubfric.friction(PATCH, 0.1)
+    assert point.cite("bibtex").count("@misc") == len(point.cite().splitlines())
+    with pytest.raises(lubfric.InputError, match="format"):
+        point.cite(format="word")

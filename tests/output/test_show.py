@@ -198,3 +198,15 @@ def test_the_lambda_ratio_is_that_of_the_full_load_whatever_the_asperities_carry
     assert point.lambda_ratio == pytest.approx(film / MODEL.surface.sq, rel=1e-9)
     assert point.contact_load > 0 and point.central_film > point.full_load_film
     assert np.isnan(lubfric.friction(MODEL, 0.0).lambda_ratio)
+
+
+def test_a_notebook_shows_a_table_and_a_picture(point, curve, history):
+    """A name of a user is text there, and no tag; what has nothing to draw shows its table."""
+    named = replace(SCENE, name="<b>R&D</b>")
+    for shown, drawn in ((named, False), (point, False), (curve, True), (history, True), (MODEL.surface, True)):
+        page = shown._repr_html_()
+        assert page.startswith("<div><table>") and ("data:image/png" in page) == drawn
+        assert type(shown).__name__ in page and page.count("<tr>") >= 1
+    assert "&lt;b&gt;R&amp;D&lt;/b&gt;" in named._repr_html_() and "<b>" not in named._repr_html_()
+    empty = replace(curve, coefficient=np.full(3, np.nan))
+    assert "<table>" in empty._repr_html_()
