@@ -76,7 +76,8 @@ class AsperityContact(FieldsOnly, RoughContact):
         )
 
     def _approach(self, film, load, carried) -> float:
-        """The approach [m] from first touch at which ``carried(approach)`` [N] of the map is ``load`` of the width."""
+        """Return the approach [m] from first touch at which ``carried(approach)`` [N] of the map is ``load`` of the
+        width."""
         from scipy.optimize import brentq
 
         width = self.cylinder.width
@@ -123,7 +124,8 @@ class AsperityContact(FieldsOnly, RoughContact):
         )
 
     def _contact_fraction(self, found: AsperityResult) -> np.ndarray:
-        """Share of the width inside the contact discs, column by column; 1 if overlapping discs add up to more."""
+        """Return the share of the width inside the contact discs, column by column; 1 if overlapping discs add up to
+        more."""
         centre = self.x[found.index[:, 0]]
         radius = np.sqrt(found.radii * found.overlap)
         edges = np.append(self.x - self.spacing[0] / 2, self.x[-1] + self.spacing[0] / 2)

@@ -51,7 +51,7 @@ class AsperityResult:
 def find_asperities(
     heights, spacing, e_prime, *, definition="summits", hardness=None, periodic=True
 ) -> Callable[..., AsperityResult]:
-    """The function that gives the contact of a height map at a separation, a number or (nx, ny); arguments as in
+    """Return the function that gives the contact of a height map at a separation, a number or (nx, ny); arguments as in
     `asperity_contact`. Summits are looked for only once."""
     heights = validate.array("heights", heights, "m", ndim=2)
     e_prime = validate.positive("e_prime", e_prime, "Pa")
@@ -119,10 +119,10 @@ def asperity_contact(
     An overlap delta on a radius R carries ``F = (2/3) E' sqrt(R) delta^1.5`` over ``pi a² = pi R delta`` (Hertz 1882).
     A Hertz pressure of peak p0 that is cut off at P_u leaves ``F = P_u pi a² (1 - s²/3)``, ``s = P_u/p0 < 1``.
     """
-    found = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
+    contact_at = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
     separation = validate.in_plain("separation", separation, "m")
     field = on_grid("separation", separation, np.shape(heights), "m")
-    return found(field if np.ndim(separation) else separation)
+    return contact_at(field if np.ndim(separation) else separation)
 
 
 @with_default_errors
@@ -138,7 +138,7 @@ def separation_for_load(
     tolerance=1e-3,
     raise_on_failure=True,
 ) -> AsperityResult:
-    """The separation at which independent asperities carry a given load.
+    """Return the separation at which independent asperities carry a given load.
 
     The flat comes down in steps, each 25 % longer than the last, at most to the deepest valley. When the load is
     reached, the last step is searched (Chandrupatla), until ``|load - target|/target <= tolerance``. The load of
@@ -160,12 +160,12 @@ def separation_for_load(
     InputError : a value out of range
     ConvergenceError : the model cannot carry the load, or jumps over it; carries report and the closest result
     """
-    found = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
+    contact_at = find_asperities(heights, spacing, e_prime, definition=definition, hardness=hardness, periodic=periodic)
     target = validate.positive("mean_pressure", mean_pressure, "Pa")
     tolerance = validate.number("tolerance", tolerance, "(-)", above=0.0, maximum=0.5)
     if np.ptp(heights) == 0:
         raise InputError("heights are all equal: no asperities; give a rough surface in m")
-    best, scanned, history = _closest(found, float(np.max(heights)), float(np.ptp(heights)), target, tolerance)
+    best, scanned, history = _closest(contact_at, float(np.max(heights)), float(np.ptp(heights)), target, tolerance)
     error = abs(best.mean_pressure / target - 1)
     most = f"at most {best.mean_pressure:.4g} Pa, at separation {best.separation:.4g} m"
     advice = "" if history else f"{definition} cannot carry a mean pressure of {target:.4g} Pa: {most}"
@@ -177,13 +177,13 @@ def separation_for_load(
     return returned(replace(best, report=report), raise_on_failure)
 
 
-def _closest(found, top: float, span: float, target: float, tolerance: float):
-    """The `AsperityResult` whose mean pressure is closest to ``target`` [Pa], of those that are ``found`` at
-    separations from the ``top`` down over the ``span`` of the heights [m]; the number of approaches scanned, and the
+def _closest(contact_at, top: float, span: float, target: float, tolerance: float):
+    """Return the `AsperityResult` whose mean pressure is closest to ``target`` [Pa], of those that are ``contact_at``
+    at separations from the ``top`` down over the ``span`` of the heights [m]; the number of approaches scanned, and the
     errors of the search in the last of them; none if the asperities carry less at every approach (then: the most)."""
 
     def excess(approach, _=None):
-        result = found(float(top - approach))
+        result = contact_at(float(top - approach))
         return result.mean_pressure / target - 1, result
 
     before = 0.0

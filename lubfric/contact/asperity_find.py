@@ -52,28 +52,29 @@ FINDERS = {"summits": _summit_finder, "patches": _patch_finder}
 
 
 def _labelled(touching) -> np.ndarray:
-    """Number of the region of every touching cell, from 1 on; 0 elsewhere. Neighbours touch diagonally too."""
+    """Return the number of the region of every touching cell, from 1 on; 0 elsewhere. Neighbours touch diagonally
+    too."""
     from scipy import ndimage
 
     return ndimage.label(touching, np.ones((3, 3)))[0]
 
 
 def _crossings(label, periodic) -> np.ndarray:
-    """Regions that touch across a periodic edge, also diagonally: rows (region, region, by how many periods the second
-    lies ahead along each axis)."""
+    """Return the regions that touch across a periodic edge, also diagonally: rows (region, region, by how many periods
+    the second lies ahead along each axis)."""
     cells = np.argwhere(label)
-    found = []
+    pairs = []
     for step in AHEAD:
         periods, there = np.divmod(cells + step, label.shape)
         across = periods.any(axis=1) & ((periods == 0) | periodic).all(axis=1)
         pair = (label[tuple(part[across].T)] for part in (cells, there))
-        found.append(np.column_stack([*pair, periods[across]]))
-    rows = np.concatenate(found)
+        pairs.append(np.column_stack([*pair, periods[across]]))
+    rows = np.concatenate(pairs)
     return rows[rows[:, 1] > 0]
 
 
 def _joined(label, periodic) -> np.ndarray:
-    """Regions that touch across a periodic edge (also diagonally) get one number."""
+    """Return ``label`` with one number for regions that touch across a periodic edge (also diagonally)."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -86,8 +87,8 @@ def _joined(label, periodic) -> np.ndarray:
 
 
 def ridges(heights, bearing: float, periodic) -> int:
-    """How many patches have no ends: above the separation at which ``bearing`` of the map touches, a way along them
-    leads to the same cell of another period."""
+    """Return how many patches have no ends: above the separation at which ``bearing`` of the map touches, a way along
+    them leads to the same cell of another period."""
     label = _labelled(heights > np.quantile(heights, 1 - bearing))
     ways = defaultdict(list)
     for a, b, i, j in np.unique(_crossings(label, periodic), axis=0).tolist():

@@ -42,8 +42,8 @@ class CandidateCells:
 
     @staticmethod
     def flagged(operator, flags) -> CandidateCells:
-        """Cells whose ``flags`` are set, or all if that is most of them. With a free axis x beside a periodic y, only
-        the rows that contain some."""
+        """Return the cells whose ``flags`` are set, or all if that is most of them. With a free axis x beside a
+        periodic y, only the rows that contain some."""
         whole = flags.shape
         rows = slice(None)
         deflection = operator.apply
@@ -58,22 +58,23 @@ class CandidateCells:
         return CandidateCells(deflection, None if many else np.flatnonzero(flags), rows, whole)
 
     def gather(self, field) -> np.ndarray:
-        """Values of a field of the rows, one axis."""
+        """Return the values of a field of the rows, one axis."""
         return field.ravel() if self.index is None else field.ravel().take(self.index)
 
     def field(self, values) -> np.ndarray:
-        """Field of the rows in single precision with these values, zero elsewhere; valid until the next call."""
+        """Return the field of the rows in single precision with these values, zero elsewhere; valid until the next
+        call."""
         if self.index is None:
             return values.reshape(self.shape)
         self._field.ravel()[self.index] = values
         return self._field
 
     def take(self, field, dtype=float, factor: float = 1.0) -> np.ndarray:
-        """Copy of the values from a field of the whole patch, times ``factor``, in ``dtype``."""
+        """Return a copy of the values from a field of the whole patch, times ``factor``, in ``dtype``."""
         return (factor * self.gather(field[self.rows])).astype(dtype, copy=False)
 
     def spread(self, values) -> np.ndarray:
-        """Field of the whole patch with these values, zero elsewhere."""
+        """Return the field of the whole patch with these values, zero elsewhere."""
         field = np.zeros(self.whole)
         field[self.rows].ravel()[slice(None) if self.index is None else self.index] = values
         return field
@@ -81,8 +82,8 @@ class CandidateCells:
 
 @lru_cache(maxsize=16)
 def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
-    """Mean of |k| [1/m] times 1, cos(kx dx), cos(ky dy) and the product of the two; an axis of one cell has no
-    waves."""
+    """Return the mean of |k| [1/m] times 1, cos(kx dx), cos(ky dy) and the product of the two; an axis of one cell has
+    no waves."""
     turns = [(np.arange(POINTS) + 0.5) * (np.pi / POINTS) if n > 1 else np.zeros(1) for n in shape]
     x = turns[0][:, None]
     y = turns[1]
@@ -94,8 +95,8 @@ def nearest_coefficients(shape, spacing) -> tuple[float, float, float, float]:
 
 
 def stencil(cells: CandidateCells, spacing, boundary, factor: float) -> Callable[[np.ndarray], np.ndarray]:
-    """The function that gives, from single-precision values on the ``cells``, the sums there of the nine points, less
-    long waves, times ``factor``. The values of the other cells are zero; periodic axes wrap around."""
+    """Return the function that gives, from single-precision values on the ``cells``, the sums there of the nine points,
+    less long waves, times ``factor``. The values of the other cells are zero; periodic axes wrap around."""
     shape = cells.shape
     padded = np.zeros((shape[0] + 2, shape[1] + 2), np.float32)
     inner = padded[1:-1, 1:-1]
@@ -104,8 +105,8 @@ def stencil(cells: CandidateCells, spacing, boundary, factor: float) -> Callable
     long_waves = min(shape) >= LEAST
     if long_waves:  # the series less |k|, on cells FACTOR times as long; free axes are padded to twice their length
         coarse = tuple((2 if kind == "free" else 1) * -(-n // FACTOR) for n, kind in zip(shape, boundary))
-        missed = _series(nearest, coarse) - wavenumber(coarse, tuple(FACTOR * d for d in spacing))
-        missed = (factor / FACTOR**2 * np.maximum(missed, 0.0)).astype(np.float32)
+        excess = _series(nearest, coarse) - wavenumber(coarse, tuple(FACTOR * d for d in spacing))
+        excess = (factor / FACTOR**2 * np.maximum(excess, 0.0)).astype(np.float32)
         row, column = (np.arange(n, dtype=np.int32) // FACTOR for n in shape)
         owner = cells.gather(row[:, None] * (column[-1] + 1) + column)  # of each cell: the one for long waves
 
@@ -117,14 +118,18 @@ def stencil(cells: CandidateCells, spacing, boundary, factor: float) -> Callable
         if boundary[1] == "periodic":
             padded[:, 0] = padded[:, -2]
             padded[:, -1] = padded[:, 1]
-        found = cells.gather(_swept(padded, coefficients))
-        return found - filtered(_summed(inner), missed, coarse, None).ravel().take(owner) if long_waves else found
+        nearest_sums = cells.gather(_swept(padded, coefficients))
+        return (
+            nearest_sums - filtered(_summed(inner), excess, coarse, None).ravel().take(owner)
+            if long_waves
+            else nearest_sums
+        )
 
     return sums
 
 
 def _swept(padded, coefficients) -> np.ndarray:
-    """The sums for all cells, some rows at a time, within the cache."""
+    """Return the sums for all cells, some rows at a time, within the cache."""
     own, along_x, along_y, across = coefficients
     sums = np.empty((padded.shape[0] - 2, padded.shape[1] - 2), np.float32)
     rows = max(1, BLOCK // padded.shape[1])
@@ -142,7 +147,7 @@ def _swept(padded, coefficients) -> np.ndarray:
 
 
 def _series(nearest, shape) -> np.ndarray:
-    """The cut series at the waves of a grid of ``shape`` cells, each FACTOR cells long."""
+    """Return the cut series at the waves of a grid of ``shape`` cells, each FACTOR cells long."""
     own, along_x, along_y, across = nearest
     x, y = (np.cos(2 * np.pi * np.fft.rfftfreq(n, FACTOR)) for n in shape)
     return own + 2 * along_x * x[:, None] + 2 * along_y * y + 4 * across * x[:, None] * y

@@ -28,10 +28,10 @@ class LoadedCylinder:
 
     @property
     def half_width(self) -> float:
-        """The Hertz half-width b [m] of the total load, b = sqrt(8 w R/(pi E'))."""
+        """Return the Hertz half-width b [m] of the total load, b = sqrt(8 w R/(pi E'))."""
         return hertz.line_half_width(self.load / self.width, self.radius, self.e_prime)
 
     @property
     def hertz_area(self) -> float:
-        """The area 2 b B [m²] of the Hertz strip."""
+        """Return the area 2 b B [m²] of the Hertz strip."""
         return 2 * self.half_width * self.width

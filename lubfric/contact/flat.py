@@ -53,8 +53,8 @@ class ContactCurve(FieldsOnly):
     area_error: np.ndarray
 
     def errors_at(self, mean_pressure: float) -> tuple[float, float]:
-        """Estimated errors of the gap [m] and of the contact area fraction [-] read at a mean pressure [Pa]. Below the
-        lightest node what is read and what is right lie between its value and that of first touch."""
+        """Return the estimated errors of the gap [m] and of the contact area fraction [-] read at a mean pressure [Pa].
+        Below the lightest node what is read and what is right lie between its value and that of first touch."""
         lighter = int(np.searchsorted(-self.mean_pressure, -mean_pressure))
         if not self.gap_error.size or lighter == 0:
             return 0.0, 0.0
@@ -63,7 +63,7 @@ class ContactCurve(FieldsOnly):
         return float(self.gap_error[lighter - 1]), float(self.area_error[lighter - 1])
 
     def at(self, mean_pressure: float) -> tuple[float, float, float]:
-        """(mean gap, contact area fraction, plastic area fraction) at a mean pressure <= the heaviest.
+        """Return (mean gap, contact area fraction, plastic area fraction) at a mean pressure <= the heaviest.
 
         Between the nodes the gap, the logarithm of the area and the plastic share of the area are shape-preserving
         cubics in the logarithm of the pressure. Below the lightest node a single Hertz asperity carries: approach and
@@ -83,7 +83,7 @@ class ContactCurve(FieldsOnly):
 
     @cached_property
     def _read(self):
-        """(gap, logarithm of the area, plastic share of it) at a logarithm of the pressure between the nodes."""
+        """Return (gap, logarithm of the area, plastic share of it) at a logarithm of the pressure between the nodes."""
         from scipy.interpolate import PchipInterpolator
 
         area = self.contact_area_fraction
@@ -147,29 +147,30 @@ def _inaccurate(pressure, gap, area, accuracy, halved) -> np.ndarray:
     """Intervals in which the interpolated gap, the load at that gap, or the area that is left to the film may be off by
     more than ``accuracy``. ``halved``: the error between two nodes, over that when one of them is left out."""
     log_pressure = np.log(pressure)
-    missed = [np.pad(left_out(log_pressure, values), 1) for values in (gap, area)]
-    error, of_area = (halved * np.maximum(off[1:], off[:-1]) for off in missed)
+    left_out_errors = [np.pad(left_out(log_pressure, values), 1) for values in (gap, area)]
+    error, of_area = (halved * np.maximum(off[1:], off[:-1]) for off in left_out_errors)
     middle = np.sqrt(gap[1:] * gap[:-1])
     rate = -np.diff(gap) / np.diff(log_pressure)
     share = np.sqrt(pressure[1:] * pressure[:-1]) / pressure[0]
-    felt = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
-    allowed = np.minimum(middle, rate / np.maximum(felt, NOTHING))
+    effect = (1 - share) * np.minimum(share / MATTERS, 1.0)  # of f, by a relative error of the load
+    allowed = np.minimum(middle, rate / np.maximum(effect, NOTHING))
     deep = middle <= NOTHING * gap[-1]
     off = (error > accuracy * allowed) | (of_area > accuracy * (1 - area[:-1]))
     return off & ~deep & (-np.diff(log_pressure) > FINEST)
 
 
 def errors_between(pressure, values) -> np.ndarray:
-    """Estimated error of ``values`` between neighbouring nodes: the largest error at the four nodes around when each is
-    left out. A curve of few summits has kinks, next to which the interpolation may meet a single node by chance."""
-    missed = np.zeros(pressure.size + 2)
-    missed[2:-2] = left_out(np.log(pressure), values)
-    return np.max([missed[i : missed.size - 3 + i] for i in range(4)], axis=0)
+    """Return the estimated error of ``values`` between neighbouring nodes: the largest error at the four nodes around
+    when each is left out. A curve of few summits has kinks, next to which the interpolation may meet a single node by
+    chance."""
+    left_out_errors = np.zeros(pressure.size + 2)
+    left_out_errors[2:-2] = left_out(np.log(pressure), values)
+    return np.max([left_out_errors[i : left_out_errors.size - 3 + i] for i in range(4)], axis=0)
 
 
 def left_out(x, y) -> np.ndarray:
-    """Error |y - cubic without that node| at the inner nodes (n - 2,) of ``x`` (n,), which rises or falls, and ``y``
-    (n,).
+    """Return the error |y - cubic without that node| at the inner nodes (n - 2,) of ``x`` (n,), which rises or falls,
+    and ``y`` (n,).
 
     The cubic keeps the shape: F. N. Fritsch and J. Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300-304,
     doi:10.1137/0905021.
@@ -184,7 +185,7 @@ def left_out(x, y) -> np.ndarray:
 
 
 def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, hardness=None) -> ContactCurve:
-    """Mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
+    """Return the mean gap against mean pressure of independent asperities on a periodic map, from first touch on.
 
     ``reading``: "volume" or "mean-plane" (see the module) of heights [m] about their mean. The flat comes
     down until it carries ``heaviest`` [Pa]. If the model cannot carry that, the flat comes down to the deepest valley
@@ -197,13 +198,15 @@ def asperity_curve(heights, spacing, e_prime, *, heaviest, definition, reading, 
     span = float(np.ptp(heights))
     nodes: list[tuple[float, float, float, float]] = []
     for approach in span * APPROACHES:
-        found = asperities(top - approach)
+        contact = asperities(top - approach)
         gap = _curve_gap(heights, top - approach, reading)
         if gap <= 0:
             break
-        if found.load > 0 and (not nodes or found.mean_pressure > nodes[-1][0]):
-            nodes.append((found.mean_pressure, gap, min(found.contact_area_fraction, 1.0), found.plastic_area_fraction))
-        if nodes and (nodes[-1][0] >= heaviest or found.mean_pressure < 0.5 * nodes[-1][0]):
+        if contact.load > 0 and (not nodes or contact.mean_pressure > nodes[-1][0]):
+            nodes.append(
+                (contact.mean_pressure, gap, min(contact.contact_area_fraction, 1.0), contact.plastic_area_fraction)
+            )
+        if nodes and (nodes[-1][0] >= heaviest or contact.mean_pressure < 0.5 * nodes[-1][0]):
             break
     if not nodes:
         raise InputError(

@@ -36,11 +36,11 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
     tolerance: float
 
     def close(self, film, load, start=None, shape=None) -> ContactState:
-        """The surface, loaded under the film's shape, by `lubfric.solve_contact`."""
+        """Return the surface, loaded under the film's shape, by `lubfric.solve_contact`."""
         under = film if shape is None else shape
         if load == 0:
             return self._first_touch(film, under)
-        found = solve_contact(
+        contact = solve_contact(
             under[:, None] - self.heights,
             self.spacing,
             self.operator.e_prime,
@@ -51,21 +51,21 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
             tolerance=self.tolerance,
             start=self._pressure_of(start),
         )
-        touching = found.pressure > 0
+        touching = contact.pressure > 0
         plastic = 0.0
         if self.hardness is not None:
-            plastic = weighted_mean((found.pressure >= self.hardness).mean(axis=1), self.weight)
+            plastic = weighted_mean((contact.pressure >= self.hardness).mean(axis=1), self.weight)
         fraction = touching.mean(axis=1)
         return ContactState(
-            mean_gap=weighted_mean(np.maximum(found.gap, 0.0).mean(axis=1), self.weight),
+            mean_gap=weighted_mean(np.maximum(contact.gap, 0.0).mean(axis=1), self.weight),
             mean_film=weighted_mean(film, self.weight),
             x=self.x,
             contact_fraction=fraction,
             real_contact_area_fraction=weighted_mean(fraction, self.weight),
             plastic_area_fraction=plastic,
-            fields=found,
+            fields=contact,
             y=self.y,
-            gap_error=found.report.residual * found.length,
+            gap_error=contact.report.residual * contact.length,
         )
 
     @property
@@ -78,12 +78,12 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
 
     @property
     def y(self) -> np.ndarray:
-        """Cells along the line [m], (ny,)."""
+        """Return the cells along the line [m], (ny,)."""
         return np.arange(self.heights.shape[1]) * self.spacing[1]
 
     @cached_property
     def profiles(self) -> tuple[np.ndarray, np.ndarray]:
-        """Mean and highest of the heights [m] at every x, (nx,) each."""
+        """Return the mean and highest of the heights [m] at every x, (nx,) each."""
         return self.heights.mean(axis=1), self.heights.max(axis=1)
 
     @property
@@ -113,7 +113,7 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
         )
 
     def _pressure_of(self, state: ContactState | None) -> np.ndarray | None:
-        """The pressure of ``state``, if any, on these cells, taken from the nearest of its own."""
+        """Return the pressure of ``state``, if any, on these cells, taken from the nearest of its own."""
         if state is None or state.fields is None:
             return None
         pressure = state.fields.pressure

@@ -9,7 +9,7 @@ POINTS = 18
 
 
 def love_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
-    """Deflection [m/Pa] at cell centres (i, j) cells away from a cell under 1 Pa; (i, j) < ``shape``.
+    """Return the deflection [m/Pa] at cell centres (i, j) cells away from a cell under 1 Pa; (i, j) < ``shape``.
 
     ``2/(pi E') ∬ dx' dy'/r`` over the cell, exact. With F(X, Y) = X ln(Y + r) + Y ln(X + r) it is the
     second difference of F over the corners (A. E. H. Love, Phil. Trans. R. Soc. A 228 (1929) 377-420,
@@ -23,7 +23,7 @@ def love_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
 
 
 def line_coefficients(count: int, spacing: float, e_prime: float, reference_length: float) -> np.ndarray:
-    """Deflection [m/Pa] at ``count`` cell centres, 0, 1, ... cells away from a cell under 1 Pa.
+    """Return the deflection [m/Pa] at ``count`` cell centres, 0, 1, ... cells away from a cell under 1 Pa.
 
     ``-(4/(pi E')) ∫ ln(|x - x'|/reference_length) dx'`` over the cell, exact; spacing [m], e_prime
     [Pa]. The half-space is unbounded, so u is known up to a constant: here u of a line load is zero
@@ -36,7 +36,7 @@ def line_coefficients(count: int, spacing: float, e_prime: float, reference_leng
 
 
 def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
-    """Deflection [m/Pa] (nx, ny//2 + 1): cells away along the free axis x, wavenumber index along y.
+    """Return the deflection [m/Pa] (nx, ny//2 + 1): cells away along the free axis x, wavenumber index along y.
 
     ``(4/(pi E')) ∫ K0(|k_y (x - x')|) dx'`` over a cell of width dx, and for k_y = 0 the line kernel
     with u = 0 at the distance nx dx, the length of the box, from a line load. That gauge makes the
@@ -59,24 +59,24 @@ def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
 
 
 def bessel_cells(cell: np.ndarray, k: np.ndarray) -> np.ndarray:
-    """∫ K0(k|s|) ds over the unit cells around s = ``cell``, which counts 0, 1, ... for one ``k`` after the other;
-    absolute error about 1e-16 times the number of the cell."""
-    found = _integral(k * (cell + 0.5))
-    found[1:] -= np.where(cell[1:] > 0, found[:-1], 0.0)
-    return np.where(cell > 0, found, 2 * found) / k
+    """Return ∫ K0(k|s|) ds over the unit cells around s = ``cell``, which counts 0, 1, ... for one ``k`` after the
+    other; absolute error about 1e-16 times the number of the cell."""
+    integrals = _integral(k * (cell + 0.5))
+    integrals[1:] -= np.where(cell[1:] > 0, integrals[:-1], 0.0)
+    return np.where(cell > 0, integrals, 2 * integrals) / k
 
 
 def _integral(z: np.ndarray) -> np.ndarray:
-    """∫_0^z K0, z >= 0: up to 1 by its series, beyond it pi/2 less the tail ∫ exp(-z cosh t)/cosh t dt, t > 0, by the
-    trapezoidal rule, which converges exponentially."""
+    """Return ∫_0^z K0, z >= 0: up to 1 by its series, beyond it pi/2 less the tail ∫ exp(-z cosh t)/cosh t dt, t > 0,
+    by the trapezoidal rule, which converges exponentially."""
     from scipy.special import iti0k0
 
-    found = np.empty(z.shape)
+    integral = np.empty(z.shape)
     short = z <= 1
-    found[short] = iti0k0(z[short])[1]
+    integral[short] = iti0k0(z[short])[1]
     far = z[~short]
     tail = 0.5 * STEP * np.exp(-far)
     for growth in np.cosh(STEP * np.arange(1, POINTS)):
         tail += STEP / growth * np.exp(-growth * far)
-    found[~short] = 0.5 * np.pi - tail
-    return found
+    integral[~short] = 0.5 * np.pi - tail
+    return integral

@@ -68,7 +68,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return replace(self, symbol=self.symbol + self.symbol.dtype.type(more), layer=self.layer + more)
 
     def apply(self, pressure: np.ndarray) -> np.ndarray:
-        """Deflection [m] (nx, ny) under ``pressure`` [Pa] (nx, ny), in the precision of ``symbol``.
+        """Return the deflection [m] (nx, ny) under ``pressure`` [Pa] (nx, ny), in the precision of ``symbol``.
 
         Raises `InputError` for another shape.
         """
@@ -78,8 +78,8 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
     @_once
     def window(self, count: int) -> Callable[[np.ndarray], np.ndarray]:
-        """The operator on fields (count, ny) of neighbouring rows of a free axis x beside a periodic y: an exact part
-        of this one, with the same zero level. Made once for every count."""
+        """Return the operator on fields (count, ny) of neighbouring rows of a free axis x beside a periodic y: an exact
+        part of this one, with the same zero level. Made once for every count."""
         kernel = self._kernel[:count]
         dtype = self.symbol.dtype
         ny = self.shape[1]
@@ -110,7 +110,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
     @cached_property
     def single(self) -> HalfSpace:
-        """The same operator in single precision, made once: its transforms cost about half."""
+        """Return the same operator in single precision, made once: its transforms cost about half."""
         fast = replace(self, symbol=self.symbol.astype(np.float32))
         if self.boundary == ("free", "periodic"):
             fast.__dict__["_kernel"] = self._kernel
@@ -118,7 +118,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
     @_once
     def coarsened(self, factors: tuple[int, int]) -> HalfSpace:
-        """The operator on cells ``factors`` (fx, fy) times as long, in the same gauge, made once.
+        """Return the operator on cells ``factors`` (fx, fy) times as long, in the same gauge, made once.
 
         From the low frequencies: exact if periodic, and close to it if free. With one free axis the kernel is made
         anew, because its waves end. ``padded`` must be even multiples of the factors.
@@ -138,7 +138,7 @@ class HalfSpace(FrozenArrays, FieldsOnly):
 
 
 def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), workers=None) -> HalfSpace:
-    """Deflection operator of a grid of ``shape`` (nx, ny) cells of ``spacing`` [m] (one number or (dx, dy)).
+    """Return the deflection operator of a grid of ``shape`` (nx, ny) cells of ``spacing`` [m] (one number or (dx, dy)).
 
     e_prime [Pa]: ``2/E' = sum (1 - nu^2)/E``. Each axis of ``boundary`` is "periodic" or "free":
 
@@ -188,7 +188,8 @@ def wavenumber(shape, spacing) -> np.ndarray:
 
 
 def even_transform(coefficients: np.ndarray, length: int, axis: int = 0) -> np.ndarray:
-    """Real spectrum, non-negative frequencies, of coefficients mirrored about zero in a period of ``length``."""
+    """Return the real spectrum, non-negative frequencies, of coefficients mirrored about zero in a period of
+    ``length``."""
     c = np.moveaxis(coefficients, axis, 0)
     even = np.zeros((length, *c.shape[1:]))
     even[: len(c)] = c
@@ -197,7 +198,7 @@ def even_transform(coefficients: np.ndarray, length: int, axis: int = 0) -> np.n
 
 
 def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, ...], workers) -> np.ndarray:
-    """``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back.
+    """Return ``field`` padded with zeros, multiplied by an even ``symbol`` in Fourier space, and cut back.
 
     Where axis 0 is padded, some columns after the other are. So the padded field is never held whole, and a block of
     columns stays in the cache.
@@ -217,7 +218,8 @@ def filtered(field: np.ndarray, symbol: np.ndarray, padded: tuple[int, ...], wor
 
 
 def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -> np.ndarray:
-    """Columns padded to ``length`` and multiplied by ``symbol`` in Fourier space; they may be written over."""
+    """Return the columns padded to ``length`` and multiplied by ``symbol`` in Fourier space; they may be written
+    over."""
     waves = fft.fft(columns, n=length, axis=0, workers=workers, overwrite_x=True)
     half = length // 2 + 1
     waves[:half] *= symbol
@@ -226,7 +228,8 @@ def _multiplied(columns: np.ndarray, symbol: np.ndarray, length: int, workers) -
 
 
 def _reaches(kernel, negligible: float) -> np.ndarray:
-    """Number of rows beyond which a wave and all shorter ones do not deflect; it never rises from wave to wave."""
-    felt = np.abs(kernel) > negligible * np.abs(kernel[0])
-    last = felt.shape[0] - 1 - np.argmax(felt[::-1], axis=0)
+    """Return the number of rows beyond which a wave and all shorter ones do not deflect; it never rises from wave to
+    wave."""
+    notable = np.abs(kernel) > negligible * np.abs(kernel[0])
+    last = notable.shape[0] - 1 - np.argmax(notable[::-1], axis=0)
     return np.maximum.accumulate(last[::-1])[::-1]

@@ -35,8 +35,8 @@ class ContactProblem:
     max_iterations: int
 
     def coarsened(self) -> ContactProblem | None:
-        """The same problem on cells twice as long (mean gap0) along every axis that can be halved; None if there is
-        none."""
+        """Return the same problem on cells twice as long (mean gap0) along every axis that can be halved; None if there
+        is none."""
         operator = self.operator
         fx, fy = (
             2 if kept % 2 == 0 and padded % 4 == 0 and kept >= 2 * COARSEST else 1
@@ -93,7 +93,7 @@ def contact_problem(
 
 
 def on_grid(name: str, value, shape, unit: str) -> np.ndarray:
-    """A number, one for each x, (nx,), or one for each cell, on all cells of ``shape``."""
+    """Return a number, one for each x, (nx,), or one for each cell, on all cells of ``shape``."""
     try:
         field = np.asarray(value, dtype=float)
         field = np.broadcast_to(field[:, None] if field.ndim == 1 else field, shape)
@@ -103,7 +103,7 @@ def on_grid(name: str, value, shape, unit: str) -> np.ndarray:
 
 
 def starting_pressure(problem: ContactProblem, start) -> np.ndarray | None:
-    """Pressure field [Pa] of an earlier result (or the field itself), limited to the hardness."""
+    """Return the pressure field [Pa] of an earlier result (or the field itself), limited to the hardness."""
     if start is None:
         return None
     pressure = validate.array("start", getattr(start, "pressure", start), "Pa", ndim=2)
@@ -117,7 +117,7 @@ def starting_pressure(problem: ContactProblem, start) -> np.ndarray | None:
 
 
 def with_load(pressure, load: float, hardness: float) -> np.ndarray:
-    """``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load``.
+    """Return ``clip(pressure + s, 0, hardness)`` with the shift s at which the sum is ``load``.
 
     This is the Euclidean projection, for 0 <= load <= hardness size. Newton's method works on the piecewise linear sum,
     inside a shrinking bracket, so it is exact once the right piece is found. What remains is the rounding error of a
@@ -149,7 +149,7 @@ def with_load(pressure, load: float, hardness: float) -> np.ndarray:
 
 
 def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
-    """``pressure`` times a factor, yielded cells left as they are, and then `shifted` to carry ``load``."""
+    """Return ``pressure`` times a factor, yielded cells left as they are, and then `shifted` to carry ``load``."""
     loaded = np.flatnonzero(pressure > 0)
     values = pressure.ravel()[loaded]
     factor = np.where(values < hardness, load / values.sum(), 1.0)
@@ -157,8 +157,8 @@ def rescaled(pressure, load: float, hardness: float) -> np.ndarray:
 
 
 def shifted(pressure, load: float, hardness: float) -> np.ndarray:
-    """``pressure`` with its elastic cells shifted by the same amount, within 0..hardness, so that it carries ``load``.
-    If those cells cannot do it, all loaded cells are shifted, else all cells.
+    """Return ``pressure`` with its elastic cells shifted by the same amount, within 0..hardness, so that it carries
+    ``load``. If those cells cannot do it, all loaded cells are shifted, else all cells.
 
     This is a start for another load. Spots of contact grow and shrink at their edges, and their pressure changes as
     under a flat punch. That is nearer to an even change than to one in proportion.
@@ -168,7 +168,7 @@ def shifted(pressure, load: float, hardness: float) -> np.ndarray:
 
 
 def _placed(shape, loaded, values, load: float, hardness: float) -> np.ndarray:
-    """The field of ``shape`` with these ``values``, `shifted`, on its cells ``loaded``."""
+    """Return the field of ``shape`` with these ``values``, `shifted`, on its cells ``loaded``."""
     field = np.zeros(shape)
     elastic = values < hardness
     for movable in (elastic, np.ones_like(elastic)):
@@ -189,7 +189,7 @@ def dot(a, b) -> float:
 
 
 def zero_level(height, yielded, elastic=None, otherwise: float = 0.0) -> float:
-    """The approach [m] at which the mean gap over the ``elastic`` cells is zero, from the ``height`` of the gap.
+    """Return the approach [m] at which the mean gap over the ``elastic`` cells is zero, from the ``height`` of the gap.
 
     If no cell is elastic, it is halfway between the highest ``yielded`` cell and the lowest other one; if no cell is
     loaded at all, ``otherwise``. elastic, yielded: flags.

@@ -91,12 +91,12 @@ class TrialContact:
 
     @property
     def residual(self) -> float:
-        """The worst."""
+        """Return the worst residual."""
         return max(self.residuals.values())
 
     @property
     def mean_gap(self) -> float:
-        """Mean of the gap [m] over all cells, zero where bodies overlap."""
+        """Return the mean of the gap [m] over all cells, zero where bodies overlap."""
         return float(np.maximum(self.gap, 0.0).mean())
 
 
@@ -116,7 +116,7 @@ class SearchResult:
 
 
 def length_scale(pressure, displacement, gap0, operator, roughness: float | None = None) -> float:
-    """Length L [m] in which gap residuals are measured.
+    """Return the length L [m] in which gap residuals are measured.
 
     ``max(min(Σ p u / Σ p, max(d, r)), min(d, r))`` with the ``roughness`` r (None: rms of gap0) and the deflection
     ``d = (4/pi) p_mean a/E'`` of the shortest ripple that the grid resolves (a: the finer spacing) under the mean
@@ -154,12 +154,13 @@ def contact_residuals(pressure, gap, scale: float, hardness: float) -> dict[str,
 
 
 def evaluate(problem, operator, pressure, level=None) -> TrialContact:
-    """The `TrialContact` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed approach."""
+    """Return the `TrialContact` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed
+    approach."""
     return trial_contact(problem, pressure, operator.apply(pressure), level)
 
 
 def trial_contact(problem, pressure, displacement, level=None) -> TrialContact:
-    """The `TrialContact` of ``pressure``, the ``displacement`` [m] of which is known."""
+    """Return the `TrialContact` of ``pressure``, the ``displacement`` [m] of which is known."""
     gap = np.add(problem.gap0, displacement, out=np.empty_like(displacement), casting="same_kind")
     if level is None:
         loaded = np.flatnonzero(pressure > 0)
@@ -191,10 +192,10 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Sear
             iterations, pace = iterations + search.iterations, pace if wasted else search.pace
             history += search.history[:-1]
             convolutions += search.convolutions
-            found = search.found(pressure, problem.hardness)
+            new_pressure = search.new_pressure(pressure, problem.hardness)
             del search
-            pressure = _carrying(found, pressure, load, problem.hardness)
-            del found
+            pressure = _carrying(new_pressure, pressure, load, problem.hardness)
+            del new_pressure
         state = evaluate(problem, problem.operator, pressure, level)
         convolutions += 1
         best, wasted = (state.residual, 0) if state.residual < 0.5 * best else (best, wasted + 1)
@@ -207,17 +208,18 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Sear
     return SearchResult(state, status, iterations, convolutions, (*history, state.residual), pace)
 
 
-def contact_result(problem, found: SearchResult, control: dict[str, float], failed: str) -> ContactResult:
-    """The result of a solve, judged by the residuals of its state and of its ``control``, that of what was prescribed.
-    If it ended for another reason than a limit with one of them above the tolerance, its status is ``failed``."""
-    state = found.state
-    residuals = found.state.residuals | control
+def contact_result(problem, search: SearchResult, control: dict[str, float], failed: str) -> ContactResult:
+    """Return the result of a solve, judged by the residuals of its state and of its ``control``, that of what was
+    prescribed. If it ended for another reason than a limit with one of them above the tolerance, its status is
+    ``failed``."""
+    state = search.state
+    residuals = search.state.residuals | control
     pressure = state.pressure
     residual = worst(residuals)
-    status = CONVERGED if residual <= problem.tolerance else failed if found.status == CONVERGED else found.status
-    cost = (tuple(found.history), found.convolutions)
-    notes = tuple(found.notes)
-    report = Report(found.solver, status, found.iterations, residual, problem.tolerance, residuals, *cost, notes)
+    status = CONVERGED if residual <= problem.tolerance else failed if search.status == CONVERGED else search.status
+    cost = (tuple(search.history), search.convolutions)
+    notes = tuple(search.notes)
+    report = Report(search.solver, status, search.iterations, residual, problem.tolerance, residuals, *cost, notes)
     return ContactResult(
         pressure=pressure,
         gap=state.gap,
@@ -233,7 +235,7 @@ def contact_result(problem, found: SearchResult, control: dict[str, float], fail
 
 
 def _begun(problem, state: TrialContact, load, pace: float, exact: bool) -> CandidateSearch:
-    """A search from ``state`` on the cells that are loaded, or may come into touch."""
+    """Return a search from ``state`` on the cells that are loaded, or may come into touch."""
     operator = problem.operator.single
     if np.isfinite(state.scale):
         overlap = state.residuals["penetration"] * state.scale  # of cells that have not yielded
@@ -245,10 +247,10 @@ def _begun(problem, state: TrialContact, load, pace: float, exact: bool) -> Cand
     return CandidateSearch(problem, CandidateCells.flagged(operator, flags), state, load, pace, exact or rigid)
 
 
-def _carrying(found, begun, load, hardness) -> np.ndarray:
-    """``found`` [Pa], made to carry the load. If single precision has lost the load, the pressure with which the search
-    had ``begun``."""
-    total = found.sum()
+def _carrying(new_pressure, old_pressure, load, hardness) -> np.ndarray:
+    """Return ``new_pressure`` [Pa], made to carry the load. If single precision has lost the load, the pressure with
+    which the search had ``old_pressure``."""
+    total = new_pressure.sum()
     if not np.isfinite(total) or load is not None and total <= 0:
-        return begun
-    return found if load is None else rescaled(found, load, hardness)
+        return old_pressure
+    return new_pressure if load is None else rescaled(new_pressure, load, hardness)

@@ -42,12 +42,13 @@ class ContactState:
 
     @property
     def volume_residual(self) -> float:
-        """(gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
+        """Return (gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
         return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
 
     def touching(self, x) -> np.ndarray:
-        """Share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,) [m], either
-        way. (The columns of the contact are finer than the cells of a film, and vary from one to the next.)"""
+        """Return the share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,)
+        [m], either way. (The columns of the contact are finer than the cells of a film, and vary from one to the
+        next.)"""
         step = self.x[1] - self.x[0] if self.x.size > 1 else 0.0
         edges = np.append(self.x - 0.5 * step, self.x[-1] + 0.5 * step)
         touched = np.append(0.0, np.cumsum(self.contact_fraction) * step)
@@ -66,7 +67,7 @@ class RoughContact:
 
     @property
     def name(self) -> str:
-        """The contact in words."""
+        """Return the contact in words."""
         raise NotImplementedError
 
     def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
@@ -79,7 +80,7 @@ class RoughContact:
 
     @property
     def capacity(self) -> float:
-        """The largest load [N] that it can carry under any film; infinite if `close` has to tell."""
+        """Return the largest load [N] that it can carry under any film; infinite if `close` has to tell."""
         return math.inf
 
     @property
@@ -89,20 +90,21 @@ class RoughContact:
 
     @property
     def adjustable_tolerance(self) -> float | None:
-        """The tolerance of the gap, relative to ``fields.length``, that `tightened` changes (None: nothing)."""
+        """Return the tolerance of the gap, relative to ``fields.length``, that `tightened` changes (None: nothing)."""
         return None
 
     def tightened(self, tolerance: float) -> RoughContact:
-        """The same contact, solved to ``tolerance``."""
+        """Return the same contact, solved to ``tolerance``."""
         return self
 
     def on_the_ends(self, state: ContactState) -> float:
-        """Share of the load on the edge columns, whose ends cut a contact off; ``state`` is on this contact."""
+        """Return the share of the load on the edge columns, whose ends cut a contact off; ``state`` is on this
+        contact."""
         return 0.0
 
 
 def centred_axis(count: int, step: float) -> np.ndarray:
-    """Cell centres [m] of ``count`` cells around zero."""
+    """Return the cell centres [m] of ``count`` cells around zero."""
     return (np.arange(count) - 0.5 * (count - 1)) * step
 
 
@@ -125,5 +127,5 @@ def area_weight(region: str, half_width: float, x: np.ndarray, step: float) -> n
 
 
 def weighted_mean(values, weight) -> float:
-    """Mean over the area A."""
+    """Return the mean of ``values`` over the area A, by ``weight``."""
     return float(np.dot(values, weight) / weight.sum())

@@ -109,9 +109,9 @@ class CandidateSearch:
             else:
                 self._step()
 
-    def found(self, pressure, hardness: float) -> np.ndarray:
-        """``pressure`` [Pa], the field with which the search began, with its changes; yielded cells have the hardness
-        [Pa] to the last digit."""
+    def new_pressure(self, pressure: np.ndarray, hardness: float) -> np.ndarray:
+        """Return ``pressure`` [Pa], the field with which the search began, with its changes; yielded cells have the
+        hardness [Pa] to the last digit."""
         values = self.cells.take(pressure)
         values += np.multiply(self.change, self.unit, dtype=float)
         values *= self.change > self.lower
@@ -139,12 +139,12 @@ class CandidateSearch:
         self.overlap = max(0.0, -float(self.residue.min()))
 
     def _share(self, free) -> float:
-        """The load that the free cells have to carry."""
+        """Return the load that the free cells have to carry."""
         return float((self.change - self.lower).sum(where=free)) + self.target - float(self.change.sum())
 
     def _worst(self, tolerance: float) -> float:
-        """The worst residual on these cells. Overlap is the worst as a rule, so the others are not looked at while it
-        is above ``tolerance``."""
+        """Return the worst residual on these cells. Overlap is the worst as a rule, so the others are not looked at
+        while it is above ``tolerance``."""
         if self.overlap > tolerance:
             return self.overlap
         pressure = self.change - self.lower
@@ -250,6 +250,6 @@ class CandidateSearch:
         return np.where(pressure >= self.hardness, self.upper[cells], change)
 
     def _answer(self, way) -> np.ndarray:
-        """Deflection under a change of pressure, to be multiplied by the compliance."""
+        """Return the deflection under a change of pressure, to be multiplied by the compliance."""
         self.convolutions += 1
         return self.cells.gather(self.cells.deflection(self.cells.field(way)))

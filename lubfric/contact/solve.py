@@ -31,7 +31,7 @@ def solve_contact(
     max_iterations=2000,
     raise_on_failure=True,
 ) -> ContactResult:
-    """Pressure and gap of two rough bodies pressed together, without friction or adhesion.
+    """Return the pressure and gap of two rough bodies pressed together, without friction or adhesion.
 
     The conditions are ``p >= 0``, ``gap = gap0 - approach + K p >= 0``, ``p gap = 0``. With a hardness H also
     ``p <= H``, and cells at p = H may overlap (A. Akchurin et al., Tribol. Lett. 59:19 (2015), Eqs. 1-3,
@@ -65,24 +65,24 @@ def solve_contact(
     start = starting_pressure(problem, start)
     touching = float(problem.gap0.mean())
     if mean_pressure == 0 or (mean_gap is not None and mean_gap >= touching):
-        found = _separated(problem, touching if mean_gap is None else mean_gap)
+        search = _separated(problem, touching if mean_gap is None else mean_gap)
     elif mean_gap is None:
-        found = _solved(problem, start, mean_pressure, mean_pressure=mean_pressure)
+        search = _solved(problem, start, mean_pressure, mean_pressure=mean_pressure)
     else:
-        found = _gap_controlled(problem, mean_gap, start)
-    result = contact_result(problem, found, _control(found.state, mean_pressure, mean_gap), ITERATION_LIMIT)
+        search = _gap_controlled(problem, mean_gap, start)
+    result = contact_result(problem, search, _control(search.state, mean_pressure, mean_gap), ITERATION_LIMIT)
     return returned(result, raise_on_failure)
 
 
 def _control(state: TrialContact, mean_pressure, mean_gap) -> dict[str, float]:
-    """The residual of what was prescribed."""
+    """Return the residual of what was prescribed."""
     if mean_gap is None:
         return {"load": float(abs(state.pressure.mean() - mean_pressure) / (mean_pressure or 1.0))}
     return {"volume": abs(state.mean_gap - mean_gap) / min(state.scale, mean_gap)}
 
 
 def _checked_control(problem: ContactProblem, mean_pressure, mean_gap) -> tuple[float | None, float | None]:
-    """Load and mean gap, of which exactly one has to be given, in a range that has a solution."""
+    """Return the load and mean gap, of which exactly one has to be given, in a range that has a solution."""
     if (mean_pressure is None) == (mean_gap is None):
         given = "both are given" if mean_gap is not None else "neither is given"
         raise InputError(f"mean_pressure [Pa] and mean_gap [m]: {given}; give exactly one of them")
@@ -103,23 +103,23 @@ def _solved(problem: ContactProblem, start, uniform: float, *, mean_pressure=Non
     load = None if mean_pressure is None else mean_pressure * problem.gap0.size
     if start is None or not start.any():
         start, pace, spent = _coarse_start(problem, uniform, mean_pressure, approach)
-        found = refine(problem, start, load=load, level=approach, pace=pace)
-        return replace(found, convolutions=found.convolutions + spent)
+        search = refine(problem, start, load=load, level=approach, pace=pace)
+        return replace(search, convolutions=search.convolutions + spent)
     if load is not None:
         start = (shifted if load <= HEAVIER * start.sum() else rescaled)(start, load, problem.hardness)
     return refine(problem, start, load=load, level=approach)
 
 
 def _coarse_start(problem: ContactProblem, uniform, mean_pressure, approach) -> tuple[np.ndarray, float, float]:
-    """A loose solution on cells twice as long, which is made in the same way: its pressure, its pace, and the number of
-    convolutions in units of this grid. A grid that cannot be halved starts from the ``uniform`` pressure."""
+    """Return a loose solution on cells twice as long, which is made in the same way: its pressure, its pace, and the
+    number of convolutions in units of this grid. A grid that cannot be halved starts from the ``uniform`` pressure."""
     coarse = problem.coarsened()
     if coarse is None:
         return np.full(problem.gap0.shape, uniform), FIRST_PACE, 0.0
-    found = _solved(coarse, None, uniform, mean_pressure=mean_pressure, approach=approach)
+    search = _solved(coarse, None, uniform, mean_pressure=mean_pressure, approach=approach)
     fx, fy = (n // m for n, m in zip(problem.gap0.shape, coarse.gap0.shape))
-    pressure = found.state.pressure.repeat(fx, axis=0).repeat(fy, axis=1)
-    return pressure, found.pace, found.convolutions * coarse.gap0.size / problem.gap0.size
+    pressure = search.state.pressure.repeat(fx, axis=0).repeat(fy, axis=1)
+    return pressure, search.pace, search.convolutions * coarse.gap0.size / problem.gap0.size
 
 
 def _gap_controlled(problem: ContactProblem, mean_gap: float, start) -> SearchResult:
@@ -137,12 +137,12 @@ def _gap_controlled(problem: ContactProblem, mean_gap: float, start) -> SearchRe
         problem = replace(problem, tolerance=max(finer, 1e-13))
     if operator.boundary != ("periodic", "periodic") or math.isfinite(problem.hardness):
         return _load_searched(problem, mean_gap, guess, start)
-    found = _solved(problem, start, guess, approach=float(problem.gap0.mean()) - mean_gap)
-    if found.status == CONVERGED:
-        return found
-    note = f"at the known approach: {found.status} after {found.iterations} iterations; load searched instead"
-    again = _load_searched(problem, mean_gap, guess, found.state.pressure if found.state.pressure.any() else start)
-    return replace(again, notes=(note,), convolutions=again.convolutions + found.convolutions)
+    search = _solved(problem, start, guess, approach=float(problem.gap0.mean()) - mean_gap)
+    if search.status == CONVERGED:
+        return search
+    note = f"at the known approach: {search.status} after {search.iterations} iterations; load searched instead"
+    again = _load_searched(problem, mean_gap, guess, search.state.pressure if search.state.pressure.any() else start)
+    return replace(again, notes=(note,), convolutions=again.convolutions + search.convolutions)
 
 
 def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start) -> SearchResult:
@@ -158,22 +158,22 @@ def _load_searched(problem: ContactProblem, mean_gap: float, guess: float, start
     def surplus(log_pressure, last: SearchResult | None):
         nonlocal spent, iterations
         mean = math.exp(log_pressure)
-        found = _solved(exact, last.state.pressure if last else start, mean, mean_pressure=mean)
-        spent, iterations = spent + found.convolutions, iterations + found.iterations
-        return (mean_gap - found.state.mean_gap) / min(mean_gap, found.state.scale), found
+        search = _solved(exact, last.state.pressure if last else start, mean, mean_pressure=mean)
+        spent, iterations = spent + search.convolutions, iterations + search.iterations
+        return (mean_gap - search.state.mean_gap) / min(mean_gap, search.state.scale), search
 
     if start is not None and start.any():
         guess = float(start.mean())
     flattening = FLATTENED * problem.operator.e_prime * float(np.ptp(problem.gap0)) / min(problem.operator.spacing)
     bounds = (-300.0, math.log(min(problem.hardness, flattening)))
     root = increasing_root(surplus, math.log(guess), step=0.7, bounds=bounds, tolerance=0.5 * problem.tolerance)
-    found = root.payload
+    search = root.payload
     return replace(
-        found,
+        search,
         iterations=iterations,
         convolutions=spent,
         history=root.history,
-        status=root.status if found.status == CONVERGED else found.status,
+        status=root.status if search.status == CONVERGED else search.status,
         solver="bracketed load, preconditioned conjugate gradient",
     )
 

@@ -13,7 +13,7 @@ from .start import solution_state
 
 
 def grid_error(levels: list[FilmSolution]) -> float:
-    """Relative discretisation error of the last solution; the formula is in `solve_ehl`.
+    """Return the relative discretisation error of the last solution; the formula is in `solve_ehl`.
 
     Second order would allow c1/3. At random M, L and laws the formula bounds the error in nine cases of ten, and in the
     rest mostly within a factor of two. It also covers central_film, unless the pressure spike sits at x = 0 (M near 2,
@@ -27,8 +27,8 @@ def grid_error(levels: list[FilmSolution]) -> float:
 
 
 def domain_error(problem: FilmProblem, solution: FilmSolution) -> float:
-    """Effect of the next order of the inlet condition: the tail's share of the load times 4 (q + |H - X²/2|)/(X²/2). It
-    was tested against longer domains."""
+    """Return the effect of the next order of the inlet condition: the tail's share of the load times 4 (q + |H -
+    X²/2|)/(X²/2). It was tested against longer domains."""
     if problem.inlet is not None:
         return 0.0
     t = solution.terms
@@ -38,14 +38,15 @@ def domain_error(problem: FilmProblem, solution: FilmSolution) -> float:
 
 
 def complementarity(solution: FilmSolution, outlet_film: np.ndarray) -> float:
-    """Largest tension before rupture (over the largest pressure), or largest film deficit behind it (over h)."""
+    """Return the largest tension before rupture (over the largest pressure), or largest film deficit behind it (over
+    h)."""
     P = solution.terms.P
     H = solution.terms.H
     return max(0.0, -float(P.min()) / float(P.max()), 1.0 - float(outlet_film.min() / H[-1]))
 
 
 def _outlet(problem: FilmProblem, solution: FilmSolution) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes behind the rupture point, graded like those before it, and the film there."""
+    """Return the nodes behind the rupture point, graded like those before it, and the film there."""
     xi = solution.grid.xi
     reach = 2.0 * problem.half_width + 3.0 * math.sqrt(2.0 * solution.terms.q)
     mirrored = -xi[-2::-1]
@@ -55,7 +56,8 @@ def _outlet(problem: FilmProblem, solution: FilmSolution) -> tuple[np.ndarray, n
 
 
 def rolling_resistance(problem: FilmProblem, levels: list[FilmSolution]) -> tuple[float, float]:
-    """Half of ∫ h dp, the resistance to rolling [N/m], from the gap of the undeformed bodies, and its estimated error.
+    """Return the half of ∫ h dp, the resistance to rolling [N/m], from the gap of the undeformed bodies, and its
+    estimated error.
 
     The kernel of the half-space is even, so a pressure does no work when it is shifted together with the deflection
     that it causes: ∫ (K p) dp = 0. What is left of ∫ h dp is ∫ (x²/2R) dp, the first moment of the pressure, -∫ x p
@@ -66,24 +68,24 @@ def rolling_resistance(problem: FilmProblem, levels: list[FilmSolution]) -> tupl
     step of the extrapolation, or a quarter of the one before if that is larger.
     """
     unit = problem.pressure_unit * problem.film_unit
-    found = [unit * _half_work(solution) for solution in levels[-3:]]
-    steps = np.diff(found) / 3.0
+    works = [unit * _half_work(solution) for solution in levels[-3:]]
+    steps = np.diff(works) / 3.0
     if not steps.size:
-        return found[-1], math.inf
+        return works[-1], math.inf
     before = abs(steps[0]) / 4.0 if steps.size > 1 else 0.0
-    return float(found[-1] + steps[-1]), float(max(abs(steps[-1]), before))
+    return float(works[-1] + steps[-1]), float(max(abs(steps[-1]), before))
 
 
 def _half_work(solution: FilmSolution) -> float:
-    """∫ h dp/2 of a pressure that is linear between the nodes and zero upstream of the first."""
+    """Return ∫ h dp/2 of a pressure that is linear between the nodes and zero upstream of the first."""
     t = solution.terms
     square = (t.X[1:] ** 2 + t.X[1:] * t.X[:-1] + t.X[:-1] ** 2) / 6.0
     return 0.5 * float(np.diff(t.P) @ square - t.P[0] * (t.H[0] - 0.5 * t.X[0] ** 2))
 
 
 def reported(solver: str, solutions, residuals, tolerance, notes, failed=ITERATION_LIMIT, solves=None) -> Report:
-    """The report of ``solutions``, the last of which counts; ``failed``: its status if it has converged and a residual
-    is still above the ``tolerance``; ``solves``: their number (None: one a step)."""
+    """Return the report of ``solutions``, the last of which counts; ``failed``: its status if it has converged and a
+    residual is still above the ``tolerance``; ``solves``: their number (None: one a step)."""
     history = tuple(e for solution in solutions for e in solution.history)
     steps = len(history) - len(solutions)
     residual = worst(residuals)
@@ -111,7 +113,7 @@ def assemble(
     notes: tuple[str, ...],
     tolerance: float,
 ) -> EHLResult:
-    """The result in SI units from solutions on nested grids, seen along +x."""
+    """Return the result in SI units from solutions on nested grids, seen along +x."""
     last = levels[-1]
     M = problem.M
     t = last.terms
@@ -145,7 +147,7 @@ def assemble(
 
 
 def in_si(problem: FilmProblem, at, *, load, films, flow, rupture, constant, **known) -> EHLResult:
-    """The result in SI units, seen along +x. ``at``: (X, P, H) at the nodes; ``load``: ∫ P dX between them;
+    """Return the result in SI units, seen along +x. ``at``: (X, P, H) at the nodes; ``load``: ∫ P dX between them;
     ``films``: the smallest, and that at X = 0; ``constant``: H00; ``known``: what has no unit to change."""
     (X, P, H) = at
     contact = problem.contact

@@ -47,7 +47,7 @@ def solve_ehl(
     max_iterations: int = 60,
     raise_on_failure: bool = True,
 ) -> EHLResult:
-    """Film of a smooth line contact: Reynolds' equation, elastic half-spaces, a given load.
+    """Return the film of a smooth line contact: Reynolds' equation, elastic half-spaces, a given load.
 
     The equations are d/dx(rho h³/(12 eta) dp/dx) = U d(rho h)/dx, with p = dp/dx = 0 at the rupture point
     (Swift-Stieber), h = h0 + x²/2R - (4/(pi E')) ∫ p ln|x - x'| dx', and ∫ p dx = load_per_width. They are solved by
@@ -86,22 +86,22 @@ def solve_ehl(
 def solve_line_contact(
     contact: LineContact, effort: Effort = Effort(), *, start: EHLResult | None = None, raise_on_failure: bool = True
 ) -> EHLResult:
-    """`solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
+    """Return `solve_ehl` for a `LineContact`. ``effort``: tolerance and limits."""
     if start is not None:
         validate.instance("start", start, EHLResult, "an EHLResult or None")
     problem = film_problem(contact)
     state = None if start is None else start.state
     arriving = contact.lubricant.inlet_film
     if arriving is None:
-        found = solved(problem, effort, state)
+        solutions = solved(problem, effort, state)
     else:
-        found = _fed(problem, arriving / contact.film_unit, effort, state)
-    return returned(assemble(*found, effort.tolerance), raise_on_failure)
+        solutions = _fed(problem, arriving / contact.film_unit, effort, state)
+    return returned(assemble(*solutions, effort.tolerance), raise_on_failure)
 
 
 def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None) -> NestedSolutions:
-    """The film of a ``flow`` that arrives, or that of the ``full`` inlet where it takes no more. Nothing flows to the
-    sides, so what arrives passes, and the lubricant begins where the flow is as much."""
+    """Return the film of a ``flow`` that arrives, or that of the ``full`` inlet where it takes no more. Nothing flows
+    to the sides, so what arrives passes, and the lubricant begins where the flow is as much."""
     b = full.half_width
     furthest = full.inlet or 3.0 * b + FURTHEST * full.rise
 
@@ -133,14 +133,14 @@ def _fed(full: FilmProblem, flow: float, effort: Effort, state: FilmState | None
         near, aim, spent = solution_state(problem, fed[-1], 0.0), max(flow, LESS * aim), spent + fed
     if sound(fed) or flow < HALF * flooded:
         return problem, fed, spent, notes
-    return _found_inlet(problem, effort, solution_state(full, levels[-1], 0.0), furthest, spent + fed, notes)
+    return _searched_inlet(problem, effort, solution_state(full, levels[-1], 0.0), furthest, spent + fed, notes)
 
 
-def _found_inlet(
+def _searched_inlet(
     problem: FilmProblem, effort: Effort, state: FilmState, furthest: float, spent, notes
 ) -> NestedSolutions:
-    """The same by a search for the inlet. Where nearly as much arrives as the full inlet takes, the flow hardly depends
-    on where the lubricant begins, and Newton's method for that place fails."""
+    """Return the same by a search for the inlet. Where nearly as much arrives as the full inlet takes, the flow hardly
+    depends on where the lubricant begins, and Newton's method for that place fails."""
     flow = problem.fed
     guess = problem.inlet
     b = problem.half_width
@@ -150,8 +150,8 @@ def _found_inlet(
         closer = replace(effort, least_cells=max(effort.least_cells, last[1][-1].grid.n)) if last else effort
         there = replace(problem, fed=None, inlet=b + math.exp(log_distance))
         near = solution_state(there, last[1][-1], 0.0) if last else state
-        found = solved(there, closer, near)
-        return math.log(found[1][-1].terms.q / flow), found
+        solutions = solved(there, closer, near)
+        return math.log(solutions[1][-1].terms.q / flow), solutions
 
     bounds = math.log(1e-3 * (guess - b)), math.log(furthest - b)
     root = increasing_root(surplus, math.log(guess - b), step=0.5, bounds=bounds, tolerance=1e-3 * effort.tolerance)

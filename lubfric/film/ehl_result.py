@@ -76,7 +76,7 @@ class EHLResult(Shown, HasLineContact):
 
     @property
     def cells(self) -> int:
-        """Number of cells of the finest grid, before rupture."""
+        """Return the number of cells of the finest grid, before rupture."""
         return self.state.pressure.size
 
     def _facts(self) -> dict[str, str]:
@@ -90,7 +90,7 @@ class EHLResult(Shown, HasLineContact):
         }
 
     def film_at(self, x) -> np.ndarray:
-        """Film thickness [m] at any positions ``x`` [m], any shape.
+        """Return the film thickness [m] at any positions ``x`` [m], any shape.
 
         Between the nodes the deflection is interpolated by cubics; outside it is the line kernel
         of the pressure lumped in groups of nodes.
@@ -124,7 +124,7 @@ def cubic(nodes: np.ndarray, values: np.ndarray, x: np.ndarray) -> np.ndarray:
 
 
 def central_film(X: np.ndarray, H: np.ndarray) -> float:
-    """Film at X = 0. Only the deflection is interpolated; the parabola is known."""
+    """Return the film at X = 0. Only the deflection is interpolated; the parabola is known."""
     return float(cubic(X, H - 0.5 * X * X, np.zeros(1))[0])
 
 

@@ -34,8 +34,8 @@ def moes_film(m, l) -> float:
 
 
 def thinned_share(number, exponent, slide_roll_ratio) -> float:
-    """Film of a Carreau fluid over the Newtonian one h: ``(1 + 0.79 ((1 + S) N)^(1/(1 + 0.2 S)))^(-3.6 (1 - n)^1.7)``
-    with ``number`` N = eta0 U/(h G), ``exponent`` n and the slide-roll ratio S.
+    """Return the film of a Carreau fluid over the Newtonian one h: ``(1 + 0.79 ((1 + S) N)^(1/(1 + 0.2 S)))^(-3.6 (1 -
+    n)^1.7)`` with ``number`` N = eta0 U/(h G), ``exponent`` n and the slide-roll ratio S.
 
     S. Bair, Proc. Inst. Mech. Eng. J 219 (2005) 69-74, cited from memory, as no second place with its numbers was
     found. 40 own films (M, L from 20, 10 up; N from 0.05 to 3, S from 0 to 2, n from 0.5 to 0.8) are up to 13 % off.
@@ -46,21 +46,22 @@ def thinned_share(number, exponent, slide_roll_ratio) -> float:
 
 
 def starved_share(inlet, length, half_width) -> float:
-    """Film of a contact over the flooded one where its lubricant begins ``inlet`` upstream of the centre. ``length``:
-    l = √(2 R h_flooded), ``half_width``: b of the dry contact. ``1 - (1 + X/c)^-2`` with X = (inlet - b)/s, s of
-    `flooded_inlet` and c from 1 (b far below l) to 0.39: within 0.12 of own solutions at b/l = 0.03 to 13."""
+    """Return the film of a contact over the flooded one where its lubricant begins ``inlet`` upstream of the centre.
+    ``length``: l = √(2 R h_flooded), ``half_width``: b of the dry contact. ``1 - (1 + X/c)^-2`` with X = (inlet - b)/s,
+    s of `flooded_inlet` and c from 1 (b far below l) to 0.39: within 0.12 of own solutions at b/l = 0.03 to 13."""
     x = max(inlet - half_width, 0.0) / flooded_inlet(length, half_width)
     return 1.0 - (1.0 + x / _narrowness(length, half_width)) ** -2
 
 
 def starved_inlet(share, length, half_width) -> float:
-    """Where the lubricant begins for a ``share`` of the flooded film, below 1: the inverse of `starved_share`."""
+    """Return where the lubricant begins for a ``share`` of the flooded film, below 1: the inverse of
+    `starved_share`."""
     x = _narrowness(length, half_width) * ((1.0 - share) ** -0.5 - 1.0)
     return half_width + x * flooded_inlet(length, half_width)
 
 
 def flooded_inlet(length, half_width) -> float:
-    """How far upstream of the dry contact a flooded film builds up: ``3.52 (R h_flooded)^(2/3) b^(-1/3)`` (L. D.
+    """Return how far upstream of the dry contact a flooded film builds up: ``3.52 (R h_flooded)^(2/3) b^(-1/3)`` (L. D.
     Wedeven, D. Evans, A. Cameron, J. Lubr. Technol. 93 (1971) 349-363; the number is cited from memory) where
     the half-width b is far above l = √(2 R h_flooded) (``length``); b + l takes the place of b."""
     return 3.52 * 0.25 ** (1 / 3) * length * (length / (length + half_width)) ** (1 / 3)

@@ -38,11 +38,11 @@ class Grid:
 
     @property
     def n(self) -> int:
-        """Number of cells, and of unknown pressures."""
+        """Return the number of cells, and of unknown pressures."""
         return self.cells.size
 
     def stretched(self, s: float) -> Grid:
-        """The same nodes ``s`` times as far from the rupture point: ln|s x| = ln s + ln|x|."""
+        """Return the same nodes ``s`` times as far from the rupture point: ln|s x| = ln s + ln|x|."""
         shift = -4.0 / math.pi * math.log(s) * self.weights
         kernels = s * (self.kernel + shift), s * (self.face_kernel + shift)
         return Grid(s * self.xi, kernels[0], self.face_film, kernels[1], s * self.cells, s * self.weights)
@@ -90,12 +90,12 @@ def node_positions(half_width: float, film: float, n: int, distance: float | Non
 
 
 def trapezoidal(cells: np.ndarray) -> np.ndarray:
-    """Weights of the nodes (n + 1,) between ``cells`` (n,), by the trapezoidal rule."""
+    """Return the weights of the nodes (n + 1,) between ``cells`` (n,), by the trapezoidal rule."""
     return 0.5 * (np.append(0.0, cells) + np.append(cells, 0.0))
 
 
 def make_grid(xi: np.ndarray) -> Grid:
-    """The operators on node positions ``xi``."""
+    """Return the operators on node positions ``xi``."""
     cells = np.diff(xi)
     kernel = hat_kernel(xi, xi)
     columns, values = face_weights(xi, UPWIND)
@@ -111,8 +111,8 @@ def make_grid(xi: np.ndarray) -> Grid:
 
 
 def face_weights(x: np.ndarray, stencil: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (n, k) around the faces between the nodes ``x`` (n + 1,), and their Lagrange weights there. ``stencil``:
-    their distances from the node before a face, moved inwards at the ends."""
+    """Return the nodes (n, k) around the faces between the nodes ``x`` (n + 1,), and their Lagrange weights there.
+    ``stencil``: their distances from the node before a face, moved inwards at the ends."""
     n = x.size - 1
     first = np.clip(np.arange(n) + stencil[0], 0, n + 1 - len(stencil))
     columns = first[:, None] + np.arange(len(stencil))

@@ -87,12 +87,12 @@ class FilmHeat:
 
     @property
     def flash(self) -> float:
-        """Largest rise of the surfaces [K] (the wall's first node is upstream of all heat)."""
+        """Return the largest rise of the surfaces [K] (the wall's first node is upstream of all heat)."""
         return float(np.max(self.wall) - self.wall[0])
 
     @property
     def film(self) -> float:
-        """Largest mean rise of the film over its walls [K]."""
+        """Return the largest mean rise of the film over its walls [K]."""
         return float(np.max(self.film_rise))
 
 
@@ -115,8 +115,8 @@ def flash_matrix(x: np.ndarray, carried: float) -> np.ndarray:
 
 
 def isothermal_heat(lubricant: Lubricant, x, pressure, film, around: Surroundings) -> FilmHeat:
-    """An upper estimate of the temperatures in one pass: the surfaces as hot as the stress of the unheated film makes
-    them, and the stress of the film between such surfaces.
+    """Return an upper estimate of the temperatures in one pass: the surfaces as hot as the stress of the unheated film
+    makes them, and the stress of the film between such surfaces.
 
     They are hotter than in the solution, so the stress of the heated film lies between this stress and the isothermal
     one.
@@ -131,8 +131,8 @@ def isothermal_heat(lubricant: Lubricant, x, pressure, film, around: Surrounding
 
 
 def heated_film(lubricant: Lubricant, x, pressure, film, around: Surroundings, *, raise_on_failure=True) -> FilmHeat:
-    """Stress and temperatures of a film. ``x`` (n,) [m] rises downstream; ``pressure`` [Pa] and ``film`` [m] are at its
-    nodes.
+    """Return the stress and temperatures of a film. ``x`` (n,) [m] rises downstream; ``pressure`` [Pa] and ``film`` [m]
+    are at its nodes.
 
     The heat of film and contact spots makes the surfaces hot (`flash_matrix`, on at most 257 of the nodes). The stress
     is that of the film between such walls (`heated_stress`). Newton's method finds the wall temperatures. It stops when
@@ -205,7 +205,7 @@ def inlet_heat(
 
 
 def _thermal(lubricant: Lubricant) -> tuple[float, float]:
-    """Temperature [K] and temperature coefficient [1/K] of a lubricant that has them (`Lubricant.heats`)."""
+    """Return the temperature [K] and temperature coefficient [1/K] of a lubricant that has them (`Lubricant.heats`)."""
     if lubricant.temperature is None or lubricant.temperature_coefficient is None:
         raise InputError("lubricant has no temperature [K] or temperature_coefficient [1/K]; give both, or an oil")
     return lubricant.temperature, lubricant.temperature_coefficient
@@ -224,7 +224,7 @@ def viscosity_at(lubricant: Lubricant, pressure, temperature) -> tuple[np.ndarra
 
 
 def heated_stress(lubricant: Lubricant, pressure, film, sliding: float, wall) -> tuple[np.ndarray, np.ndarray]:
-    """Shear stress [Pa], with the sign of ``sliding`` [m/s], and mean rise of the film over its walls [K].
+    """Return the shear stress [Pa], with the sign of ``sliding`` [m/s], and mean rise of the film over its walls [K].
 
     ``pressure`` [Pa], ``film`` thickness [m] and temperature of the ``wall`` [K]: arrays (n,). By bisection on ln(tau),
     to 1e-12.
@@ -248,7 +248,7 @@ def heated_stress(lubricant: Lubricant, pressure, film, sliding: float, wall) ->
 
 
 def _too_high(lubricant, p, h, speed, tau, log_eta, beta, mean) -> np.ndarray:
-    """Where ``tau`` is above the root: the film would be sheared faster than ``speed``, or carry more than its
+    """Return where ``tau`` is above the root: the film would be sheared faster than ``speed``, or carry more than its
     limit."""
     newtonian = tau
     k = lubricant.conductivity

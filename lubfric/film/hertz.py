@@ -139,7 +139,7 @@ class LineContact:
 
     @cached_property
     def expected_film(self) -> float:
-        """`moes_film` [m], as much thinner as a starved inlet and Carreau's law make it by closed forms; a rough
+        """Return `moes_film` [m], as much thinner as a starved inlet and Carreau's law make it by closed forms; a rough
         guess."""
         film = self.moes_film
         oil = self.lubricant

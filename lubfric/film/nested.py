@@ -49,7 +49,7 @@ class Effort:
 
 
 def solved(problem: FilmProblem, effort: Effort, state: FilmState | None) -> NestedSolutions:
-    """``problem`` from the warm start ``state``; where there is none, or it fails, from a cold start."""
+    """Return ``problem`` from the warm start ``state``; where there is none, or it fails, from a cold start."""
     notes: tuple[str, ...] = ()
     if state is not None:
         levels = warm(problem, effort, state)
@@ -70,7 +70,7 @@ def warm(problem: FilmProblem, effort: Effort, state: FilmState) -> list[FilmSol
 
 
 def _cold(problem: FilmProblem, effort: Effort) -> tuple[list[FilmSolution], list[FilmSolution], tuple[str, ...]]:
-    """A solution from a cold start on grids from the coarsest up; if that fails, from a finer grid.
+    """Return a solution from a cold start on grids from the coarsest up; if that fails, from a finer grid.
 
     Returns its solutions, those that led there, and notes.
     """
@@ -91,7 +91,7 @@ def _cold(problem: FilmProblem, effort: Effort) -> tuple[list[FilmSolution], lis
 
 
 def coarsest(problem: FilmProblem) -> int:
-    """Cells of the coarsest grid: more if the inlet is far narrower than the contact."""
+    """Return the cells of the coarsest grid: more if the inlet is far narrower than the contact."""
     return COARSEST * 2 ** min(max(0, math.ceil(math.log(problem.M / WIDE, 4))), STARTS - 1)
 
 
@@ -114,7 +114,8 @@ def _ascend(problem: FilmProblem, effort: Effort, state: FilmState, n: int, fewe
 
 
 def first_state(problem: FilmProblem, n: int, max_steps: int) -> tuple[FilmState, list[FilmSolution]]:
-    """The first state, and the chain of rough solutions on n cells that leads there, each started from the one before.
+    """Return the first state, and the chain of rough solutions on n cells that leads there, each started from the one
+    before.
 
     alpha rises from the value at which L = EASY, then shear begins to thin the oil, and the inlet moves inwards.
     """
@@ -140,26 +141,27 @@ def first_state(problem: FilmProblem, n: int, max_steps: int) -> tuple[FilmState
 
 
 def _inwards(problem: FilmProblem) -> list[float | None]:
-    """Where the lubricant of ``problem`` begins, and before that places further upstream from which to come nearer."""
+    """Return where the lubricant of ``problem`` begins, and before that places further upstream from which to come
+    nearer."""
     if problem.inlet is None:
         return [None]
     b = problem.half_width
-    found = [problem.inlet - b]
+    distances = [problem.inlet - b]
     widest = WIDE_INLET * flooded_inlet(problem.rise, b)
-    while found[0] < CLOSER * widest:
-        found.insert(0, found[0] / CLOSER)
-    return [b + distance for distance in found]
+    while distances[0] < CLOSER * widest:
+        distances.insert(0, distances[0] / CLOSER)
+    return [b + distance for distance in distances]
 
 
 def problem_nodes(problem: FilmProblem, n: int, rupture: float) -> np.ndarray:
-    """Nodes (n + 1) relative to the rupture point, which is expected at ``rupture``."""
+    """Return the nodes (n + 1) relative to the rupture point, which is expected at ``rupture``."""
     distance = None if problem.inlet is None else problem.inlet + rupture
     return node_positions(problem.half_width, problem.film_guess, n, distance)
 
 
 def sound(levels: list[FilmSolution]) -> bool:
-    """Whether a solution has converged, and is not a root with tension in the film or with the inlet on the wrong
-    side."""
+    """Return whether a solution has converged, and is not a root with tension in the film or with the inlet on the
+    wrong side."""
     if not levels or levels[-1].status != CONVERGED:
         return False
     P = levels[-1].terms.P

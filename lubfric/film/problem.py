@@ -27,8 +27,8 @@ MOST_STARVED = 0.995  # of Moes' film, from where on a guess of the inlet makes 
 
 
 def film_problem(contact: LineContact) -> FilmProblem:
-    """The contact in Moes' units, along its motion, with all the lubricant that its inlet takes. Raises `InputError` if
-    the lubricant begins inside the dry contact."""
+    """Return the contact in Moes' units, along its motion, with all the lubricant that its inlet takes. Raises
+    `InputError` if the lubricant begins inside the dry contact."""
     problem = FilmProblem(contact)
     length = contact.lubricant.inlet_length
     half_width = problem.half_width * problem.length_unit
@@ -86,12 +86,12 @@ class FilmProblem:
         return math.sqrt(2.0 * self.flooded_film)
 
     def inlet_of(self, flow: float) -> float:
-        """Where about the lubricant begins, if ``flow`` arrives and the full inlet takes more."""
+        """Return where about the lubricant begins, if ``flow`` arrives and the full inlet takes more."""
         share = min(flow / self.flooded_film, MOST_STARVED)
         return starved_inlet(share, self.rise, self.half_width)
 
     def softened(self, share: float) -> FilmProblem:
-        """The same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
+        """Return the same contact with ``share`` of the pressure-viscosity coefficient (same units, same M)."""
         if share == 1.0:
             return self
         oil = self.contact.lubricant
@@ -100,7 +100,7 @@ class FilmProblem:
 
     @property
     def thins_by(self) -> ShearLaw | None:
-        """The law by which shear makes the flow thinner than a Newtonian one; None: it does not."""
+        """Return the law by which shear makes the flow thinner than a Newtonian one; None: it does not."""
         law = self.contact.lubricant.flow_law
         sheared = self.contact.sliding is not None and self.times < math.inf
         return law if law is not None and law.thins and sheared else None

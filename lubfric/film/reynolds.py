@@ -73,7 +73,7 @@ def elastic_film(grid: Grid, z: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
 
 
 def residual(grid: Grid, problem: FilmProblem, z: np.ndarray, H: np.ndarray) -> tuple[np.ndarray, ReynoldsTerms]:
-    """Residual (n + 3) at the film H and the `ReynoldsTerms` that the Jacobian needs."""
+    """Return the residual (n + 3) at the film H and the `ReynoldsTerms` that the Jacobian needs."""
     n = grid.n
     P = np.append(z[:n], 0.0)
     q, e = z[n + 1 :]
@@ -202,8 +202,8 @@ class FilmSolution:
 
 
 def step_length(log_viscosity_change: np.ndarray, film_loss: float) -> float:
-    """The part of a step to take, 0 to 1. It follows from two effects of the whole step: the change of ln(eta) at the
-    nodes, and ``film_loss``, the largest fraction of the film (or flux) that it removes."""
+    """Return the part of a step to take, 0 to 1. It follows from two effects of the whole step: the change of ln(eta)
+    at the nodes, and ``film_loss``, the largest fraction of the film (or flux) that it removes."""
     change = float(np.max(np.abs(log_viscosity_change)))
     length = 1.0 if change <= VISCOSITY_STEP else VISCOSITY_STEP / change
     return length if film_loss * length <= FILM_STEP else FILM_STEP / film_loss

@@ -121,8 +121,8 @@ def shear_force(
 
 
 def above_carried(pressure, tau, lengths) -> tuple[float, float]:
-    """Largest stress over what oils carry, and the force per width [N/m] of all stress above it, over the ``lengths``
-    [m] of the n - 1 cells that a film fills."""
+    """Return the largest stress over what oils carry, and the force per width [N/m] of all stress above it, over the
+    ``lengths`` [m] of the n - 1 cells that a film fills."""
     carried = carried_stress(pressure)
     above = np.maximum(np.abs(tau) - carried, 0.0)
     return float(np.max(np.abs(tau) / carried)), float(np.sum(0.5 * (above[1:] + above[:-1]) * lengths))
@@ -140,8 +140,8 @@ def spike_error(x, tau) -> float:
 
 
 def _rolling(p, h, touched, known: tuple[float, float] | None) -> tuple[float, float, float]:
-    """∫ (h/2) dp [N/m] without the share of the width that is ``touched``, the parts by which an error of the film is
-    felt, and the error of the sum."""
+    """Return ∫ (h/2) dp [N/m] without the share of the width that is ``touched``, the parts by which an error of the
+    film is felt, and the error of the sum."""
     rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p)
     force, error = known or (np.sum(rolls), rolling_error(p, h, 1.0))
     taken = np.sum(rolls * touched)
@@ -149,7 +149,7 @@ def _rolling(p, h, touched, known: tuple[float, float] | None) -> tuple[float, f
 
 
 def rolling_error(p, h, share) -> float:
-    """A third of the change of ∫ (h/2) share dp when every second node is left out: an error of second order.
+    """Return a third of the change of ∫ (h/2) share dp when every second node is left out: an error of second order.
     ``share``: of the width of each of the n - 1 cells."""
     last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one
     share = np.broadcast_to(share, p.size - 1)[: last - 1]
@@ -160,7 +160,7 @@ def rolling_error(p, h, share) -> float:
 
 
 def _upstream(h_inlet, distance, radius) -> tuple[float, float]:
-    """∫ dx/h [-] and ∫ dx/h^2 [1/m] upstream of the first node, where the gap is parabolic: h = floor + x^2/2R.
+    """Return ∫ dx/h [-] and ∫ dx/h^2 [1/m] upstream of the first node, where the gap is parabolic: h = floor + x^2/2R.
 
     There Reynolds' equation gives (h/2) dp/dx = 6 eta0 U (1/h - h_flow/h^2).
     """

@@ -46,7 +46,7 @@ def rupture_guess(problem: FilmProblem) -> float:
 
 
 def cold_start(grid: Grid, problem: FilmProblem) -> tuple[np.ndarray, np.ndarray]:
-    """(z, H): a semi-ellipse of the right load that ends at the rupture point, and the expected film."""
+    """Return (z, H): a semi-ellipse of the right load that ends at the rupture point, and the expected film."""
     film = problem.film_guess
     e = rupture_guess(problem)
     width = np.hypot(problem.half_width, np.sqrt(2.0 * film))
@@ -60,7 +60,7 @@ def cold_start(grid: Grid, problem: FilmProblem) -> tuple[np.ndarray, np.ndarray
 
 
 def solution_state(problem: FilmProblem, solution: FilmSolution, error: float) -> FilmState:
-    """The `FilmState` of a solution, ``error`` its estimated discretisation error."""
+    """Return the `FilmState` of a solution, ``error`` its estimated discretisation error."""
     t = solution.terms
     rupture = float(solution.z[-1])
     inlet = None if problem.inlet is None else -float(t.X[0])
@@ -68,7 +68,7 @@ def solution_state(problem: FilmProblem, solution: FilmSolution, error: float) -
 
 
 def refined_start(solution: FilmSolution) -> tuple[np.ndarray, np.ndarray]:
-    """(z, H) on a grid of twice the cells. The pressure is interpolated linearly, so that a sharp spike does not
+    """Return (z, H) on a grid of twice the cells. The pressure is interpolated linearly, so that a sharp spike does not
     oscillate."""
     P = solution.terms.P
     fine = np.empty(2 * P.size - 2)
@@ -78,8 +78,8 @@ def refined_start(solution: FilmSolution) -> tuple[np.ndarray, np.ndarray]:
 
 
 def warm_start(grid: Grid, problem: FilmProblem, state: FilmState) -> tuple[np.ndarray, np.ndarray]:
-    """(z, H): pressure and film of ``state``, which may be of another problem, node by node, scaled to the load and by
-    Moes' formula; where the lubricant begins somewhere, place by place."""
+    """Return (z, H): pressure and film of ``state``, which may be of another problem, node by node, scaled to the load
+    and by Moes' formula; where the lubricant begins somewhere, place by place."""
     P = np.append(state.pressure, 0.0)
     H = state.film
     ratio = problem.film_guess / state.problem.film_guess if problem.fed is None else problem.fed / state.flux
@@ -100,7 +100,7 @@ def warm_start(grid: Grid, problem: FilmProblem, state: FilmState) -> tuple[np.n
 
 
 def with_midpoints(values: np.ndarray) -> np.ndarray:
-    """Nonnegative nodal values with midpoints between them, cubic in the index where that is positive."""
+    """Return nonnegative nodal values with midpoints between them, cubic in the index where that is positive."""
     mean = 0.5 * (values[:-1] + values[1:])
     bend = np.diff(values, 2)
     middle = mean - 0.0625 * (np.append(bend[:1], bend) + np.append(bend, bend[-1:]))

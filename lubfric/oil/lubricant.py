@@ -117,39 +117,40 @@ class Lubricant(Shown):
 
     @property
     def limited_by_boundary_friction(self) -> bool:
-        """True where the limit of a Newtonian lubricant is stated to be f_b p."""
+        """Return True where the limit of a Newtonian lubricant is stated to be f_b p."""
         return self.limiting_stress_coefficient == AS_BOUNDARY
 
     @property
     def shear_laws(self) -> tuple[ShearLaw, ...]:
-        """The laws of its shear stress, in the order in which they act; none: Newtonian."""
+        """Return the laws of its shear stress, in the order in which they act; none: Newtonian."""
         return tuple(law for law in (self.flow_law, self.limit) if law is not None)
 
     @property
     def flow_law(self) -> ShearLaw | None:
-        """How shear thins it; None: it does not."""
+        """Return how shear thins it; None: it does not."""
         return next((law(self) for law in FLOW_LAWS if getattr(self, law.key) is not None), None)
 
     @property
     def limit(self) -> LimitingStress | None:
-        """The law of its largest stress; None: it has none."""
+        """Return the law of its largest stress; None: it has none."""
         if self.limited_by_boundary_friction:
             return None
         return next((law(self) for law in LIMITS if getattr(self, law.key) is not None), None)
 
     @property
     def heats(self) -> bool:
-        """True where temperature and temperature coefficient are known, so that the heat of the film can be found."""
+        """Return True where temperature and temperature coefficient are known, so that the heat of the film can be
+        found."""
         return self.temperature is not None and bool(self.temperature_coefficient)
 
     @property
     def floods(self) -> bool:
-        """True where nothing limits the lubricant in the inlet."""
+        """Return True where nothing limits the lubricant in the inlet."""
         return self.inlet_length is None and self.inlet_film is None
 
     @property
     def newtonian(self) -> bool:
-        """True where the shear stress grows with the shear rate without end."""
+        """Return True where the shear stress grows with the shear rate without end."""
         return not self.shear_laws
 
     @property
@@ -175,7 +176,7 @@ def log_viscosity_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.
 
 
 def viscosity(lubricant: Lubricant, pressure) -> np.ndarray:
-    """Dynamic viscosity eta(p) [Pa s] at each pressure [Pa]."""
+    """Return the dynamic viscosity eta(p) [Pa s] at each pressure [Pa]."""
     return lubricant.viscosity * np.exp(log_viscosity_ratio(lubricant, pressure)[0])
 
 
@@ -189,7 +190,7 @@ def density_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarra
 
 
 def shear_stress(lubricant: Lubricant, pressure, shear_rate) -> np.ndarray:
-    """Shear stress [Pa] of a simple shear flow at pressure [Pa] and signed shear rate [1/s].
+    """Return the shear stress [Pa] of a simple shear flow at pressure [Pa] and signed shear rate [1/s].
 
     Newtonian ``eta(p) shear_rate``, thinned and cut by the laws of the lubricant (`lubfric.oil.shear_laws`).
     """

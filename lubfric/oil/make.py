@@ -21,7 +21,7 @@ FILM_EXPONENT = 0.56  # of alpha, in the central film of a full EHL contact (Dow
 
 
 def from_viscosities(nu40: float, nu100: float, **properties) -> Oil:
-    """An `Oil` from its kinematic viscosities [m²/s] at 40 and 100 °C, by ASTM D341 (constant 0.7).
+    """Return an `Oil` from its kinematic viscosities [m²/s] at 40 and 100 °C, by ASTM D341 (constant 0.7).
 
     ``properties``: fields of `Oil` (base, density, alpha, ...). Raises `InputError` for values out of range.
     """
@@ -30,7 +30,7 @@ def from_viscosities(nu40: float, nu100: float, **properties) -> Oil:
 
 
 def from_index(nu40: float, viscosity_index: float, **properties) -> Oil:
-    """An `Oil` from its kinematic viscosity [m²/s] at 40 °C and its viscosity index (ASTM D2270 inverted, then
+    """Return an `Oil` from its kinematic viscosity [m²/s] at 40 °C and its viscosity index (ASTM D2270 inverted, then
     D341)."""
     nu40 = _viscosity("nu40", nu40)
     nu100 = viscosity_at_100(nu40, viscosity_index)
@@ -38,8 +38,8 @@ def from_index(nu40: float, viscosity_index: float, **properties) -> Oil:
 
 
 def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
-    """An `Oil` of an ISO viscosity grade ("ISO VG 68": 68 mm²/s at 40 °C in the middle of its +-10 %, ISO 3448) and a
-    viscosity index (ASTM D2270 inverted, then D341)."""
+    """Return an `Oil` of an ISO viscosity grade ("ISO VG 68": 68 mm²/s at 40 °C in the middle of its +-10 %, ISO 3448)
+    and a viscosity index (ASTM D2270 inverted, then D341)."""
     nu40 = grade_viscosity(grade)
     nu100 = viscosity_at_100(nu40, viscosity_index)
     given = {"grade": str(grade), "viscosity_index": float(viscosity_index)}
@@ -47,12 +47,13 @@ def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
 
 
 def _through(nu40: float, nu100: float, said: dict, properties: dict) -> Oil:
-    """An `Oil` by D341 through two viscosities [m²/s], which follow from what was ``said``."""
+    """Return an `Oil` by D341 through two viscosities [m²/s], which follow from what was ``said``."""
     return Oil(walther((AT_40, nu40), (AT_100, nu100), **said), **properties)
 
 
 def from_table(temperatures, viscosities, **properties) -> Oil:
-    """An `Oil` from pairs of temperature [K], rising, and kinematic viscosity [m²/s]; D341 between neighbours."""
+    """Return an `Oil` from pairs of temperature [K], rising, and kinematic viscosity [m²/s]; D341 between
+    neighbours."""
     rising = validate.array("temperatures", temperatures, "K", ndim=1).tolist()
     table = ViscosityTable(tuple(rising), tuple(_viscosity("viscosities", v) for v in viscosities))
     return Oil(table, **properties)
@@ -84,18 +85,18 @@ def _letters(name: Any) -> str:
 
 
 def grade_viscosity(grade: str) -> float:
-    """Kinematic viscosity [m²/s] at 40 °C in the middle of an ISO viscosity grade (ISO 3448): "ISO VG 68", "VG68",
-    "68"."""
-    found = re.fullmatch(r"\s*(?:iso[\s-]*)?(?:vg[\s-]*)?(\d+(?:\.\d+)?)\s*", str(grade), re.IGNORECASE)
-    if not found or float(found[1]) not in GRADES:
+    """Return the kinematic viscosity [m²/s] at 40 °C in the middle of an ISO viscosity grade (ISO 3448): "ISO VG 68",
+    "VG68", "68"."""
+    match = re.fullmatch(r"\s*(?:iso[\s-]*)?(?:vg[\s-]*)?(\d+(?:\.\d+)?)\s*", str(grade), re.IGNORECASE)
+    if not match or float(match[1]) not in GRADES:
         names = ", ".join(f"{g:g}" for g in GRADES)
         hint = "; an SAE grade is no ISO grade: give nu40 and nu100" if "sae" in str(grade).lower() else ""
         raise InputError(f" = {grade!r} is not an ISO viscosity grade", "grade", f"'ISO VG n' with n of {names}{hint}")
-    return GRADES[float(found[1])] * 1e-6
+    return GRADES[float(match[1])] * 1e-6
 
 
 def _viscosity(name: str, value: float) -> float:
-    """A checked kinematic viscosity [m²/s]. The error says so if mm²/s were likely meant."""
+    """Return a checked kinematic viscosity [m²/s]. The error says so if mm²/s were likely meant."""
     nu = validate.positive(name, value, "m²/s")
     if nu > 0.5:
         meant = f"mm²/s were meant? {nu:g} mm²/s = {nu * 1e-6:g}"
@@ -111,8 +112,8 @@ def list_oils() -> str:
 
 
 def estimate_in_words(oil: Oil, temperature: float) -> str:
-    """Viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the coefficient
-    is known."""
+    """Return the viscosity and pressure-viscosity coefficient of ``oil`` at ``temperature`` [K], and how well the
+    coefficient is known."""
     text = (
         f"{oil.name} at {temperature - CELSIUS:.3g} °C: {oil.viscosity(temperature) * 1e3:.3g} mPa s (D341, "
         f"constant 0.7), density {oil.density_at(temperature):.4g} kg/m³"

@@ -67,7 +67,7 @@ class Oil(Shown):
         return at_each(self.viscosity_law, temperature)
 
     def density_at(self, temperature):
-        """Density rho [kg/m³] at ``temperature`` [K], one or an array of them.
+        """Return density rho [kg/m³] at ``temperature`` [K], one or an array of them.
 
         It is the density at 15 °C, less ``density_slope`` times the distance from 15 °C. This straight line is good to
         some 0.5 % between 0 and 100 °C.
@@ -77,7 +77,7 @@ class Oil(Shown):
 
     @property
     def density_15(self) -> float:
-        """Density at 15 °C [kg/m³]: given, or typical of the base oil (within 5 %)."""
+        """Return density at 15 °C [kg/m³]: given, or typical of the base oil (within 5 %)."""
         return BASES[self.base]["density"] if self.density is None else self.density
 
     @property
@@ -87,7 +87,7 @@ class Oil(Shown):
         return BASES[self.base]["conductivity"] if self.conductivity is None else self.conductivity
 
     def viscosity(self, temperature):
-        """Dynamic viscosity eta = nu rho [Pa s] at ``temperature`` [K], one or an array of them."""
+        """Return the dynamic viscosity eta = nu rho [Pa s] at ``temperature`` [K], one or an array of them."""
         return self.kinematic_viscosity(temperature) * self.density_at(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
@@ -129,7 +129,7 @@ class Oil(Shown):
 
     @property
     def said(self) -> dict[str, Any]:
-        """The keys of [lubricant], with their values, that give this oil again."""
+        """Return the keys of [lubricant], with their values, that give this oil again."""
         law = self.viscosity_law
         if isinstance(law, ViscosityTable):
             viscosity: dict[str, Any] = {"viscosity_table": tuple(zip(law.temperatures, law.viscosities))}
@@ -141,16 +141,16 @@ class Oil(Shown):
 
     @property
     def index(self) -> float:
-        """Viscosity index [-] (ASTM D2270), from the law at 40 and 100 °C."""
+        """Return viscosity index [-] (ASTM D2270), from the law at 40 and 100 °C."""
         return viscosity_index(self.kinematic_viscosity(40 + CELSIUS), self.kinematic_viscosity(100 + CELSIUS))
 
     def with_(self, **changed) -> Oil:
-        """A copy with fields replaced."""
+        """Return a copy with fields replaced."""
         return replace(self, **changed)
 
 
 def at_each(function: Callable[[float], float], temperature) -> Any:
-    """``function`` of one temperature [K], as a float, or of an array of them, as an array of its shape."""
+    """Return ``function`` of one temperature [K], as a float, or of an array of them, as an array of its shape."""
     if np.ndim(temperature) == 0:
         return function(temperature)
     temperatures = validate.array("temperature", temperature, "K", ndim=np.ndim(temperature))

@@ -84,7 +84,7 @@ class Estimate:
 
     @property
     def text(self) -> str:
-        """The coefficient in words, in 1/GPa."""
+        """Return the coefficient in words, in 1/GPa."""
         value, low, high = (1e9 * each for each in (self.value, self.low, self.high))
         oils = "this oil" if self.method == "measured" else "measured oils"
         return f"{value:.3g} /GPa by {self.source}, {oils} {low:.3g} to {high:.3g}"

@@ -34,7 +34,7 @@ class ShearLaw:
 
     @classmethod
     def checked(cls, value):
-        """The ``value`` of the key, checked beyond what keys.toml says of it."""
+        """Return the ``value`` of the key, checked beyond what keys.toml says of it."""
         return value
 
     def critical(self, pressure) -> tuple:
@@ -67,15 +67,15 @@ class ShearLaw:
         self.refuse("inverse", "the heat of the film", "set numerics.heat = 'off'")
 
     def as_temperature(self, temperature):
-        """The `warmth` of a tau_c that is proportional to the temperature."""
+        """Return the `warmth` of a tau_c that is proportional to the temperature."""
         return np.asarray(temperature) / self.oil.temperature
 
     def stress(self, newtonian, critical):
-        """The stress [Pa] at the ``newtonian`` one."""
+        """Return the stress [Pa] at the ``newtonian`` one."""
         return critical * self.f(newtonian / critical)
 
     def newtonian(self, stress, critical):
-        """The Newtonian stress [Pa] at the ``stress`` that there is."""
+        """Return the Newtonian stress [Pa] at the ``stress`` that there is."""
         return critical * self.inverse(stress / critical)
 
     def thinning(self, s, along: bool) -> tuple:
@@ -162,15 +162,15 @@ class LimitingStress(ShearLaw):
         return np.exp(LIMIT_ACTIVATION * (1 / np.asarray(temperature) - 1 / self.oil.temperature))
 
     def twice(self) -> dict[str, Any]:
-        """Fields of a lubricant with twice this tau_c: those that it is proportional to."""
+        """Return fields of a lubricant with twice this tau_c: those that it is proportional to."""
         return {key: 2 * getattr(self.oil, key) for key in (self.key, *self.others)}
 
     def stress(self, newtonian, critical):
-        """The stress [Pa] at the ``newtonian`` one."""
+        """Return the stress [Pa] at the ``newtonian`` one."""
         return np.clip(newtonian, -critical, critical)
 
     def newtonian(self, stress, critical):
-        """The Newtonian stress [Pa] at the ``stress`` >= 0 that there is; infinite above what it bears."""
+        """Return the Newtonian stress [Pa] at the ``stress`` >= 0 that there is; infinite above what it bears."""
         return np.where(stress > critical, np.inf, stress)
 
     def thinning(self, s, along: bool) -> tuple:

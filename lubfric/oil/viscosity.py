@@ -20,7 +20,7 @@ with (resources.files(__package__) / "d2270.txt").open() as _file:
 
 
 def checked_temperature(temperature: float, name: str = "temperature") -> float:
-    """``temperature`` [K], checked to be possible for an oil. The error says so if °C were likely meant."""
+    """Return ``temperature`` [K], checked to be possible for an oil. The error says so if °C were likely meant."""
     try:
         return validate.number(name, temperature, "K", minimum=RANGE[0], maximum=RANGE[1])
     except InputError as error:
@@ -50,8 +50,8 @@ class Walther:
 
 
 def walther(first: tuple[float, float], second: tuple[float, float], **said: float | str) -> Walther:
-    """`Walther` through two pairs (temperature [K], nu [m²/s]); nu must fall as the temperature rises. ``said``: the
-    keys of [lubricant] that the pairs follow from."""
+    """Return `Walther` through two pairs (temperature [K], nu [m²/s]); nu must fall as the temperature rises. ``said``:
+    the keys of [lubricant] that the pairs follow from."""
     (cold, thick), (warm, thin) = sorted((first, second))
     checked_temperature(cold), checked_temperature(warm)
     if not warm > cold:
@@ -101,7 +101,7 @@ class ViscosityTable:
         return walther(*zip(self.temperatures[i - 1 : i + 1], self.viscosities[i - 1 : i + 1]))
 
     def piece(self, temperature: float) -> Walther:
-        """The D341 law between the neighbours of ``temperature`` [K]."""
+        """Return the D341 law between the neighbours of ``temperature`` [K]."""
         low = self.temperatures[0]
         high = self.temperatures[-1]
         unit = "K (the viscosity table's)"
@@ -114,7 +114,7 @@ class ViscosityTable:
 
 
 def viscosity_index(nu40: float, nu100: float) -> float:
-    """Viscosity index [-], not rounded, from the kinematic viscosities [m²/s] at 40 °C and at 100 °C.
+    """Return viscosity index [-], not rounded, from the kinematic viscosities [m²/s] at 40 °C and at 100 °C.
 
     ASTM D2270: with L and H of the standard's table (above 70 mm²/s at 100 °C of its formulas), procedure A,
     ``100 (L - nu40)/(L - H)``, where nu40 >= H; procedure B, ``100 + (10^N - 1)/0.00715`` with
@@ -140,7 +140,7 @@ def _millimetres(nu40: float, nu100: float) -> str:
 
 
 def _index(at_40: float, at_100: float) -> float:
-    """The viscosity index, from viscosities in mm²/s."""
+    """Return the viscosity index, from viscosities in mm²/s."""
     if at_100 > AT_100[-1]:  # L and H [mm²/s]: by the standard's formulas, or its table
         low = (0.8353 * at_100 + 14.67) * at_100 - 216
         high = (0.1684 * at_100 + 11.85) * at_100 - 97
@@ -153,8 +153,8 @@ def _index(at_40: float, at_100: float) -> float:
 
 
 def viscosity_at_100(nu40: float, index: float) -> float:
-    """Kinematic viscosity at 100 °C [m²/s] of an oil of ``nu40`` [m²/s] at 40 °C and viscosity index ``index``: D2270
-    inverted, by one bracketed root; `viscosity_index` of the result is ``index`` to 1e-9.
+    """Return the kinematic viscosity at 100 °C [m²/s] of an oil of ``nu40`` [m²/s] at 40 °C and viscosity index
+    ``index``: D2270 inverted, by one bracketed root; `viscosity_index` of the result is ``index`` to 1e-9.
 
     Raises `InputError` where no viscosity from 2 mm²/s at 100 °C up has that index.
     """

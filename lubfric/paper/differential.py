@@ -53,7 +53,7 @@ def solve_differential_deflection(
     most_nodes: int = FINEST + 1,
     raise_on_failure: bool = True,
 ) -> EHLResult:
-    """Film of a smooth line contact by differential deflection, on a uniform grid.
+    """Return the film of a smooth line contact by differential deflection, on a uniform grid.
 
     Problem and result are those of `lubfric.solve_ehl`. Reynolds' equation is coupled to the second difference of the
     film, whose weights decay like 1/k² with the distance k in nodes (`lubfric.paper` has sources, method
@@ -148,7 +148,8 @@ def _ascend(
 
 
 def cold_start(mesh: Mesh, problem: FilmProblem) -> tuple[np.ndarray, np.ndarray]:
-    """A first guess: a semi-ellipse of the right load that ends at the expected rupture, and the expected film."""
+    """Return a first guess: a semi-ellipse of the right load that ends at the expected rupture, and the expected
+    film."""
     film = problem.film_guess
     width = math.hypot(problem.half_width, math.sqrt(2.0 * film))
     place = (mesh.X - rupture_guess(problem)) / width
@@ -159,9 +160,9 @@ def cold_start(mesh: Mesh, problem: FilmProblem) -> tuple[np.ndarray, np.ndarray
 
 
 def grid_error(levels: list[DifferentialSolution]) -> float:
-    """Largest relative change of minimum, central and flow film between the last two grids, or a quarter of the change
-    before that. This is some three times the error, because the rupture point is always at a node, which makes the
-    error uneven."""
+    """Return the largest relative change of minimum, central and flow film between the last two grids, or a quarter of
+    the change before that. This is some three times the error, because the rupture point is always at a node, which
+    makes the error uneven."""
     films = np.array([[smallest(s.mesh.X, s.H), central_film(s.mesh.X, s.H), s.terms.q] for s in levels[-3:]])
     if len(films) < 2:
         return math.inf
@@ -185,7 +186,7 @@ def _report(problem: FilmProblem, levels: list[DifferentialSolution], tolerance:
 
 
 def _with_rupture(solution: DifferentialSolution) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
-    """The rupture point, where the film is that of the flow, and X, P, H with a node added there."""
+    """Return the rupture point, where the film is that of the flow, and X, P, H with a node added there."""
     X = solution.mesh.X
     P = solution.P
     H = solution.H
@@ -205,7 +206,7 @@ def _with_rupture(solution: DifferentialSolution) -> tuple[float, np.ndarray, np
 
 
 def _state(problem: FilmProblem, solution: DifferentialSolution, rupture: float, error: float) -> FilmState:
-    """The `FilmState` from which `solve_ehl` can start: the solution on the graded grid of `solve_ehl`."""
+    """Return the `FilmState` from which `solve_ehl` can start: the solution on the graded grid of `solve_ehl`."""
     xi = node_positions(problem.half_width, moes_film(problem.M, problem.L), STATE_CELLS)
     X = xi + rupture
     P = np.interp(X, solution.mesh.X, solution.P, left=0.0)
@@ -214,7 +215,7 @@ def _state(problem: FilmProblem, solution: DifferentialSolution, rupture: float,
 
 
 def assemble(problem: FilmProblem, levels: list[DifferentialSolution], tolerance: float) -> EHLResult:
-    """The result in SI units, seen along +x."""
+    """Return the result in SI units, seen along +x."""
     last = levels[-1]
     rupture, *nodes = _with_rupture(last)
     report = _report(problem, levels, tolerance)

@@ -59,12 +59,12 @@ class Mesh:
 
     @property
     def size(self) -> int:
-        """Number of nodes."""
+        """Return the number of nodes."""
         return self.X.size
 
 
 def make_mesh(first: float, last: float, nodes: int, flooded: bool) -> Mesh:
-    """``nodes`` positions from ``first`` to ``last`` with the kernels between them."""
+    """Return ``nodes`` positions from ``first`` to ``last`` with the kernels between them."""
     X, step = np.linspace(first, last, nodes, retstep=True)
     second = _second_difference(nodes + 1)
     log_kernel = -4.0 / math.pi * step * (second[:-1] + math.log(step) - 1.5)
@@ -86,7 +86,7 @@ def convolve(transform: np.ndarray, P: np.ndarray) -> np.ndarray:
 
 
 def _second_difference(n: int) -> np.ndarray:
-    """The second difference of g = k² ln|k|/2 at k = 0 .. n - 1.
+    """Return the second difference of g = k² ln|k|/2 at k = 0 .. n - 1.
 
     From k = NEAR on it is Taylor's series with g'' = ln k + 3/2, because the differences lose their digits there.
     """
@@ -172,7 +172,7 @@ def evaluate(mesh: Mesh, problem: FilmProblem, P: np.ndarray, H: np.ndarray) -> 
 
 
 def load_row(mesh: Mesh, problem: FilmProblem) -> np.ndarray:
-    """The row by which ∫ P dX/M = load_row @ P, with the tail |X|^-3 upstream of a flooded inlet."""
+    """Return the row by which ∫ P dX/M = load_row @ P, with the tail |X|^-3 upstream of a flooded inlet."""
     row = np.full(mesh.size, mesh.step / problem.M)
     if mesh.flooded:
         row[0] = 0.5 * (mesh.step - mesh.X[0]) / problem.M
@@ -180,7 +180,7 @@ def load_row(mesh: Mesh, problem: FilmProblem) -> np.ndarray:
 
 
 def tilt_row(mesh: Mesh) -> np.ndarray:
-    """The row that gives the deflection at the last node minus that at the first."""
+    """Return the row that gives the deflection at the last node minus that at the first."""
     return mesh.log_kernel[::-1] - mesh.log_kernel
 
 
@@ -190,7 +190,7 @@ def inlet_ratio(mesh: Mesh) -> float:
 
 
 def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:
-    """The last node before rupture: pressures are positive up to it, and the balance of the next node would draw
+    """Return the last node before rupture: pressures are positive up to it, and the balance of the next node would draw
     lubricant in."""
     peak = int(np.argmax(P))
     last = peak + int(np.argmax(P[peak:] <= 0.0)) - 1
@@ -200,7 +200,7 @@ def _last_wet(P: np.ndarray, balance: np.ndarray) -> int:
 
 
 def measure(t: DifferentialTerms, P: np.ndarray, H: np.ndarray) -> dict[str, float]:
-    """Relative residuals of mass, film (against the full integral), load and complementarity."""
+    """Return relative residuals of mass, film (against the full integral), load and complementarity."""
     behind = t.through[t.last + 1 :]
     return {
         "mass": float(np.max(np.abs(t.through[: t.last + 1] / t.q - 1.0))),

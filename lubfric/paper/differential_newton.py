@@ -33,7 +33,7 @@ class DifferentialSolution:
 
 
 def near_solver(mesh: Mesh, problem: FilmProblem, t: DifferentialTerms):
-    """The equations with near weights, factorised; None if the matrix is singular.
+    """Return the equations with near weights, factorised; None if the matrix is singular.
 
     The function returned takes the right sides: (N,) of the balances and of the second differences, (2,) of the closing
     equations. It gives the changes (2N,) of P and H of a node side by side. The two films at the ends are a border of
@@ -98,7 +98,7 @@ def _put_film(mesh: Mesh, put) -> None:
 
 
 def newton_step(mesh: Mesh, t: DifferentialTerms, near) -> tuple[np.ndarray, int]:
-    """The change (2N,) of P and H in turn, and the number of banded solves.
+    """Return the change (2N,) of P and H in turn, and the number of banded solves.
 
     With A the near equations, which ``near`` solves, the change z solves A z = b + f, where f = far(z) is the effect of
     far pressures on the second differences. So z = A⁻¹b + A⁻¹f and f - far(A⁻¹f) = far(A⁻¹b). GMRES solves the latter

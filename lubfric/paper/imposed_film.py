@@ -43,12 +43,12 @@ class ImposedFilm:
     mean_film: float
 
     def mean(self, field) -> float:
-        """Mean of a field over the area A."""
+        """Return the mean of a field over the area A."""
         return float(np.vdot(self.weight, field))
 
     @property
     def separated(self) -> bool:
-        """Whether the film fits between the undeformed surfaces without contact."""
+        """Return whether the film fits between the undeformed surfaces without contact."""
         return self.mean(self.problem.gap0) - self.mean_film <= self.problem.gap0.min()
 
     def lubricated_offset(self, displacement, pressure) -> float:
@@ -74,14 +74,14 @@ class ImposedFilm:
         return (self.mean_film - self.mean(np.maximum(state.gap, 0.0))) / min(state.scale, self.mean_film)
 
     def residual(self, pressure, displacement, offset) -> float:
-        """The worst of complementarity, penetration and volume, as in `lubfric.paper.single_loop`."""
+        """Return the worst of complementarity, penetration and volume, as in `lubfric.paper.single_loop`."""
         state = trial_contact(self.problem, pressure, displacement, offset)
         return max(state.residual, abs(self.surplus(state)))
 
     def ended(
         self, pressure, offset, status: str, convolutions: float, history, notes=(), iterations=None
     ) -> SearchResult:
-        """The end of an iteration: its state is computed anew from the pressure and epsilon alone."""
+        """Return the end of an iteration: its state is computed anew from the pressure and epsilon alone."""
         state = evaluate(self.problem, self.problem.operator, pressure, offset)
         steps = len(history) if iterations is None else iterations
         return SearchResult(state, status, steps, convolutions + 1, tuple(history), notes=tuple(notes))
@@ -89,24 +89,24 @@ class ImposedFilm:
     def solved(
         self, iterate: Callable[[np.ndarray], SearchResult], solver: str, raise_on_failure: bool
     ) -> ContactResult:
-        """The contact by ``iterate`` from a first pressure."""
+        """Return the contact by ``iterate`` from a first pressure."""
         if self.separated:
             zero = np.zeros_like(self.problem.gap0)
             note = "the film clears the surface: no contact"
             solver = "none"
-            found = self.ended(zero, self.offset(zero), CONVERGED, 0, [], [note])
+            search = self.ended(zero, self.offset(zero), CONVERGED, 0, [], [note])
         else:
             overlap = np.maximum(self.mean(self.problem.gap0) - self.mean_film - self.problem.gap0, 0.0)
             stiffness = np.vdot(overlap, self.problem.operator.apply(overlap))  # of the offset of undeformed surfaces
             first = np.minimum(overlap * (np.vdot(overlap, overlap) / stiffness), self.problem.hardness)
-            found = iterate(first)
-        control = {"volume": abs(self.surplus(found.state))}
-        result = contact_result(self.problem, replace(found, solver=solver), control, STAGNATED)
+            search = iterate(first)
+        control = {"volume": abs(self.surplus(search.state))}
+        result = contact_result(self.problem, replace(search, solver=solver), control, STAGNATED)
         return returned(result, raise_on_failure)
 
 
 def impose(heights, film, spacing, e_prime, *, weight=None, **problem) -> ImposedFilm:
-    """The validated contact; arguments as in `lubfric.paper.single_loop`."""
+    """Return the validated contact; arguments as in `lubfric.paper.single_loop`."""
     heights = validate.array("heights", heights, "m", ndim=2)
     film = on_grid("film", film, heights.shape, "m")
     weight = np.ones(heights.shape) if weight is None else on_grid("weight", weight, heights.shape, "(-)")
@@ -151,10 +151,10 @@ def _alternated(contact: ImposedFilm, pressure, update: str) -> SearchResult:
     offset = contact.offset(state.displacement)
 
     def surplus(offset, _=None):
-        """(film - volume)/min(L, film), which rises with epsilon, and the pressure."""
+        """Return (film - volume)/min(L, film), which rises with epsilon, and the pressure."""
         nonlocal state, spent
-        found = refine(tight, state.pressure.copy(), level=offset)
-        state, spent = found.state, spent + found.convolutions
+        search = refine(tight, state.pressure.copy(), level=offset)
+        state, spent = search.state, spent + search.convolutions
         return contact.surplus(state), (state.pressure, offset)
 
     if update == "root":

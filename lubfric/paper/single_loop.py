@@ -81,8 +81,8 @@ Iterate = tuple[np.ndarray, np.ndarray, float, int]  # pressure, its displacemen
 
 
 def _printed(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
-    """The iterates of Appendix 2, Eqs. (14)-(22), in the sign of the paper: its g is minus the gap. They end where one
-    has no successor."""
+    """Return the iterates of Appendix 2, Eqs. (14)-(22), in the sign of the paper: its g is minus the gap. They end
+    where one has no successor."""
     problem = contact.problem
     apply = contact.problem.operator.apply
     displacement = apply(p)
@@ -114,8 +114,8 @@ def _printed(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
 
 
 def _consistent(contact: ImposedFilm, p: np.ndarray) -> Iterator[Iterate]:
-    """The iterates of the consistent form. Cells enter and leave the working set. Directions are kept (Polak-Ribiere,
-    never negative), and epsilon follows from Eq. (8) after every step."""
+    """Return the iterates of the consistent form. Cells enter and leave the working set. Directions are kept
+    (Polak-Ribiere, never negative), and epsilon follows from Eq. (8) after every step."""
     problem = contact.problem
     hardness = contact.problem.hardness
     apply = contact.problem.operator.apply
@@ -160,7 +160,7 @@ FORMS: dict[str, Callable[[ImposedFilm, np.ndarray], Iterator[Iterate]]] = {
 
 
 def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separation_tolerance: float) -> SearchResult:
-    """The end of the loop; both stopping tests are made after every iteration."""
+    """Return the end of the loop; both stopping tests are made after every iteration."""
     # where an iterate has no successor
     problem = contact.problem
     status = DIVERGED
@@ -179,11 +179,11 @@ def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separat
             nearest = (pressure, offset)
         lowest, waiting = (error, 0) if error < 0.9 * lowest else (lowest, waiting + 1)
         separation = contact.mean(problem.gap0) - offset  # Eq. (23), from the mean plane of the surface over A
-        settled = np.isfinite(old) and abs(separation - old) <= separation_tolerance * abs(old)
+        unchanged = np.isfinite(old) and abs(separation - old) <= separation_tolerance * abs(old)
         old = separation
-        if settled and not notes:
+        if unchanged and not notes:
             notes.append(f"Eq. (23) met at iteration {iteration}, where the residual was {error:.2e}")
-        if settled if stop == "separation" else error <= 0.9 * problem.tolerance:
+        if unchanged if stop == "separation" else error <= 0.9 * problem.tolerance:
             status = CONVERGED
             nearest = (pressure, offset)
             break
@@ -196,7 +196,7 @@ def _ended(contact: ImposedFilm, iterates: Iterator[Iterate], stop: str, separat
 
 
 def bulk(contact: ImposedFilm, pressure) -> float:
-    """The smallest deflection [m/Pa] that one loaded cell, wherever it is, causes anywhere in A and the contact.
+    """Return the smallest deflection [m/Pa] that one loaded cell, wherever it is, causes anywhere in A and the contact.
 
     It is the smallest deflection under a uniform pressure on the box around A and the contact. This is less than the
     energy of any pressure in that box (equilibrium measure), so the operator minus this constant stays positive there.

@@ -116,7 +116,7 @@ class Wear(FrozenArrays, Shown):
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Rig:
+class _WearRig:
     """What all steps share: the scene at its speed, the map that wears, and the operators of map and windows."""
 
     scene: Scene
@@ -132,7 +132,7 @@ class _Rig:
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Step:
+class _WearStep:
     """The end of one step: the balance, the heights [m] of the map after it, and the pressure [Pa] by window."""
 
     balance: Balance
@@ -163,7 +163,7 @@ def worn_in(
     rig = _rig(scene, surface)
     heights = surface.heights.copy()
     rows = [_record(rig, heights, 0.0)]
-    progress = _Progress(
+    progress = _WearProgress(
         length=_first_length(rig, rows[0], coefficient, hardness[0]), ratios=(rows[0]["asperity_load_ratio"],)
     )
     stopped = f"the distance of {distance:g} m was reached"
@@ -182,7 +182,7 @@ def worn_in(
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Progress:
+class _WearProgress:
     """How far a run has come.
 
     distance [m] so far; length [m] of the next step; steps tried; ``ratios``: asperity load ratios at the beginning of
@@ -204,15 +204,15 @@ class _Progress:
         return max(self.ratios) < VANISHED
 
 
-def _first_length(rig: _Rig, row: dict[str, Any], coefficient: float, hardness: float) -> float:
+def _first_length(rig: _WearRig, row: dict[str, Any], coefficient: float, hardness: float) -> float:
     """Return the length [m] of the first step: it wears `FIRST` of Sq."""
     pressure = row["asperity_load_ratio"] * rig.scene.bodies.load / cylinder_of(rig.scene).hertz_area
     return FIRST * max(rig.surface.sq, 1e-12) * hardness / (coefficient * pressure) if pressure else math.inf
 
 
 def _advance(
-    rig: _Rig, heights: np.ndarray, progress: _Progress, aim: float, rate: float
-) -> tuple[np.ndarray, _Progress]:
+    rig: _WearRig, heights: np.ndarray, progress: _WearProgress, aim: float, rate: float
+) -> tuple[np.ndarray, _WearProgress]:
     """Return heights [m] and progress after one step towards the distance ``aim`` [m], or after its rejection.
 
     rate : K/H [1/Pa]. Both ends of a step are solved on the same windows, so that only wear changes the asperity load.
@@ -234,7 +234,7 @@ def _advance(
     if change > REJECTED:
         return heights, replace(progress, steps=turn, start=begin.balance, length=factor * length)
     last = aim - progress.distance <= length
-    return end.heights, _Progress(
+    return end.heights, _WearProgress(
         length=max(factor * length, progress.length) if last else factor * length,
         distance=aim if last else progress.distance + length,
         steps=turn,
@@ -245,13 +245,13 @@ def _advance(
     )
 
 
-def _rig(scene: Scene, surface: Surface) -> _Rig:
+def _rig(scene: Scene, surface: Surface) -> _WearRig:
     """Return what all steps share."""
     cylinder = cylinder_of(scene)
     workers = scene.numerics.workers
     if scene.contact.geometry == "flat":
         operator = half_space(surface.shape, surface.spacing, cylinder.e_prime, workers=workers)
-        return _Rig(scene=scene, speed=_speed(scene), surface=surface, under=operator, stack=operator)
+        return _WearRig(scene=scene, speed=_speed(scene), surface=surface, under=operator, stack=operator)
     under = operator_under(surface.heights, surface.spacing, cylinder, workers)
     windows = len(passage(surface.shape, cylinder, under, periodic=surface.periodic_axes[0]).columns)
     shape = under.shape[0], windows * surface.shape[1]
@@ -261,26 +261,26 @@ def _rig(scene: Scene, surface: Surface) -> _Rig:
             f"cells; allowed: up to {MOST_CELLS:.3g} (crop the map, or resample it on longer cells)"
         )
     stack = half_space(shape, surface.spacing, cylinder.e_prime, BOUNDARY, workers=workers)
-    return _Rig(scene=scene, speed=_speed(scene), surface=surface, under=under, stack=stack)
+    return _WearRig(scene=scene, speed=_speed(scene), surface=surface, under=under, stack=stack)
 
 
 def _speed(scene: Scene) -> float:
     return scene.motion.entrainment_speed
 
 
-def _passage(rig: _Rig, turn: int) -> Passage:
+def _passage(rig: _WearRig, turn: int) -> Passage:
     periodic = rig.surface.periodic_axes[0]
     return passage(rig.surface.shape, cylinder_of(rig.scene), rig.under, periodic=periodic, turn=turn)
 
 
-def _contact(rig: _Rig, heights: np.ndarray, compliance: float, windows: Passage) -> HalfSpaceContact:
+def _contact(rig: _WearRig, heights: np.ndarray, compliance: float, windows: Passage) -> HalfSpaceContact:
     """Return the contact of all windows of the map, whose cells sink by wear as well."""
     stacked = windows.stacked(heights)
     operator = rig.stack.with_layer(windows.dose * compliance) if compliance else rig.stack
     return half_space_contact_of(rig.scene, stacked - stacked.mean(), rig.surface.spacing, operator=operator)
 
 
-def _step(rig: _Rig, heights: np.ndarray, compliance: float, turn: int, start: Balance | None) -> _Step:
+def _step(rig: _WearRig, heights: np.ndarray, compliance: float, turn: int, start: Balance | None) -> _WearStep:
     """Return the end of a step in which a pressure p wears the depth ``compliance`` p, from ``heights`` [m]."""
     if rig.flat:
         return _flat_step(rig, heights, compliance, start)
@@ -291,12 +291,12 @@ def _step(rig: _Rig, heights: np.ndarray, compliance: float, turn: int, start: B
     fields = balance.contact.fields
     if fields is None:  # separated
         empty = np.zeros((len(windows.columns), contact.heights.shape[0], windows.rows))
-        return _Step(balance=balance, heights=heights, by_window=empty)
+        return _WearStep(balance=balance, heights=heights, by_window=empty)
     worn = windows.worn(heights, fields.pressure, compliance) if compliance else heights
-    return _Step(balance=balance, heights=worn, by_window=windows.by_window(fields.pressure))
+    return _WearStep(balance=balance, heights=worn, by_window=windows.by_window(fields.pressure))
 
 
-def _flat_step(rig: _Rig, heights: np.ndarray, compliance: float, start: Balance | None) -> _Step:
+def _flat_step(rig: _WearRig, heights: np.ndarray, compliance: float, start: Balance | None) -> _WearStep:
     """Return the end of a step of a flat contact: the load of its beginning, the pressure of its end."""
     scene = rig.scene
     flat = heights - heights.mean()
@@ -314,10 +314,10 @@ def _flat_step(rig: _Rig, heights: np.ndarray, compliance: float, start: Balance
         tolerance=scene.numerics.tolerance_of("contact"),
     )
     worn = heights - compliance * solved.pressure
-    return _Step(balance=balance, heights=worn, by_window=solved.pressure[None])
+    return _WearStep(balance=balance, heights=worn, by_window=solved.pressure[None])
 
 
-def _record(rig: _Rig, heights: np.ndarray, distance: float) -> dict[str, Any]:
+def _record(rig: _WearRig, heights: np.ndarray, distance: float) -> dict[str, Any]:
     """Return the numbers of one recorded distance [m], of the map with these ``heights`` [m]."""
     surface = replace(rig.surface, heights=heights)
     state = _step(rig, heights, 0.0, 0, None)
@@ -345,7 +345,7 @@ def _record(rig: _Rig, heights: np.ndarray, distance: float) -> dict[str, Any]:
     }
 
 
-def _lift_off(rig: _Rig, state: _Step) -> tuple[float, tuple[float, float], str]:
+def _lift_off(rig: _WearRig, state: _WearStep) -> tuple[float, tuple[float, float], str]:
     """Return the speed [m/s] at which the asperities carry `LIFT_OFF` of the load, its 95 % interval, and a note.
 
     The interval is by the scatter of the load over the windows of the map, and how the load falls with the speed. The
@@ -354,7 +354,7 @@ def _lift_off(rig: _Rig, state: _Step) -> tuple[float, tuple[float, float], str]
     from scipy.optimize import brentq
 
     sense = math.copysign(1.0, rig.speed)
-    solved: dict[float, _Step] = {}
+    solved: dict[float, _WearStep] = {}
 
     def excess(log_speed: float) -> float:
         """Return the logarithm of the asperity load ratio over `LIFT_OFF`; no asperity load counts as a millionth."""
@@ -382,7 +382,7 @@ def _lift_off(rig: _Rig, state: _Step) -> tuple[float, tuple[float, float], str]
     return speed, (speed * math.exp(-half), speed * math.exp(half)), ""
 
 
-def _steepness(solved: dict[float, _Step], root: float) -> float:
+def _steepness(solved: dict[float, _WearStep], root: float) -> float:
     """Return -d ln(F_C/F_T)/d ln U between the two solved speeds next to ``root``; 0 if there are none with load."""
     loaded = [(at, step.ratio) for at, step in solved.items() if step.ratio > 0]
     (first, *others) = sorted(loaded, key=lambda point: abs(point[0] - root))
@@ -404,7 +404,7 @@ def _bracket(excess: Callable[[float], float], start: float) -> tuple[float, flo
 
 
 def _history(
-    rig: _Rig, rows: list[dict[str, Any]], hardness: tuple[float, float], progress: _Progress, stopped: str
+    rig: _WearRig, rows: list[dict[str, Any]], hardness: tuple[float, float], progress: _WearProgress, stopped: str
 ) -> Wear:
     """Return the record of a run."""
     area = math.prod(rig.surface.size)

@@ -183,8 +183,8 @@ def test_certification_does_not_believe_the_iteration(monkeypatch):
     """A search that claims success with a wrong field is found out."""
     from lubfric.contact.search import CandidateSearch
 
-    honest = CandidateSearch.found
-    monkeypatch.setattr(CandidateSearch, "found", lambda *given: np.roll(honest(*given), 1, axis=0))
+    honest = CandidateSearch.new_pressure
+    monkeypatch.setattr(CandidateSearch, "new_pressure", lambda *given: np.roll(honest(*given), 1, axis=0))
     with pytest.raises(ConvergenceError) as caught:
         solve_contact(rough((32, 32)), DX, E_PRIME, mean_pressure=5e8)
     assert caught.value.report.residuals["penetration"] > 1e-3
