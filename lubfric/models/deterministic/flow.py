@@ -145,11 +145,11 @@ class Stencil:
     def neighbours(nx: int, ny: int) -> np.ndarray:
         """Numbers (i ny + j) of the cells that the coefficients belong to (6, nx, ny); the own where there is none."""
         own = np.arange(nx * ny).reshape(nx, ny)
-        found = np.stack([own, own, np.roll(own, 1, axis=1), own, np.roll(own, -1, axis=1), own])
-        found[0, 2:] = own[:-2]
-        found[1, 1:] = own[:-1]
-        found[5, :-1] = own[1:]
-        return found
+        neighbours = np.stack([own, own, np.roll(own, 1, axis=1), own, np.roll(own, -1, axis=1), own])
+        neighbours[0, 2:] = own[:-2]
+        neighbours[1, 1:] = own[:-1]
+        neighbours[5, :-1] = own[1:]
+        return neighbours
 
 
 def derivatives(problem: Problem, at: MassBalance, open_) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

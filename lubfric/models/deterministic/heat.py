@@ -37,11 +37,11 @@ def strip_heat(scene: Scene, result: DeterministicResult) -> Heat:
     covered = np.where(cells[:, None] > 0, wet / np.maximum(cells, 1)[:, None], 1 / wet.shape[1])
     p, h = ((field * covered).sum(axis=1) for field in (result.pressure, result.gap))
     around = surroundings(scene, result.speed, wet.mean(axis=1), (result.shear * result.spots).mean(axis=1))
-    found = heated_film(scene.lubricant, result.x, p, h, around)
-    hot = np.abs(heated_stress(scene.lubricant, result.pressure, result.gap, sliding, found.wall[:, None])[0])
+    film = heated_film(scene.lubricant, result.x, p, h, around)
+    hot = np.abs(heated_stress(scene.lubricant, result.pressure, result.gap, sliding, film.wall[:, None])[0])
     lost = float(((result.shear - hot) * wet).mean(axis=1).sum()) * result.spacing[0]
     change = lost / max(abs(result.coefficient) * result.load, 1e-300)
-    return Heat(inlet, used, change, found, peclet_at(scene, result.speed))
+    return Heat(inlet, used, change, film, peclet_at(scene, result.speed))
 
 
 def warmed(scene: Scene, numbers: dict[str, float], heat: Heat) -> dict[str, float]:

@@ -129,11 +129,11 @@ def two_levels(
     numerics = prepared.scene.numerics
     load = prepared.scene.bodies.load
     most = max(1, min(prepared.sample.available, int(MOST_WORK / pairs[0].resolved.work)))
-    estimates = [_sum(prepared, pairs, one) for one in (control, None) if one is None or len(pairs) <= one.count]
-    estimates = [one for one in estimates if not one.line or 0 <= one.numbers["contact_load"] <= load]
-    counts = [one.wanted(numerics, len(pairs), most) for one in estimates]
-    best = next(k for k, one in enumerate(estimates) if not one.line or counts[k] <= min(counts[-1], one.line))
-    return estimates[best], max(counts[best], len(pairs))
+    estimates = [_sum(prepared, pairs, line) for line in (control, None) if line is None or len(pairs) <= line.count]
+    estimates = [each for each in estimates if not each.line or 0 <= each.numbers["contact_load"] <= load]
+    counts = [each.wanted(numerics, len(pairs), most) for each in estimates]
+    chosen = next(k for k, each in enumerate(estimates) if not each.line or counts[k] <= min(counts[-1], each.line))
+    return estimates[chosen], max(counts[chosen], len(pairs))
 
 
 def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids], estimate: TwoLevelEstimate) -> Levels:
@@ -148,14 +148,14 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
     by_chance = math.sqrt((of_strips.error / f) ** 2 - difference.error**2)
     sampling = replace(of_strips, error=math.hypot(by_chance, BALANCED * (estimate.between / f) ** 2))
     results = [pair.resolved.result for pair in pairs]
-    films = tuple(mean(getattr(one, name) - one.coefficient for one in results) / f for name in OTHER_FILMS)
+    films = tuple(mean(getattr(result, name) - result.coefficient for result in results) / f for name in OTHER_FILMS)
     errors = _errors(prepared, pairs, numbers)
     errors["coefficient"] = math.hypot(*(e for e in (sampling.error, difference.error, numerical) if math.isfinite(e)))
     length = prepared.sample.length * max(estimate.line, len(pairs))
     first = pairs[0].resolved
-    rest = first.rest if isinstance(first, MovingStrip) else first
+    at_rest = first.rest if isinstance(first, MovingStrip) else first
     oil = prepared.scene.lubricant
-    flow, inlet = (change_by_flow(rest, other) for other in (thinned_less(rest.problem.lubricant), oil))
+    flow, inlet = (change_by_flow(at_rest, other) for other in (thinned_less(at_rest.problem.lubricant), oil))
     return Levels(
         numbers=numbers,
         errors=errors,
@@ -183,9 +183,9 @@ def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVari
         return TwoLevelEstimate(0, numbers, whole, BlockError(0.0, 1), whole.error * math.sqrt(count))
     for name, differences in line.numbers.items():
         numbers[name] -= mean(differences[:count])
-    rest = 1 - count / line.count
-    others = replace(line.sampling, error=math.sqrt(rest) * line.sampling.error * abs(numbers["coefficient"]))
-    whole = add_errors(_scatter(pairs, prepared.sample, line, rest), others)
+    unsolved = 1 - count / line.count
+    others = replace(line.sampling, error=math.sqrt(unsolved) * line.sampling.error * abs(numbers["coefficient"]))
+    whole = add_errors(_scatter(pairs, prepared.sample, line, unsolved), others)
     between = float(np.std(line.numbers["coefficient"]))
     return TwoLevelEstimate(line.count, numbers, whole, _scatter(pairs, prepared.sample, line, 1.0), between)
 
@@ -219,7 +219,7 @@ def _scatter(
     places = [pair.resolved.deviations for pair in pairs]
     f = np.array([pair.resolved.result.coefficient for pair in pairs])
     if line is not None:
-        places = [one - share * line.deviations(k, one.size) for k, one in enumerate(places)]
+        places = [values - share * line.deviations(k, values.size) for k, values in enumerate(places)]
         f -= share * line.numbers["coefficient"][:count]
     within = _block_error(places, sample, pairs[0])
     by_blocks = count * (within.error * (LINED if line else ALONE)) ** 2

@@ -168,10 +168,10 @@ def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYC
     count = 0
     if size == 0:
         return x, 0
-    rest = right.copy()
+    residual = right.copy()
     for _ in range(cycles):
-        beta = np.linalg.norm(rest)
-        basis = [rest / beta]
+        beta = np.linalg.norm(residual)
+        basis = [residual / beta]
         directions = []
         hessenberg = np.zeros((most + 1, most))
         for k in range(most):
@@ -190,8 +190,8 @@ def gmres(apply, precondition, right, accuracy=ACCURACY, most=KRYLOV, cycles=CYC
             if np.linalg.norm(left) <= 0.5 * accuracy * size or hessenberg[k + 1, k] <= 1e-14 * beta:
                 break
         x = x + sum(c * z for c, z in zip(y, directions))
-        rest = sum(c * v for c, v in zip(left, basis))
-        if np.linalg.norm(rest) <= accuracy * size:
+        residual = sum(c * v for c, v in zip(left, basis))
+        if np.linalg.norm(residual) <= accuracy * size:
             break
     return x, count
 

@@ -163,7 +163,9 @@ def _moved(state: State, before: State, cells: int, smooth: int) -> State:
     def moved(values, times=1):
         return np.concatenate([np.repeat(values[:1], times * cells, axis=0), values[: -times * cells]])
 
-    mean, old = (uniform_filter1d(one.pressure.mean(axis=1, keepdims=True), smooth, axis=0) for one in (state, before))
+    mean, old = (
+        uniform_filter1d(each.pressure.mean(axis=1, keepdims=True), smooth, axis=0) for each in (state, before)
+    )
     rough = 1.5 * moved(state.pressure - mean) - 0.5 * moved(before.pressure - old, 2)
     kind = moved(state.kind)
     return replace(

@@ -107,8 +107,8 @@ def change_by_flow(strip: Strip, lubricant: Lubricant) -> float:
     if lubricant == problem.lubricant:
         return 0.0
     other = replace(problem, contact=replace(problem.contact, lubricant=lubricant))
-    found = solve_point(other, start=result.state, tolerance=ENOUGH)
-    return assemble(evaluated(problem, found.state), found.report).coefficient / result.coefficient - 1
+    solution = solve_point(other, start=result.state, tolerance=ENOUGH)
+    return assemble(evaluated(problem, solution.state), solution.report).coefficient / result.coefficient - 1
 
 
 def thinned_less(lubricant: Lubricant) -> Lubricant:
@@ -142,7 +142,7 @@ def problem_of(
     def turned(one: Surface) -> Surface:
         return replace(one, heights=one.heights[::-1], mask=None) if speed < 0 else one
 
-    found = lay_out(
+    problem = lay_out(
         turned(surface),
         replace(scene.line_contact(abs(speed)), lubricant=lubricant),
         sliding=abs(ratio * speed),
@@ -152,11 +152,11 @@ def problem_of(
         factors=factors,
         ends=ends,
     )
-    heights = None if upper is None else shifted(found, turned(upper))(0.0)
+    heights = None if upper is None else shifted(problem, turned(upper))(0.0)
     return replace(
-        found,
+        problem,
         sense=-1.0 if ratio < 0 else 1.0,
-        upper=found.heights if upper is surface else heights,
+        upper=problem.heights if upper is surface else heights,
         sheared=None if lubricant is scene.lubricant else scene.lubricant,
     )
 
