@@ -8,9 +8,12 @@ from typing import Any
 from ..models import ModelAnswer
 from ..models.shared import Prepared, of_error
 from ..quantities import NUMBERS
+from ..scene import Scene
 from .ranges import with_ranges
 from .result import FrictionResult
 from .uncertainty import Uncertainty, field_errors_of, interval
+
+ONE_STANDS_STILL = 2.0  # slide-roll ratio, without its sign
 
 
 def result_of(
@@ -67,4 +70,17 @@ def result_of(
         compared_fields=None if cheaper is None else cheaper[1].fields,
         details=details | {name: answer.details},
     )
-    return with_ranges(prepared, result, answer)
+    return not_negative(scene, with_ranges(prepared, result, answer))
+
+
+def not_negative(scene: Scene, result: FrictionResult) -> FrictionResult:
+    """Return ``result`` with an interval of f that is not below 0 where one surface stands still.
+
+    There the power of the contact is f F_T times the sliding speed, and no contact delivers power.
+    """
+    low, high = result.uncertainty.interval
+    if abs(scene.motion.slide_roll_ratio) != ONE_STANDS_STILL or not low < 0 <= result.coefficient:
+        return result
+    uncertainty = replace(result.uncertainty, interval=(0.0, high))
+    notes = tuple(uncertainty.text if note == result.uncertainty.text else note for note in result.report.notes)
+    return replace(result, uncertainty=uncertainty, report=replace(result.report, notes=notes))

@@ -143,7 +143,7 @@ def _solved(
             return result_of(prepared, cheaper.answer(), cheap.name, begun, fine=fine, why=why)
         if prepared.scene.numerics.model_tolerance >= least_half_width():
             calibrated = CalibratedSolution(cheaper.balanced)
-            if calibrated.friction.error <= prepared.scene.numerics.model_tolerance:
+            if calibrated.applies and calibrated.friction.error <= prepared.scene.numerics.model_tolerance:
                 why = "its error is within numerics.model_tolerance"
                 return result_of(prepared, calibrated.answer(), CALIBRATED.name, begun, fine=fine, why=why)
     try:

@@ -9,6 +9,7 @@ import pytest
 
 import lubfric
 from lubfric.models.load_sharing.calibrated import calibration, half_width, numbers_of, widening
+from lubfric.models.load_sharing.model_error import least_error, starved_error
 from lubfric.models.load_sharing.rough_film import RoughMap, flattened
 from verification.campaigns.calibration.fit import fitted
 
@@ -151,3 +152,25 @@ def test_the_asperity_load_does_not_jump_with_the_law_of_the_oil(newtonian):
     assert shares[0] == pytest.approx(shares[1], abs=0.05)
     assert shares[0][1] > 0.25
     assert math.isnan(lubfric.friction(PAPER, 0.03, model="load-sharing").saturated_film_load)
+
+
+@pytest.mark.parametrize("film, deterministic", [(170e-9, 0.0567), (160e-9, 0.057), (80e-9, 0.084)])
+def test_a_starved_interval_of_load_sharing_holds_the_deterministic_answer(film, deterministic):
+    """f of the deterministic model on the same scene, solved once."""
+    scene = PAPER.with_(lubricant={"inlet_film": film, "eyring_stress": 5e6})
+    low, high = lubfric.friction(scene, 0.03, model="load-sharing").uncertainty.interval
+    assert low < deterministic < high
+
+
+def test_no_error_law_vanishes_while_a_film_is_present():
+    assert least_error(0.5) > 0.04
+    assert starved_error(1e-7, 1e-7) == pytest.approx(tuple(10 * part for part in starved_error(1e-8, 1e-7)))
+    starved = lubfric.friction(PAPER.with_(lubricant={"inlet_film": 1.2e-7}), 0.03, model="load-sharing")
+    low, high = starved.uncertainty.interval
+    assert low < starved.coefficient < high
+
+
+def test_f_is_not_negative_where_one_surface_stands_still():
+    scene = PAPER.with_(bodies={"load": 0.5}, numerics={"model": "calibrated", "sampling_tolerance": 0.3})
+    sliding = lubfric.friction(scene, 0.3)
+    assert sliding.uncertainty.interval[0] >= 0.0

@@ -13,11 +13,19 @@ from .calibrated import CalibratedFriction, calibrated_friction
 from .model import LoadSharing, LoadSharingSolution
 
 IN_WORDS = "load sharing, calibrated"
+NOT_FLOODED = (
+    "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
+)
 
 
 @dataclass(frozen=True)
 class CalibratedSolution(LoadSharingSolution):
     """The strips by load sharing; f of their `RoughFilm`, with the error that the campaign gives it."""
+
+    @property
+    def applies(self) -> bool:
+        """Whether the campaign has such contacts: flooded ones, with a film."""
+        return self.prepared.scene.lubricant.floods and self.balanced.balance.film is not None
 
     @cached_property
     def friction(self) -> CalibratedFriction:
@@ -28,6 +36,9 @@ class CalibratedSolution(LoadSharingSolution):
         return CalibratedSolution(self.balanced.corrected())
 
     def answer(self) -> ModelAnswer:
+        if not self.applies:
+            answer = answer_of(self.balanced)
+            return replace(answer, notes=(*answer.notes, NOT_FLOODED))
         return calibrated_answer(self.prepared, answer_of(self.balanced), self.friction)
 
 

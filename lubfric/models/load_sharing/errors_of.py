@@ -9,14 +9,14 @@ from ..shared import FEW, ORDER, TOO_SHORT, BlockError, error_by_heat, percent, 
 from .balance import Balance
 from .balanced_sample import BalancedSample
 from .forces import Forces
-from .model_error import load_sharing_error
+from .model_error import least_error, load_sharing_error, starved_error
 from .scatter import Scatter
 
 PLASTIC = 3.0  # a relative change of the load or of the area on the plastic part, at most about
 NO_CELLS = "not known: this contact has no places along y to compare"
 NONE = (0.0, 0.0)
 UNKNOWN = (math.nan, math.nan)
-EMPTY = "the error of Eq. (8) is not known where what arrives does not fill the gap"
+EMPTY = "the film that arrives does not fill the gap: Eq. (8) takes it for none, and f may be lower"
 NOT_STUDIED = "the error of the model itself is not known for this contact"
 MODEL_UNKNOWN = "the error of the model itself is not known and not in the interval: {}"
 MISSED = "not known: the patch is too short along y to tell what contact it misses"
@@ -180,7 +180,8 @@ def model_error(found: BalancedSample) -> tuple[tuple[float, float], tuple[str, 
     balance = found.balance
     scene = found.prepared.scene
     if balance.film is None:
-        return (NONE, ()) if scene.lubricant.inlet_film is None else (UNKNOWN, (EMPTY,))
+        fed = scene.lubricant.inlet_film
+        return (NONE, ()) if fed is None else (starved_error(fed, balance.contact.mean_gap), (EMPTY,))
     if not found.sample.is_resolved:
         return UNKNOWN, (NOT_STUDIED,)
     if why := gap_not_resolved(scene):
@@ -192,7 +193,17 @@ def model_error(found: BalancedSample) -> tuple[tuple[float, float], tuple[str, 
     forces = balance.forces
     load = scene.bodies.load
     parts = forces.boundary, forces.shear.total, forces.shear.rolling if moves(scene) else 0.0
-    return load_sharing_error(film / sq if sq else math.inf, share, *(part / load for part in parts)), ()
+    ratio = film / sq if sq else math.inf
+    down, up = load_sharing_error(ratio, share, *(part / load for part in parts))
+    if share > 0 and sq:
+        least = least_error(ratio)
+        down = max(down, least)
+        up = max(up, least)
+    if scene.lubricant.inlet_film is not None and share > 0:
+        starved = starved_error(scene.lubricant.inlet_film, balance.contact.mean_gap)
+        down = math.hypot(down, starved[0])
+        up = math.hypot(up, starved[1])
+    return (min(down, 1.0), up), ()
 
 
 def _area_needed(found: BalancedSample, scene: Scene) -> float:

@@ -1,4 +1,18 @@
-"""Load sharing against the deterministic model on random contacts: the table behind the calibrated error model.
+"""``python -m verification calibration``: the error of calibrated load sharing on kinds of contacts that were left out.
 
-``python -m verification.campaigns.calibration`` extends the table (`table`), one case after another (`case`, `solve`).
+Random contacts are solved by load sharing and by the deterministic model. ``python -m verification.campaigns.calibration
+MOTION COUNT`` extends the table of solved cases, and ``... fit`` writes the error model of lubfric anew.
 """
+
+from ... import frame
+
+PARTS: tuple[tuple[str, str, str, dict], ...] = (
+    (
+        "rest",
+        "calibration.held_out:coverage",
+        "Roughness at rest: bounds on kinds that were left out",
+        {"motion": "rest"},
+    ),
+    ("rolling", "calibration.held_out:coverage", "Roughness that moves", {"motion": "rolling"}),
+)
+COMMAND = frame.campaign("calibration", __doc__, PARTS)

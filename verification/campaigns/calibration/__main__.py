@@ -1,4 +1,5 @@
-"""``python -m verification.campaigns.calibration MOTION COUNT [--budget S]``: extend a table of solved cases."""
+"""``python -m verification.campaigns.calibration rest|rolling COUNT [--budget S]``: extend a table of solved cases.
+``... fit``: write calibration.toml of lubfric anew."""
 
 import argparse
 import os
@@ -8,16 +9,20 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # isort: split
+from . import fit
 from .table import extend
 
 
 def main() -> int:
     """Run the command and return its exit code."""
     p = argparse.ArgumentParser("python -m verification.campaigns.calibration", description=__doc__)
-    p.add_argument("motion", choices=("rest", "rolling"))
-    p.add_argument("count", type=int, help="number of cases that the table shall have")
+    p.add_argument("motion", choices=("rest", "rolling", "fit"))
+    p.add_argument("count", type=int, nargs="?", default=0, help="number of cases that the table shall have")
     p.add_argument("--budget", type=float, default=7200.0, help="processor time [s] (default: %(default)s)")
     options = p.parse_args()
+    if options.motion == "fit":
+        fit.write()
+        return 0
     for row in extend(options.motion, options.count, options.budget):
         end = row["failure"] or f"{row['ls_f']:.4f} {row['det_f']:.4f}"
         print(f"{row['motion']} {row['seed']} {row['fluid']} {row['lay']} {row['seconds']:.1f} s: {end}", flush=True)
