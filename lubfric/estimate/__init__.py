@@ -11,8 +11,4 @@ from .outlook import forecast
 from .power import power_of_forces
 from .result import FrictionResult, together
 from .sampled import sampled
-from .uncertainty import (
-    Uncertainty,
-    UncertaintyCurve,
-    curve_of,
-)
+from .uncertainty import Uncertainty, UncertaintyCurve, curve_of

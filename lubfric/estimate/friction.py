@@ -12,13 +12,7 @@ from .._base.processes import MOST_WORKERS, pool
 from ..errors import ConvergenceError, InputError
 from ..models import Deterministic, LoadSharing, Model
 from ..models.load_sharing import Calibrated, CalibratedSolution, least_half_width
-from ..models.shared import (
-    Prepared,
-    at_speed,
-    at_tolerance,
-    refused,
-    unmodelled_effects,
-)
+from ..models.shared import Prepared, at_speed, at_tolerance, refused, unmodelled_effects
 from ..scene import FASTEST, Scene, warn_unusual_values
 from .answer import result_of
 from .full_load import full_load_numbers

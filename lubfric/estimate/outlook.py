@@ -5,21 +5,9 @@ import math
 from dataclasses import dataclass
 
 from ..film import LineContact, flooded_inlet
-from ..models.deterministic import (
-    DIFFERENCE,
-    MOST_WORK,
-    SHORT,
-    cells_of,
-    moving_point_work,
-    reach,
-    work_of_steps,
-)
+from ..models.deterministic import DIFFERENCE, MOST_WORK, SHORT, cells_of, moving_point_work, reach, work_of_steps
 from ..models.load_sharing import load_sharing_error
-from ..models.shared import (
-    ORDER,
-    SAFETY,
-    student,
-)
+from ..models.shared import ORDER, SAFETY, student
 from ..oil import shear_stress
 from ..samples import Sample
 from ..scene import FRICTION, Scene, gap_not_resolved, moves

@@ -13,11 +13,7 @@ from ..errors import InputError, Report
 from ..models import ContactFields
 from ..models.deterministic import DeterministicResult
 from ..models.load_sharing import Balance
-from ..models.shared import (
-    Decision,
-    UnmodelledEffect,
-    Validity,
-)
+from ..models.shared import Decision, UnmodelledEffect, Validity
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex
 from .uncertainty import FieldErrors, Uncertainty

@@ -32,13 +32,7 @@ from .cells import (
     starts_of,
 )
 from .contract import PIECE, Sample
-from .maps import (
-    extended,
-    measured,
-    rough_bodies,
-    statistics,
-    whole_maps,
-)
+from .maps import extended, measured, rough_bodies, statistics, whole_maps
 
 STRIP = 90.0  # correlation lengths along y of a strip
 WIDE = 5.0  # correlation lengths along x in b from which a strip half as long has asperity contacts enough

@@ -6,9 +6,7 @@ from collections.abc import Iterator
 from ...contact import ridges
 from ...film import FAST, LARGEST, SLIDING
 from ...oil import CELSIUS, NO_LIQUID
-from .heat import (
-    TYPICAL,
-)
+from .heat import TYPICAL
 from .validity import Validity
 
 # rho U h/eta

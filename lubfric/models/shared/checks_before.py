@@ -10,11 +10,7 @@ from ...film import ShearForce, hertz
 from ...oil import carried_stress, shear_stress
 from ...scene import unusual_values
 from ...surface import correlation_length, rms_slope
-from .checks import (
-    of_motion,
-    of_pressure,
-    of_shear,
-)
+from .checks import of_motion, of_pressure, of_shear
 from .validity import Validity
 
 NODES = 201  # across the Hertz strip

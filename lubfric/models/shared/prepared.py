@@ -6,14 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from ..._base import FieldsOnly, Shown, validate, with_default_errors
-from ...contact import (
-    BOUNDARY,
-    AsperityContact,
-    FlatContact,
-    HalfSpaceContact,
-    RoughContact,
-    half_space,
-)
+from ...contact import BOUNDARY, AsperityContact, FlatContact, HalfSpaceContact, RoughContact, half_space
 from ...errors import InputError
 from ...samples import (
     PIECE,

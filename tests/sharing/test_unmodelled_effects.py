@@ -47,9 +47,9 @@ def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(s
         "viscosity": ROLLER.lubricant.viscosity * math.exp(-10 * ROLLER.lubricant.temperature_coefficient),
     }
     for word, there in (
-        ("starves", ROLLER.with_(lubricant=film)),
+        ("starved", ROLLER.with_(lubricant=film)),
         ("warmer", ROLLER.with_(lubricant=warm)),
-        ("run in", ROLLER.with_(surface={"sq": 0.6 * SQ})),
+        ("running-in", ROLLER.with_(surface={"sq": 0.6 * SQ})),
         ("f_b", ROLLER.with_(bodies={"boundary_friction_coefficient": 0.75 * 0.12})),
     ):
         change = lubfric.friction(there, speed).coefficient / found.coefficient - 1
@@ -59,15 +59,15 @@ def test_the_likely_size_is_that_of_the_scene_that_has_it_to_a_factor_of_three(s
         -0.25 * found.boundary_force / 2000.0 / found.coefficient
     )
     sizes = [abs(change) for _, change, _ in found.unmodelled_effects if not math.isnan(change)]
-    assert sizes == sorted(sizes, reverse=True) and math.isnan(told(found.unmodelled_effects, "moves"))
+    assert sizes == sorted(sizes, reverse=True) and math.isnan(told(found.unmodelled_effects, "motion"))
 
 
 def test_what_is_given_and_what_is_below_the_tolerance_is_not_told():
     given = ROLLER.with_(lubricant={"inlet_length": 1.0}, bodies={"boundary_friction_coefficient": [0.1, 0.12]})
     words = " ".join(what for what, *_ in unmodelled_effects(given, SQ, 1.0))
-    assert "starves" not in words and "f_b" not in words and "run in" in words
+    assert "starved" not in words and "f_b" not in words and "running-in" in words
     smooth = " ".join(what for what, *_ in unmodelled_effects(ROLLER, 0.0, 1.0))
-    assert "run in" not in smooth and "moves" not in smooth
+    assert "running-in" not in smooth and "motion" not in smooth
     loose = dataclasses.replace(ROLLER, numerics=dataclasses.replace(ROLLER.numerics, tolerance=0.2))
     assert all(abs(change) > 0.2 or math.isnan(change) for _, change, _ in unmodelled_effects(loose, SQ, 0.3))
     assert [what for what, *_ in unmodelled_effects(loose, 0.0, 1.0)] == []
@@ -80,7 +80,7 @@ def test_info_tells_it_and_the_words_hold_the_numbers():
     for what, change, remedy in lacks:
         size = "not estimated" if math.isnan(change) else f"{100 * change:+.2g} %"
         assert f"{what}: f {size}; {remedy}" in text
-    assert "left out" in text and len(lacks) >= 5
+    assert "effects not modelled" in text and len(lacks) >= 5
 
 
 def test_a_soft_body_is_told_how_thick_its_cover_has_to_be():
