@@ -32,6 +32,7 @@ from ..studies import Law, Store, fingerprint_without_files, fits
 from ..surface import rms_slope
 from .describe import SceneEstimate, estimate_scene
 from .pictures import plot_surface
+from .progress import clear_active
 from .report import report_page
 
 # exit codes, as shells count them: the second argument of a KeyboardInterrupt
@@ -43,6 +44,7 @@ SAY_EVERY = 1.0  # s between two lines of progress
 
 def say(text: str) -> None:
     """Write one line to stderr; silence once nobody reads it."""
+    clear_active()
     put(sys.stderr, text + "\n")
 
 

@@ -9,6 +9,7 @@ from ..time import TransientResult, transient
 from . import commands
 from .fields import npz_bytes
 from .pictures import animate, plot_history
+from .progress import Progress
 
 
 def run_history(scene: Scene, arguments) -> None:
@@ -27,6 +28,7 @@ def run_history(scene: Scene, arguments) -> None:
     def on_step(now, duration, row):
         nonlocal reached
         reached = now
+        shown.update(now, duration)
         if row is not None and due(now >= duration):
             commands.say(
                 f"t = {now:<8.5g} of {duration:g} s: U = {row['entrainment_speed']:<9.4g} m/s, f = "
@@ -37,9 +39,10 @@ def run_history(scene: Scene, arguments) -> None:
     def kept() -> str:
         return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
 
-    with commands.run_begun(scene, arguments, names, kept) as (folder, prepared, estimate):
+    begun = commands.run_begun(scene, arguments, names, kept)
+    with Progress("s") as shown, begun as (folder, prepared, estimate):
         if folder.unfinished.is_dir():
-            commands.say(f"going on from {folder.unfinished}")
+            commands.say(f"the run continues from {folder.unfinished}")
         try:
             result = transient(prepared, checkpoint=folder.unfinished, on_step=on_step)
         except (ConvergenceError, ValidityError) as error:

@@ -3,6 +3,7 @@ Both write to a folder."""
 
 import json
 import time
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from ..quantities import KEYS, axis_label, counted
 from ..units import numbers_of
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, paced, run_folder, say
+from .progress import Progress
 from .study_report import answer_lines, study_page
 
 
@@ -35,8 +37,8 @@ def run_study(arguments) -> None:
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
-    with keeping(lambda: _kept(arguments.out)), workers_of as executor:
-        result = studies.study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun))
+    with Progress("points") as shown, keeping(lambda: _kept(arguments.out)), workers_of as executor:
+        result = studies.study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun, shown))
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:
         folder.contents |= {name: made(name, writers[name.partition(".")[2]]) for name in names}
@@ -117,13 +119,15 @@ def _kept(folder: Path) -> str:
     return f"{found.solved} points are kept in {folder}, {left}"
 
 
-def _progress(begun: float):
+def _progress(begun: float, shown: Progress) -> Callable[[int, int], None]:
+    """Return what reports how many points are solved: on ``shown``, and once in a while in a line."""
     due = paced()
     first = -1
 
     def on_progress(done: int, total: int) -> None:
         nonlocal first
         first = done if first < 0 else first  # what the store held already took no time
+        shown.update(done, total)
         if due(done == total):
             passed = time.perf_counter() - begun
             told = f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s"

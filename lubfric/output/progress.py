@@ -1,0 +1,103 @@
+"""The progress of a long command: a line on stderr that is overwritten every second, with the time left. It appears on a
+terminal alone; files and pipes get the finished lines of the command and nothing else."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from contextlib import suppress
+from importlib import import_module
+from typing import Any
+
+from ..studies import in_words
+
+REFRESH = 1.0  # s between two drawings of the line
+CLEAR = "\r\033[K"  # to the begin of the line, and nothing on it
+
+_active: Progress | None = None
+
+
+class Progress:
+    """Use as ``with Progress("points") as progress: progress.update(done, total)``.
+
+    The line is a bar of tqdm where that is installed (``pip install 'lubfric[progress]'``), else plain text.
+    """
+
+    def __init__(self, unit: str):
+        self.unit = unit
+        self.done = 0.0
+        self.total = 0.0
+        self._first: float | None = None
+        self._begun = time.monotonic()
+        self._bar: Any = None
+        self._ended = threading.Event()
+        self._lock = threading.RLock()
+        self._thread: threading.Thread | None = None
+
+    def __enter__(self) -> Progress:
+        global _active
+        if sys.stderr is not None and sys.stderr.isatty():
+            with suppress(ImportError):
+                self._bar = import_module("tqdm").tqdm(unit=f" {self.unit}", file=sys.stderr, leave=False, total=0)
+            self._thread = threading.Thread(target=self._draw_often, daemon=True)
+            self._thread.start()
+            _active = self
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        global _active
+        if self._thread is not None:
+            self._ended.set()
+            self._thread.join()
+            _active = None
+            self.clear()
+            if self._bar is not None:
+                self._bar.close()
+
+    def update(self, done: float, total: float) -> None:
+        """Report that ``done`` of ``total`` are ended. What is done at the first report took no time: it was stored."""
+        with self._lock:
+            self._first = max(done - 1.0, 0.0) if self._first is None and total > 1 else self._first or 0.0
+            self.done = done
+            self.total = total
+
+    @property
+    def text(self) -> str:
+        """The line: what is done, the time passed, and the time left where it is known."""
+        passed = time.monotonic() - self._begun
+        head = f"{self.done:.4g} of {self.total:.4g} {self.unit}, " if self.total else ""
+        text = f"{head}{in_words(passed)} passed"
+        solved = self.done - (self._first or 0.0)
+        if self.total and solved > 0:
+            text += f", about {in_words(passed * (self.total - self.done) / solved)} left"
+        return text
+
+    def draw(self) -> None:
+        """Draw the line as it is now."""
+        with self._lock, suppress(OSError, ValueError):
+            if self._bar is None:
+                sys.stderr.write(f"{CLEAR}{self.text}")
+                sys.stderr.flush()
+                return
+            self._bar.total = self.total or None
+            self._bar.n = self.done
+            self._bar.refresh()
+
+    def clear(self) -> None:
+        """Remove the line, so that another can be written in its place."""
+        with self._lock, suppress(OSError, ValueError):
+            if self._bar is not None:
+                self._bar.clear()
+            sys.stderr.write(CLEAR)
+            sys.stderr.flush()
+
+    def _draw_often(self) -> None:
+        while not self._ended.wait(REFRESH):
+            self.draw()
+
+
+def clear_active() -> None:
+    """Remove the line of the command that is running, if there is one; the next second draws it again."""
+    if _active is not None:
+        _active.clear()

@@ -1,0 +1,79 @@
+"""The line of progress: on a terminal alone, with the time left, and gone before any other line."""
+
+import io
+import re
+import sys
+import time
+
+import pytest
+from scene_text import BODIES_AND_OIL, SMALL_PATCH
+
+from lubfric.output import main
+from lubfric.output import progress as module
+from lubfric.output.commands import say
+from lubfric.output.progress import CLEAR, Progress
+
+pytestmark = pytest.mark.usefixtures("undrawn")
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    monkeypatch.setattr(module, "REFRESH", 0.02)
+    monkeypatch.setitem(sys.modules, "tqdm", None)  # the plain line
+
+
+def test_the_time_left_is_that_of_the_points_left(monkeypatch):
+    """Points that the store held took no time: 2 of 10 at the begin, 4 more in 8 s, so that 4 take about 8 s."""
+    now = [100.0]
+    monkeypatch.setattr(module.time, "monotonic", lambda: now[0])
+    shown = Progress("points")
+    shown.update(3, 10)  # the first point that was solved is reported when it ends
+    now[0] += 8.0
+    shown.update(6, 10)
+    assert shown.text == "6 of 10 points, about 8 s passed, about 8 s left" or re.match(
+        r"6 of 10 points, .*8 s passed, about .*8 s left", shown.text
+    )
+
+
+def test_a_terminal_sees_a_line_that_other_lines_replace(monkeypatch, quick):
+    stream = Terminal()
+    monkeypatch.setattr(sys, "stderr", stream)
+    with Progress("points") as shown:
+        shown.update(1, 4)
+        time.sleep(0.1)
+        say("a finished line")
+        time.sleep(0.05)
+    text = stream.getvalue()
+    assert f"{CLEAR}1 of 4 points" in text and " left" in text
+    assert f"{CLEAR}a finished line\n" in text and text.endswith(CLEAR)
+
+
+def test_a_file_gets_no_progress(monkeypatch, quick, tmp_path):
+    """Nor do the numbers of a run depend on who watches it."""
+    tables = []
+    for name, stream in (("file", io.StringIO()), ("terminal", Terminal())):
+        (tmp_path / "s.toml").write_text(BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.3\n" + SMALL_PATCH)
+        monkeypatch.setattr(sys, "stderr", stream)
+        out = tmp_path / name
+        assert main(["run", str(tmp_path / "s.toml"), "--speeds", "0.1,0.3", "--out", str(out)]) == 0
+        assert ("\033" in stream.getvalue() or "\r" in stream.getvalue()) == (name == "terminal")
+        tables.append([line.split(",")[1:4] for line in (out / "stribeck.csv").read_text().splitlines()])
+    assert tables[0] == tables[1]
+
+
+def test_a_bar_of_tqdm_takes_its_place_where_it_is_installed(monkeypatch):
+    pytest.importorskip("tqdm")
+    monkeypatch.setattr(module, "REFRESH", 0.02)
+    stream = Terminal()
+    monkeypatch.setattr(sys, "stderr", stream)
+    with Progress("points") as shown:
+        shown.update(1, 4)
+        time.sleep(0.1)
+        say("a finished line")
+    text = stream.getvalue()
+    assert "1/4" in text and "a finished line\n" in text and "1 of 4 points" not in text
