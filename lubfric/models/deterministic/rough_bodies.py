@@ -39,20 +39,20 @@ def map_of(prepared: Prepared, contact: HalfSpaceContact) -> Surface:
 
 def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
     """The rough bodies of strip ``index``. In pure rolling two are one: surface 1."""
-    found = moving_bodies(prepared.scene)
-    if len({ratio for _, ratio in found}) == 1:
-        return [RoughBody(strip_surface(prepared, index), abs(speed) * found[0][1], found[0][0] == "counterface")]
+    moving = moving_bodies(prepared.scene)
+    if len({ratio for _, ratio in moving}) == 1:
+        return [RoughBody(strip_surface(prepared, index), abs(speed) * moving[0][1], moving[0][0] == "counterface")]
     maps = maps_of(prepared, index)
-    return [RoughBody(maps[name], abs(speed) * ratio, name == "counterface") for name, ratio in found]
+    return [RoughBody(maps[name], abs(speed) * ratio, name == "counterface") for name, ratio in moving]
 
 
 def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
     """Of strip ``index`` the map of each rough body, by its section."""
-    found = [name for name, _ in moving_bodies(prepared.scene)]
+    moving = [name for name, _ in moving_bodies(prepared.scene)]
     sample = prepared.sample
-    if len(found) < 2 or prepared.joint:  # of a joint map all is that of surface 1
-        return dict.fromkeys(found[:1], strip_surface(prepared, index))
-    return {name: sample.of_body(k).strip(index) for k, name in enumerate(found)}
+    if len(moving) < 2 or prepared.joint:  # of a joint map all is that of surface 1
+        return dict.fromkeys(moving[:1], strip_surface(prepared, index))
+    return {name: sample.of_body(k).strip(index) for k, name in enumerate(moving)}
 
 
 def moving_point_work(scene: Scene, sample: Sample, sq: float, speed: float, factors: tuple[int, int]) -> float:

@@ -118,7 +118,7 @@ def _smooth(sample: Sample) -> bool:
 
 def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequence[Strip]]) -> dict[str, float]:
     """``numbers`` of a point as shorter cells change them: each by its ratio on ``pieces``, each on the longer and the
-    shorter cells; the loads by that of their odds, and the force of the film such that the forces add up to f."""
+    shorter cells; the loads by that of their ratio, and the force of the film such that the forces add up to f."""
     if not pieces:
         return numbers
     rows = [[numbers_of(prepared, piece[k].result) for piece in pieces] for k in (0, 1)]
@@ -127,8 +127,8 @@ def changed(prepared: Prepared, numbers: dict[str, float], pieces: Sequence[Sequ
     load = prepared.scene.bodies.load
     kept = ("speed", "load_residual", "rolling_force", "rolling_resistance", "film_to_roughness_ratio")
     new |= {name: numbers[name] for name in kept}
-    odds = new["contact_load"] / new["film_load"] if new["film_load"] > 0 else math.inf
-    new["contact_load"] = load / (1 + 1 / odds) if odds else 0.0
+    load_ratio = new["contact_load"] / new["film_load"] if new["film_load"] > 0 else math.inf
+    new["contact_load"] = load / (1 + 1 / load_ratio) if load_ratio else 0.0
     new["film_load"] = load - new["contact_load"]
     if numbers["contact_load"] > 0:
         new["boundary_force"] = numbers["boundary_force"] * new["contact_load"] / numbers["contact_load"]
@@ -159,10 +159,10 @@ def _at_fixed_speed(prepared: Prepared, speed: float) -> tuple[tuple[Piece, ...]
     def cells(made) -> int:
         return sum(one.problem.heights.size for piece in made[0] for one in piece) if made else 0
 
-    found = prepared.memo.get(
+    pieces = prepared.memo.get(
         ReferenceKey(sample.cells.coarsening, "change by shorter cells", step, speed > 0), make, cells
     )
-    return found or _pieces(prepared, speed, None)
+    return pieces or _pieces(prepared, speed, None)
 
 
 def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> tuple[tuple[Piece, ...], BlockError]:

@@ -132,9 +132,9 @@ def _resorted(at: Iterate) -> State:
     kind[(fluid & (p >= 0) | ruptured) & (at.gap < problem.floor)] = TOUCHING
     kind[_opened(touching, -at.residual, _pull(problem))] = FLUID
     kind[touching & (p <= 0)] = RUPTURED
-    beyond = (p > problem.hardness) & ~state.yielded
-    yielded = (state.yielded & (state.dent >= 0) | beyond) & (kind != RUPTURED)
-    spared = np.where(beyond, (p - problem.hardness) * problem.self_deflection, 0.0) if beyond.any() else 0.0
+    above_limit = (p > problem.hardness) & ~state.yielded
+    yielded = (state.yielded & (state.dent >= 0) | above_limit) & (kind != RUPTURED)
+    spared = np.where(above_limit, (p - problem.hardness) * problem.self_deflection, 0.0) if above_limit.any() else 0.0
     return replace(
         state,
         pressure=np.where(kind == RUPTURED, 0.0, np.where(yielded, problem.hardness, p)),
