@@ -12,7 +12,8 @@ from .asperity_find import FINDERS
 from .problem import on_grid
 
 DEFINITIONS = tuple(FINDERS)
-APPROACHES = np.geomspace(1e-5, 1.0, 53)  # of the height range, each 25 % longer: down to the deepest valley
+# Approaches [-] over the height range at which the load is looked at, each 25 % longer, down to the deepest valley.
+APPROACHES = np.geomspace(1e-5, 1.0, 53)
 
 
 @dataclass(frozen=True)

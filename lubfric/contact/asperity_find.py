@@ -5,7 +5,8 @@ from collections import defaultdict
 
 import numpy as np
 
-AHEAD = ((0, 1), (1, -1), (1, 0), (1, 1))  # one of each pair of opposite neighbours
+# Steps [cells] to one of each pair of opposite neighbours.
+AHEAD = ((0, 1), (1, -1), (1, 0), (1, 1))
 
 
 def _summit_finder(heights, spacing, periodic):

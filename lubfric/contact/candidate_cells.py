@@ -18,12 +18,22 @@ import numpy as np
 
 from .operator import filtered, wavenumber
 
-DENSE = 0.6  # share of the cells from which all are taken: their numbers take more memory than they save
-ROUND = 8  # rows: windows of nearly the same width share their operator
-POINTS = 64  # along each axis of the quarter of the Brillouin zone that is averaged over
-BLOCK = 16384  # cells that stay in the cache from one pass to the next
-FACTOR = 4  # cells, each way, that are one for long waves
-LEAST = 64  # cells along an axis: on shorter ones long waves cost more than they save
+# Share of the cells [-] from which all are taken: their numbers take more memory than they save. Halved and doubled by
+# `python -m verification.campaigns.benchmarks.contact_constants`.
+DENSE = 0.6
+# Rows: windows of nearly the same width share their operator.
+ROUND = 8
+# Points along each axis of the quarter of the Brillouin zone over which |k| is averaged.
+POINTS = 64
+# Cells that stay in the cache from one pass to the next. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+BLOCK = 16384
+# Cells, each way, that are one for long waves. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+FACTOR = 4
+# Cells along an axis below which long waves cost more than they save. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+LEAST = 64
 
 
 class CandidateCells:

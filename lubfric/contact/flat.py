@@ -16,22 +16,35 @@ from .refinement import ContactResult
 from .rough_contract import ContactState, RoughContact, centred_axis, weighted_mean
 from .solve import solve_contact
 
-LIGHTEST = 1e-6  # of the heaviest pressure: below it the light-load law of one asperity is used,
-ENOUGH = 0.25  # and from where the gap is as near as this, in its accuracy, to that of first touch, which is exact
-SPACING = 4.0  # pressure ratio between neighbouring nodes at first; its root on maps of
-SMALL = 128**2  # cells and fewer, whose summits come into contact one by one, down to
-HALVED = 0.25  # error of an interpolation between nodes half as far apart, of a smooth curve
-FEW = 1e-3  # of the heaviest pressure, below which f does not feel the load
-CELLS = 2  # that come into contact at a time
-# of adding nodes; least ln(pressure ratio) that is halved
+# Mean pressure over the heaviest [-] below which the light-load law of one asperity is used.
+LIGHTEST = 1e-6
+# Distance of the gap from that of first touch, over the accuracy [-], at which lighter nodes end: first touch is exact.
+ENOUGH = 0.25
+# Ratio of the pressures of neighbouring nodes at first [-]; small maps have its root.
+SPACING = 4.0
+# Cells of a small map, whose summits come into contact one by one.
+SMALL = 128**2
+# Error of an interpolation between nodes half as far apart, over that before [-], of a smooth curve.
+HALVED = 0.25
+# Mean pressure over the heaviest [-] below which f does not depend on the load.
+FEW = 1e-3
+# Cells that come into contact at a time, by which the contact area of a map is uncertain.
+CELLS = 2
+# Rounds of adding nodes, at most.
 ROUNDS = 5
+# Distance of two nodes in ln(pressure) [-] that is not halved any more.
 FINEST = 0.05
-NOTHING = 1e-9  # of the lightest gap: below it the contact is full
-MATTERS = 0.1  # share of the load on the contact above which f feels all of its relative error
+# Gap over the lightest one [-] below which the contact is full.
+NOTHING = 1e-9
+# Asperity load ratio [-] above which a relative error of the load is one of f.
+MATTERS = 0.1
 
-POINTS = 512  # across the strip, where the film is averaged
-COLUMNS = 2  # of the strip that say where it touches: evenly
-APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])  # of the height range
+# Points across the strip at which the film is averaged.
+POINTS = 512
+# Columns of the strip that state where it touches: evenly.
+COLUMNS = 2
+# Approaches over the height range [-] at which the load of independent asperities is found.
+APPROACHES = np.concatenate([np.geomspace(1e-4, 0.2, 80), np.linspace(0.2, 1.0, 81)[1:]])
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from .operator import HalfSpace, half_space
 from .rough_contract import ContactState, RoughContact, area_weight, centred_axis, weighted_mean
 from .solve import solve_contact
 
+# Boundaries of the contact along x and y.
 BOUNDARY = ("free", "periodic")
 
 

@@ -2,9 +2,11 @@
 
 import numpy as np
 
-FAR = 42.0  # K0 beyond it is below 1e-19
-# of the trapezoidal rule: the next point, and the error of the rule, are below 1e-16
+# Argument of K0 [-] beyond which it is below 1e-19.
+FAR = 42.0
+# Step of the trapezoidal rule for the tail of ∫ K0: its error is below 1e-16.
 STEP = 0.26
+# Points of that rule: the next one adds less than 1e-16.
 POINTS = 18
 
 

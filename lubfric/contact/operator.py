@@ -18,9 +18,12 @@ from .._base import FieldsOnly, FrozenArrays, validate
 from ..errors import InputError
 from .kernels import line_coefficients, love_coefficients, semiperiodic_coefficients
 
+# What an axis may be.
 KINDS = ("periodic", "free")
-PADDED = 32768  # waves of a block of padded columns: it stays in the cache
-NEGLIGIBLE = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}  # of the coefficient under the cell itself
+# Waves of a block of padded columns, which stays in the cache.
+PADDED = 32768
+# Coefficient of a distant cell over that of the cell itself [-] that is left out, by precision.
+NEGLIGIBLE = {np.dtype(np.float32): 1e-8, np.dtype(np.float64): 1e-16}
 
 
 def _once(method):

@@ -11,11 +11,17 @@ from .._base import validate
 from ..errors import InputError
 from .operator import HalfSpace, half_space
 
-COARSEST = 24  # cells along an axis below which it is not halved
-COARSE_TOLERANCE = 1e-2  # coarse grids only give a start
+# Cells along an axis below which it is not halved. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+COARSEST = 24
+# Tolerance of a coarse grid [-], which only gives a start.
+COARSE_TOLERANCE = 1e-2
+# Iterations on a coarse grid, at most.
 COARSE_ITERATIONS = 60
-NEWTON = 12  # steps before every other one halves the bracket
-ABSURD = 1e6  # times E': no start has such a pressure
+# Newton steps for a shift before every other one halves the bracket.
+NEWTON = 12
+# Pressure over E' [-] that no start has.
+ABSURD = 1e6
 
 
 @dataclass(frozen=True)

@@ -18,11 +18,21 @@ from .candidate_cells import CandidateCells
 from .problem import dot, rescaled, zero_level
 from .search import FIRST_PACE, CandidateSearch
 
-REACH = 2.0  # of the deepest overlap: cells with a gap below it may come into touch
-MARGIN = 0.8  # of the tolerance, aimed at by the search
-FALL = 8e-6  # of the residual within a round: as far as single precision goes
-RIGID = 1e-2  # of the roughness: deflection of a yielded cell below which the search is exact
-WASTED = 4  # rounds without halving the residual
+# Gap over the deepest overlap [-] below which a cell may come into contact. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+REACH = 2.0
+# Share of the tolerance [-] that the search aims at. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+MARGIN = 0.8
+# Fall of the residual within a round [-], as far as single precision goes. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+FALL = 8e-6
+# Deflection of a yielded cell over the roughness [-] below which the search is exact. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+RIGID = 1e-2
+# Rounds without halving the residual after which the solve has stagnated. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+WASTED = 4
 
 
 @dataclass(frozen=True, repr=False)

@@ -29,13 +29,23 @@ from .problem import dot, with_load, zero_level
 # 256 x 256 and 512 x 512 (`lubfric.solve_contact`, tolerance 1e-8).
 ITERATION = 1.2e-9
 
-FIRST_PACE = 0.35  # of the step that the preconditioner would take were it the inverse
-LOAD_ERROR = 1e-6  # of the load, in the trials of a round; less in later ones, in proportion to the residual
-LEARNING = 0.3  # power of the relative length of a step in the next pace
-STEPS = (0.3, 2.0)  # of the way to the trial
-SHIFTS = 12  # of a trial at most
-PATIENCE = 8  # iterations without a tenth off the best residual
-CAPACITY = 0.999  # of the hardness times the free cells, beyond which the exact search frees more
+# Length of the first step over that of an exact preconditioner [-]. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+FIRST_PACE = 0.35
+# Relative error of the load in the trials of a round [-]; less in later ones, in proportion to the residual.
+LOAD_ERROR = 1e-6
+# Power of the relative length of a step in the next pace [-]. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+LEARNING = 0.3
+# Least and greatest part of the way to the trial [-].
+STEPS = (0.3, 2.0)
+# Shifts of a trial, at most, to make it carry the load.
+SHIFTS = 12
+# Iterations without a tenth off the best residual after which a round ends. Halved and doubled by `python -m
+# verification.campaigns.benchmarks.contact_constants`.
+PATIENCE = 8
+# Load over hardness times free cells [-] above which the exact search frees more cells.
+CAPACITY = 0.999
 
 
 class CandidateSearch:

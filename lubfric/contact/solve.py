@@ -11,8 +11,10 @@ from .problem import ContactProblem, contact_problem, rescaled, shifted, startin
 from .refinement import ContactResult, SearchResult, TrialContact, contact_result, refine, trial_contact
 from .search import FIRST_PACE
 
-HEAVIER = 2.0  # times the load of a start: beyond it new spots matter more than what the old ones bear
-FLATTENED = 10.0  # times E' height/spacing: 1.1 would do for a periodic ripple
+# Load over that of a start [-] beyond which new asperity contacts matter more than the old ones.
+HEAVIER = 2.0
+# Mean pressure over E' height/spacing [-] that flattens any surface: 1.1 would do for a periodic ripple.
+FLATTENED = 10.0
 
 
 @with_default_errors

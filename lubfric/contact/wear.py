@@ -22,7 +22,8 @@ from .._base import validate
 from .cylinder import LoadedCylinder
 from .operator import HalfSpace
 
-GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)  # turn by which the windows shift from step to step: no two steps coincide
+# Turn [-] by which the windows shift from step to step, so that no two steps coincide: the golden ratio.
+GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 def archard_compliance(coefficient: float, distance: float, hardness: float) -> float:

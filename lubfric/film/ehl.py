@@ -18,11 +18,14 @@ from .problem import FilmProblem, film_problem
 from .reynolds import FilmSolution
 from .start import FilmState, solution_state
 
-# of the flooded flow, from where the flow falls by steps; and these steps
+# Flow over the flooded one [-] below which the flow of a starved film falls by steps.
 HALF = 0.5
+# Flow of a step over that of the one before [-].
 LESS = 0.6
-ROUGH = Effort(5e-3)  # on the way
-FURTHEST = 300.0  # of the length on which a flooded film builds up: an inlet beyond it is a flooded one
+# Effort of the films on the way.
+ROUGH = Effort(5e-3)
+# Distance of an inlet over the length on which a flooded film builds up [-] that counts as flooded.
+FURTHEST = 300.0
 
 
 @with_default_errors

@@ -10,7 +10,8 @@ from ..errors import Report
 from .hertz import HasLineContact, LineContact
 from .start import FilmState
 
-LUMP = 6  # neighbouring nodes that act as one line force far away
+# Neighbouring nodes that act as one line force far away.
+LUMP = 6
 
 
 @dataclass(frozen=True, repr=False)

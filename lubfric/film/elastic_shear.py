@@ -27,7 +27,8 @@ from ..oil import Lubricant, viscosity
 SUBSTEPS = (
     4  # steps a cell of the film: halving them moves the force by less than 0.5 % (tests/film/test_elastic_shear.py)
 )
-ROOT = 1e-10  # relative tolerance of a step's root
+# Relative tolerance of the root of a step [-].
+ROOT = 1e-10
 
 
 def disc_compliance(half_width: float, e_prime: float) -> float:

@@ -9,7 +9,8 @@ import math
 
 from .._base import validate
 
-ELASTIC_PIEZOVISCOUS = 1.311  # of M^(-1/8) L^(3/4), Grubin's film
+# Factor of M^(-1/8) L^(3/4) in Grubin's film [-], by quadrature of the Hertz gap (Ertel and Grubin).
+ELASTIC_PIEZOVISCOUS = 1.311
 
 
 def moes_film(m, l) -> float:

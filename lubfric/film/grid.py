@@ -13,15 +13,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-FAR_INLET = 30.0  # distance of the inlet in units of sqrt(2 R h), beyond three half-widths
-# smallest cell where the pressure rises / rise length; growth
+# Distance of the inlet over sqrt(2 R h) [-], beyond three half-widths.
+FAR_INLET = 30.0
+# Smallest cell where the pressure rises over the length of the rise [-].
 RISE_CELL = 0.3
+# Growth of the cells with the distance from there [-].
 RISE_GROWTH = 0.35
-# the same at the rupture point, where film and pressure spike are
+# Smallest cell at the rupture point, where film and pressure spike are, over the length there [-].
 RUPTURE_CELL = 0.1
+# Growth of the cells with the distance from the rupture point [-].
 RUPTURE_GROWTH = 0.28
-UPWIND = (-1, 0, 1)  # nodes of a face, of third order
-CORE = 1.2  # cells spread evenly over the contact, relative to the above
+# Nodes of a face in third-order upwind interpolation.
+UPWIND = (-1, 0, 1)
+# Cells spread evenly over the contact, relative to the others [-].
+CORE = 1.2
 
 
 @dataclass(frozen=True)

@@ -44,18 +44,30 @@ from scipy.linalg import solve_triangular
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
 from ..oil import ROELANDS_LOG_VISCOSITY, Lubricant, log_viscosity_ratio, shear_stress
 
-FAST = 5.0  # Péclet number u b rho c/(2 k) from which a source moves fast
-NODES = 257  # at most, of the flash temperature
+# Péclet number u b rho c/(2 k) [-] from which a heat source moves fast (Jaeger 1942).
+FAST = 5.0
+# Nodes of the flash temperature, at most.
+NODES = 257
+# Iterations of film and surface temperature, at most.
 STEPS = 40
-DIFFERENCE = 0.05  # K
-TOLERANCE = 1e-6  # of the largest rise
-SLIDING = 0.5  # |S| above which the factors of the inlet are used outside the range they were made for
-LARGEST = 20.0  # L above which neither is supported by the solutions they were fitted to
-ROELANDS_ZERO = 138.0  # K
-LEAST = 1e-14  # of the Newtonian stress, and
-LEAST_STRESS = 1e-3  # Pa, the lower of which is where a heated stress is sought from
-MOST_STRESS = 1e300  # Pa, of a Newtonian one
-HALVINGS = 64  # of the logarithm of the stress: to 1e-12 and less
+# Step [K] of a difference over the temperature.
+DIFFERENCE = 0.05
+# Change of the temperatures over the largest rise [-] at which the iteration ends.
+TOLERANCE = 1e-6
+# |S| [-] above which the factors of the inlet are used outside the range they were made for.
+SLIDING = 0.5
+# L [-] above which neither factor is supported by the solutions it was fitted to.
+LARGEST = 20.0
+# Temperature [K] at which the viscosity of Roelands' law is infinite.
+ROELANDS_ZERO = 138.0
+# Least heated stress over the Newtonian one [-] from which the root is sought.
+LEAST = 1e-14
+# Least stress [Pa] from which the root is sought, where it is lower.
+LEAST_STRESS = 1e-3
+# Largest Newtonian stress [Pa] that a number holds.
+MOST_STRESS = 1e300
+# Halvings of the logarithm of the stress: to 1e-12 and less.
+HALVINGS = 64
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,8 @@ from ..errors import InputError
 from ..oil import Lubricant
 from . import formulas
 
-RIGID = 4.894968493913369  # of eta0 |U| R/w: smallest film of a rigid cylinder
+# Smallest film of a rigid cylinder over eta0 |U| R/w [-], isoviscous, Swift-Stieber rupture (exact).
+RIGID = 4.894968493913369
 
 
 def composite_modulus(young_1, poisson_1, young_2, poisson_2) -> float:

@@ -14,18 +14,25 @@ from .problem import FilmProblem
 from .reynolds import FilmSolution, newton
 from .start import FilmState, cold_start, refined_start, rupture_guess, solution_state, warm_start
 
-# cells; a cold start has COARSEST, or up to STARTS - 1 times doubled
+# Cells of the coarsest grid of a cold start.
 COARSEST = 48
+# Grids from which a cold start is tried, each with twice the cells.
 STARTS = 5
+# Cells of the finest grid.
 FINEST = 3072
-WIDE = 2000.0  # of M: beyond it COARSEST cells do not hold the inlet
-COARSE_TOLERANCE = 5e-3  # from here on two grids are enough for a cold start
-# of what a flooded film needs: from where a meniscus starts inwards; and its steps
+# Moes' M [-] beyond which COARSEST cells do not resolve the inlet.
+WIDE = 2000.0
+# Tolerance [-] from which two grids are enough for a cold start.
+COARSE_TOLERANCE = 5e-3
+# Inlet over that of a flooded film [-] from which a meniscus starts inwards.
 WIDE_INLET = 3.0
+# Distance of the meniscus after a step over that before [-].
 CLOSER = 0.5
-STIFFER = (625.0, 125.0, 25.0, 5.0, 1.0)  # times the critical stress, from a Newtonian flow to the oil's own
-# Newton's method starts safely at L <= EASY; L may grow by STAGE between solutions
+# Critical stress over the oil's own [-], from a Newtonian flow to the oil's law.
+STIFFER = (625.0, 125.0, 25.0, 5.0, 1.0)
+# Moes' L [-] up to which Newton's method starts safely.
 EASY = 4.0
+# Growth of L between two solutions [-].
 STAGE = 1.4
 
 NestedSolutions = tuple[

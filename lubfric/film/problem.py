@@ -23,7 +23,8 @@ from .formulas import moes_film, starved_inlet, starved_share
 from .hertz import LineContact
 from .thinning import thinned
 
-MOST_STARVED = 0.995  # of Moes' film, from where on a guess of the inlet makes no sense
+# Film over Moes' film [-] above which a guess of the inlet makes no sense.
+MOST_STARVED = 0.995
 
 
 def film_problem(contact: LineContact) -> FilmProblem:

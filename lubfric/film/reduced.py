@@ -8,7 +8,9 @@ import numpy as np
 
 from ..oil import Lubricant, log_viscosity_ratio
 
-TABLE = 4000  # points of q(p), up to alpha p = FARTHEST
+# Points of the table of q(p).
+TABLE = 4000
+# alpha p [-] of its last point.
 FARTHEST = 1e4
 
 

@@ -27,8 +27,10 @@ from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT
 from .grid import Grid
 from .problem import FilmProblem
 
-VISCOSITY_STEP = 3.0  # largest change of ln(eta) in one step
-FILM_STEP = 0.7  # largest share of the film (or the flux) that one step may remove
+# Largest change of ln(eta) in one step [-].
+VISCOSITY_STEP = 3.0
+# Largest share of the film, or of the flux, that one step may remove [-].
+FILM_STEP = 0.7
 
 
 @dataclass(frozen=True)

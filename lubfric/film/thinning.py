@@ -21,9 +21,11 @@ from ..oil import Eyring, ShearLaw
 
 POINTS, WEIGHTS = np.polynomial.legendre.leggauss(12)
 WEIGHTS = WEIGHTS / 2
-SMALL = 1e-2  # of b: series below
-# of Newton's method for a
+# b [-] below which the series is used.
+SMALL = 1e-2
+# Steps of Newton's method for a, at most.
 ROUNDS = 40
+# Relative step [-] at which it ends.
 CLOSE = 1e-13
 
 

@@ -15,16 +15,22 @@ from .oil import Oil
 from .shear_laws import FLOW_LAWS, LIMITS, LimitingStress, ShearLaw
 from .viscosity import checked_temperature
 
-ROELANDS_PRESSURE = 1.96e8  # Pa
-DENSITY_PRESSURE = 5.9e8  # Pa, of the Dowson-Higginson law
-ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the pole viscosity 6.31e-5 Pa s
-# Pa and per Pa: above every limiting stress measured in oils (0.03 to 0.1 of p)
+# p0 [Pa] of Roelands' law (Roelands 1966).
+ROELANDS_PRESSURE = 1.96e8
+# Pressure [Pa] of the density law of Dowson and Higginson (1966).
+DENSITY_PRESSURE = 5.9e8
+# -ln of the pole viscosity 6.31e-5 Pa s (Roelands 1966).
+ROELANDS_LOG_VISCOSITY = 9.67
+# Stress [Pa] at ambient pressure above every limiting stress measured in oils.
 CARRIED_AT_REST = 5e6
+# Its rise with the pressure [Pa/Pa]; measured limiting stresses have 0.03 to 0.1.
 CARRIED = 0.12
-NO_LIQUID = 1e10  # Pa: no oil flows there
+# Pressure [Pa] at which no oil flows.
+NO_LIQUID = 1e10
 
 
-AS_BOUNDARY = "f_b"  # limiting_stress_coefficient of a Newtonian lubricant whose limit is stated to be f_b p
+# limiting_stress_coefficient of a Newtonian lubricant whose limit is stated to be f_b p.
+AS_BOUNDARY = "f_b"
 
 
 @dataclass(frozen=True, repr=False)

@@ -9,6 +9,7 @@ from .oil import Oil
 from .pressure import MeasuredCoefficients
 from .viscosity import CELSIUS, ViscosityTable, viscosity_at_100, walther
 
+# Temperatures of the standard viscosities [K].
 AT_40 = 40 + CELSIUS
 AT_100 = 100 + CELSIUS
 GRADES = {  # ISO 3448: grade -> mid-point kinematic viscosity at 40 °C [mm²/s], the grade holds +-10 % of it
@@ -17,7 +18,8 @@ GRADES = {  # ISO 3448: grade -> mid-point kinematic viscosity at 40 °C [mm²/s
 }
 
 OILS = packaged(__package__, "oils.toml")["oils"]
-FILM_EXPONENT = 0.56  # of alpha, in the central film of a full EHL contact (Dowson and Toyoda, 1978)
+# Exponent of alpha in the central film of a full EHL contact [-] (Dowson and Toyoda 1978).
+FILM_EXPONENT = 0.56
 
 
 def from_viscosities(nu40: float, nu100: float, **properties) -> Oil:

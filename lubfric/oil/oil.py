@@ -14,9 +14,12 @@ from ..errors import InputError
 from .pressure import BASES, Estimate, MeasuredCoefficients, gold, so_klaus
 from .viscosity import CELSIUS, ViscosityTable, Walther, checked_temperature, viscosity_index
 
-AT_15 = 15 + CELSIUS  # K
+# Temperature of a stated density [K].
+AT_15 = 15 + CELSIUS
+# Estimates of the pressure-viscosity coefficient.
 ESTIMATES = ("so-klaus", "gold")
-STEP = 0.05  # K, of a central difference
+# Step of a central difference [K].
+STEP = 0.05
 
 
 @dataclass(frozen=True, repr=False)

@@ -20,11 +20,11 @@ from .._base import packaged, validate
 from ..errors import InputError
 
 BASES = packaged(__package__, "oils.toml")["bases"]
-# measured coefficients over the estimate of So and Klaus, of the 13 oils named above
+# Measured coefficients over the estimate of So and Klaus [-], of the 13 oils named above.
 SO_KLAUS_RANGE = (0.70, 1.15)
-# relative error of a measured coefficient: what twin-disc fits state (Arana et al. 2019)
+# Relative error of a measured coefficient [-], as twin-disc fits state it (Arana et al. 2019).
 MEASURED_ERROR = 0.04
-# K beyond the measured temperatures up to which their line is continued
+# Distance [K] beyond the measured temperatures up to which their line is continued.
 REACH = 25.0
 
 

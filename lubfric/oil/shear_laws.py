@@ -16,8 +16,10 @@ import numpy as np
 from .._base import validate
 from ..errors import InputError
 
-LIMIT_ACTIVATION = 585.0  # K
-SMALL = 1e-6  # of s: below, a fluid is Newtonian
+# Activation temperature of the limiting stress [K] (Houpert, Flamand, Berthe 1981).
+LIMIT_ACTIVATION = 585.0
+# s [-] below which a fluid is Newtonian.
+SMALL = 1e-6
 
 
 class ShearLaw:

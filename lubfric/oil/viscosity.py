@@ -9,12 +9,18 @@ import numpy as np
 from .._base import validate
 from ..errors import InputError
 
-CONSTANT = 0.7  # of D341, mm²/s (older charts: 0.8, which moves 68 / 8.6 mm²/s at 60 °C from 28.49 to 28.58)
+# Constant of ASTM D341 [mm²/s]. Older charts have 0.8, which moves 68 / 8.6 mm²/s at 60 °C from 28.49 to 28.58.
+CONSTANT = 0.7
+# 0 °C in K.
 CELSIUS = 273.15
-RANGE = (200.0, 600.0)  # K in which a temperature is taken for one of an oil
-LEAST = 2e-6  # m²/s at 100 °C: below it the index is not defined
-SLOPE = 0.00715  # of procedure B of D2270
-LARGEST = 400.0  # index accepted by `viscosity_at_100`; oils on the market end below 250
+# Temperatures [K] that are taken for those of an oil.
+RANGE = (200.0, 600.0)
+# Viscosity at 100 °C [m²/s] below which the index is not defined (ASTM D2270).
+LEAST = 2e-6
+# Constant of procedure B of ASTM D2270 [-].
+SLOPE = 0.00715
+# Largest index [-] that `viscosity_at_100` takes; oils on the market end below 250.
+LARGEST = 400.0
 with (resources.files(__package__) / "d2270.txt").open() as _file:
     AT_100, LOW, HIGH = np.loadtxt(_file, unpack=True)  # mm²/s: at 100 °C; L and H of the standard
 

@@ -26,12 +26,16 @@ from ..oil import Lubricant
 from .differential_equations import Mesh, convolve, load_row, make_mesh
 from .differential_newton import DifferentialSolution, newton
 
-# cells
+# Cells of the first grid, at least.
 COARSEST = 64
+# Cells of the last grid, at most.
 FINEST = 32768
-FEWEST = 3  # grids to judge an error by: two may agree by chance
-RESOLVED = 0.7  # largest step of a first grid, relative to the length of the pressure rise
-STATE_CELLS = 96  # of the graded grid from which `lubfric.solve_ehl` may start
+# Grids by which an error is judged: two may agree by chance.
+FEWEST = 3
+# Largest step of a first grid over the length of the pressure rise [-].
+RESOLVED = 0.7
+# Cells of the graded grid from which `lubfric.solve_ehl` may start.
+STATE_CELLS = 96
 
 
 @with_default_errors

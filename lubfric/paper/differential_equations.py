@@ -31,8 +31,10 @@ import numpy as np
 
 from ..film import FilmProblem, log_mean_fluidity, moes_film
 
-BANDWIDTH = 8  # largest distance in nodes whose pressures are implicit: it changes only the time
-NEAR = 20  # distance in nodes from which the second difference of the kernel is a series
+# Largest distance [nodes] whose pressures are implicit: it changes only the time.
+BANDWIDTH = 8
+# Distance [nodes] from which the second difference of the kernel is a series.
+NEAR = 20
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,10 @@ from ..film import FilmProblem, step_length
 from . import differential_equations as equations
 from .differential_equations import DifferentialTerms, Mesh
 
-KRYLOV_LIMIT = 40  # GMRES vectors in one Newton step
-FORCING = 1e-2  # share of the far deflection that a Newton step may leave to the next one
+# GMRES vectors in one Newton step, at most.
+KRYLOV_LIMIT = 40
+# Share of the far deflection [-] that a Newton step may leave to the next one.
+FORCING = 1e-2
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,8 @@ from ..errors import CONVERGED, DIVERGED, ITERATION_LIMIT, STAGNATED
 from .imposed_film import ImposedFilm, impose
 
 STOPS = ("residual", "separation")
-PATIENCE = 200  # iterations without a tenth off the best residual
+# Iterations without a tenth off the best residual after which the loop has stagnated.
+PATIENCE = 200
 
 
 def single_loop(

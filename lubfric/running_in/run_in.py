@@ -18,8 +18,11 @@ from ..scene import Scene
 from ..surface import Surface
 from .wear import Wear, worn_in
 
-STEPS = 2.0  # of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure
-SHARP = 1e-5  # tolerance of the dry contact, at most: its overlaps become heights
+# Positions of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure.
+STEPS = 2.0
+# Tolerance of the dry contact [-], at most: its overlaps become heights.
+SHARP = 1e-5
+# Nanometres in a metre.
 NM = 1e9
 
 
