@@ -18,7 +18,7 @@ model = lubfric.prepare(lubfric.load_scene("paper").with_(numerics={"sampling": 
 point = lubfric.friction(model, 0.003, fields=True)
 
 path = Path(tempfile.mkdtemp()) / "contact.vtk"
-path.write_bytes(vtk_bytes(model, point))
+path.write_bytes(vtk_bytes(point))
 print(f"{path.name}: {path.stat().st_size / 2**20:.1f} MiB, {point.x.size} x {point.y.size} points")
 
 # %%

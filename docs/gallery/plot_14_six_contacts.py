@@ -119,7 +119,7 @@ for one, ax in zip(contacts, axes.flat, strict=True):
     ax.tick_params(axis="y", labelsize=8)
     print(
         f"{one.name}: {point.coefficient:.4f}",
-        *(f"{w}: f {100 * c:+.0f} %" for w, c, _ in point.lacks if c == c),
+        *(f"{w}: f {100 * c:+.0f} %" for w, c, _ in point.unmodelled_effects if c == c),
         sep="\n    ",
     )
 

@@ -46,7 +46,8 @@ def fields_bytes(points: list[FrictionResult]) -> bytes:
 
 
 def vtk_bytes(point: FrictionResult) -> bytes:
-    """Return height [m], pressure [Pa], gap [m], film thickness [m] and shear stress [Pa] of the cells of one solve.
+    """Return height [m], pressure [Pa], gap [m], film thickness [m] and shear stress [Pa] of the cells of one
+    solve; of load sharing the pressure of the smooth film [Pa], constant along the line.
 
     In the plane z = 0 (warp by "height" to see the surface).
     """
@@ -54,6 +55,10 @@ def vtk_bytes(point: FrictionResult) -> bytes:
     assert fields is not None
     names = {"height": "heights", "pressure": "pressure", "gap": "gap", "film_thickness": "film", "shear": "shear"}
     arrays = {name: getattr(fields, of) for name, of in names.items()}
+    film = point.balance.film if point.balance else None
+    if film is not None and point.deterministic is None:
+        pressure = np.interp(fields.x, film.x, film.pressure, left=0.0, right=0.0)
+        arrays["film_pressure"] = np.repeat(pressure[:, None], fields.y.size, axis=1)
     return grid_bytes(fields.x, fields.y, arrays, f"U = {point.speed:g} m/s, {fields.solve}")
 
 

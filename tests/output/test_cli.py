@@ -38,8 +38,8 @@ def test_run_writes_its_record(run):
     for point in record["points"]:
         assert point["report"]["converged"] and point["report"]["residual"] <= point["report"]["tolerance"]
     with np.load(run / "fields.npz") as fields:
-        assert fields["speed"] == [0.001] and fields["contact_pressure_0"].shape == (64, 64)
-        assert fields["contact_pressure_0"].max() <= 6e9
+        assert fields["speed"] == [0.001] and fields["pressure_0"].shape == fields["heights_0"].shape == (64, 64)
+        assert fields["pressure_0"].max() <= 6e9
 
 
 def test_csv_equals_json_and_the_library(run):

@@ -97,11 +97,11 @@ def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undr
 def test_the_file_for_paraview_is_read_back_by_another_reader(run):
     meshio = pytest.importorskip("meshio")
     mesh = meshio.read(run / "contact_0.vtk")
-    point = lubfric.stribeck(lubfric.load_scene(run.parent / "s.toml"), fields=[0.01]).points[0]
+    point = lubfric.friction(lubfric.load_scene(run.parent / "s.toml"), 0.01, fields="fine")
     grid = mesh.points.reshape(40, 48, 3)
     np.testing.assert_allclose(grid[:, :, 0], np.broadcast_to(point.x, (40, 48)))
     np.testing.assert_allclose(grid[:, :, 1], np.broadcast_to(point.y[:, None], (40, 48)))
-    for name, values in (("contact_pressure", point.pressure), ("gap", point.gap)):
+    for name, values in (("pressure", point.pressure), ("gap", point.gap)):
         np.testing.assert_array_equal(mesh.point_data[name].reshape(40, 48), values.T)
     film = mesh.point_data["film_thickness"].reshape(40, 48)
     np.testing.assert_array_equal(film[7], point.balance.film.film_at(point.x))

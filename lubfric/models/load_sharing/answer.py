@@ -79,7 +79,7 @@ def fine_fields_of(found: BalancedSample) -> ContactFields:
     prepared = found.prepared
     scene = prepared.scene
     sample = found.sample
-    cells = sample.cells.to_look_at(scene.bodies.half_width)
+    cells = (1, 1) if sample.is_single_patch else sample.cells.to_look_at(scene.bodies.half_width)
     contact = on_piece(prepared, sample, 0, cells)
     balance = found.balance
     if balance.film is None:
