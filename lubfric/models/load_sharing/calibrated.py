@@ -147,7 +147,8 @@ def out_of_range(scene: Scene, sq: float, speed: float, known: Mapping[str, Any]
     for name, (text, value) in values.items():
         low, high = known[name]
         if value < low:
-            words[f"{text.format(value)}, below {low:.3g}"] = math.log(low / value) if value > 0 else math.inf
+            # less sliding than in any case changes the stress by little; the part of rolling is `_by_flanks`
+            words[f"{text.format(value)}, below {low:.3g}"] = low - value if name == "slip" else math.log(low / value)
         elif value > high:
             words[f"{text.format(value)}, above {high:.3g}"] = math.log(value / high)
     return words

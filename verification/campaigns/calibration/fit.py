@@ -19,7 +19,7 @@ HOME = Path(lubfric.__path__[0]) / "models/load_sharing/calibration.toml"
 SPREAD = {"rest": ("one", "contrast", "contact"), "rolling": ("one", "contrast", "contact")}
 FREEDOM = 6.0  # of Student's t in the likelihood, so that single cases far off count little
 CONFIDENCE = 0.95
-LEAST_SLIP = 0.1  # slide-roll ratio of a rolling case that counts: below, f is a small difference
+LEAST_SLIP = 0.03  # slide-roll ratio of a rolling case that counts: below, f is a small difference
 QUARTERS = 4  # kinds of load, and of slide-roll ratio
 EDGES = (0.01, 0.99)  # quantiles of the cases: the range of the campaign
 
@@ -129,7 +129,7 @@ def lines(motion: str, solved: Sequence[Solved]) -> Iterator[str]:
     yield "spread = { " + ", ".join(f"{name} = {factor:.4f}" for name, factor in zip(names, factors)) + " }"
     yield f"[{motion}.range]"
     for name, values in ranges(solved).items():
-        low, high = np.quantile(values, EDGES)
+        low, high = (values.min(), values.max()) if name == "slip" else np.quantile(values, EDGES)
         yield f"{name} = [{as_text(float(low))}, {as_text(float(high))}]"
 
 
