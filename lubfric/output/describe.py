@@ -56,7 +56,7 @@ class SceneEstimate:
     ----------
     sections : lines on "transient" (what changes in time), "surface", "contact", "model", "effects not modelled", "validity"
     cost : the time that it will take, in words; "" where it is not known
-    table : of some speeds, their headings first: expected film, whether it clears the summits, what the sample costs
+    table : of some speeds, with headings: full-load film, lambda ratio, asperity contact, what the sample costs
     refusals : assumptions that fail by what is known so far, so that f means nothing
     effects : effects that are not modelled (`lubfric.models.shared.unmodelled_effects`)
     """
