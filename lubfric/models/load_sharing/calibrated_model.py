@@ -13,6 +13,7 @@ from .calibrated import CalibratedFriction, calibrated_friction
 from .model import LoadSharing, LoadSharingSolution
 
 IN_WORDS = "load sharing, calibrated"
+ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
 NOT_FLOODED = (
     "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
 )
@@ -24,8 +25,9 @@ class CalibratedSolution(LoadSharingSolution):
 
     @property
     def applies(self) -> bool:
-        """Whether the campaign has such contacts: flooded ones, with a film."""
-        return self.prepared.scene.lubricant.floods and self.balanced.balance.film is not None
+        """Whether the campaign has such contacts: flooded ones, with a film that does not shear elastically."""
+        lubricant = self.prepared.scene.lubricant
+        return lubricant.floods and lubricant.shear_modulus is None and self.balanced.balance.film is not None
 
     @cached_property
     def friction(self) -> CalibratedFriction:
@@ -38,7 +40,8 @@ class CalibratedSolution(LoadSharingSolution):
     def answer(self) -> ModelAnswer:
         if not self.applies:
             answer = answer_of(self.balanced)
-            return replace(answer, notes=(*answer.notes, NOT_FLOODED))
+            elastic = self.prepared.scene.lubricant.shear_modulus is not None
+            return replace(answer, notes=(*answer.notes, ELASTIC if elastic else NOT_FLOODED))
         return calibrated_answer(self.prepared, answer_of(self.balanced), self.friction)
 
 
