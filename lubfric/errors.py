@@ -63,7 +63,7 @@ class ConvergenceError(LubfricError, RuntimeError):
     that nothing computed is lost. Both survive pickling.
     """
 
-    def __init__(self, message: str, report=None, result=None):
+    def __init__(self, message: str, report: Any = None, result: Any = None):
         super().__init__(message, report, result)
         self.message = message
         self.report = report
@@ -76,7 +76,7 @@ class WorkLimitError(ConvergenceError):
     ``limit`` is that number. The work is counted from cells and steps, never by a clock.
     """
 
-    def __init__(self, limit: float, report=None, result=None):
+    def __init__(self, limit: float, report: Any = None, result: Any = None):
         message = f"the solve needs more work than numerics.max_work = {limit:.4g} s; raise it, or loosen tolerance"
         super().__init__(message, report, result)
         self.args = (limit, report, result)
@@ -94,7 +94,7 @@ class ValidityError(LubfricError, ValueError):
     nothing computed is lost. With ``numerics.accept = true`` it is returned instead. The error survives pickling.
     """
 
-    def __init__(self, message: str, entries=(), result=None):
+    def __init__(self, message: str, entries: Any = (), result: Any = None):
         super().__init__(message, entries, result)
         self.message = message
         self.entries = entries
@@ -174,7 +174,7 @@ class Report:
         advice = self.advice or ADVICE[self.status]
         return f"{text}; {advice}" if advice else text
 
-    def raise_if_failed(self, result=None) -> None:
+    def raise_if_failed(self, result: Any = None) -> None:
         """Raise `ConvergenceError` carrying this report (and ``result``) unless it converged."""
         if not self.converged:
             raise ConvergenceError(self.message, self, result)

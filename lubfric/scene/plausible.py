@@ -31,7 +31,7 @@ def _rows(name: str) -> dict[str, list]:
     return packaged(__package__, "typical.toml").get(section, {}).get(key, {})
 
 
-def slip(name: str, value) -> str | None:
+def slip(name: str, value: Any) -> str | None:
     """What ``value`` of the key ``name`` (section.key) may have been meant to be. None: the value is usual; "": nothing
     fits."""
     q = KEYS.get(name)
@@ -64,7 +64,7 @@ def unusual_values(scene: Any) -> tuple[tuple[str, float, float, str, str], ...]
     return tuple(unusual)
 
 
-def _index(scene) -> float | None:
+def _index(scene: Any) -> float | None:
     """Viscosity index of the oil; None without one, or of an oil so thin that it has none."""
     try:
         return None if scene.lubricant.oil is None else round(scene.lubricant.oil.index, 6)
@@ -85,7 +85,7 @@ def naming_slips(section: str, values: dict):
 
 
 @contextmanager
-def warn_unusual_values(scene):
+def warn_unusual_values(scene: Any):
     """Add the unusual values of a scene to an `InputError` or `ConvergenceError`: they are its likely cause."""
     try:
         yield

@@ -128,7 +128,7 @@ def border_of(table: np.ndarray) -> tuple[Border | None, np.ndarray]:
     return Border(steps=(along, down)), heights
 
 
-def refuse_profile(name: str, table: np.ndarray, header: Header | None, units) -> None:
+def refuse_profile(name: str, table: np.ndarray, header: Header | None, units: tuple[str, str, str] | None) -> None:
     """Raise `InputError` for a profile, with the statistics that make a surface of it."""
     values = table.ravel() if min(table.shape) == 1 else table[:, 1]
     said = f"file {name} holds a profile of {values.size} points, not a map of heights"

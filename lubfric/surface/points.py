@@ -69,7 +69,12 @@ def grid_lines(name: str, coordinate: np.ndarray) -> tuple[np.ndarray, int, floa
     raise InputError(said, allowed=f"at most {JITTER:g} of the step")
 
 
-def _interpolated(heights, index, position, spacing) -> np.ndarray:
+def _interpolated(
+    heights: np.ndarray,
+    index: tuple[np.ndarray, np.ndarray],
+    position: tuple[np.ndarray, np.ndarray],
+    spacing: tuple[float, float],
+) -> np.ndarray:
     """Return the heights on the grid whose cubic spline has the given ones at the points: a fixed-point iteration, of
     which each round adds what the spline misses at each point to the grid point of that point."""
     from scipy.ndimage import map_coordinates

@@ -1,6 +1,7 @@
 """What is done to a measured map before it is used: form taken off, gaps filled, outliers found, waves filtered."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -23,7 +24,9 @@ ALPHA = math.sqrt(math.log(2) / math.pi)
 REACH = 6.0  # standard deviations of the weights of a filter that are summed
 
 
-def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, float], tuple[float, float]]:
+def fitted_form(
+    heights: np.ndarray, mask: np.ndarray | None, spacing: tuple[float, float], form: str
+) -> tuple[np.ndarray, tuple[float, float], tuple[float, float]]:
     """Fit a polynomial to the measured points by least squares. Returns it (nx, ny) [m], its slopes [-] and its
     curvatures [1/m] along x and y.
 
@@ -56,7 +59,9 @@ def fitted_form(heights, mask, spacing, form) -> tuple[np.ndarray, tuple[float, 
     return fitted, slopes, curvatures
 
 
-def _normal_solution(z, weight, along, powers) -> dict[tuple[int, int], float] | None:
+def _normal_solution(
+    z: np.ndarray, weight: np.ndarray, along: list[np.ndarray], powers: Sequence[tuple[int, int]]
+) -> dict[tuple[int, int], float] | None:
     """{powers: coefficient} of the weighted least squares, or None if they have no unique solution.
 
     The normal equations are used, because their sums need no array but ``z`` itself. They are solved twice, the second
@@ -76,7 +81,7 @@ def _normal_solution(z, weight, along, powers) -> dict[tuple[int, int], float] |
     return dict(zip(powers, coefficients.tolist()))
 
 
-def _polynomial(terms, along) -> np.ndarray:
+def _polynomial(terms: dict[tuple[int, int], float], along: list[np.ndarray]) -> np.ndarray:
     """The polynomial of the coefficients ``terms`` of the powers ``along`` x and y, (nx, ny)."""
     matrix = np.zeros((along[0].shape[1], along[1].shape[1]))
     for powers, coefficient in terms.items():
@@ -84,7 +89,7 @@ def _polynomial(terms, along) -> np.ndarray:
     return along[0] @ matrix @ along[1].T
 
 
-def harmonic_fill(heights, mask, spacing) -> np.ndarray:
+def harmonic_fill(heights: np.ndarray, mask: np.ndarray, spacing: tuple[float, float]) -> np.ndarray:
     """Solve Laplace's equation (five points, no flux through the rim) at the points without a mask."""
     from scipy.sparse import csc_matrix
     from scipy.sparse.linalg import spsolve

@@ -101,7 +101,7 @@ def read_surface(
         raise InputError(said, way_out="give a smaller part of the map, or allow more memory") from None
 
 
-def _read(path: Path, head: bytes, spacing, unit, decimal, missing_value) -> Surface:
+def _read(path: Path, head: bytes, spacing: Any, unit: Any, decimal: str | None, missing_value: Any) -> Surface:
     """Return the map in a file as it stands, by the reader of its format."""
     suffix = path.suffix.lower()
     binary = b"\0" in head and not head.startswith((b"\xff\xfe", b"\xfe\xff"))  # no text: .dat of an interferometer
@@ -142,7 +142,7 @@ def units_of(name: str, value: Any) -> tuple[str, str, str] | None:
     return words[0], words[-2] if len(words) > 1 else words[0], words[-1]
 
 
-def _plain(path: Path, suffix: str, spacing, unit, decimal, missing_value) -> Surface:
+def _plain(path: Path, suffix: str, spacing: Any, unit: Any, decimal: str | None, missing_value: Any) -> Surface:
     """Return the map of a file of text, or of an array of NumPy."""
     units = units_of("unit", unit)
     if spacing is not None:
@@ -167,14 +167,21 @@ def _plain(path: Path, suffix: str, spacing, unit, decimal, missing_value) -> Su
     return _masked(path, table.heights, table.height_scale, missing, table.spacing, table.notes)
 
 
-def _refuse(suffix, **given) -> None:
+def _refuse(suffix: str, **given: Any) -> None:
     for name, value in given.items():
         if value is not None:
             said = f" = {value!r} is given, and this {suffix} file carries its own or has none"
             raise InputError(said, name, way_out="leave it out")
 
 
-def _masked(path: Path, heights, scale, missing_values, spacing, notes) -> Surface:
+def _masked(
+    path: Path,
+    heights: np.ndarray,
+    scale: float,
+    missing_values: tuple[float | None, ...],
+    spacing: Any,
+    notes: tuple[str, ...],
+) -> Surface:
     """Return the heights with their mask: NaN and the ``missing_values`` are unmeasured. `Surface` refuses infinite
     heights."""
     if spacing is None:
@@ -191,7 +198,7 @@ def _masked(path: Path, heights, scale, missing_values, spacing, notes) -> Surfa
     return Surface(np.where(measured, heights * scale, np.nan), spacing, mask=measured, notes=notes)
 
 
-def _prepared(surface, level, fill, form) -> Surface:
+def _prepared(surface: Surface, level: bool, fill: bool, form: str) -> Surface:
     """Return the map without its ``form``, noted with what the other forms would leave, and filled."""
     if not level:
         flat = surface
@@ -210,7 +217,7 @@ def _prepared(surface, level, fill, form) -> Surface:
     return surface.fill() if fill else surface
 
 
-def _read_npy(path) -> np.ndarray:
+def _read_npy(path: Path) -> np.ndarray:
     """Read a .npy file. It is memory-mapped first, so that its header cannot ask for more than the file holds."""
     name = f"path = {str(path)!r}"
     try:

@@ -3,9 +3,12 @@
 Functions of a `lubfric.Surface` return a new one.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,11 +16,14 @@ from .._base import validate
 from ..errors import InputError
 from ..units import worded
 
+if TYPE_CHECKING:
+    from .height_map import Surface
+
 MOST_POINTS = 2**26  # of any map, 512 MiB of heights
 SAME = 1e-9  # relative difference of lengths that are equal
 
 
-def pair(name, value) -> tuple[int, int]:
+def pair(name: str, value: Any) -> tuple[int, int]:
     """Two whole numbers >= 1; one stands for both."""
     return validate.pair(name, value, partial(validate.integer, minimum=1), "a whole number >= 1")
 
@@ -29,30 +35,46 @@ def points(name: str, shape: tuple[int, ...]) -> None:
         raise InputError(said, name, f"up to {MOST_POINTS:.3g}")
 
 
-def changed(surface, axis, heights, note, *, step=None, closed=None, mask=None):
+def changed(
+    surface: Surface,
+    axis: int,
+    heights: np.ndarray,
+    note: str,
+    *,
+    step: float | None = None,
+    closed: bool | None = None,
+    mask: np.ndarray | None = None,
+) -> Surface:
     """A copy with new heights along one axis, and whatever else changes with them."""
     spacing = list(surface.spacing)
     periodic = list(surface.periodic_axes)
     notes = (*surface.notes, note)
     spacing[axis] = spacing[axis] if step is None else step
     periodic[axis] = periodic[axis] if closed is None else closed
-    grid = {"spacing": tuple(spacing), "periodic_axes": tuple(periodic)}
-    return replace(surface, heights=heights, mask=mask, notes=notes, **grid)
+    return replace(
+        surface,
+        heights=heights,
+        mask=mask,
+        notes=notes,
+        spacing=(spacing[0], spacing[1]),
+        periodic_axes=(periodic[0], periodic[1]),
+    )
 
 
-def mirrored(surface, axis: int):
+def mirrored(surface: Surface, axis: int) -> Surface:
     """``surface`` made periodic along ``axis``: its points, followed by their mirror image."""
     heights = np.concatenate([surface.heights, np.flip(surface.heights, axis)], axis)
     mask = None if surface.mask is None else np.concatenate([surface.mask, np.flip(surface.mask, axis)], axis)
     return changed(surface, axis, heights, f"made periodic along {'xy'[axis]}: mirror", closed=True, mask=mask)
 
 
-def resampled(surface, axis: int, count: int | None, step: float | None):
+def resampled(surface: Surface, axis: int, count: int | None, step: float | None) -> Surface:
     """``surface`` on ``count`` points along ``axis``, or on points ``step`` [m] apart; see `resample_axis`."""
     n = surface.shape[axis]
     old = surface.spacing[axis]
     closed = surface.periodic_axes[axis]
     if count is None:
+        assert step is not None  # one of the two is given
         exact = n * old / step
         count = int(np.floor(min(exact, 1e15) * (1 + 1e-9)))
         closed = closed and abs(exact - round(exact)) < 1e-6
@@ -70,7 +92,7 @@ def resampled(surface, axis: int, count: int | None, step: float | None):
     return changed(surface, axis, heights, note, step=step, closed=closed)
 
 
-def fitted(surface, axis: int, count: int):
+def fitted(surface: Surface, axis: int, count: int) -> Surface:
     """``surface`` on exactly ``count`` points of its own spacing along ``axis``: repeated where periodic, else cut."""
     n = surface.shape[axis]
     if count == n:
@@ -89,7 +111,7 @@ def fitted(surface, axis: int, count: int):
     return surface.cropped(shape)
 
 
-def combined(first, second):
+def combined(first: Surface, second: Surface) -> Surface:
     """Two rough surfaces that face each other, as one map.
 
     It is z1(x, y) + z2(x, -y), on the finer of both spacings along each axis, over the length that both have.
@@ -120,7 +142,7 @@ def combined(first, second):
     return replace(parts[0], heights=heights, mask=mask, periodic_axes=closed, source=source, notes=tuple(notes))
 
 
-def _common(axis: int, first, second) -> tuple[int, bool]:
+def _common(axis: int, first: Surface, second: Surface) -> tuple[int, bool]:
     """(points, whether periodic) of the sum along ``axis``; both maps have the same spacing here."""
     lengths = [s.size[axis] for s in (first, second)]
     closed = [s.periodic_axes[axis] for s in (first, second)]
@@ -131,7 +153,7 @@ def _common(axis: int, first, second) -> tuple[int, bool]:
     return int(min(open_lengths or lengths) / first.spacing[axis] * (1 + SAME)), False
 
 
-def resample_axis(heights, axis, count, ratio, periodic) -> np.ndarray:
+def resample_axis(heights: np.ndarray, axis: int, count: int, ratio: float, periodic: bool) -> np.ndarray:
     """``count`` cells of ``ratio`` old cells each along ``axis``, from the start of the map.
 
     Periodic: the Fourier series at the new cell centres. Open: heights are taken as cell averages;

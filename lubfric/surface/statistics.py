@@ -4,12 +4,18 @@ Heights are taken about their mean, of the measured points only (names and signs
 Slopes and correlation lengths of rough surfaces depend on the spacing of the points.
 """
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .._base import validate
 from ..errors import InputError
+
+if TYPE_CHECKING:
+    from .height_map import Surface
 
 INVERSE_E = math.exp(-1)
 SMOOTHEST = 1e-7  # rms slope below which an instrument's heights and spacing cannot be in the same unit
@@ -22,13 +28,13 @@ PER_SQ = {"ra": math.sqrt(2 / math.pi), "rz": 5.0}
 SAMPLING = ((2e-8, 8e-5), (1e-7, 2.5e-4), (2e-6, 8e-4), (1e-5, 2.5e-3))  # m: up to this Ra, sampling length (ISO 4288)
 
 
-def sa(surface) -> float:
+def sa(surface: Surface) -> float:
     """Mean absolute height [m]."""
     z = surface.measured
     return float(np.abs(z - z.mean()).mean())
 
 
-def rz(surface) -> tuple[float, float]:
+def rz(surface: Surface) -> tuple[float, float]:
     """(Rz, sampling length) [m]: the mean height from the lowest to the highest point of a sampling length, along the
     axis on which it is larger, which runs across a lay. The length is that of ISO 4288 for the map's Ra, or all of a
     shorter map."""
@@ -45,17 +51,17 @@ def rz(surface) -> tuple[float, float]:
     return max(mean_heights)
 
 
-def ssk(surface) -> float:
+def ssk(surface: Surface) -> float:
     """Skewness [-]: negative for a plateau with valleys."""
     return _moment(surface, 3)
 
 
-def sku(surface) -> float:
+def sku(surface: Surface) -> float:
     """Kurtosis [-]: 3 for a Gaussian distribution."""
     return _moment(surface, 4)
 
 
-def largest_ratio(surface) -> float:
+def largest_ratio(surface: Surface) -> float:
     """Largest distance from the mean, max |z|/Sq [-]: 4 to 5.5 for a Gaussian map of 1e4 to 1e7 points; 0 for a flat
     one."""
     z = surface.measured - surface.measured.mean()
@@ -63,7 +69,7 @@ def largest_ratio(surface) -> float:
     return float(np.abs(z).max() / rms) if rms > 0 else 0.0
 
 
-def _moment(surface, power) -> float:
+def _moment(surface: Surface, power: int) -> float:
     z = surface.measured - surface.measured.mean()
     rms = z.std()
     if rms == 0:
@@ -71,7 +77,7 @@ def _moment(surface, power) -> float:
     return float(np.mean((z / rms) ** power))
 
 
-def rms_slope(surface) -> tuple[float, float, float]:
+def rms_slope(surface: Surface) -> tuple[float, float, float]:
     """(x, y, total) root mean square slopes [-], between neighbouring measured points, one cell apart."""
     slopes = []
     for axis in range(2):
@@ -84,7 +90,7 @@ def rms_slope(surface) -> tuple[float, float, float]:
     return slopes[0], slopes[1], math.hypot(*slopes)
 
 
-def check_slopes(surface) -> None:
+def check_slopes(surface: Surface) -> None:
     """Raise `InputError` for slopes that no surface has."""
     slope = rms_slope(surface)[2] if min(surface.shape) > 1 else 0.0
     if slope > STEEPEST:
@@ -92,7 +98,7 @@ def check_slopes(surface) -> None:
         raise InputError(f": rms slope = {slope:.3g} {of}", "surface", f"up to {STEEPEST:g} (are both in m?)")
 
 
-def check_scale(surface) -> None:
+def check_scale(surface: Surface) -> None:
     """Raise `InputError` for a map of an instrument whose lengths cannot be right: another program read them, and may
     have taken a unit for another."""
     dx, dy = surface.spacing
@@ -108,7 +114,7 @@ def check_scale(surface) -> None:
         raise InputError(said, "surface", f"{SMOOTHEST:g} to {STEEPEST:g} in a file of an instrument (a wrong unit?)")
 
 
-def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
+def autocorrelation(surface: Surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
     """(lag [m], correlation [-]) along ``axis`` up to half the map, 1 at lag 0.
 
     Circular along a periodic axis; otherwise every pair of measured points at that lag counts once
@@ -137,7 +143,7 @@ def autocorrelation(surface, axis: int = 0) -> tuple[np.ndarray, np.ndarray]:
     return np.arange(n // 2 + 1) * surface.spacing[axis], products / pairs / (products[0] / pairs[0])
 
 
-def correlation_length(surface, axis: int = 0, decay_level: float = INVERSE_E) -> float:
+def correlation_length(surface: Surface, axis: int = 0, decay_level: float = INVERSE_E) -> float:
     """First lag [m] at which the autocorrelation along ``axis`` falls to ``decay_level``.
 
     decay_level: 1/e by default; 0.1 (Whitehouse and Archard; Hu and Tonder) or 0.2 (Sal, ISO 25178-2)
@@ -147,7 +153,7 @@ def correlation_length(surface, axis: int = 0, decay_level: float = INVERSE_E) -
     return first_crossing(*autocorrelation(surface, axis), decay_level)
 
 
-def first_crossing(lags, acf, decay_level) -> float:
+def first_crossing(lags: np.ndarray, acf: np.ndarray, decay_level: float) -> float:
     """First lag at which ``acf`` falls to ``decay_level``."""
     level = validate.number("decay_level", decay_level, "(-)", above=0.0, maximum=0.99)
     below = np.flatnonzero(acf <= level)

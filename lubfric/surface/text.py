@@ -1,6 +1,7 @@
 """Height maps as text: a matrix of heights, or a list of points x y z; their separators, decimal marks and headers."""
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -38,6 +39,8 @@ _MISSING = re.compile(  # how programs mark a point that was not measured
 )
 _ODD = re.compile(r"[^\d\s.,;+eE-]|--|(?<![\d.,eE])-(?![\d.,])")  # a line that may hold such a mark
 
+Units = tuple[str, str, str] | None  # of x, y and the heights, as the caller gives them
+Pair = tuple[float, float] | None  # a spacing [m], where there is one
 Lines = list[tuple[int, str]]  # (line number in the file, text without blanks around it)
 
 
@@ -94,7 +97,7 @@ def read_text(
 # --- a matrix ----------------------------------------------------------------------------------
 
 
-def _matrix(path, table: NumberTable, units, spacing) -> TextMap:
+def _matrix(path: Path, table: NumberTable, units: Units, spacing: Pair) -> TextMap:
     """Return the map of a table of heights: turned so that x is axis 0, without rows and columns of coordinates."""
     header = table.header
     scale, notes = _height_scale(path, table, units)
@@ -115,7 +118,7 @@ def _matrix(path, table: NumberTable, units, spacing) -> TextMap:
     if spacing is not None and steps is not None:
         _same_spacing(path, spacing, steps, either=grid.either)
         steps = spacing
-    elif grid.either and table.own_spacing is None and border is None:
+    elif grid.either and table.own_spacing is None and border is None and steps is not None:
         notes += (f"steps of {steps[0]:g} m along X and {steps[1]:g} m along Y: lines may run along either",)
         steps = None
     return TextMap(
@@ -127,7 +130,7 @@ def _matrix(path, table: NumberTable, units, spacing) -> TextMap:
     )
 
 
-def _coordinates(path, table, border: Border, numbers, across, spacing, steps):
+def _coordinates(path: Path, table, border: Border, numbers: np.ndarray, across: bool, spacing: Pair, steps: Pair):
     """Return the heights, the steps [m] of the coordinates beside them where these are known, and notes."""
     along, down = border.steps
     pair = (along, down) if across else (down, along)
@@ -151,11 +154,11 @@ def _coordinates(path, table, border: Border, numbers, across, spacing, steps):
     return numbers, (pair[0] * unit, pair[1] * unit), (note,)
 
 
-def _all_near(pair, expected) -> bool:
+def _all_near(pair: Sequence[float | None], expected: tuple[float, float]) -> bool:
     return all(step is None or abs(step / goal - 1) < NEAR for step, goal in zip(pair, expected))
 
 
-def _same_spacing(path, given, steps, *, either: bool) -> None:
+def _same_spacing(path: Path, given: tuple[float, float], steps: tuple[float, float], *, either: bool) -> None:
     """Raise `InputError` where the spacing that the caller gives is not the one that the file states."""
     if _all_near(given, steps) or either and _all_near(given, steps[::-1]):
         return
@@ -163,7 +166,7 @@ def _same_spacing(path, given, steps, *, either: bool) -> None:
     raise InputError(said, way_out="leave spacing out, or remove the wrong line from the file")
 
 
-def _height_scale(path, table: NumberTable, units) -> tuple[float, tuple[str, ...]]:
+def _height_scale(path: Path, table: NumberTable, units: Units) -> tuple[float, tuple[str, ...]]:
     """Return the unit [m] of the heights, by the caller or by the file. Raise `InputError` where they differ."""
     header = table.header
     stated = header.stated.get("z unit")
@@ -179,7 +182,7 @@ def _height_scale(path, table: NumberTable, units) -> tuple[float, tuple[str, ..
     return UNITS[units[2]] * factor, ()
 
 
-def _refuse_unit_words(path, table: NumberTable) -> None:
+def _refuse_unit_words(path: Path, table: NumberTable) -> None:
     """Raise `InputError` for a title that names a unit which nobody has assigned: the heights may be in it."""
     for number, text in table.titles:
         if number in table.header.lines_read:
@@ -194,7 +197,7 @@ def _refuse_unit_words(path, table: NumberTable) -> None:
 # --- a list of points --------------------------------------------------------------------------
 
 
-def _points(path, table: NumberTable, units, spacing) -> TextMap:
+def _points(path: Path, table: NumberTable, units: Units, spacing: Pair) -> TextMap:
     """Return the map of a table of three columns x y z."""
     numbers = table.numbers
     if numbers.shape[1] != 3:
@@ -213,33 +216,35 @@ def _points(path, table: NumberTable, units, spacing) -> TextMap:
         if units is None:
             _refuse_unit_words(path, table)
         scales = [UNITS[unit] for unit in units or ("m", "m", "m")]
-    heights, steps, said = gridded(path.name, numbers * np.array([scales[0], scales[1], 1.0]))
+    heights, steps, made = gridded(path.name, numbers * np.array([scales[0], scales[1], 1.0]))
     if spacing is not None:
         _same_spacing(path, spacing, steps, either=False)
     missing = table.header.value("missing")
-    return TextMap(heights=heights, height_scale=scales[2], spacing=steps, missing_value=missing, notes=(*notes, *said))
+    return TextMap(heights=heights, height_scale=scales[2], spacing=steps, missing_value=missing, notes=(*notes, *made))
 
 
-def _stated_scales(path, table: NumberTable, units) -> list[float]:
+def _stated_scales(path: Path, table: NumberTable, units: Units) -> list[float]:
     """Return the units [m] of x, y, z by separate lines of the header, for both of which there must be one."""
     stated = [table.header.stated.get(name) for name in ("xy unit", "xy unit", "z unit")]
     scales = []
     for place, statement in enumerate(stated):
-        given = None if units is None else UNITS[units[place]]
+        unit = None if units is None else units[place]
+        given = None if unit is None else UNITS[unit]
         if statement is not None and given is not None and statement.value != given:
-            said = f"unit = {units[place]!r} is given, and file {path.name} says {statement.unit}: {statement.worded()}"
+            said = f"unit = {unit!r} is given, and file {path.name} says {statement.unit}: {statement.worded()}"
             raise InputError(said, way_out="leave unit out, or remove the wrong line from the file")
-        if statement is None and given is None:
+        scale = given if statement is None else statement.value
+        if scale is None:
             said = f"file {path.name} states the unit of {'the heights' if place == 2 else 'x and y'} nowhere"
             raise InputError(said, way_out="give unit = (unit of x, of y, of z), such as ('mm', 'mm', 'um')")
-        scales.append(statement.value if statement is not None else given)
+        scales.append(scale)
     return scales
 
 
 # --- Wyko --------------------------------------------------------------------------------------
 
 
-def _wyko(path, text: str, units, spacing) -> TextMap:
+def _wyko(path: Path, text: str, units: Units, spacing: Pair) -> TextMap:
     """Return the first block of heights of a Wyko (Veeco, Bruker Vision) ASCII file.
 
     Each line of a block holds the points at one x. Values are in nm where the second flag of the first line is 1, else
@@ -282,7 +287,9 @@ def _wyko(path, text: str, units, spacing) -> TextMap:
     return TextMap(heights=heights, height_scale=scale, spacing=steps, notes=tuple(notes))
 
 
-def _field(path, fields, name, *, whole: bool = False, default: float | None = None) -> float:
+def _field(
+    path: Path, fields: dict[str, str], name: str, *, whole: bool = False, default: float | None = None
+) -> float:
     """Return the positive number of a field of a Wyko header."""
     given = fields.get(name, "")
     if not given and default is not None:
@@ -326,7 +333,7 @@ def _block_lines(rows: list[str], before: int) -> Lines:
     return lines
 
 
-def _table(path, text: str, decimal: str | None) -> NumberTable:
+def _table(path: Path, text: str, decimal: str | None) -> NumberTable:
     """Return the numbers of a file, NaN where a cell is empty or marked as missing, and what stands around them.
 
     A point is always a decimal mark. A comma separates values, or it is the decimal mark. It is read where the lines
@@ -377,7 +384,7 @@ def _table(path, text: str, decimal: str | None) -> NumberTable:
     )
 
 
-def _numbers(path, lines: Lines, separator) -> np.ndarray:
+def _numbers(path: Path, lines: Lines, separator: str | None) -> np.ndarray:
     try:
         return np.loadtxt([text for _, text in lines], delimiter=separator, ndmin=2, comments=None)
     except ValueError as problem:
@@ -390,7 +397,7 @@ def _begins_a_block(comment: str) -> bool:
     return bool(re.match(r"#\s*(?:Channel|Width|Kanal|Breite|Canal|Largeur)\b\s*[:=：]", comment))
 
 
-def _own_spacing(path, comments: Lines) -> tuple[float, float] | None:
+def _own_spacing(path: Path, comments: Lines) -> tuple[float, float] | None:
     """Return the spacing [m] of a comment '# spacing = dx dy', or None."""
     spacing = None
     for _, line in comments:
@@ -412,11 +419,11 @@ def _own_spacing(path, comments: Lines) -> tuple[float, float] | None:
     return spacing
 
 
-def _wrong(path, number, text, words) -> InputError:
+def _wrong(path: Path, number: int, text: str, words: str) -> InputError:
     return InputError(f"path = {str(path)!r}: line {number} {text[:60]!r} {words}")
 
 
-def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
+def _split_titles(path: Path, lines: Lines) -> tuple[Lines, Lines]:
     """Return (titles, data lines).
 
     Leading lines without any number, with words and one number, that state something of the table, or that begin with a
@@ -444,7 +451,7 @@ def _split_titles(path, lines: Lines) -> tuple[Lines, Lines]:
     raise InputError(f"path = {str(path)!r} holds no numbers")
 
 
-def _is_heading(path, number: int, text: str) -> bool:
+def _is_heading(path: Path, number: int, text: str) -> bool:
     """Whether a line is a name with a mark and one number ('Width: 10 um'), or states something of the table."""
     parts = statements(number, text)
     numbers = sum(len(statement.numbers) for statement in parts)
@@ -453,7 +460,7 @@ def _is_heading(path, number: int, text: str) -> bool:
     return bool(read_header(Path(path).name, [(number, text)]).lines_read)
 
 
-def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
+def _marks(path: Path, lines: Lines, decimal: str | None) -> tuple[str | None, bool]:
     """Return (separator or None for blanks, whether the comma is the decimal mark)."""
     commas = [(number, text) for number, text in lines if "," in text]
     semicolon, tab = (any(mark in text for _, text in lines) for mark in ";\t")
@@ -475,7 +482,7 @@ def _marks(path, lines: Lines, decimal) -> tuple[str | None, bool]:
     return ",", False
 
 
-def _fault(lines: Lines, separator) -> str:
+def _fault(lines: Lines, separator: str | None) -> str:
     """Return the first line that is not numbers or not as long as the first, in words."""
     width = len(lines[0][1].split(separator))
     for number, text in lines:

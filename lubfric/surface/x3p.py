@@ -10,6 +10,8 @@ import lzma
 import math
 import zipfile
 import zlib
+from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 from xml.parsers import expat
 
@@ -35,7 +37,7 @@ CORRUPT = (
 )
 
 
-def read_x3p(path) -> Surface:
+def read_x3p(path: Path) -> Surface:
     """Return the height map of an X3P file as it stands: unmeasured points NaN, neither levelled nor filled.
 
     The file counts x fastest; here x is axis 0. Integer heights are signed (openGPS reference) and times
@@ -53,7 +55,7 @@ def read_x3p(path) -> Surface:
         ) from None
 
 
-def _read(archive, path) -> Surface:
+def _read(archive: zipfile.ZipFile, path: Path) -> Surface:
     document = _member(archive, "main.xml", MOST_XML)
     root = _parse(document)
     _check_document(archive, root, document)
@@ -143,7 +145,7 @@ def _listed(root: ElementTree.Element, count: int, kind: str) -> np.ndarray:
     return values
 
 
-def _parse(document) -> ElementTree.Element:
+def _parse(document: bytes) -> ElementTree.Element:
     """Return the tree of main.xml; entities cannot be declared because a document type is refused."""
 
     def refuse(*_):
@@ -161,7 +163,7 @@ def _parse(document) -> ElementTree.Element:
     return root
 
 
-def _linked(archive, root, what, size) -> bytes:
+def _linked(archive: zipfile.ZipFile, root: ElementTree.Element, what: str, size: int) -> bytes:
     """Return the bytes that a link names, of ``size``, checked by the checksum beside it."""
     name = _text(root, f"Record3/DataLink/{what}Link")
     data = _member(archive, name, size)
@@ -172,7 +174,7 @@ def _linked(archive, root, what, size) -> bytes:
     return data
 
 
-def _heights(root, values) -> np.ndarray:
+def _heights(root: ElementTree.Element, values: np.ndarray) -> np.ndarray:
     """Return the heights [m] of the ``values`` in the file."""
     offset = _number(root, "Record1/Axes/CZ/Offset", default=0.0)
     if _text(root, "Record1/Axes/CZ/DataType") in ("I", "L"):
@@ -183,7 +185,7 @@ def _heights(root, values) -> np.ndarray:
     return values.astype(float) + offset
 
 
-def _increment(root, axis, axis_type="I") -> float:
+def _increment(root: ElementTree.Element, axis: str, axis_type: str = "I") -> float:
     axis_kind = _text(root, f"Record1/Axes/{axis}/AxisType")
     if axis_kind != axis_type:
         raise _bad(f"{axis} AxisType", axis_kind, f"{axis_type} (uniform spacing)")
@@ -193,10 +195,10 @@ def _increment(root, axis, axis_type="I") -> float:
     return step
 
 
-def _number(root, where, default=None) -> float:
+def _number(root: ElementTree.Element, where: str, default: float | None = None) -> float:
     text = _text(root, where, required=default is None)
     try:
-        value = default if text == "" else float(text)
+        value = default if text == "" and default is not None else float(text)
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
@@ -204,14 +206,14 @@ def _number(root, where, default=None) -> float:
     return value
 
 
-def _count(root, where) -> int:
+def _count(root: ElementTree.Element, where: str) -> int:
     text = _text(root, where)
     if not (text.isascii() and text.isdigit() and len(text) < 10 and int(text) > 0):
         raise _bad(where, text[:40], "a whole number >= 1")
     return int(text)
 
 
-def _text(root, where, required=True) -> str:
+def _text(root: ElementTree.Element, where: str, required: bool = True) -> str:
     element = root.find(where)
     text = "" if element is None else (element.text or "").strip()
     if required and not text:
@@ -219,5 +221,5 @@ def _text(root, where, required=True) -> str:
     return text
 
 
-def _bad(quantity, value, allowed) -> InputError:
+def _bad(quantity: str, value: Any, allowed: str) -> InputError:
     return InputError(f"X3P {quantity} = {value}; allowed: {allowed}")
