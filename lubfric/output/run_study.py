@@ -173,8 +173,8 @@ def run_fit(arguments) -> None:
         folder.put()
 
 
-def _bounds(texts: list[str]) -> dict[str, tuple[float, ...]]:
-    found: dict[str, tuple[float, ...]] = {}
+def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
+    found: dict[str, tuple[float, float]] = {}
     for text in texts:
         name, _, ends = text.partition("=")
         key = name.strip()
@@ -182,7 +182,8 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, ...]]:
         unit = KEYS[key].unit if key in KEYS else "-"
         if ends.count(":") != 1 or key in found:
             raise InputError(f" {validate.shown(text)}", "--parameter", way_out=ways)
-        found[key] = tuple(numbers_of(f"--parameter {key}", ends.split(":"), [unit] * (1 + ends.count(":"))))
+        (low, high) = numbers_of(f"--parameter {key}", ends.split(":"), [unit, unit])
+        found[key] = (low, high)
     return found
 
 

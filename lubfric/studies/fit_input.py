@@ -170,9 +170,15 @@ def read_measured(
     branch = ramps(columns[0])
     order = np.argsort(columns[0], kind="stable")
     x, f, *spread = (column[order] for column in columns)
-    deviation = spread[0] if spread else None
-    several = None if branch is None else branch[order]
-    return Measured(x, f, deviation=deviation, over=over, source=file.name, rolling=rolling, branch=several)
+    return Measured(
+        x,
+        f,
+        deviation=spread[0] if spread else None,
+        over=over,
+        source=file.name,
+        rolling=rolling,
+        branch=None if branch is None else branch[order],
+    )
 
 
 def ramps(x: np.ndarray) -> np.ndarray | None:

@@ -37,7 +37,7 @@ _MISSING = re.compile(  # how programs mark a point that was not measured
     r"|[+-]?1[.,]#[a-z]+|#nv|#(?:div/0|value|wert|ref|num|zahl|null)!)\"?(?![^\s;,\"])",
     re.I,
 )
-_ODD = re.compile(r"[^\d\s.,;+eE-]|--|(?<![\d.,eE])-(?![\d.,])")  # a line that may hold such a mark
+_ODD = re.compile(r"[^\d\s.,;+eE-]|--|(?<![^\s;,])-(?![^\s;,])")  # a line that may hold such a mark
 
 Units = tuple[str, str, str] | None  # of x, y and the heights, as the caller gives them
 Pair = tuple[float, float] | None  # a spacing [m], where there is one

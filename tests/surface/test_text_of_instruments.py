@@ -94,7 +94,22 @@ def test_a_header_gives_the_spacing_the_unit_and_the_direction(tmp_path, name):
 def test_missing_points_are_marked_in_many_ways(tmp_path):
     z = rough()
     z[3, 4] = z[10, 0] = z[0, 2] = z[23, 9] = np.nan
-    for mark in ("No Data", "NoData", "BAD", "Bad", "---", "--", "*", "***", "n/a", "#N/A", "NaN", "null", "1.#QNAN"):
+    for mark in (
+        "No Data",
+        "NoData",
+        "BAD",
+        "Bad",
+        "---",
+        "--",
+        "-",
+        "*",
+        "***",
+        "n/a",
+        "#N/A",
+        "NaN",
+        "null",
+        "1.#QNAN",
+    ):
         for separator in ("\t", ";", ",", " "):
             path = tmp_path / "map.csv"
             path.write_text(rows(z * 1e9, separator=separator, missing=mark))

@@ -1,6 +1,6 @@
 """Bad input from a seeded generator: scenes, files and calls that must each be refused in words.
 
-`scenes`, `files` and `calls` make the cases, those by hand from `bad.toml`. `case.judge` runs one and says how it
+`scenes`, `files`, `calls` and `layouts` make the cases, those by hand from `bad.toml`. `case.judge` runs one and says how it
 ended. None may end in another exception than lubfric's own, be answered with a number,
 take longer than 8 s, or take more than 2 GB.
 """
@@ -17,7 +17,7 @@ from ...kept import Run
 
 SEED = 1
 HAND = tomllib.loads(Path(__file__).with_name("bad.toml").read_text(encoding="utf-8"))
-COUNTS = {"scenes": 1500, "files": 500, "calls": 900}  # at least so many of a group
+COUNTS = {"scenes": 1500, "files": 500, "calls": 900, "layouts": 1500}  # at least so many of a group
 
 
 def cases(group: str, seed: int, share: float = 1.0) -> Iterator:
