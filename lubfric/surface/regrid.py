@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,8 +16,7 @@ from .._base import validate
 from ..errors import InputError
 from ..units import worded
 
-if TYPE_CHECKING:
-    from .height_map import Surface
+Surface = Any  # `lubfric.Surface`, which is built of these functions
 
 MOST_POINTS = 2**26  # of any map, 512 MiB of heights
 SAME = 1e-9  # relative difference of lengths that are equal

@@ -7,15 +7,14 @@ Slopes and correlation lengths of rough surfaces depend on the spacing of the po
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from .._base import validate
 from ..errors import InputError
 
-if TYPE_CHECKING:
-    from .height_map import Surface
+Surface = Any  # `lubfric.Surface`, which is built of these functions
 
 INVERSE_E = math.exp(-1)
 SMOOTHEST = 1e-7  # rms slope below which an instrument's heights and spacing cannot be in the same unit
