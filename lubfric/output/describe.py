@@ -165,6 +165,10 @@ def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tu
         rows = ["deterministic model (numerics.model)"]
     elif asked == "load-sharing":
         rows = [f"load-sharing model (numerics.model): fast; {unknown if why else 'its interval is wide'}"]
+    elif asked == "calibrated":
+        rows = [
+            f"calibrated load sharing (numerics.model): fast, with the error of solved cases{why and f'; {unknown}'}"
+        ]
     elif why:
         rows = [f"load-sharing model alone: {why}; {unknown}"]
     elif not resolved and strip > MOST_WORK:

@@ -84,7 +84,7 @@ def _default_workers(scene: Scene, speeds) -> int:
     """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
     not depend on it."""
     several_speeds = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
-    long_points = moves(scene) and scene.numerics.model != "load-sharing"
+    long_points = moves(scene) and scene.numerics.model not in ("load-sharing", "calibrated")
     if not (several_speeds or long_points) or studies.processors() == 1:
         return 1
     return max(2, studies.processors() - 1)

@@ -174,3 +174,16 @@ def test_f_is_not_negative_where_one_surface_stands_still():
     scene = PAPER.with_(bodies={"load": 0.5}, numerics={"model": "calibrated", "sampling_tolerance": 0.3})
     sliding = lubfric.friction(scene, 0.3)
     assert sliding.uncertainty.interval[0] >= 0.0
+
+
+def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
+    from lubfric.estimate.outlook import forecast
+    from lubfric.quantities import CHOICES
+    from lubfric.time.run import MODELS
+
+    assert {*CHOICES["numerics.model"]} == {*MODELS}
+    seconds = {}
+    for model in ("load-sharing", "calibrated", "deterministic"):
+        prepared = lubfric.prepare(PAPER.with_(numerics={"model": model}))
+        seconds[model] = forecast(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
+    assert seconds["calibrated"] == seconds["load-sharing"] < seconds["deterministic"]
