@@ -42,7 +42,7 @@ def trial_sums() -> str:
         np.exp(numbers),
         np.arcsinh(numbers),
     )
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     for result in results:
-        found.update(np.ascontiguousarray(result).tobytes())
-    return found.hexdigest()[:16]
+        digest.update(np.ascontiguousarray(result).tobytes())
+    return digest.hexdigest()[:16]

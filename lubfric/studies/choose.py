@@ -23,30 +23,55 @@ AUTO = "auto"
 # through both would have any slope.
 ALIKE = 1e-6
 
-# speeds that a curve chooses, about, and at most
+# Speeds that a curve chooses, about, for estimates of time: 9 to 12 in most scenes.
 CHOSEN = 12
+
+# Most speeds that a curve chooses.
 MOST = 25
-# Moes' film of the whole load over Sq at the ends of a curve
+
+# Moes' film of the whole load over Sq at the slow end of a curve: boundary lubrication.
 THIN = 0.02
+
+# The same at the fast end: full-film lubrication.
 THICK = 10.0
-MIXED = (0.5, 1.5, 4.5)  # the same where the contact carries about 0.9, 0.5 and nothing of the load
-BEGIN = 5  # speeds to begin with
-# m/s between which they are searched
+
+# The same where the asperity load ratio is about 0.9, 0.5 and 0.
+MIXED = (0.5, 1.5, 4.5)
+
+# Speeds to begin with.
+BEGIN = 5
+
+# Speeds [m/s] between which the ends of a curve are searched.
 SLOWEST = 1e-9
 FASTEST = 1e3
 
-# ratio of the slowest film without contact to lift-off that pins it down; where to solve one
+# Ratio of the slowest film without contact to lift-off up to which lift-off is known.
 CLOSE = 1.2
+
+# Speed over lift-off at which a film without contact is solved.
 ABOVE = 1.1
-# the same of the fastest contact
+
+# Ratio of the fastest contact to lift-off from which the end of the contact is known.
 TOUCHING = 0.75
+
+# Speed over lift-off at which a contact is solved.
 BELOW = 0.86
-WIDE = 12.0  # ratio of neighbouring speeds without contact from which one between them is solved
-ENOUGH = 2  # speeds within a tenth of one that is wanted: more would not tell the knee better
-# of the tolerance that the estimate may reach, with fewer speeds than these
+
+# Ratio of neighbouring speeds without contact from which one between them is solved.
+WIDE = 12.0
+
+# Speeds within a tenth of a requested one from which no more are solved there.
+ENOUGH = 2
+
+# Part of the tolerance that the estimated error may reach where fewer speeds than `MANY` are solved: an estimate from
+# few points is uncertain by a factor of about two.
 SHARE = 0.5
 MANY = 11
-APART = 1.015  # least ratio of neighbouring speeds
+
+# Least ratio of neighbouring speeds: closer ones differ by the tolerance of f rather than by the speed.
+APART = 1.015
+
+# Speeds at which the error between the points is estimated.
 GRID = 400
 
 
@@ -81,7 +106,7 @@ def alike(value: float, values: Iterable[float]) -> float:
 
 
 def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Iterator[tuple[float, Any]]:
-    """(speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
+    """Yield (speed [m/s], outcome) of a curve that begins with the speeds ``ahead``, and then chooses one after the other.
     ``solve(speed)`` gives an outcome."""
     outcomes: dict[float, Any] = {}
     while ahead and len(outcomes) < MOST:
@@ -97,7 +122,7 @@ def chosen(prepared: Prepared, ahead: Sequence[float], solve: Callable) -> Itera
 
 
 def tolerance_between(prepared: Prepared) -> float:
-    """The tolerance on f between the points of a curve: that on f itself. On strips of a rough surface, neighbouring
+    """Return the tolerance on f between the points of a curve: that on f itself. On strips of a rough surface, neighbouring
     points may be solved on different numbers of them; there it is the root sum of squares of the tolerance on f and the
     sampling tolerance."""
     numerics = prepared.scene.numerics
@@ -107,12 +132,12 @@ def tolerance_between(prepared: Prepared) -> float:
 
 
 def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()) -> tuple[float | None, float]:
-    """The speed [m/s] to solve next, or None if the curve is known; and the largest estimated relative error of f now.
+    """Return the speed [m/s] to solve next, or None if the curve is known; and the largest estimated relative error of f now.
 
     ``tried``: speeds that failed and are left alone.
 
-    First the knee at lift-off is enclosed: a film that just clears the summits tells where they touch, and the contact
-    just before tells how it ends. No two films are left far apart. Then comes the speed at which the estimated error is
+    First the knee at lift-off is enclosed: a film just thicker than the highest asperities shows where contact begins, and the contact
+    just before shows how it ends. No two films are left far apart. Then comes the speed at which the estimated error is
     largest, until that is below ``tolerance`` everywhere; with few speeds, below half of it.
     """
     samples = curve.samples
@@ -140,7 +165,7 @@ def next_speed(curve: Interpolant, tolerance: float, tried: Iterable[float] = ()
 
 
 def between(curve: Interpolant) -> float:
-    """The largest relative error of f that a curve is estimated to have between its points."""
+    """Return the largest relative error of f that a curve is estimated to have between its points."""
     return next_speed(curve, math.inf)[1]
 
 
@@ -150,23 +175,23 @@ def _free(at: np.ndarray, speeds: np.ndarray) -> np.ndarray:
 
 
 def first_speeds(scene: Scene, sq: float) -> tuple[float, ...]:
-    """The first speeds [m/s], fastest first, at least 5: both ends of `span`, and where Moes' film under the whole load
+    """Return the first speeds [m/s], fastest first, at least 5: both ends of `span`, and where Moes' film under the whole load
     is 0.5, 1.5 and 4.5 times Sq, because there rough line contacts pass from boundary lubrication to full film."""
     low, high = span(scene, sq)
-    found = [low, high]
+    speeds = [low, high]
     if sq > 0:
         least = film_ratio(scene, sq, low) / 0.9
         most = film_ratio(scene, sq, high) / 1.1
-        found += [_speed_of(scene, sq, ratio, low, high) for ratio in MIXED if least < ratio < most]
-    while len(found) < BEGIN:
-        found.sort()
-        _, at = max((math.log(b / a), i) for i, (a, b) in enumerate(zip(found, found[1:])))
-        found.append(math.sqrt(found[at] * found[at + 1]))
-    return tuple(sorted(found, reverse=True))
+        speeds += [_speed_of(scene, sq, ratio, low, high) for ratio in MIXED if least < ratio < most]
+    while len(speeds) < BEGIN:
+        speeds.sort()
+        _, at = max((math.log(b / a), i) for i, (a, b) in enumerate(zip(speeds, speeds[1:])))
+        speeds.append(math.sqrt(speeds[at] * speeds[at + 1]))
+    return tuple(sorted(speeds, reverse=True))
 
 
 def span(scene: Scene, sq: float) -> tuple[float, float]:
-    """(lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``. Without these, the speeds at
+    """Return the (lowest, highest) entrainment speed [m/s] of a curve: those of ``motion.speeds``. Without these, the speeds at
     which Moes' film of the whole load is 0.02 and 10 times Sq.
 
     Raises `InputError` for negative speeds, and for a smooth surface without speeds, which has no such range.
@@ -186,7 +211,7 @@ def span(scene: Scene, sq: float) -> tuple[float, float]:
 
 
 def film_ratio(scene: Scene, sq: float, speed: float) -> float:
-    """Moes' film of the whole load over Sq."""
+    """Return Moes' film of the whole load over Sq."""
     return scene.line_contact(speed).moes_film / sq
 
 

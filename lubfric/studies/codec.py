@@ -59,12 +59,12 @@ def decode(content: bytes, classes: dict[str, type], kind: Any = Any):
     stored."""
     end = LENGTH + int.from_bytes(content[:LENGTH], "little")
     try:
-        found = _value(json.loads(content[LENGTH:end]), classes, memoryview(content)[end:])
+        value = _value(json.loads(content[LENGTH:end]), classes, memoryview(content)[end:])
     except (LookupError, TypeError, AttributeError, ArithmeticError, RecursionError, MemoryError) as error:
         raise ValueError(f"stored by another version ({error})") from None
-    if not fits(found, kind):
-        raise ValueError(f"stored by another version (a {type(found).__name__} is no {kind})")
-    return found
+    if not fits(value, kind):
+        raise ValueError(f"stored by another version (a {type(value).__name__} is no {kind})")
+    return value
 
 
 def fits(value, kind) -> bool:

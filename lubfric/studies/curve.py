@@ -57,7 +57,7 @@ class CurveResult(Shown):
         return entries_of(self.points[index], self.errors.get(index))
 
     @property
-    def told(self) -> list[str]:
+    def validity_cells(self) -> list[str]:
         """The entries of each point in one cell of a table."""
         return [in_a_cell(self.entries(i)) for i in range(len(self.points))]
 
@@ -131,16 +131,16 @@ def judged(result: R, raise_on_failure: bool) -> R:
 
 def numbers_of(curve: CurveResult) -> dict[str, np.ndarray]:
     """The columns of numbers of a curve by name: its quantities, then how sure f is."""
-    found = curve.uncertainty
+    uncertainty = curve.uncertainty
     swept = {curve.SWEPT[0]: getattr(curve, curve.SWEPT[0])}
-    low, high = found.interval.T
+    low, high = uncertainty.interval.T
     columns = swept | columns_of(curve.points) | swept | {"interval_low": low, "interval_high": high}
     columns |= dict(zip(("power_loss_low", "power_loss_high"), curve.power_loss_interval.T))
-    return columns | {q.column or name: getattr(found, name) for name, q in OF_UNCERTAINTY.items()}
+    return columns | {q.column or name: getattr(uncertainty, name) for name, q in OF_UNCERTAINTY.items()}
 
 
 def csv_bytes(curve: CurveResult) -> bytes:
     """The table of a curve: one row a point, one column a quantity, the unit in the heading; then in words which
     assumptions are violated there, and how sure f is."""
     named = {heading(name): values for name, values in numbers_of(curve).items()}
-    return table_bytes(named | {"validity": curve.told, "uncertainty": list(curve.uncertainty.text)})
+    return table_bytes(named | {"validity": curve.validity_cells, "uncertainty": list(curve.uncertainty.text)})

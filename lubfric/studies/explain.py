@@ -18,18 +18,22 @@ from .operating_points import POINT
 from .store import Store
 from .study_table import StudyTable
 
-# Factor within which times are estimated, about.
+# Factor within which times are estimated, about (tests/studies/test_study.py, test_fit.py).
 WITHIN = 3.0
-SAMPLED = 8  # scenes of a study that are made ready to count their cells
-LISTED = 4  # values of a key that are named one by one
+
+# Scenes of a study that are made ready to count their cells.
+SAMPLED = 8
+
+# Values of a key that are named one by one.
+LISTED = 4
 
 
 def curve_seconds(prepared: Prepared, speeds: Sequence[float]) -> float:
     """Processor seconds of the points of a scene at ``speeds`` [m/s] (none: at those that it chooses), within a factor
     of about 4."""
     at = speeds or first_speeds(prepared.scene, prepared.surface.sq)
-    found = [forecast(prepared.scene, prepared.sample, prepared.surface, speed).seconds for speed in at]
-    return sum(found) * (1.0 if speeds else CHOSEN / len(at))
+    seconds = [forecast(prepared.scene, prepared.sample, prepared.surface, speed).seconds for speed in at]
+    return sum(seconds) * (1.0 if speeds else CHOSEN / len(at))
 
 
 def in_words(seconds: float) -> str:
@@ -77,7 +81,7 @@ def explain(plan, store=None) -> str:
             seconds += one * len(left) / len(some)
         except InputError as error:
             failed.append(f"  cannot be solved: {error}")
-    lines.append(f"  time     about {in_words(seconds)} on one core (within a factor of about 4)")
+    lines.append(f"  time     about {in_words(seconds)} on one core (within a factor of about {WITHIN:g})")
     return "\n".join([*lines, *dict.fromkeys(failed)])
 
 

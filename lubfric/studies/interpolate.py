@@ -1,7 +1,7 @@
 """Friction between the solved speeds: the contact's share of the load and the film's traction coefficient are
 interpolated, in coordinates in which each is smooth.
 
-With s = F_C/F_T, f = (b/s) s + t (1 - s): b = f_b F_C/F_T is the part of f from the contact spots, and t = F_sh/F_H the
+With s = F_C/F_T, f = (b/s) s + t (1 - s): b = f_b F_C/F_T is the part of f from the asperity contacts, and t = F_sh/F_H the
 traction coefficient of the film. In contact ln t hardly changes with the speed. Beyond lift-off t/sqrt(U) is
 interpolated over 1/sqrt(U). For the share, two known trends are taken out: in boundary lubrication the odds of the film
 (1 - s)/s grow about in proportion to the speed, and at lift-off U_0 the share ends as that of one Hertz asperity, as (1
@@ -18,20 +18,39 @@ import numpy as np
 
 from ..errors import InputError
 
-FEWEST = 3  # solved speeds
+# Fewest solved speeds of a curve.
+FEWEST = 3
+
+# Power of the speed over which the asperity load ratio is interpolated: about that of the film.
 EXPONENT = 0.6
-# powers of the remaining speed with which a contact ends: expected, and in question
+
+# Power of the remaining speed with which a contact ends: that of a Hertz asperity.
 HERTZ = 1.5
+
+# Other powers, whose effect is part of the estimated error.
 OTHERS = (1.0, 2.0)
-FILM = 0.8  # power of the speed of a film, where one alone is known
-# an estimate of lift-off below NEAR times a speed with contact is put BEYOND it
+
+# Power of the speed of a film, where one speed alone is known.
+FILM = 0.8
+
+# An estimate of lift-off below NEAR times a speed with contact is taken to be BEYOND times that speed.
 NEAR = 1.003
 BEYOND = 1.03
-UNSURE = 0.05  # of the way by which an estimate of lift-off is extrapolated: its error
-CLOSER = 0.4  # error between points over that with every other one left out
-LITTLE = 0.02  # share of the load on the film below which its traction coefficient is not looked at
-LEAST = 2e-3  # share of the load on the contact below which chance rules: how it ends is not told by such a point
-NOTHING = 1e-9  # the same below which the film carries nothing that could be told
+
+# Error of an extrapolated lift-off, as a part of the logarithm of the ratio over which it is extrapolated.
+UNSURE = 0.05
+
+# Error between the points, over that at a point which the curve through the others has.
+CLOSER = 0.4
+
+# Film load ratio below which the traction coefficient of the film is not used.
+LITTLE = 0.02
+
+# Asperity load ratio below which chance rules: how a contact ends is not read off such a point.
+LEAST = 2e-3
+
+# Film load ratio below which the film counts as carrying nothing.
+NOTHING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -116,20 +135,20 @@ class Interpolant:
             others += [replace(self, end=power) for power in OTHERS]
         for other in others:
             spread = np.maximum(spread, np.abs(other.at(speed) - value))
-        missed = np.zeros(s.speed.size)  # at each point, when that is left out
+        change_without = np.zeros(s.speed.size)  # at each point, when that is left out
         for i in range(1, s.speed.size - 1):
             left = s.without(i)
             knee = self.lift_off if 0 < left.contacts < left.speed.size else None
-            found = Interpolant(left, knee).at(s.speed[i : i + 1])[0]
-            missed[i] = abs(found / (s.boundary[i] + s.film[i]) - 1.0)
+            value_without = Interpolant(left, knee).at(s.speed[i : i + 1])[0]
+            change_without[i] = abs(value_without / (s.boundary[i] + s.film[i]) - 1.0)
         right = np.clip(np.searchsorted(s.speed, speed), 1, s.speed.size - 1)
         low, high, at = (u**EXPONENT for u in (s.speed[right - 1], s.speed[right], speed))
         between = 4.0 * (at - low) * (high - at) / (high - low) ** 2  # an error that is none at the points
-        beside = CLOSER * between * np.maximum(missed[right - 1], missed[right])
+        beside = CLOSER * between * np.maximum(change_without[right - 1], change_without[right])
         return np.maximum(spread / np.maximum(np.abs(value), 1e-300), beside)
 
     def boundary(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
-        """The part of f from the contact spots."""
+        """Return the part of f from the asperity contacts."""
         s = self.samples
         k = self.samples.contacts
         if k == 0:
@@ -138,11 +157,11 @@ class Interpolant:
         return of_share * self.share(speed, smooth)
 
     def film(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
-        """The part of f from the film."""
+        """Return the part of f from the film."""
         return self.traction(speed, smooth) * (1.0 - self.share(speed, smooth))
 
     def share(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
-        """Share of the load on the contact."""
+        """Return the asperity load ratio F_C/F_T."""
         s = self.samples
         known = np.flatnonzero((s.share > min(LEAST, 0.5 * s.share.max())) & (s.share < 1 - NOTHING))
         if known.size == 0:
@@ -161,7 +180,7 @@ class Interpolant:
         return at
 
     def traction(self, speed: np.ndarray, smooth: bool = True) -> np.ndarray:
-        """Traction coefficient of the film."""
+        """Return the traction coefficient of the film."""
         s = self.samples
         k = self.samples.contacts
         knee = self.lift_off
@@ -220,12 +239,12 @@ def knee_of(samples: Samples) -> float | None:
     if film.size == 2:
         power = np.log(film[1] / film[0]) / np.log(samples.speed[k + 1] / high)
     if clear < film[0] and power > 0:
-        found = high * (1 - clear / film[0]) ** (1 / power)
+        lift_off = high * (1 - clear / film[0]) ** (1 / power)
     else:
-        found = float(np.sqrt(low * high))
-    if found < NEAR * low:
-        found = min(BEYOND * low, float(np.sqrt(low * high)))
-    return float(min(found, high))
+        lift_off = float(np.sqrt(low * high))
+    if lift_off < NEAR * low:
+        lift_off = min(BEYOND * low, float(np.sqrt(low * high)))
+    return float(min(lift_off, high))
 
 
 def _film_alone(speed, traction, at, smooth):

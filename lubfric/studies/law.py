@@ -13,16 +13,34 @@ from ..errors import InputError
 from ..scene import Scene
 from .interpolate import Interpolant
 
-FINE = 50  # speeds of a curve to which a law is fitted, beside those that were solved
-CLOSE = 0.02  # relative error of a curve between its points, as it estimates it, up to which it is used
+# Speeds of a curve to which a law is fitted, in addition to those that were solved.
+FINE = 50
+
+# Relative error of a curve between its points, as it estimates it, up to which it is used.
+CLOSE = 0.02
+
+# Fewest points of a law.
 FEWEST = 12
+
 MORE = "solve more speeds, or speeds='auto'"
-ROUNDED = 1e-9  # by which a number may be outside a range
-OVER_REST = 1.1  # times f_b: the largest friction of contact spots that carry all
-AT_REST = 0.03  # of the slowest speed: below it f falls to nothing at rest
-WALTHER = "0.001*(pow(10.0, pow(10.0, A - B*log10(T))) - 0.7)"  # ASTM D341, of eta in mPa s
-THINNEST = 3.001e-4  # Pa s, beyond which it has no value
-FORMULA = {  # valid in Python and C, one name after the other
+
+# Relative distance by which a number may lie outside a range.
+ROUNDED = 1e-9
+
+# Largest friction of asperity contacts that carry the whole load, over f_b.
+OVER_REST = 1.1
+
+# Speed over the slowest one below which f falls to 0 at rest.
+AT_REST = 0.03
+
+# Walther's equation (ASTM D341), of the viscosity in mPa s.
+WALTHER = "0.001*(pow(10.0, pow(10.0, A - B*log10(T))) - 0.7)"
+
+# Smallest viscosity [Pa s] for which it has a value.
+THINNEST = 3.001e-4
+
+# The law: valid in Python and C, one name after the other.
+FORMULA = {
     "V": "sqrt(U*U + u0*u0)",
     "e": "eta/eta0",
     "q": "p/p0",
@@ -199,9 +217,9 @@ def law_of_study(result) -> Law:
     others = [key for axis in result.plan.axes for key in axis.keys if key not in VARIED]
     if others:
         raise InputError(f"a law is over speed, temperature and load; this study varies {', '.join(others)} as well")
-    found = [result.curve(index) for index in np.ndindex(*result.status.shape[:-1])]
+    curves_of_study = [result.curve(index) for index in np.ndindex(*result.status.shape[:-1])]
     scenes = result.plan.scenes
-    curves = [(conditions_of(scene), curve) for scene, curve in zip(scenes, found) if curve is not None]
+    curves = [(conditions_of(scene), curve) for scene, curve in zip(scenes, curves_of_study) if curve is not None]
     columns = (result[name] for name in ("coefficient", *(f"uncertainty_{n}" for n in ("low", "high", "model"))))
     return law_of(result.plan.scene, curves, *columns)
 
@@ -250,9 +268,9 @@ def _fitted(numbers, at, boundary, film, eta, rest) -> dict[str, float]:
     def left(z):
         return np.log(np.maximum(value(read(z), U, T, p), 1e-9) / f)
 
-    found = []
+    solution = []
     for bend, steep in ((0.1, 1.0), (0.1, 2.0), (0.5, 1.0), (0.5, 2.0)):
         tried = start | {"k1": bend, "k2": -bend, "C2": 3 * start["C1"], "n": steep}
         z = np.clip([np.log(tried[n]) if n in POSITIVE else tried[n] for n in free], low + 1e-6, high - 1e-6)
-        found.append(least_squares(left, z, bounds=(low, high), max_nfev=150, ftol=1e-6, xtol=1e-6))
-    return read(min(found, key=lambda one: one.cost).x)
+        solution.append(least_squares(left, z, bounds=(low, high), max_nfev=150, ftol=1e-6, xtol=1e-6))
+    return read(min(solution, key=lambda one: one.cost).x)

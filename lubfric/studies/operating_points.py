@@ -80,8 +80,8 @@ def operating_points(scene: Scene, table) -> OperatingPoints:
     columns = _columns(table)
     lengths = {len(values) for values in columns.values()}
     if len(lengths) != 1 or lengths == {0}:
-        found = ", ".join(f"{name}: {len(values)}" for name, values in columns.items()) or "no columns"
-        raise InputError(f"points: the columns of the table have different lengths, or none ({found})")
+        lengths_in_words = ", ".join(f"{name}: {len(values)}" for name, values in columns.items()) or "no columns"
+        raise InputError(f"points: the columns of the table have different lengths, or none ({lengths_in_words})")
     if lengths.pop() > MOST_POINTS:
         raise InputError("points: too many rows", allowed=f"up to {MOST_POINTS:.0e}")
     coordinates = {name: tuple(columns.pop(name)) for name in COORDINATES if name in columns}

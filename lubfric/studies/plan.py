@@ -87,10 +87,10 @@ class StudyPlan(FieldsOnly):
         """The speeds [m/s] that are requested of each key, each once; none where a curve chooses them."""
         if not self.paired:
             return dict.fromkeys(self.keys, self.speeds)
-        found: dict[str, dict[float, None]] = {}
+        speeds_of: dict[str, dict[float, None]] = {}
         for curve, key in enumerate(self.keys):
-            found.setdefault(key, {}).update(dict.fromkeys(self.speeds_at(curve)))
-        return {key: tuple(speeds) for key, speeds in found.items()}
+            speeds_of.setdefault(key, {}).update(dict.fromkeys(self.speeds_at(curve)))
+        return {key: tuple(speeds) for key, speeds in speeds_of.items()}
 
     explain = explain
 
@@ -112,7 +112,7 @@ def plan_study(scene: Scene, vary=None, speeds=None, points=None) -> StudyPlan:
 
     Returns
     -------
-    StudyPlan : ``print(plan.explain())`` tells what it is; `lubfric.study` carries it out
+    StudyPlan : ``print(plan.explain())`` says what it is; `lubfric.study` carries it out
 
     Raises
     ------
@@ -151,8 +151,19 @@ def _scene_keys(scene: Scene, axes: tuple[Axis, ...]) -> Iterator[str]:
         maps = None
         if measured(varied):
             rough = repr((varied.surface, varied.counterface, varied.contact))
-            maps = digests[rough] if rough in digests else digests.setdefault(rough, digest(whole_maps(varied)))
+            if rough not in digests:
+                digests[rough] = _digest_of_maps(varied)
+            maps = digests[rough]
         yield scene_key(varied, maps)
+
+
+def _digest_of_maps(scene: Scene) -> str:
+    """Return the digest of the maps that are read for ``scene``, or why there are none: its points then fail with that
+    reason, and the others are solved."""
+    try:
+        return digest(whole_maps(scene))
+    except InputError as error:
+        return str(error)
 
 
 def load_study(path, points=None) -> StudyPlan:
@@ -183,8 +194,8 @@ def load_study(path, points=None) -> StudyPlan:
     for group in together if isinstance(together, list) else [together]:
         lists = _lists(group, "together", path.parent)
         if len({len(values) for values in lists.values()}) != 1:
-            found = ", ".join(f"{key} with {len(values)}" for key, values in lists.items()) or "none"
-            raise InputError(f"[[together]] of {path.name} needs lists of one length; found {found}")
+            lengths = ", ".join(f"{key} with {len(values)}" for key, values in lists.items()) or "none"
+            raise InputError(f"[[together]] of {path.name} needs lists of one length; found {lengths}")
         _add(vary, tuple(lists), list(zip(*lists.values())))
     if "sample" in table:
         _add(vary, *_sampled(table["sample"], path.name))
@@ -216,34 +227,34 @@ def _add(known: dict, key, values) -> None:
 
 def _flat(table: dict, is_value: Callable[[Any], bool]) -> dict[str, Any]:
     """{"section.key": value} from ``"section.key" = value`` or ``section.key = value``."""
-    found: dict[str, Any] = {}
+    flat: dict[str, Any] = {}
     for key, value in table.items():
         inner = {key: value} if is_value(value) else {f"{key}.{name}": part for name, part in value.items()}
         for name, part in inner.items():
-            _add(found, name, part)
-    return found
+            _add(flat, name, part)
+    return flat
 
 
 def _lists(table, where: str, folder: Path) -> dict[str, list]:
     """The lists of values by their keys. Files are relative to ``folder``."""
     validate.instance(f"[{where}]", table, dict, "keys of a scene with lists of values")
-    found = _flat(table, lambda value: not isinstance(value, dict))
-    for key, values in found.items():
+    lists = _flat(table, lambda value: not isinstance(value, dict))
+    for key, values in lists.items():
         validate.instance(f"[{where}] {key}", values, list, "a list of values")
 
-    def beside(key: str, name) -> str:
+    def path_from_folder(key: str, name) -> str:
         path = (folder / str(name)).resolve()
         if not path.is_file():
             raise InputError(f"{key} = {name!r}: no such file in {folder}")
         return str(path)
 
     for key in ("surface.file", "counterface.file"):
-        if key in found:
-            found[key] = [beside(key, name) for name in found[key]]
-        for part in found.get(key.removesuffix(".file"), []):
+        if key in lists:
+            lists[key] = [path_from_folder(key, name) for name in lists[key]]
+        for part in lists.get(key.removesuffix(".file"), []):
             if isinstance(part, dict) and "file" in part:
-                part["file"] = beside(key, part["file"])
-    return found
+                part["file"] = path_from_folder(key, part["file"])
+    return lists
 
 
 def _sampled(table, file: str) -> tuple:

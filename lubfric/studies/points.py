@@ -36,7 +36,7 @@ def solved(
     kept: frozenset[float] = frozenset(),
     folder: str | None = None,
 ) -> Iterator[tuple[str, float, Outcome | None]]:
-    """(key, speed, outcome) of each point of a scene, when it is in the store. A point that fails has its error as
+    """Yield (key, speed, outcome) of each point of a scene, when it is in the store. A point that fails has its error as
     outcome. If the scene cannot be made ready, that is the error of all.
 
     Parameters
@@ -84,7 +84,7 @@ def solved_together(tasks: Sequence[tuple[Scene, str, tuple[float, ...]]], folde
 
 
 def outcome_of(prepared: Prepared, speed: float, fields: bool = False) -> Outcome:
-    """`lubfric.friction`, or the `LubfricError` that it raised; without fields unless they are wanted."""
+    """Return the result of `lubfric.friction`, or the `LubfricError` that it raised; without fields unless they are wanted."""
     try:
         found = friction(prepared, speed, fields=fields)
         return found if fields else found.without_fields()
@@ -130,12 +130,12 @@ def key_of(prepared: Prepared) -> str:
 
 
 def at_ratios(base: Prepared, ratios: Iterable[float]) -> list[Prepared]:
-    """``base`` at each of the slide-roll ``ratios``, on the same map."""
+    """Return ``base`` at each of the slide-roll ``ratios``, on the same map."""
     return [prepare(base.scene.with_(motion={"slide_roll_ratio": ratio}), like=base) for ratio in ratios]
 
 
 def row_of(speed: float, outcome: Outcome) -> dict[str, Any]:
-    """The numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and in words its status and
+    """Return the numbers of a point by name, those of its uncertainty as ``uncertainty_<name>``, and in words its status and
     the assumptions that do not hold."""
     if not isinstance(outcome, FrictionResult):
         return {STATUS: f"{type(outcome).__name__}: {outcome}", SPEED: speed}

@@ -141,13 +141,13 @@ class StudyResult(Shown):
         other direction."""
         self._check_curves()
         speeds = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
-        found = np.full((*self.status.shape[:-1], speeds.size), np.nan)
-        for index in np.ndindex(*found.shape[:-1]):
+        values = np.full((*self.status.shape[:-1], speeds.size), np.nan)
+        for index in np.ndindex(*values.shape[:-1]):
             curve = self.curve(index)
             if curve is not None:
                 inside = curve.within(speeds)
-                found[index][inside] = curve.at(curve.sense * speeds[inside])
-        return found[..., 0] if np.ndim(speed) == 0 else found
+                values[index][inside] = curve.at(curve.sense * speeds[inside])
+        return values[..., 0] if np.ndim(speed) == 0 else values
 
     @property
     def lift_off(self) -> np.ndarray:
@@ -155,8 +155,8 @@ class StudyResult(Shown):
         each other; NaN if a curve does not reach it."""
         self._check_curves()
         shape = self.status.shape[:-1]
-        found = [np.nan if (curve := self.curve(i)) is None else curve.lifted for i in np.ndindex(*shape)]
-        return np.array(found).reshape(shape)
+        speeds = [np.nan if (curve := self.curve(i)) is None else curve.lifted for i in np.ndindex(*shape)]
+        return np.array(speeds).reshape(shape)
 
     def place(self, index: tuple[int, ...]) -> str:
         """Return where a point lies, in words: the values of what is varied, and the speed."""
@@ -186,9 +186,9 @@ class StudyResult(Shown):
             return None
         numbers = {name: values[index] for name, values in self.columns.items()} | {SPEED: self.speeds(index)}
         try:
-            found = through(numbers)
-            s = found.samples
-            return found if np.allclose(found.at(s.speed), s.boundary + s.film, rtol=1e-2) else None
+            interpolant = through(numbers)
+            s = interpolant.samples
+            return interpolant if np.allclose(interpolant.at(s.speed), s.boundary + s.film, rtol=1e-2) else None
         except ValueError:  # InputError, or that of an interpolation
             return None
 

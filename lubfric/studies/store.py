@@ -68,16 +68,16 @@ class Store:
 
     def get(self, key: str, kind: Any = Any):
         """What was added under ``key``, of the type ``kind``; None for what is absent. A record that cannot be read, is
-        damaged, or of another version, is told of by a `UserWarning`, and does not count."""
+        damaged, or of another version, counts as absent; a `UserWarning` reports it."""
         if self.folder is None or not os.path.lexists(self._path(key)):
             return None
         try:
             content = read_checked(self._path(key)) if self._path(key).is_file() else None
-            found = decode(content or b"", self.classes, kind)
+            record = decode(content or b"", self.classes, kind)
         except (ValueError, OutputError):
             warnings.warn(f"{self._path(key)} is damaged and does not count: it is to be solved again", stacklevel=2)
             return None
-        return _error(found) if isinstance(found, Failure) else found
+        return _error(record) if isinstance(record, Failure) else record
 
     @property
     def empty(self) -> bool:
@@ -90,8 +90,8 @@ class Store:
 
     def known(self, keys: Iterable[str], kind: Any = Any) -> dict:
         """All sound records of ``keys``."""
-        found = {key: self.get(key, kind) for key in keys} if self.folder is not None and self.folder.is_dir() else {}
-        return {key: outcome for key, outcome in found.items() if outcome is not None}
+        records = {key: self.get(key, kind) for key in keys} if self.folder is not None and self.folder.is_dir() else {}
+        return {key: outcome for key, outcome in records.items() if outcome is not None}
 
     def clear(self, keys: Iterable[str] = ("*",)) -> None:
         """Remove the records of ``keys`` (default: all), what killed writers left, and the folders that are empty
@@ -164,10 +164,10 @@ def digest(value) -> str:
 
 
 def _digest(value, counted) -> str:
-    found = hashlib.sha256()
+    hashed = hashlib.sha256()
     for piece in encode(value, counted):
-        found.update(piece)
-    return found.hexdigest()
+        hashed.update(piece)
+    return hashed.hexdigest()
 
 
 def _counted(part, name: str):

@@ -29,7 +29,7 @@ from .tables import KNOWN, curve_axes
 @described_in_doc
 @dataclass(frozen=True, repr=False, kw_only=True)
 class StribeckResult(PointQuantities[np.ndarray], CurveResult):
-    """Arrays over the speeds, in the order asked for; NaN where a point failed.
+    """Arrays over the requested speeds, in their order; NaN where a point failed.
 
     Every number of `FrictionResult` is an array attribute of the same name and unit, (n,).
 
@@ -60,7 +60,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         return contact + film
 
     def parts_at(self, speed) -> tuple[np.ndarray, np.ndarray]:
-        """(from the contact spots, from the film): the two parts of f at any speeds [m/s], as `at`."""
+        """Return the two parts of f, from the asperity contacts and from the film, at any speeds [m/s], as `at`."""
         curve = self._curve
         at = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
         if not curve.within(at).all():
@@ -150,31 +150,31 @@ def stribeck(
 
     Returns a `StribeckResult`. Raises `InputError`, and, with the curve, `ConvergenceError` or `ValidityError`.
     """
-    asked, kept = _asked(speeds, fields, scene_of(scene))
+    requested, kept = _asked(speeds, fields, scene_of(scene))
     executor, prepared = checked_executor(executor), at_tolerance(scene, tolerance, model)
-    if not asked:
+    if not requested:
         span(prepared.scene, prepared.surface.sq)  # raises where there is no range to choose from
     if checked_workers(workers, executor) > 1:
         options = {"fields": fields, "store": store, "on_point": on_point, "raise_on_failure": raise_on_failure}
         with pool(workers) as processes:
-            apart = len(asked) >= workers
+            apart = len(requested) >= workers
             with parts_on(None if apart else processes):
                 return stribeck(prepared, speeds, processes if apart else None, **options)
-    found: dict[float, Outcome] = {}
+    outcomes: dict[float, Outcome] = {}
     try:
         with opened(store) as folder:
-            batches: list[tuple[float, ...]] = [(u,) for u in dict.fromkeys(asked)] or [()]
+            batches: list[tuple[float, ...]] = [(u,) for u in dict.fromkeys(requested)] or [()]
             whole = partial(solved, prepared, key_of(prepared), kept=frozenset(kept), folder=folder.root)
             for _, speed, outcome in spread(executor, [partial(whole, speeds=batch) for batch in batches]):
                 if outcome is None:  # the end of a curve that chose its speeds
                     break
-                found[speed] = outcome
+                outcomes[speed] = outcome
                 if on_point:
-                    on_point(len(found), len(set(asked)) or len(found), speed, outcome)
+                    on_point(len(outcomes), len(set(requested)) or len(outcomes), speed, outcome)
     except BaseException as fault:
-        fault.result = _collected(asked, found, prepared)  # type: ignore[attr-defined]  # beside what it holds
+        fault.result = _collected(requested, outcomes, prepared)  # type: ignore[attr-defined]  # beside what it holds
         raise
-    return judged(_collected(asked, found, prepared), raise_on_failure)
+    return judged(_collected(requested, outcomes, prepared), raise_on_failure)
 
 
 def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
@@ -183,32 +183,32 @@ def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
     kept = []
     if not isinstance(fields, (bool, type(None))) and np.size(fields):
         kept = validate.numbers("fields", fields, "m/s", FASTEST).tolist()
-    asked = list(requested_speeds(scene, speeds))
-    if not asked:
+    requested = list(requested_speeds(scene, speeds))
+    if not requested:
         if fields is True:
             raise InputError("fields = True with speeds = 'auto'; give the speeds in m/s whose fields are kept")
         return [], np.abs(kept).tolist()
-    kept = [alike(speed, asked) for speed in kept]
-    if not set(kept) <= set(asked):
+    kept = [alike(speed, requested) for speed in kept]
+    if not set(kept) <= set(requested):
         said = f" = {fields!r} m/s are not all among the speeds of the curve"
         raise InputError(said, "fields", way_out="give some of them, or fields = True")
-    return asked, asked if fields is True else kept
+    return requested, requested if fields is True else kept
 
 
-def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepared) -> StribeckResult:
+def _collected(requested: list[float], outcomes: dict[float, Outcome], prepared: Prepared) -> StribeckResult:
     """The curve of the outcomes ``found`` at the speeds ``asked`` for [m/s], or at chosen ones (none). Those that are
     missing have neither point nor error."""
-    points, errors = parted([found.get(speed) for speed in asked or sorted(found)])
-    speeds = np.array(asked or sorted(found))
+    points, errors = parted([outcomes.get(speed) for speed in requested or sorted(outcomes)])
+    speeds = np.array(requested or sorted(outcomes))
     report = report_of("stribeck", [f"speed {u:g} m/s" for u in speeds], "speeds", points, errors)
     numbers = columns_of(points) | {"speed": speeds}
     curve = StribeckResult(**numbers, points=points, errors=errors, report=report, scene=prepared.scene)
-    if asked or len(points) - len(errors) < FEWEST:
+    if requested or len(points) - len(errors) < FEWEST:
         return curve
     error = curve.between
     tolerance = tolerance_between(prepared)
     close = error <= tolerance
-    told = replace(  # its residual is the estimated error between the points
+    report_between = replace(  # its residual is the estimated error between the points
         report,
         status=report.status if close else ITERATION_LIMIT,
         residual=error,
@@ -216,12 +216,12 @@ def _collected(asked: list[float], found: dict[float, Outcome], prepared: Prepar
         residuals={"interpolation": error, "points": report.residual},
         advice=report.advice or ("" if close else "solve more speeds of your own, or loosen numerics.tolerance"),
     )
-    return replace(curve, report=told)
+    return replace(curve, report=report_between)
 
 
 @dataclass(frozen=True, repr=False)
 class TractionResult(CurveResult):
-    """Friction over the slide-roll ratio, in the order asked for; NaN where a point failed.
+    """Friction over the requested slide-roll ratios, in their order; NaN where a point failed.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""Studies as tables for other tools, each imported only when its table is asked for; curves and studies drawn."""
+"""Studies as tables for other tools, each imported only when its table is made; curves and studies drawn."""
 
 import io
 from pathlib import Path
@@ -17,12 +17,20 @@ from .points import SPEED, STATUS, UNUSED, VALIDITY
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
 BAND = "95 % interval"
-# lines, lines with a label, points of a line between solved ones
+# Lines of a plot, at most.
 MOST = 500
+
+# Lines of a plot that get a label, at most.
 NAMED = 10
+
+# Points of a line between solved ones.
 FINE = 200
-KNOWN = 0.05  # relative error of f between the points up to which a curve is told as a line or a formula
-SMOOTH = 6  # values along both axes of a map from which it is drawn by contours
+
+# Relative error of f between the points up to which a curve is drawn as a line or given as a formula.
+KNOWN = 0.05
+
+# Values along both axes of a map from which it is drawn by contours.
+SMOOTH = 6
 
 
 def to_xarray(result):

@@ -142,8 +142,8 @@ def sample(ranges, count: int, sampler: str = "sobol", seed: int = 0) -> list[tu
     else:
         shares = np.random.default_rng(seed).random((count, len(parts)))
     columns = [part.at(share).tolist() for part, share in zip(parts, shares.T)]
-    told = [[f"{v!r} {part.unit}" for v in column] if part.unit else column for part, column in zip(parts, columns)]
-    return list(zip(*told))
+    values = [[f"{v!r} {part.unit}" for v in column] if part.unit else column for part, column in zip(parts, columns)]
+    return list(zip(*values))
 
 
 def check_key(what: str, scene: Scene, key, seen, sections=SECTIONS) -> None:

@@ -97,7 +97,7 @@ def test_a_study_needs_a_scene_and_a_file(tmp_path):
     (tmp_path / "study.toml").write_text("speeds = [0.1]\n")
     with pytest.raises(lubfric.InputError, match="scene of .*toml = "):
         load_study(tmp_path / "study.toml")
-    with pytest.raises(lubfric.InputError, match="study .*none.toml' cannot be read"):
+    with pytest.raises(lubfric.InputError, match="study .* cannot be read"):
         load_study(tmp_path / "none.toml")
 
 
@@ -106,5 +106,5 @@ def test_a_plan_has_its_values_and_an_executor_can_submit(tmp_path):
     with pytest.raises(lubfric.InputError, match="belong to the plan"):
         lubfric.study(plan, {"bodies.load": [1.0]})
     for call in (lambda: lubfric.study(plan, executor=3), lambda: lubfric.stribeck(plan.scene, [0.1], executor=3)):
-        with pytest.raises(lubfric.InputError, match="executor = 3; allowed: None or a concurrent"):
+        with pytest.raises(lubfric.InputError, match="executor = 3; allowed: None, a concurrent"):
             call()
