@@ -354,11 +354,13 @@ def plot_history(
     unit = unit_for(c["central_film"].tolist(), "m")
     scale = 1.0 / converted(1.0, unit, "m")
     for name, label, style in (
+        ("full_load_film", "full-load film thickness", {"color": figures.BLUE, "lw": 1}),
         ("central_film", "central separation", {"color": figures.GREEN}),
         ("min_film", "smallest film", {"color": figures.GREEN, "lw": 1, "ls": "--"}),
         ("mean_gap", "mean separation over the Hertz strip", {"color": figures.GREY, "lw": 0.9, "ls": ":"}),
     ):
-        second.plot(t, c[name] * scale, label=label, **style)
+        if name in c:
+            second.plot(t, c[name] * scale, label=label, **style)
     second.set(ylabel=f"film thickness ({printed(unit)})", ylim=(0.0, None))
     figures.load_shares(third, t, c["contact_load"] / c["load"])
     for axes in (second, third):

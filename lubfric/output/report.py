@@ -340,6 +340,11 @@ def _history_answer(result: TransientResult, complete: bool) -> list[str]:
     if np.isfinite(power).any():
         sentences.append(f"The largest power loss is {worded(float(np.nanmax(power)), 'W')}.")
     sentences.append(f"The smallest film is {film}.")
+    ratio = result.lambda_ratio[np.isfinite(result.lambda_ratio)]
+    if ratio.size:
+        sentences.append(
+            f"The lambda ratio of the full-load film lies between {ratio.min():.3g} and {ratio.max():.3g}."
+        )
     sentences.append(
         f"Sampling error of the mean (one standard error): {percent(mean.sampling)}. The model-form error of a run in "
         "time is not known and not included."

@@ -220,3 +220,24 @@ def test_init_leaves_the_choice_of_the_model_to_the_program(tmp_path):
     scene = lubfric.load_scene(tmp_path / "mine.toml")
     assert "model =" not in (tmp_path / "mine.toml").read_text() and scene.numerics.model == "auto"
     assert scene.lubricant.limiting_stress_coefficient is not None
+
+
+def test_a_run_in_time_that_fails_has_a_report_that_begins_with_that(tmp_path, capsys, monkeypatch):
+    """Its status is marked as failed, and no number stands as its answer."""
+    monkeypatch.setattr("lubfric.time.result.MASS", 1e-15)
+    plan = lubfric.Transient(0.01, outputs=4, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0))
+    (tmp_path / "s.toml").write_text(SWINGING.with_(transient=plan, numerics={"model": "load-sharing"}).to_toml())
+    assert main(["run", str(tmp_path / "s.toml"), "--out", str(tmp_path / "o")]) == 1
+    message = capsys.readouterr().err.splitlines()[-1]
+    page = (tmp_path / "o" / "report.html").read_text(encoding="utf-8")
+    head = page.partition("<h2>Answer</h2>")[0]
+    assert 'class="status failed"' in head and "Not converged: all 5 outputs are solved, but the balance" in head
+    assert "the balance of the lubricant is" in message and "at output" in message
+    assert page.partition('<p class="answer">')[2].startswith("The run has no valid answer.")
+
+
+def test_a_sentence_begins_with_a_capital_letter_unless_a_key_does():
+    from lubfric.models.shared import sentence
+
+    assert sentence("give a map") == "Give a map." and sentence("which?") == "Which?"
+    assert sentence("numerics.model = 'auto' helps") == "numerics.model = 'auto' helps."

@@ -46,8 +46,11 @@ class Validity:
 
 
 def sentence(text: str) -> str:
-    """Return ``text`` with a capital letter at its begin and a full stop at its end."""
-    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith(('.', '?')) else '.'}"
+    """Return ``text`` with a capital letter at its begin, unless that is the name of a key, and a full stop at its
+    end."""
+    is_name = any(sign in text.partition(" ")[0].rstrip(".:,;") for sign in "._=")
+    first = text[:1] if is_name else text[:1].upper()
+    return f"{first}{text[1:]}{'' if text.endswith(('.', '?')) else '.'}"
 
 
 def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:
