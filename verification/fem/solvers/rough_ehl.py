@@ -360,13 +360,18 @@ def solve_rough(
     middle = np.argmin(np.abs(x))
     approach = float(smooth.at(x[middle : middle + 1])[1][0] - (x**2 / (2 * contact.radius) + grid.stiff @ p)[middle])
     for share in (0.0, 0.5, 1.0):
-        part = replace(problem, heights=lambda x, y, t, share=share: share * problem.heights(x, y, t))
+        part = replace(problem, heights=scaled(problem.heights, share))
         grid.problem = part
         try:
             p, approach, at, time, report = solved(grid, p, approach, time, tolerance)
         finally:
             grid.problem = problem
     return film_of(grid, p, approach, at, time, report)
+
+
+def scaled(heights: Heights, share: float) -> Heights:
+    """The ``heights`` times a ``share``."""
+    return lambda x, y, time: share * heights(x, y, time)
 
 
 def solved(grid: Discretisation, p, approach: float, time: float, tolerance: float, step: Step = Step()):
