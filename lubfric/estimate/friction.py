@@ -136,7 +136,7 @@ def _solved(
         if why or any(entry.severe for entry in cheaper.warnings()):
             return result_of(prepared, cheaper.answer(), cheap.name, begun, fine=fine, why=why)
         if prepared.scene.numerics.model_tolerance >= least_half_width():
-            calibrated = CalibratedSolution(cheaper.balanced)
+            calibrated = CalibratedSolution(cheaper.balanced)  # type: ignore[attr-defined]
             if calibrated.applies and calibrated.friction.error <= prepared.scene.numerics.model_tolerance:
                 why = "its error is within numerics.model_tolerance"
                 return result_of(prepared, calibrated.answer(), CALIBRATED.name, begun, fine=fine, why=why)

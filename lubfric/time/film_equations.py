@@ -181,7 +181,7 @@ class StepEquations:
             pressure, load = outside(abs(grid.x[end]), H[end], self.curvature, self.viscosity, sign * speed, flow, rate)
             r[end] = P[end] - pressure[0]
             carried += load[0] if pressure[0] > 0.0 else 0.0
-            ends.append((pressure, load))
+            ends.append((pressure, load))  # type: ignore[arg-type]
         r[dry] = P[dry]
         shared = self.spring.at(H) if self.spring else (0.0, 0.0)
         flows = (up_rho, up_H), (mid_rho, mid_H), fluidity, gradient, thin, flux, stored

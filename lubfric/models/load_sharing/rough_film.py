@@ -259,7 +259,7 @@ def summed(
     fields = balance.contact.fields
     if fields is None:
         gap = film.film_at(contact.x)[:, None] - contact.heights
-        pressed = 0.0
+        pressed = np.zeros_like(gap)
     else:
         gap = fields.gap
         pressed = fields.pressure

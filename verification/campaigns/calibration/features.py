@@ -29,7 +29,7 @@ def quick(case: Case) -> dict[str, float]:
 def _places(case: Case, scene: lubfric.Scene, places) -> Iterator[dict[str, float]]:
     for place in places:
         prepared = prepare(scene, case.widened(place))
-        solution = sampled(prepared, case.speed).balanced
+        solution = sampled(prepared, case.speed).balanced  # type: ignore[attr-defined]
         contact = solution.contact
         times = contact.heights.shape[0] // case.surface.shape[0]
         maps = [

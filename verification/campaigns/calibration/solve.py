@@ -101,9 +101,9 @@ def deterministic(case: Case) -> dict[str, float]:
     """The numbers of the deterministic model on the same map."""
     scene = case.scene
     if case.facts["motion"] == "rolling":
-        strip = solve_moving_strip(scene, case.bodies, case.speed)
-        rest = strip.rest.result.coefficient
-        return numbers(strip.result) | {"f_rest": rest, "f_coarse": math.nan, "work": strip.work}
+        moving = solve_moving_strip(scene, case.bodies, case.speed)
+        rest = moving.rest.result.coefficient
+        return numbers(moving.result) | {"f_rest": rest, "f_coarse": math.nan, "work": moving.work}
     first: Strip | None = None
     with suppress(lubfric.ConvergenceError):
         first = solve_strip(scene, case.surface, case.speed, factors=(COARSE, COARSE))

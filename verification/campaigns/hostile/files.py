@@ -120,6 +120,6 @@ def _case(name: str, what: str, content: bytes | None, may_pass: bool = False) -
         if name.endswith("run.csv"):
             return read_history(path, "speed", unit="m/s").range(1.0)
         carries_its_own = name.endswith((".xyz", ".x3p", ".sur"))
-        return lubfric.read_surface(path, **({} if carries_its_own else {"spacing": 1e-6})).describe()
+        return lubfric.read_surface(path, spacing=None if carries_its_own else 1e-6).describe()
 
     return HostileCase("file", f"{name}, {what}", run, may_pass)

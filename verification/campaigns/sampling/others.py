@@ -3,6 +3,7 @@
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -46,7 +47,7 @@ def pieces(level: str, run: Run = Run(), seed: int = SEED) -> Iterator[Item]:
 def piece(case: tuple[int, tuple[int, int] | None]) -> dict:
     """A point on one piece of a map (None: all of it), which is written and read again as instrument files are."""
     seed, place = case
-    keys = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
+    keys: dict[str, Any] = {"sq": 100e-9, "correlation_length": 8e-6, "acf": "gaussian", "seed": seed}
     whole = lubfric.generate_surface(MAP, 0.45e-6, **keys)
     heights = whole.heights
     if place is not None:

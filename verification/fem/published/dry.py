@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -104,7 +105,7 @@ def wavy(shape: np.ndarray, pressure: float, n: int) -> float:
 
 def summits() -> Check:
     """Summits of generated Gaussian surfaces."""
-    keys = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian"}
+    keys: dict[str, Any] = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian"}
     maps = [lubfric.generate_surface((CELLS, CELLS), CELL, seed=seed, **keys).heights for seed in SEEDS]
     counts = [find_asperities(z, CELL, E_PRIME)(z.min() - SQ).contacts / (CELLS * CELL) ** 2 for z in maps]
     theirs = references.summit_density(LENGTH)

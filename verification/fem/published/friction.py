@@ -72,7 +72,12 @@ def bearing() -> Iterator[Check]:
             total = 0.0
             for race in (inner, -outer):
                 radius = 1 / (2 / bearing["diameter"] + 2 * math.cos(bearing["angle"]) / race)
-                case = {"load_per_width": load, "radius": radius, "e_prime": STEEL, "entrainment_speed": speed}
+                case: dict[str, Any] = {
+                    "load_per_width": load,
+                    "radius": radius,
+                    "e_prime": STEEL,
+                    "entrainment_speed": speed,
+                }
                 solution = lubfric.solve_ehl(**case, **FVA_3, inlet_length=inlet, tolerance=TOLERANCE)
                 rolled = force(solution, solution.contact.lubricant, 1e-9).rolling * bearing["length"]
                 total += bearing["rollers"] * 2 * speed / turn * rolled

@@ -91,8 +91,10 @@ def masjedi(level: str) -> Iterator[Check]:
         for length in LENGTHS:
             rows = []
             for seed in seeds:
-                rough = {"sq": ratio * RADIUS, "correlation_length": length, "acf": "gaussian", "seed": seed}
-                body = RoughBody(lubfric.generate_surface(MAP, length / 4, **rough), (1 - SLIP / 2) * speed)
+                surface = lubfric.generate_surface(
+                    MAP, length / 4, sq=ratio * RADIUS, correlation_length=length, acf="gaussian", seed=seed
+                )
+                body = RoughBody(surface, (1 - SLIP / 2) * speed)
                 strip = solve_moving_strip(scene, (body,), speed)
                 rows.append(float(strip.series["share"][strip.discarded :].mean()))
                 rest = strip.rest.result

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -40,7 +41,7 @@ class FormulationCase:
 
     def __init__(self, shape: str, hardness: float | None, count: int):
         self.name = f"{shape}, {'elastic' if hardness is None else 'plastic'}"
-        roughness = {"sq": SQ, "correlation_length": 6e-6, "acf": "gaussian", "seed": 3}
+        roughness: dict[str, Any] = {"sq": SQ, "correlation_length": 6e-6, "acf": "gaussian", "seed": 3}
         z = lubfric.generate_surface((count, count), SPACING, **roughness).heights
         x = (np.arange(count) - (count - 1) / 2) * SPACING
         film, area, pressure = body(shape, x, count * SPACING / 6)

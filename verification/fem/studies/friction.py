@@ -52,7 +52,7 @@ def friction(level: str):
 
 def surface(shape: tuple[int, int], spacing: float, seed: int = 1) -> np.ndarray:
     """Heights with the roughness of the scene, m."""
-    made = {"sq": 100e-9, "correlation_length": LENGTH, "acf": "gaussian", "seed": seed}
+    made: dict[str, Any] = {"sq": 100e-9, "correlation_length": LENGTH, "acf": "gaussian", "seed": seed}
     return lubfric.generate_surface(shape, spacing, **made).heights
 
 

@@ -9,6 +9,7 @@ are; what is left falls with their size.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -76,7 +77,7 @@ def contact_given_fluid(level: str, contact: LineContact) -> Iterator[Check]:
 def laid(case: GivenFluidCase, contact: LineContact) -> Problem:
     """The paper's roughness under ``contact`` at the case's speed, on an even number of cells along x."""
     shape = (FINE, FINE * case.across // case.cells)
-    rough = {"sq": 100e-9, "acf": "gaussian", "seed": 1}
+    rough: dict[str, Any] = {"sq": 100e-9, "acf": "gaussian", "seed": 1}
     fine = lubfric.generate_surface(shape, WIDTH / FINE, correlation_length=LENGTH, **rough)
     surface = fine.resampled(shape=(case.cells, case.across))
     line = replace(contact, entrainment_speed=case.speed)

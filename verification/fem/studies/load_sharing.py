@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -109,7 +110,7 @@ def rough(finest: int, cells: int) -> np.ndarray:
     """One surface of ``finest`` squared cells, averaged in blocks."""
     asked = scene().surface
     block = finest // cells
-    made = {"sq": asked.sq, "acf": asked.acf, "correlation_length": CORRELATION, "seed": asked.seed}
+    made: dict[str, Any] = {"sq": asked.sq, "acf": asked.acf, "correlation_length": CORRELATION, "seed": asked.seed}
     surface = lubfric.generate_surface((finest, finest), LENGTH / finest, **made)
     return surface.heights.reshape(cells, block, cells, block).mean(axis=(1, 3))
 

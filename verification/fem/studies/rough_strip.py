@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
@@ -22,8 +23,12 @@ from ..parts import line_contact
 from ..solvers.ehl import LineContact
 from ..solvers.rough_ehl import Discretisation, RoughLine, RoughStripFilm, march, solve_rough
 
-STEEL = {"radius": 1e-2, "e_prime": 2.3e11, "viscosity": 0.04, "entrainment_speed": 0.5}
-OIL = {"pressure_viscosity_coefficient": 18e-9, "viscosity_law": "roelands", "density_law": "dowson-higginson"}
+STEEL: dict[str, Any] = {"radius": 1e-2, "e_prime": 2.3e11, "viscosity": 0.04, "entrainment_speed": 0.5}
+OIL: dict[str, Any] = {
+    "pressure_viscosity_coefficient": 18e-9,
+    "viscosity_law": "roelands",
+    "density_law": "dowson-higginson",
+}
 LOADS = (1e5, 4e5)  # N/m: 0.61 and 1.21 GPa of Hertz
 SQ = 50e-9  # m, a quarter to a third of the film
 INLET = 3.5  # half-widths: where the film begins
@@ -85,11 +90,11 @@ def rough_strip(level: str) -> Iterator[Item]:
                 films, bodies[grid] = element_films(load, grid, moving, bodies.get(grid))
                 elements.append(films)
             yield from judged_films(name, load, ours[-1], elements[-1])
-            for by, counts, solutions in (("lubfric", sizes, ours), ("elements", grids, elements)):
-                for size, films in zip(counts, solutions):
+            finenesses = [round((grid[0] - 1) / (INLET + OUTLET)) for grid in grids]
+            for by, counts, solutions in (("lubfric", sizes, ours), ("elements", finenesses, elements)):
+                for cells, films in zip(counts, solutions):
                     values = averages(load, films).values()
-                    count = size if by == "lubfric" else round((size[0] - 1) / (INLET + OUTLET))
-                    rows.append((name, by, count, *(f"{value:.5g}" for value in values)))
+                    rows.append((name, by, cells, *(f"{value:.5g}" for value in values)))
             if not moving:
                 yield picture_field(f"rough_strip_{load:.0f}".replace("+", ""), load, ours[-1][0], elements[-1][0])
     caption = "One strip by both programs and on two grids each: means over |x| < 0.8 b, and over the moments compared"
@@ -255,7 +260,7 @@ def picture_field(name: str, load: float, ours: Fields, elements: Fields) -> Fie
     x, y = np.meshgrid(np.linspace(-NEAR * b, NEAR * b, 161), np.linspace(0, PERIODS[1] * b / 2, 41), indexing="ij")
     corner = np.arange(x.size).reshape(x.shape)
     quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]], axis=-1).reshape(-1, 4)
-    data = {}
+    data: dict[str, np.ndarray] = {}
     for by, film in (("lubfric", ours), ("elements", elements)):
         pressure, gap = middle_of(load, film)
         data |= {f"pressure_{by}": pressure.ravel(), f"gap_{by}": gap.ravel()}

@@ -1,6 +1,7 @@
 """Surfaces as a sample: their statistics beside the laws of Gaussian surfaces, the scatter of f beside its error."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -42,7 +43,7 @@ def sampling(level: str) -> Iterator[Check]:
 
 def statistics() -> Iterator[Check]:
     """Slope and structure function of one large surface: m2 = 2 Sq²/length² along each axis, and 2 Sq² (1 - acf)."""
-    keys = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian", "seed": 3}
+    keys: dict[str, Any] = {"sq": SQ, "correlation_length": LENGTH, "acf": "gaussian", "seed": 3}
     z = lubfric.generate_surface((CELLS, CELLS), CELL, **keys).heights
     for axis, name in enumerate("xy"):
         waves = np.fft.fftfreq(CELLS, CELL) * 2 * np.pi

@@ -6,6 +6,7 @@ both by the second order of the elements; the observed order is a check of its o
 
 import math
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -16,8 +17,18 @@ from ...check import AT_LEAST, Check, Item, Table
 from ..solvers.ehl import LineContact
 from ..solvers.rough_ehl import Discretisation, RoughLine, RoughStripFilm, solve_rough
 
-CASE = {"load_per_width": 1e5, "radius": 1e-2, "e_prime": 2.3e11, "viscosity": 0.04, "entrainment_speed": 0.5}
-OIL = {"pressure_viscosity_coefficient": 18e-9, "viscosity_law": "roelands", "density_law": "dowson-higginson"}
+CASE: dict[str, Any] = {
+    "load_per_width": 1e5,
+    "radius": 1e-2,
+    "e_prime": 2.3e11,
+    "viscosity": 0.04,
+    "entrainment_speed": 0.5,
+}
+OIL: dict[str, Any] = {
+    "pressure_viscosity_coefficient": 18e-9,
+    "viscosity_law": "roelands",
+    "density_law": "dowson-higginson",
+}
 PLACES = (1.8, 1.2)  # half-widths: where the lubricant begins; flooded is some 2.5
 LAYERS = (0.8, 0.5)  # of the flooded flow: the layer that arrives
 OUTLET = 1.4  # half-widths
