@@ -65,7 +65,7 @@ def test_what_the_plain_command_has_of_the_publications_is_a_part_of_them():
 
 def test_every_source_says_how_it_was_got_and_how_good_it_is():
     for source in references.SOURCES.values():
-        assert source.words and source.place and source.got and 0 <= source.error <= 0.1
+        assert source.words and source.place and source.got and 0 <= source.error <= 0.3
     assert len(references.SOURCES) >= 12
 
 

@@ -20,6 +20,7 @@ TYPED = {  # limits and what drawings ask for, not results
     ("theory.md", "| checked | warning | no answer |"),
     ("inputs.md", "| process | Ra, µm |"),
     ("inputs.md", "| key, name | value (range) | seen in print |"),
+    ("studies.md", "| for each point | |"),  # times of a busy machine, to the order of magnitude
 }
 
 

@@ -31,6 +31,7 @@ CAMPAIGNS = {  # command: its tables
         "refinement",
         "boundary-film",
         "rolling",
+        "running-in",
     ),
     "sampling": ("sampling-coverage", "sampling-numbers"),
     "stability": ("stability-film", "stability-contact", "stability-sharing", "stability-whole"),
