@@ -206,7 +206,7 @@ def test_the_peak_pressure_of_a_run_in_time_is_that_of_its_cycle():
     assert float(low) == pytest.approx(peak.min(), rel=2e-3) and float(high) == pytest.approx(peak.max(), rel=2e-3)
 
 
-def test_the_speed_that_a_command_adds_is_reported(tmp_path, capsys):
+def test_the_speed_that_a_command_adds_is_reported(tmp_path, capsys, undrawn):
     text = SWINGING.with_(motion={"entrainment_speed": 0.05}, numerics={"model": "load-sharing"}).to_toml()
     (tmp_path / "scene.toml").write_text(text)
     assert main(["run", str(tmp_path / "scene.toml"), "--speeds", "0.01,0.1", "--out", str(tmp_path / "o")]) == 0
@@ -222,7 +222,7 @@ def test_init_leaves_the_choice_of_the_model_to_the_program(tmp_path):
     assert scene.lubricant.limiting_stress_coefficient is not None
 
 
-def test_a_run_in_time_that_fails_has_a_report_that_begins_with_that(tmp_path, capsys, monkeypatch):
+def test_a_run_in_time_that_fails_has_a_report_that_begins_with_that(tmp_path, capsys, monkeypatch, undrawn):
     """Its status is marked as failed, and no number stands as its answer."""
     monkeypatch.setattr("lubfric.time.result.MASS", 1e-15)
     plan = lubfric.Transient(0.01, outputs=4, speed=Harmonic(amplitude=0.05, frequency=100.0, phase=1.0))
