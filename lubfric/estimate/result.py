@@ -78,12 +78,12 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     @property
     def balance(self) -> Balance | None:
         """The balance of film and contact by load sharing, if there is one."""
-        return self.details.get("load-sharing")  # type: ignore[return-value]
+        return next((detail for detail in self.details.values() if isinstance(detail, Balance)), None)
 
     @property
     def deterministic(self) -> DeterministicResult | None:
         """What the deterministic model solved, if it gives the answer."""
-        return self.details.get("deterministic")  # type: ignore[return-value]
+        return next((detail for detail in self.details.values() if isinstance(detail, DeterministicResult)), None)
 
     @property
     def shows_contact(self) -> bool:
