@@ -16,7 +16,7 @@ from ..shared import film_lubricant
 from .counted_work import work_of_steps
 from .problem import BOUNDARY_FILM, Problem, lay_out, shifted
 from .result import DeterministicResult, assemble
-from .solve import refined_start, solve_point
+from .solve import MOST, refined_start, solve_point
 from .state import evaluated
 
 ENOUGH = 3e-3  # tolerance of a strip's residuals: f moves by some .1 %
@@ -66,6 +66,7 @@ def solve_strip(
     tolerance: float = ENOUGH,
     upper: Surface | None = None,
     ends: tuple[float, float] | None = None,
+    most: int = MOST,
 ) -> Strip:
     """Solve ``surface``, a strip that is periodic along y, under the bodies of ``scene`` at ``speed`` [m/s], not 0.
 
@@ -75,7 +76,7 @@ def solve_strip(
     cells twice as long. ``slope``: solve it a second
     time, for `Strip.slope`. ``tolerance``: of the residuals (`lubfric.models.deterministic.state.residuals`). ``upper``: the
     part of ``surface`` that is surface 2, where both bodies are rough. ``ends`` [m]: of the grid, up and down stream
-    (None: `reach`).
+    (None: `reach`). ``most``: LU factorisations, at most.
 
     Raises `InputError` and `ConvergenceError`.
     """
@@ -89,7 +90,7 @@ def solve_strip(
             start = solve_strip(scene, surface, speed, factors=longer, tolerance=LOOSE, upper=upper, ends=ends)
             work = start.work
     near, least = (None, 0.0) if start is None else refined_start(start.problem, problem, start.result)
-    result = solve_point(problem, start=near, least=least, tolerance=tolerance)
+    result = solve_point(problem, start=near, least=least, tolerance=tolerance, most=most)
     work += work_of(result)
     if slope:
         heavier = problem.at_load(HEAVIER * problem.load)

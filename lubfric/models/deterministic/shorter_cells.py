@@ -6,11 +6,12 @@ fixed speeds, on which neighbouring points of a curve share them; these follow f
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 
 import numpy as np
 
-from ...errors import LubfricError
+from ...errors import ConvergenceError, LubfricError
 from ...samples import Sample
 from ...scene import moves
 from ..shared import (
@@ -46,6 +47,7 @@ PIECES_WORK = 30.0
 MOVING = 0.5  # times (cell along x/correlation length)²: error of f where roughness moves, at least; one change may be
 # small by chance (to cells of an eighth, f of nine Gaussian maps moved by 0 to 10 % from a half, and 0 to 2 % from a
 # quarter)
+AS_START = 100  # LU factorisations of a piece on longer cells, from which it starts, at most
 SOLVED = 2e-3  # of f: what the tolerance of a strip may move
 SHORT = 60.0  # correlation lengths: a strip that is shorter serves as a piece
 # correlation lengths: pieces of the third level, and the one of the last
@@ -206,8 +208,11 @@ def _refined(
         last = max(1, cells[0] // times), max(1, cells[1] // times)
         factors = cells[0] // last[0], cells[1] // last[1]
         surface = map_of(prepared, on_piece(prepared, sample, index, last, length=length))
-        ladder = [solve_strip(scene, surface, speed, factors=longer_than(surface, factors))]
-        ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[0], slope=slope is None))
+        longer: Strip | None = None
+        with suppress(ConvergenceError):  # it is a start only, and cells so long may have no solution
+            longer = solve_strip(scene, surface, speed, factors=longer_than(surface, factors), most=AS_START)
+        strip = solve_strip(scene, surface, speed, factors=factors, start=longer, slope=slope is None)
+        ladder = [strip if longer is None else longer, strip]
     while factors != (1, 1) and (len(ladder) == 2 or estimate(changes_of(ladder)) > enough):
         factors = max(1, factors[0] // 2), max(1, factors[1] // 2)
         ladder.append(solve_strip(scene, surface, speed, factors=factors, start=ladder[-1]))
