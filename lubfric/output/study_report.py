@@ -22,8 +22,8 @@ MOST_ROWS = 60
 SHOWN = {
     "coefficient": ("uncertainty_low", "uncertainty_high"),
     "power_loss": ("power_loss_low", "power_loss_high"),
-    "central_film": None,
-    "film_to_roughness_ratio": None,
+    "full_load_film": None,
+    "lambda_ratio": None,
     "contact_load": None,
 }
 
@@ -48,7 +48,7 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
         numpy=np.__version__,
         scipy=scipy.__version__,
         key=result.plan.keys[0][:16],
-        kind="warning" if result.failed else "answer",
+        kind="failed" if result.failed else "",
         status=escape(status),
         answer="".join(f"<p>{escape(line)}</p>" for line in answer),
         pictures="".join(_picture(content) for name, content in contents.items() if name.endswith(".png")),
