@@ -55,7 +55,7 @@ def load_sharing(monkeypatch) -> None:
 
     def load_scene(*arguments, **options):
         scene = real(*arguments, **options)
-        return scene.with_(numerics={"model": "load-sharing"}) if scene.numerics.model == "auto" else scene
+        return scene.with_(numerics={"model": "paper"}) if scene.numerics.model == "auto" else scene
 
     monkeypatch.setattr(lubfric, "load_scene", load_scene)
 

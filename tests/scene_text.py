@@ -21,10 +21,10 @@ correlation_length = 4e-6
 shape = [48, 48]
 spacing = 1.1e-6
 [numerics]
-model = "load-sharing"
+model = "paper"
 """
 
 
 def paper_scene(**sections) -> lubfric.Scene:
     """The scene "paper" by load sharing alone, which takes a fraction of a default answer, with other ``sections``."""
-    return lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"}).with_(**sections)
+    return lubfric.load_scene("paper").with_(numerics={"model": "paper"}).with_(**sections)

@@ -146,12 +146,12 @@ def test_a_third_model_answers_through_the_same_contract():
 
 
 def test_fields_of_other_cells_are_refused():
-    fields = lubfric.friction(PAPER, 0.03, model="load-sharing").fields
+    fields = lubfric.friction(PAPER, 0.03, model="paper").fields
     with pytest.raises(ValueError, match=r"gap .* is not on the cells"):
         replace(fields, gap=fields.gap[::2])
 
 
-@pytest.mark.parametrize("model", ["load-sharing", "deterministic"])
+@pytest.mark.parametrize("model", ["paper", "deterministic"])
 def test_fine_fields_are_those_of_one_solve(model):
     """On every cell gap = rigid gap + deflection, up to one constant, and the pressure carries the load."""
     result = lubfric.friction(PAPER, 0.01, model=model, fields="fine")
@@ -162,13 +162,13 @@ def test_fine_fields_are_those_of_one_solve(model):
     shape = fields.gap + fields.heights - fields.deflection  # of the film or the rigid cylinder, constant along y
     assert np.abs(shape - shape.mean(axis=1, keepdims=True)).max() < 1e-3 * fields.heights.std()
     load = fields.pressure.sum() * fields.spacing[0] / fields.y.size * PAPER.bodies.width
-    expected = result.contact_load if model == "load-sharing" else PAPER.bodies.load
+    expected = result.contact_load if model == "paper" else PAPER.bodies.load
     assert load == pytest.approx(expected, rel=0.1)  # upstream of the cells the film carries a few per cent
 
 
 def test_fields_are_solved_again_or_not_by_what_is_asked():
-    plain = lubfric.friction(PAPER, 0.01, model="load-sharing")
-    fine = lubfric.friction(PAPER, 0.01, model="load-sharing", fields="fine")
+    plain = lubfric.friction(PAPER, 0.01, model="paper")
+    fine = lubfric.friction(PAPER, 0.01, model="paper", fields="fine")
     assert fine.coefficient == plain.coefficient and fine.fields.spacing[0] < plain.fields.spacing[0]
     with pytest.raises(lubfric.InputError, match="fields"):
         lubfric.friction(PAPER, 0.01, fields="coarse")

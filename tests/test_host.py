@@ -16,7 +16,7 @@ import pytest
 import lubfric
 from lubfric import InputError
 
-PAPER = {"contact": {"shape": (96, 96)}, "numerics": {"model": "load-sharing", "sampling": "patch"}}
+PAPER = {"contact": {"shape": (96, 96)}, "numerics": {"model": "paper", "sampling": "patch"}}
 
 
 @pytest.fixture

@@ -43,7 +43,7 @@ print(resident_memory() - before)
 def test_points_of_varied_scenes_grow_by_less_than_200_megabytes():
     """The growth from the 20th to the last of 300 points, each of another surface on another grid."""
     draw = np.random.default_rng(3)
-    paper = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+    paper = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
     stood = []
     for number in range(300):
         scene = paper.with_(

@@ -11,9 +11,9 @@ from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
 from ..errors import ConvergenceError, InputError
 from ..models import Deterministic, LoadSharing, Model
-from ..models.load_sharing import Calibrated, CalibratedSolution, least_half_width
+from ..models.load_sharing import Calibrated, CalibratedSolution, LoadSharingSolution, least_half_width
 from ..models.shared import Prepared, at_speed, at_tolerance, refused, unmodelled_effects
-from ..scene import FASTEST, Scene, warn_unusual_values
+from ..scene import BY_LOAD_SHARING, FASTEST, Scene, gap_not_resolved, warn_unusual_values
 from .answer import result_of
 from .full_load import full_load_numbers
 from .methods import with_methods
@@ -58,7 +58,7 @@ def friction(
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
-    model : "load-sharing", "calibrated", "deterministic", or "auto": the cheapest that is good enough; None: the
+    model : "load-sharing", "paper", "deterministic", or "auto": the cheapest that is good enough; None: the
         scene's. Or a
         `lubfric.models.Model` of your own
     fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on theirs);
@@ -119,37 +119,50 @@ def _solved(
         return result_of(
             prepared, sampled(prepared, speed, model, native=native).answer(), model.name, begun, fine=fine
         )
-    requested = prepared.scene.numerics.model
-    cheap, dear = MODELS
-    if requested == cheap.name or dear.unable(prepared, speed):
-        return result_of(
-            prepared, sampled(prepared, speed, cheap, native=native).answer(), cheap.name, begun, fine=fine
-        )
-    if requested == CALIBRATED.name:
-        answer = sampled(prepared, speed, CALIBRATED, native=native).answer()
-        return result_of(prepared, answer, CALIBRATED.name, begun, fine=fine)
-    if requested == dear.name and prepared.sample.is_single_patch:  # a cheaper model has no control for it
-        return result_of(prepared, sampled(prepared, speed, dear).answer(), dear.name, begun, fine=fine)
-    cheaper = sampled(prepared, speed, cheap, native=native)
+    scene = prepared.scene
+    requested = scene.numerics.model
+    paper, deterministic = MODELS
+    unable = deterministic.unable(prepared, speed)
+    is_calibrated = not unable and not gap_not_resolved(scene, prepared.given)
+    if requested in BY_LOAD_SHARING or unable:
+        cheap = CALIBRATED if requested == CALIBRATED.name and is_calibrated else paper
+        answer = sampled(prepared, speed, cheap, native=native).answer()
+        return result_of(prepared, answer, cheap.name, begun, fine=fine)
+    if requested == deterministic.name and prepared.sample.is_single_patch:  # a cheaper model has no control for it
+        answer = sampled(prepared, speed, deterministic).answer()
+        return result_of(prepared, answer, deterministic.name, begun, fine=fine)
+    cheaper = sampled(prepared, speed, paper, native=native)
     if requested == "auto":
-        why = cheaper.sufficient() or dear.declines(prepared, speed, cheaper)
+        why = cheaper.sufficient()
         if why or any(entry.severe for entry in cheaper.warnings()):
-            return result_of(prepared, cheaper.answer(), cheap.name, begun, fine=fine, why=why)
-        if prepared.scene.numerics.model_tolerance >= least_half_width():
+            return result_of(prepared, cheaper.answer(), paper.name, begun, fine=fine, why=why)
+        if why := deterministic.declines(prepared, speed, cheaper):
+            return _by_load_sharing(prepared, cheaper, is_calibrated, begun, fine=fine, why=why)
+        if scene.numerics.model_tolerance >= least_half_width():
             calibrated = CalibratedSolution(cheaper.balanced)  # type: ignore[attr-defined]
-            if calibrated.applies and calibrated.friction.error <= prepared.scene.numerics.model_tolerance:
+            if calibrated.applies and calibrated.friction.error <= scene.numerics.model_tolerance:
                 why = "its error is within numerics.model_tolerance"
                 return result_of(prepared, calibrated.answer(), CALIBRATED.name, begun, fine=fine, why=why)
     try:
-        answer = sampled(prepared, speed, dear, control=cheaper.control()).answer()
+        answer = sampled(prepared, speed, deterministic, control=cheaper.control()).answer()
     except ConvergenceError as error:
-        if requested == dear.name:
+        if requested == deterministic.name:
             raise
-        why = f"the {dear.name} model was not solved ({error})"
+        why = f"the {deterministic.name} model was not solved ({error})"
         with unlimited_work():
-            return result_of(prepared, cheaper.answer(), cheap.name, begun, fine=fine, why=why)
-    compared = None if prepared.sample.is_single_patch else (cheap.name, cheaper.answer())
-    return result_of(prepared, answer, dear.name, begun, fine=fine, cheaper=compared)
+            return _by_load_sharing(prepared, cheaper, is_calibrated, begun, fine=fine, why=why)
+    compared = None if prepared.sample.is_single_patch else (paper.name, cheaper.answer())
+    return result_of(prepared, answer, deterministic.name, begun, fine=fine, cheaper=compared)
+
+
+def _by_load_sharing(
+    prepared: Prepared, solution: LoadSharingSolution, is_calibrated: bool, begun: float, *, fine: bool, why: str
+) -> FrictionResult:
+    """Return the result of load sharing in the place of the deterministic model, for the reason ``why``."""
+    if is_calibrated:
+        answer = CalibratedSolution(solution.balanced).answer()
+        return result_of(prepared, answer, CALIBRATED.name, begun, fine=fine, why=why)
+    return result_of(prepared, solution.answer(), LoadSharing().name, begun, fine=fine, why=why)
 
 
 def most_work(prepared: Prepared, speed: float) -> float:

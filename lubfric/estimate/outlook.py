@@ -10,7 +10,7 @@ from ..models.load_sharing import load_sharing_error
 from ..models.shared import ORDER, SAFETY, student
 from ..oil import shear_stress
 from ..samples import Sample
-from ..scene import FRICTION, Scene, gap_not_resolved, moves
+from ..scene import BY_LOAD_SHARING, FRICTION, Scene, gap_not_resolved, moves
 from ..surface import Surface
 
 CELL_SECONDS = 1.3e-6  # processor time of a cell of the strips in balance, about
@@ -33,7 +33,6 @@ IN_MOTION = 1.1  # processor time of moving roughness over its counted work, whi
 UNLIKE = 0.65  # scatter of the difference between the models over that of f
 CLEAR = 3.5  # Sq: a film that thick hardly meets a summit
 SURE = 2.0  # factor between the expected film and any film: outside of it contact or separation is certain
-CHEAP = ("load-sharing", "calibrated")  # models that solve no deterministic strips
 
 
 @dataclass(frozen=True)
@@ -104,7 +103,7 @@ def _resolved(
     sq = surface.sq
     both = cells_of(scene, sample)
     moving = moving_point_work(scene, sample, sq, speed, both) if speed and moves(scene) else 0.0
-    if speed == 0 or scene.transient is not None or numerics.model in CHEAP or gap_not_resolved(scene):
+    if speed == 0 or scene.transient is not None or numerics.model in BY_LOAD_SHARING or gap_not_resolved(scene):
         return 0, 0.0, moving
     rolling = rolling_share(scene.line_contact(speed), scene.bodies.mean_hertz_pressure) if moving else 0.0
     if sq == 0 or load_sharing_error(film / sq, 0.0, 0.0, 1.0, rolling)[1] <= numerics.model_tolerance:

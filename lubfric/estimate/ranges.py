@@ -41,7 +41,7 @@ def with_ranges(prepared: Prepared, result: FrictionResult, answer: ModelAnswer)
         elif answer.ends_without_change(name, tuple(ends)):
             changes[name] = (0.0, 0.0)
         else:
-            changes[name] = "one end of the range did not converge"  # unless it is
+            changes[name] = "an end was not solved"  # unless it is
             solved[name] = ends
     for name, relative in _changes_at(answer, solved).items():
         if all(map(math.isfinite, relative)):

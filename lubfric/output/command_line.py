@@ -75,7 +75,7 @@ def run(arguments) -> None:
     if changed and not takes_strips(scene):
         raise InputError(
             "--sampling-tolerance is for a rough cylinder on strips of its roughness (numerics.sampling = 'strips'), "
-            f"and {scene.name} is solved on one patch; leave the option out"
+            f"and {scene.name} is solved on one patch, as it is; leave it out"
         )
     scene = scene.with_(numerics=changed | ({"accept": True} if arguments.accept else {}))
     what = IN_TIME if scene.transient is not None else RATIOS if arguments.ratios else CURVE

@@ -56,7 +56,7 @@ class SceneEstimate:
     ----------
     sections : lines on "transient" (what changes in time), "surface", "contact", "model", "effects not modelled", "validity"
     cost : the time that it will take, in words; "" where it is not known
-    table : of some speeds, with headings: full-load film, lambda ratio, asperity contact, what the sample costs
+    table : of some speeds, their headings first: expected film, whether it clears the summits, what the sample costs
     refusals : assumptions that fail by what is known so far, so that f means nothing
     effects : effects that are not modelled (`lubfric.models.shared.unmodelled_effects`)
     """
@@ -163,11 +163,11 @@ def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tu
     strip = max((one.moving for one in found), default=0.0)
     if asked == "deterministic":
         rows = ["deterministic model (numerics.model)"]
+    elif asked == "paper":
+        rows = [f"load-sharing model of the paper (numerics.model): fast; {unknown if why else 'its interval is wide'}"]
     elif asked == "load-sharing":
-        rows = [f"load-sharing model (numerics.model): fast; {unknown if why else 'its interval is wide'}"]
-    elif asked == "calibrated":
         rows = [
-            f"calibrated load sharing (numerics.model): fast, with the error of solved cases{why and f'; {unknown}'}"
+            f"load-sharing model, calibrated (numerics.model): fast, with the error of solved cases{why and f'; {unknown}'}"
         ]
     elif why:
         rows = [f"load-sharing model alone: {why}; {unknown}"]
@@ -184,7 +184,7 @@ def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tu
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"
-        if asked == "load-sharing":
+        if asked == "paper":
             takes = f"moving roughness is treated as stationary; {takes}"
         if asked == "auto":
             takes += f"; where it takes more than {MOST_WORK:g} s, the load-sharing model answers alone"

@@ -23,7 +23,7 @@ from ..models.shared import (
 )
 from ..quantities import COLUMNS, NUMBERS, counted, in_words
 from ..samples import takes_strips
-from ..scene import FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, moves
+from ..scene import BY_LOAD_SHARING, FASTEST, LARGEST_RATIO, MOST_SPEEDS, Scene, given_tables, moves
 from ..units import number_of, numbers_of
 from .commands import RunFolder, check_outputs, made, read_record, run_begun, say
 from .describe import SceneEstimate
@@ -41,7 +41,7 @@ PATIENCE = 5.0  # s between two lines on how far a point is
 
 def run_sweep(scene: Scene, arguments) -> None:
     """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, surface.png, report.html,
-    resolved.toml and, last, result.json to the folder ``arguments.out``; where the deterministic model corrected it,
+    resolved.toml and, last, result.json to the folder ``arguments.out``; where strips with one gap corrected it,
     sharing.png, the same contact without them; where the curve has a formula, law.json and law.c; with ``.vtk`` also
     contact_0.vtk ... for ParaView.
 
@@ -84,7 +84,7 @@ def _default_workers(scene: Scene, speeds) -> int:
     """Return the number of processes of a curve: all processors but one, and two at least, where that pays. The numbers do
     not depend on it."""
     several_speeds = speeds != studies.AUTO and len(speeds) >= WORTH and takes_strips(scene)
-    long_points = moves(scene) and scene.numerics.model not in ("load-sharing", "calibrated")
+    long_points = moves(scene) and scene.numerics.model not in BY_LOAD_SHARING
     if not (several_speeds or long_points) or studies.processors() == 1:
         return 1
     return max(2, studies.processors() - 1)

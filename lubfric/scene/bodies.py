@@ -82,7 +82,7 @@ class Bodies(Shown):
     load : total load F_T [N]
     e_prime : E' [Pa], 2/E' = (1-nu1²)/E1 + (1-nu2²)/E2
     hardness : plastic limit P_u of the contact pressure [Pa]; None: elastic
-    boundary_friction_coefficient : f_b of the asperity contacts [-]; with a table, that at the scene's own speed
+    boundary_friction_coefficient : f_b of the contact spots [-]; with a table, that at the scene's own speed
     boundary_friction_table : f_b over the sliding speed or the temperature, a `FrictionTable`, or None
     boundary_film : gap [m] below which the bodies rub with f_b, of the deterministic model; None: lubfric's own value,
         of which half and twice are part of the error

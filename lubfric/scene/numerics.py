@@ -10,6 +10,10 @@ from . import budget
 MOST_THREADS = 1024
 
 
+# Values of numerics.model that solve no deterministic strips.
+BY_LOAD_SHARING = ("load-sharing", "paper")
+
+
 @dataclass(frozen=True, repr=False)
 class Numerics(Shown):
     """How exactly a scene is solved, and what is modelled. Tolerances are relative.
@@ -25,7 +29,8 @@ class Numerics(Shown):
     model_tolerance : relative error of f that the model may leave, at 95 %
     film_deflection : which pressure deforms the film: the whole load, by Johnson's scaled modulus E' F_H/F_T
         ("scaled"); its own ("hydrodynamic", the paper)
-    model : "load-sharing": film and contact share the load, Eq. (8); "deterministic": film and contact are solved together, with one gap and one pressure
+    model : "load-sharing": film and contact share the load, Eq. (8), with a calibrated error; "paper": the same with the
+        friction of Eq. (9) on a smooth film; "deterministic": one gap and one pressure
         (docs/deterministic.md); "auto": the cheapest that is within ``model_tolerance`` (docs/uncertainty.md)
     grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
     heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how

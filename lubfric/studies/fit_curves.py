@@ -161,7 +161,7 @@ def coarse_scene(scene: Scene) -> Scene:
     that the model would refuse count as well: the search only compares them."""
     tolerance = scene.numerics.tolerance
     loose = {
-        "model": "load-sharing",
+        "model": "paper",
         "tolerance": max(tolerance, min(COARSER * tolerance, COARSEST)),
         "sampling_tolerance": COARSE_SAMPLING,
         "accept": True,

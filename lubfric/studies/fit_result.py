@@ -167,7 +167,7 @@ class FitResult(Shown):
             for j in range(i):
                 if abs(correlation[i, j]) > CORRELATED:
                     pair = f"{keys[j]} and {keys[i]}"
-                    lines.append(f"the data do not separate {pair}: correlation {correlation[i, j]:.3f}")
+                    lines.append(f"the data hardly separate {pair}: correlation {correlation[i, j]:.3f}")
         for values in self.other_minima:
             at = ", ".join(f"{key} = {worded_value(key, value)}" for key, value in values.items())
             lines.append(f"by the load-sharing model, {at} describe the data about as well")

@@ -28,7 +28,7 @@ from .transient_deterministic import start_deterministic
 MODELS: dict[str, Callable[[Scene | Prepared], Start]] = {
     "auto": start_load_sharing,
     "load-sharing": start_load_sharing,
-    "calibrated": start_load_sharing,  # the campaign has steady contacts only
+    "paper": start_load_sharing,
     "deterministic": start_deterministic,
 }
 CLASSES = classes_of(Progress, Output, Contact, Validity, State)  # that a state or an output may hold

@@ -30,7 +30,7 @@ from .transient_load_sharing import TransientLoadSharing, make_load_sharing
 SPEEDS = 4  # looked at between the fastest and the slowest of a run
 SLOWEST = 1e-3  # of the fastest: slower ones are boundary lubrication
 SUPPORTED = {  # what a run does of the steady options; the film is deflected by its own pressure, whatever the default says
-    "model": ("auto", "load-sharing"),
+    "model": ("auto", "load-sharing", "paper"),
     "film_deflection": ("scaled", "hydrodynamic"),
     "cavitated_shear": ("none",),
 }

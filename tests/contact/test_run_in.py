@@ -14,7 +14,7 @@ ROUGH = PAPER.with_(
     bodies={"hardness": 2e9, "load": 20.0},
     surface={"sq": 200e-9, "correlation_length": 5e-6},
     contact={"shape": (128, 48), "spacing": 0.9e-6},
-    numerics={"model": "load-sharing"},
+    numerics={"model": "paper"},
 )
 
 

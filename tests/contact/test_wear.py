@@ -18,7 +18,7 @@ ROUGH = lubfric.load_scene("paper").with_(
     surface={"sq": 200e-9, "correlation_length": 5e-6},
     motion={"entrainment_speed": 0.1},
     contact={"shape": (128, 48), "spacing": 0.9e-6},
-    numerics={"model": "load-sharing"},
+    numerics={"model": "paper"},
 )
 
 
@@ -220,7 +220,7 @@ def test_a_flat_contact_wears_too(monkeypatch):
         ({"motion": {"slide_roll_ratio": 0.0}}, {}, "rolling"),
         ({"motion": {"entrainment_speed": 0.0}}, {}, "entrainment_speed"),
         ({"contact": {"model": "summits"}}, {}, "half-space"),
-        ({"numerics": {"model": "deterministic"}}, {}, "load-sharing"),
+        ({"numerics": {"model": "deterministic"}}, {}, "paper"),
     ],
 )
 def test_bad_wear_is_refused(changes, options, said):

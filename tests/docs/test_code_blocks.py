@@ -99,7 +99,7 @@ def test_the_first_page_leads_to_a_curve_of_ones_own(tmp_path, monkeypatch):
     exec(next(b.body for b in blocks(page) if "savetxt" in b.body), {"lubfric": lubfric})
     assert main(["init", "my_contact.toml"]) == 0
     written = tomllib.loads((tmp_path / "my_contact.toml").read_text(encoding="utf-8"))
-    scene = lubfric.load_scene({**written, **oil, **surface, "contact": {}, "numerics": {"model": "load-sharing"}})
+    scene = lubfric.load_scene({**written, **oil, **surface, "contact": {}, "numerics": {"model": "paper"}})
     point = lubfric.friction(scene, 0.1)
     low, high = point.uncertainty.interval
     assert 0 < low < point.coefficient < high < 0.2

@@ -99,7 +99,7 @@ SCENE = lubfric.load_scene("paper").with_(
     motion={"entrainment_speed": 0.3, "speeds": ()},
     surface={"sq": 3e-8},
     contact={"shape": (48, 32), "spacing": 1.5e-6},
-    numerics={"sampling": "patch", "grid": "given", "model": "load-sharing", "tolerance": 0.03, "heat": "off"},
+    numerics={"sampling": "patch", "grid": "given", "model": "paper", "tolerance": 0.03, "heat": "off"},
 )
 
 

@@ -47,7 +47,7 @@ def bearing(tmp_path_factory):
     write_template(path)
     assert 'density_law = "dowson-higginson"' in path.read_text(encoding="utf-8")
     scene = lubfric.load_scene(path).with_(bodies={"hertz_pressure": 0.51e9}, surface={"sq": 2e-8})
-    return scene.with_(numerics={"model": "load-sharing", "sampling": "patch", "tolerance": 0.05})
+    return scene.with_(numerics={"model": "paper", "sampling": "patch", "tolerance": 0.05})
 
 
 def test_the_warning_on_a_pressure_spike_names_the_density(bearing):

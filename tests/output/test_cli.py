@@ -16,7 +16,7 @@ from lubfric.output import main
 SCENE = BODIES_AND_OIL.replace("[lubricant]", "hardness = 6e9\n[lubricant]")
 SCENE += "[motion]\nentrainment_speed = 0.001\nspeeds = [0.001, 0.01, 0.3]\n"
 SCENE += "[surface]\nsq = 1e-7\ncorrelation_length = 4e-6\nseed = 7\n[contact]\nshape = [64, 64]\nspacing = 0.9e-6\n"
-SCENE += '[numerics]\nsampling = "patch"\nmodel = "load-sharing"\n'
+SCENE += '[numerics]\nsampling = "patch"\nmodel = "paper"\n'
 
 
 @pytest.fixture(scope="module")

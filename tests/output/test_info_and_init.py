@@ -65,7 +65,7 @@ def test_init_writes_a_scene_that_runs_and_overwrites_nothing(tmp_path, capsys):
     scene = lubfric.load_scene(path)
     assert scene.lubricant.oil.index == pytest.approx(95, abs=1e-6)
     assert describe_scene(scene).count("warning") == 0
-    small = scene.with_(contact={"shape": (128, 64), "spacing": 3.2e-6}, numerics={"model": "load-sharing"})
+    small = scene.with_(contact={"shape": (128, 64), "spacing": 3.2e-6}, numerics={"model": "paper"})
     found = lubfric.friction(small, 0.01)
     assert 0.05 < found.coefficient <= 0.12
     assert main(["init", str(path)]) == 2
@@ -80,7 +80,7 @@ def test_the_roller_of_the_examples_is_an_answer(root, tmp_path):
     assert len(scene.read_text(encoding="utf-8").splitlines()) <= 25
     ground = lubfric.generate_surface((166, 102), (0.5e-6, 2e-6), sq=77e-9, **lay, seed=3)
     path = write_x3p(tmp_path / "ground.x3p", ground.heights, steps=ground.spacing)
-    shared = lubfric.load_scene(scene, surface_file=path).with_(numerics={"model": "load-sharing"})
+    shared = lubfric.load_scene(scene, surface_file=path).with_(numerics={"model": "paper"})
     curve = lubfric.stribeck(shared, [1.0, 1e-2, 1e-4])
     assert 0.02 < curve.coefficient[0] < 0.05 and not any("not valid" in text for text in curve.validity)
     assert curve.coefficient[2] == pytest.approx(0.12, rel=2e-3)  # f -> f_b
@@ -207,7 +207,7 @@ def test_the_peak_pressure_of_a_run_in_time_is_that_of_its_cycle():
 
 
 def test_the_speed_that_a_command_adds_is_reported(tmp_path, capsys, undrawn):
-    text = SWINGING.with_(motion={"entrainment_speed": 0.05}, numerics={"model": "load-sharing"}).to_toml()
+    text = SWINGING.with_(motion={"entrainment_speed": 0.05}, numerics={"model": "paper"}).to_toml()
     (tmp_path / "scene.toml").write_text(text)
     assert main(["run", str(tmp_path / "scene.toml"), "--speeds", "0.01,0.1", "--out", str(tmp_path / "o")]) == 0
     errors = capsys.readouterr().err

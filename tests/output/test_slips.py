@@ -19,7 +19,7 @@ GOOD = {
     "motion": {"entrainment_speed": "0.05", "slip_percent": "5"},
     "surface": {"sq": "0.1e-6", "correlation_length": "12e-6", "acf": '"gaussian"'},
     "contact": {"shape": "[96, 48]", "spacing": "3.2e-6"},
-    "numerics": {"model": '"load-sharing"'},
+    "numerics": {"model": '"paper"'},
 }
 NUMBERS = {"viscosity": "0.0166", "pressure_viscosity_coefficient": "20e-9"}  # instead of the oil
 OIL = ("grade", "viscosity_index", "temperature_celsius", "density")

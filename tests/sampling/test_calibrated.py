@@ -56,16 +56,16 @@ def test_calibrated_answer_holds_the_deterministic_one_and_is_narrower_than_load
     speed = 0.1
     results = {
         model: lubfric.friction(HEAVIER.with_(numerics={"model": model}), speed)
-        for model in ("calibrated", "deterministic", "load-sharing")
+        for model in ("load-sharing", "deterministic", "paper")
     }
-    low, high = results["calibrated"].uncertainty.interval
+    low, high = results["load-sharing"].uncertainty.interval
     assert low < results["deterministic"].coefficient < high
-    wide = results["load-sharing"].uncertainty.interval
+    wide = results["paper"].uncertainty.interval
     assert high - low < wide[1] - wide[0]
-    parts = results["calibrated"].boundary_force + results["calibrated"].shear_force
-    assert parts / HEAVIER.bodies.load == pytest.approx(results["calibrated"].coefficient, rel=1e-12)
-    assert results["calibrated"].decision.model == "load sharing, calibrated"
-    assert f"calibrated on {calibration()['rest']['cases']} solved cases" in results["calibrated"].decision.text
+    parts = results["load-sharing"].boundary_force + results["load-sharing"].shear_force
+    assert parts / HEAVIER.bodies.load == pytest.approx(results["load-sharing"].coefficient, rel=1e-12)
+    assert results["load-sharing"].decision.model == "load sharing, calibrated"
+    assert f"calibrated on {calibration()['rest']['cases']} solved cases" in results["load-sharing"].decision.text
 
 
 def test_a_loose_model_tolerance_lets_auto_answer_by_calibrated_load_sharing():
@@ -76,7 +76,7 @@ def test_a_loose_model_tolerance_lets_auto_answer_by_calibrated_load_sharing():
 
 
 def test_bounds_widen_outside_the_campaign_and_the_result_says_so():
-    light = lubfric.friction(PAPER.with_(numerics={"model": "calibrated"}), 0.1)
+    light = lubfric.friction(PAPER.with_(numerics={"model": "load-sharing"}), 0.1)
     assert "outside the range of the solved cases" in light.uncertainty.text
     assert widening([]) == 1.0 < widening([0.5]) < widening([1.0]) <= widening([9.0])
 
@@ -151,7 +151,7 @@ def test_the_asperity_load_does_not_jump_with_the_law_of_the_oil(newtonian):
     shares = [(r.boundary_film_load / load, r.saturated_film_load / load) for r in (newtonian, limited)]
     assert shares[0] == pytest.approx(shares[1], abs=0.05)
     assert shares[0][1] > 0.25
-    assert math.isnan(lubfric.friction(PAPER, 0.03, model="load-sharing").saturated_film_load)
+    assert math.isnan(lubfric.friction(PAPER, 0.03, model="paper").saturated_film_load)
 
 
 @pytest.mark.parametrize("film, deterministic", [(170e-9, 0.0567), (160e-9, 0.057), (80e-9, 0.084)])
@@ -171,7 +171,7 @@ def test_no_error_law_vanishes_while_a_film_is_present():
 
 
 def test_f_is_not_negative_where_one_surface_stands_still():
-    scene = PAPER.with_(bodies={"load": 0.5}, numerics={"model": "calibrated", "sampling_tolerance": 0.3})
+    scene = PAPER.with_(bodies={"load": 0.5}, numerics={"model": "load-sharing", "sampling_tolerance": 0.3})
     sliding = lubfric.friction(scene, 0.3)
     assert sliding.uncertainty.interval[0] >= 0.0
 
@@ -183,7 +183,7 @@ def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
 
     assert {*CHOICES["numerics.model"]} == {*MODELS}
     seconds = {}
-    for model in ("load-sharing", "calibrated", "deterministic"):
+    for model in ("paper", "load-sharing", "deterministic"):
         prepared = lubfric.prepare(PAPER.with_(numerics={"model": model}))
         seconds[model] = forecast(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
-    assert seconds["calibrated"] == seconds["load-sharing"] < seconds["deterministic"]
+    assert seconds["load-sharing"] == seconds["paper"] < seconds["deterministic"]

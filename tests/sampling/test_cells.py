@@ -76,7 +76,7 @@ def sharp(tmp_path):
             | {"limiting_stress_coefficient": 0.06},
             "motion": {"entrainment_speed": 3.6, "slip_percent": 4},
             "surface": {"file": str(tmp_path / "map.npy"), "spacing": [0.32e-6, 0.16e-6], "extension": "mirror"},
-            "numerics": {"model": "load-sharing"},
+            "numerics": {"model": "paper"},
         }
     )
 
@@ -126,7 +126,7 @@ CLOSED = {  # pure rolling with most of the strip in contact, where the film is 
 @pytest.mark.parametrize("scene", [SMOOTH, CLOSED], ids=["smooth", "closed"])
 def test_where_cells_change_more_than_to_first_order_shorter_ones_are_solved(scene):
     """A correction to first order was off by 7 % of f, and by 16 % of F_C."""
-    numerics = {"model": "load-sharing", "sampling": "patch", "tolerance": 0.2}
+    numerics = {"model": "paper", "sampling": "patch", "tolerance": 0.2}
     scene = lubfric.load_scene(scene | {"numerics": numerics})
     assert lubfric.prepare(scene).sample.cells.coarsening == (2, 2)
     coarse, own = both(scene)

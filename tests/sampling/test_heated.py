@@ -27,7 +27,7 @@ def test_heat_does_to_smooth_surfaces_what_it_does_to_the_smooth_film():
     """The other model finds film and heat on a line, by other equations."""
     (hot, cold), (film, cold_film) = (
         [solved(3.0, sq=1e-10, model=model, heat=heat) for heat in ("on", "off")]
-        for model in ("deterministic", "load-sharing")
+        for model in ("deterministic", "paper")
     )
     assert film.coefficient < 0.5 * cold_film.coefficient and film.central_film < 0.9 * cold_film.central_film
     for name, near in (("coefficient", 0.01), ("central_film", 5e-3)):
@@ -81,6 +81,6 @@ def test_the_way_out_of_an_error_by_the_cells_is_one_that_the_map_has():
 def test_the_range_of_a_conductivity_is_worth_what_it_is_to_the_other_model():
     scene = replace(ROLLER, ranges=(("lubricant.conductivity", 0.08, 0.25),))
     found, film = (
-        lubfric.friction(scene.with_(numerics={"model": model}), 0.6) for model in ("deterministic", "load-sharing")
+        lubfric.friction(scene.with_(numerics={"model": model}), 0.6) for model in ("deterministic", "paper")
     )
     assert found.uncertainty.inputs == pytest.approx(film.uncertainty.inputs, rel=0.15)

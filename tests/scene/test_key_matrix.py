@@ -184,7 +184,7 @@ def test_each_key_of_a_corner_moves_the_number(corner, key):
     assert moved(scene, lambda: scene.with_(**{section: {name: undone[key]}})) > MOVES
 
 
-@pytest.mark.parametrize("model", ["load-sharing", "deterministic"])
+@pytest.mark.parametrize("model", ["paper", "deterministic"])
 @pytest.mark.parametrize("inlet", [{"inlet_length": 1e-5}, {"inlet_film": 1.5e-7}])
 def test_a_starved_inlet_reaches_the_number(model, inlet):
     """More of it gives the flooded number; films and flows are held against published laws in tests/film. A run in time
@@ -433,7 +433,7 @@ def test_the_counterface_adds_its_square():
 
 
 SOLVED_OTHERWISE = (
-    [{"workers": 2}, {"model": "load-sharing"}, {"grid": "given"}, {"film_tolerance": 1e-3}]
+    [{"workers": 2}, {"model": "paper"}, {"grid": "given"}, {"film_tolerance": 1e-3}]
     + [{"contact_tolerance": 1e-6}, {"balance_tolerance": 1e-5}, {"tolerance": 1e-3}, {"heat": "auto"}]
     + [{"sampling": "strips"}, {"sampling_tolerance": 0.1}, {"accept": False}]
 )

@@ -28,7 +28,7 @@ def scene_file(folder, text):
 
 def loaded(folder, text):
     """The scene of a file, by load sharing: what is seen here of a map does not depend on the model."""
-    return lubfric.load_scene(scene_file(folder, text)).with_(numerics={"model": "load-sharing"})
+    return lubfric.load_scene(scene_file(folder, text)).with_(numerics={"model": "paper"})
 
 
 @pytest.fixture

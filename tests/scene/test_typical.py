@@ -16,7 +16,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "inputs.md"
 TABLE = PAGE.read_text(encoding="utf-8").partition("## Typical values")[2].partition("SKF:")[0]
 NAMED = {key: typical(key) for key in KEYS if typical(key)}
 SHOWN = {"hardness": "HV", "eyring_stress": "MPa"}
-QUICK = paper_scene(numerics={"sampling_tolerance": 0.1, "model": "load-sharing"}, lubricant={"eyring_stress": 5e6})
+QUICK = paper_scene(numerics={"sampling_tolerance": 0.1, "model": "paper"}, lubricant={"eyring_stress": 5e6})
 
 
 def rows_of(key):

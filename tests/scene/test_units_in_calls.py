@@ -8,7 +8,7 @@ import scene_text
 import lubfric
 from lubfric import oil
 
-PATCH = scene_text.paper_scene(numerics={"model": "load-sharing", "sampling": "patch"})
+PATCH = scene_text.paper_scene(numerics={"model": "paper", "sampling": "patch"})
 MAP = lubfric.generate_surface((48, 48), 1e-6, sq=1e-7, correlation_length=4e-6, seed=1)
 OIL = oil.from_viscosities(68e-6, 8.6e-6)
 FILM = {"radius": 0.006, "e_prime": 2.2e11, "entrainment_speed": 1.0, "viscosity": 0.02}

@@ -81,7 +81,7 @@ def test_a_dict_of_a_scene_stays_as_it_is(tmp_path):
     assert repr(table) == before
 
 
-QUICK = {"sampling": "patch", "model": "load-sharing"}
+QUICK = {"sampling": "patch", "model": "paper"}
 
 
 def test_a_slide_roll_ratio_in_percent_is_questioned_and_still_solved():

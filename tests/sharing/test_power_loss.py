@@ -13,7 +13,7 @@ SMOOTH = paper_scene(surface={"sq": 0.0, "correlation_length": 8e-6}, contact={"
 ROUGH = paper_scene(
     contact={"shape": (48, 48), "spacing": 1.1e-6},
     surface={"correlation_length": 4e-6},
-    numerics={"sampling": "patch", "model": "load-sharing"},
+    numerics={"sampling": "patch", "model": "paper"},
 )
 
 
@@ -108,10 +108,10 @@ def test_curves_studies_and_tables_have_it(tmp_path):
     assert "power_loss [W]" in heading and "power_loss_high [W]" in heading
 
 
-@pytest.mark.parametrize("model", ["load-sharing", "deterministic"])
+@pytest.mark.parametrize("model", ["paper", "deterministic"])
 def test_in_time_at_a_steady_speed_it_is_that_of_the_steady_point(model):
     scene = SMOOTH.with_(motion={"slide_roll_ratio": 0.1, "entrainment_speed": 0.5}, numerics={"model": model})
-    steady = lubfric.friction(scene.with_(numerics={"model": "load-sharing"}), 0.5)
+    steady = lubfric.friction(scene.with_(numerics={"model": "paper"}), 0.5)
     history = lubfric.transient(dataclasses.replace(scene, transient=lubfric.Transient(2e-4, outputs=2)))
     assert history.power_loss[-1] == pytest.approx(steady.power_loss, rel=0.03)
     assert history.rolling_resistance[-1] == pytest.approx(steady.rolling_resistance, rel=0.05)

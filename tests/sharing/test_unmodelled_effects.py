@@ -22,7 +22,7 @@ ROLLER = lubfric.load_scene(
         "motion": {"entrainment_speed": 1.0, "slip_percent": 5},
         "surface": {"sq": 1.5e-7, "correlation_length": 1.5e-5},
         "contact": {"shape": [96, 48], "spacing": 4e-6},
-        "numerics": {"model": "load-sharing", "sampling": "patch", "heat": "off", "accept": True},
+        "numerics": {"model": "paper", "sampling": "patch", "heat": "off", "accept": True},
     }
 )
 SQ = ROLLER.surface.sq

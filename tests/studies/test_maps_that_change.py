@@ -19,7 +19,7 @@ def heights(seed):
 def scene(tmp_path):
     np.save(tmp_path / "map.npy", heights(1))
     rough = {"file": str(tmp_path / "map.npy"), "spacing": 1.1e-6, "sq": None, "correlation_length": None}
-    return SCENE.with_(surface=rough, contact={"shape": None, "spacing": None}, numerics={"model": "load-sharing"})
+    return SCENE.with_(surface=rough, contact={"shape": None, "spacing": None}, numerics={"model": "paper"})
 
 
 def replace_map(tmp_path, seed):

@@ -52,7 +52,7 @@ def test_wide_grooves_are_wide():
 SCENE = lubfric.load_scene("paper").with_(
     surface={"sq": None, "sk": "300 nm", "spk": 6e-8, "svk": 9e-7, "correlation_length": 8e-6, "honing_angle": 60},
     motion={"entrainment_speed": 0.05},
-    numerics={"model": "load-sharing", "tolerance": 0.05},
+    numerics={"model": "paper", "tolerance": 0.05},
 )
 
 

@@ -59,7 +59,7 @@ SCENE = lubfric.load_scene("paper").with_(
     surface={"sq": 2e-8, "correlation_length": 4e-6},
     contact={"shape": (32, 16), "spacing": 1.5e-6},
     lubricant={"inlet_length": 1e-5},
-    numerics={"model": "load-sharing", "sampling": "patch", "grid": "given", "tolerance": 0.03, "accept": True},
+    numerics={"model": "paper", "sampling": "patch", "grid": "given", "tolerance": 0.03, "accept": True},
 )
 
 

@@ -51,7 +51,7 @@ def test_smooth_bodies_have_the_smooth_film_of_a_run(plan):
     smooth = {"sq": 0.0}
     fine = {"shape": (64, 32), "spacing": 1.5e-6}
     found = run(plan, np.linspace(0, 4e-4, 9), surface=smooth, contact=fine)
-    film = run(plan, found.time, surface=smooth, numerics={"model": "load-sharing"})
+    film = run(plan, found.time, surface=smooth, numerics={"model": "paper"})
     np.testing.assert_allclose(found.central_film[1:], film.central_film[1:], rtol=0.015)
     np.testing.assert_allclose(found.coefficient[1:], film.coefficient[1:], rtol=0.02, atol=2e-4)
     assert np.ptp(film.central_film) > 0.05 * film.central_film.mean()
@@ -74,7 +74,7 @@ def test_heat_that_it_leaves_out_is_told_with_its_size():
         run(Transient(1e-6, outputs=1), **scene, numerics={"accept": True, "heat": heat}) for heat in ("auto", "off")
     )
     told = [e.value for entries in hot.entries for e in entries if e.what == "loss of film or f by heat"]
-    steady = lubfric.friction(SCENE.with_(**scene, numerics={"heat": "on", "model": "load-sharing"}))
+    steady = lubfric.friction(SCENE.with_(**scene, numerics={"heat": "on", "model": "paper"}))
     assert told == pytest.approx(2 * [1 - steady.inlet_film_factor], rel=1e-9) and told[0] > 0.2
     assert not any("by heat" in text for text in cold.validity)
     with pytest.raises(lubfric.InputError, match="numerics.heat = 'on'"):

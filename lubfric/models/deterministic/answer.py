@@ -215,7 +215,7 @@ def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[s
     asked = prepared.scene.numerics.sampling_tolerance
     if math.isnan(sampling):
         return TOO_SHORT.format(length / sample.lengths[1]), BIASED
-    return (f"the sampling error is above the requested {percent(asked)}",) if sampling > asked else ()
+    return (f"the surface leaves more than the {percent(asked)} asked",) if sampling > asked else ()
 
 
 def _words_of_levels(levels: Levels) -> str:
@@ -266,7 +266,7 @@ def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult]
     drawn = mean(result.drawn for result in results)
     if drawn > DRAWN:
         consequence = "f depends on the 1 nm of lubricant that touching bodies are said to keep, by about a percent"
-        remedy = "take f as accurate to 1 to 2 %, because almost no lubricant passes the contact"
+        remedy = "read f to a percent or two: hardly any lubricant passes the contact"
         yield Validity("share of the lubricant out of touching cells", drawn, DRAWN, "", consequence, remedy)
     yield from of_heat(scene, heat)
     if why := too_hot(heat):

@@ -118,7 +118,7 @@ def _film_alone(point: Point) -> Balance:
             break
         point = replace(point, settings=replace(point.settings, film_cells=cells))
         trial = point.trial(load, 0.0, trial)
-    notes = ("separated: the film is above the highest asperities",)
+    notes = ("separated: the film clears the summits",)
     report = _report(point.scene, CONVERGED, (0.0,), trial.contact, trial.film, notes)
     return Balance(load, 0.0, trial.film, trial.contact, friction, report, settings=point.settings)
 

@@ -19,7 +19,7 @@ import numpy as np
 from ..._base import packaged
 from ...samples import Sample
 from ...scene import Scene, moves, moving_bodies
-from ..shared import Prepared, limit_bounds, on_strip
+from ..shared import Prepared, error_by_heat, limit_bounds, on_strip
 from .balance import Balance, solve_balance
 from .rough_film import RoughFilm, RoughMap, rough_film
 
@@ -35,6 +35,7 @@ class CalibratedFriction:
     coefficient : f, with the bias taken away; film : the rough film behind it
     bounds : 95 % bounds of f by the model, relative, below and above; bias : that was taken away, of ln f
     by_film : relative change of f by half and by twice the boundary film
+    by_heat : relative error of f by what heat does to it (`lubfric.models.shared.error_by_heat`)
     by_limit : how much lower and higher f is with the limiting stress of a Newtonian oil at the ends of what oils have;
         zeros where that does not matter
     cases : number of solved cases behind the bounds; outside : what is outside of their range, in words
@@ -45,6 +46,7 @@ class CalibratedFriction:
     bounds: tuple[float, float]
     bias: float
     by_film: tuple[float, float]
+    by_heat: float
     by_limit: tuple[float, float]
     cases: int
     outside: tuple[str, ...] = ()
@@ -52,15 +54,15 @@ class CalibratedFriction:
     @property
     def sides(self) -> tuple[float, float]:
         """Model-form error of f at 95 %, relative, below and above: the bounds, the boundary film where the scene does
-        not give it, and the limit of the oil."""
+        not give it, heat, and the limit of the oil."""
         by_film = max(map(abs, self.by_film))
-        down, up = (math.hypot(bound, by_film, limit) for bound, limit in zip(self.bounds, self.by_limit))
+        down, up = (math.hypot(bound, by_film, self.by_heat, limit) for bound, limit in zip(self.bounds, self.by_limit))
         return min(down, 1.0), up
 
     @property
     def error(self) -> float:
         """The larger side without the limit of the oil: what counts against ``numerics.model_tolerance``."""
-        return math.hypot(max(self.bounds), max(map(abs, self.by_film)))
+        return math.hypot(max(self.bounds), max(map(abs, self.by_film)), self.by_heat)
 
 
 def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: Balance) -> CalibratedFriction:
@@ -91,6 +93,7 @@ def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: 
         bounds=bounds,
         bias=bias,
         by_film=(0.0, 0.0) if scene.bodies.boundary_film is not None else _changes(film),
+        by_heat=_by_heat(line),
         by_limit=limit_bounds(scene, film.saturated_film, film.coefficient, (film.at_least_limit, film.at_most_limit)),
         cases=fit["cases"],
         outside=tuple(outside),
@@ -158,6 +161,14 @@ def widening(distances) -> float:
     """Return the factor on the bounds at ``distances`` outside the range of the campaign, in ln: 1 + their sum, at most
     3. Nothing was measured there."""
     return min(1.0 + sum(distances), 3.0)
+
+
+def _by_heat(line: Balance) -> float:
+    """Return the relative error of f by what heat does to it, as the load-sharing balance ``line`` knows it."""
+    forces = line.forces
+    response = line.response
+    by_film = forces.felt if response is None else response.per_film(forces, line.contact.mean_film)
+    return error_by_heat(forces.heat, 1 - forces.heat.film_factor**by_film)
 
 
 def _by_flanks(scene: Scene, film: RoughFilm, sq: float, speed: float) -> float:

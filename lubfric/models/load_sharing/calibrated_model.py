@@ -1,4 +1,7 @@
-"""Calibrated load sharing as a `lubfric.models.Model`: the solution of load sharing, with f and the error of `calibrated`."""
+"""Load sharing, calibrated, as a `lubfric.models.Model`: the balance of the paper, with f and the error of `calibrated`.
+
+It answers for ``numerics.model = "load-sharing"``; "paper" keeps the friction of the paper, Eq. (9) on a smooth film.
+"""
 
 from __future__ import annotations
 
@@ -46,11 +49,12 @@ class CalibratedSolution(LoadSharingSolution):
 
 
 class Calibrated(Model):
-    """Load sharing with the roughness that the film flattens, its shear summed over cells, and a calibrated error."""
+    """Load sharing by Eq. (8), with the roughness that the film flattens, its shear summed over cells, and a calibrated
+    error."""
 
     @property
     def name(self) -> str:
-        return "calibrated"
+        return "load-sharing"
 
     def solve(
         self,
@@ -109,6 +113,7 @@ def _largest(friction: CalibratedFriction) -> str:
         "the boundary film, whose thickness is not given: bodies.boundary_film narrows it": max(
             map(abs, friction.by_film)
         ),
+        "heat, half of whose effect counts as its error": friction.by_heat,
         "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it": max(
             friction.by_limit
         ),

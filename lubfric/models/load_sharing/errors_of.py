@@ -227,14 +227,12 @@ def _notes(found: BalancedSample, scene: Scene, sampling: float) -> tuple[str, .
         return (TOO_SHORT.format(found.scatter.length / sample.lengths[1]),)
     if sampling > asked and needed > 1:
         times = float(f"{needed:.2g}")
-        notes.append(
-            f"the map is too small for the requested sampling error of {percent(asked)}; about {times:g} times its area would reach it"
-        )
+        notes.append(f"the map ends before the {percent(asked)} asked: that would take about {times:g} times its area")
     elif sampling > asked:
-        notes.append(f"the sampling error is above the requested {percent(asked)}")
+        notes.append(f"more than the {percent(asked)} asked")
     if too_few(found.scatter.spots, sampling, asked):
         notes.append(
-            f"few asperity contacts carry the load (as {found.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
+            f"few spots carry the load (as {found.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
             "interval is too narrow more often than it says"
         )
     return tuple(notes)

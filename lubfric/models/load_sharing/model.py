@@ -61,7 +61,7 @@ class LoadSharingSolution(SampleSolution):
     def sufficient(self) -> str:
         tolerance = self.prepared.scene.numerics.model_tolerance
         if self.balanced.response is None and max(model_error(self.balanced)[0]) <= tolerance:
-            return "load-sharing model alone: the film is so thick that roughness changes f by less than numerics.model_tolerance"
+            return "load sharing alone: the film is so thick that the roughness hardly matters"
         return ""
 
     def heat(self) -> Heat:
@@ -75,11 +75,12 @@ class LoadSharingSolution(SampleSolution):
 
 
 class LoadSharing(Model):
-    """Film and asperity contacts share the load, Eq. (8) (Akchurin et al. 2015, doi:10.1007/s11249-015-0536-z)."""
+    """The paper: film and asperity contacts share the load, Eq. (8); friction by Eq. (9) (Akchurin et al. 2015,
+    doi:10.1007/s11249-015-0536-z)."""
 
     @property
     def name(self) -> str:
-        return "load-sharing"
+        return "paper"
 
     def solve(
         self,

@@ -99,7 +99,7 @@ def _of_film(scene: Scene, sq: float, speed: float, known) -> list[UnmodelledEff
         effects.append(
             (words, change(scene, WORN * sq), "give a height map measured after running-in, or use lubfric.run_in")
         )
-        at_rest = scene.numerics.model == "load-sharing" and moves(scene)  # the other model moves it
+        at_rest = scene.numerics.model == "paper" and moves(scene)  # the other model moves it
         if at_rest and line.expected_film < THICK * sq:
             effects.append(
                 ("motion of the roughness through the contact", math.nan, "numerics.model = 'deterministic' models it")

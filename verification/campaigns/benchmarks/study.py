@@ -32,7 +32,7 @@ FEW = 10  # every so many curves are run here too
 def plan(points: int):
     """5 loads x 5 viscosities x 4 maps x speeds."""
     scene = lubfric.load_scene("paper").with_(
-        contact={"shape": (64, 64), "spacing": 0.9e-6}, numerics={"model": "load-sharing", "sampling": "patch"}
+        contact={"shape": (64, 64), "spacing": 0.9e-6}, numerics={"model": "paper", "sampling": "patch"}
     )
     vary = {
         "bodies.load": np.linspace(2.0, 6.0, 5),

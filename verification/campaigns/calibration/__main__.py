@@ -19,11 +19,12 @@ def main() -> int:
     p.add_argument("motion", choices=("rest", "rolling", "fit"))
     p.add_argument("count", type=int, nargs="?", default=0, help="number of cases that the table shall have")
     p.add_argument("--budget", type=float, default=7200.0, help="processor time [s] (default: %(default)s)")
+    p.add_argument("--first", type=int, default=0, help="number of the first case (default: %(default)s)")
     options = p.parse_args()
     if options.motion == "fit":
         fit.write()
         return 0
-    for row in extend(options.motion, options.count, options.budget):
+    for row in extend(options.motion, options.count, options.budget, first=options.first):
         end = row["failure"] or f"{row['ls_f']:.4f} {row['det_f']:.4f}"
         print(f"{row['motion']} {row['seed']} {row['fluid']} {row['lay']} {row['seconds']:.1f} s: {end}", flush=True)
     return 0

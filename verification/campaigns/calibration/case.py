@@ -59,6 +59,13 @@ class Case:
         return Surface(heights, surface.spacing, periodic_axes=(True, True))
 
 
+# Number of the first rolling case with slight sliding, as in rolling bearings.
+SLIGHT_FROM = 1000
+
+# Slide-roll ratios of these cases [-].
+SLIGHT = (0.003, 0.3)
+
+
 def contact_reach(scene: lubfric.Scene, sq: float) -> float:
     """Return the length [m] along x that contains the contact: where an undeformed cylinder, resting on the ends of the
     Hertz strip, has risen by `SUMMITS` times ``sq`` [m]."""
@@ -75,14 +82,14 @@ def drawn(motion: str, seed: int) -> Case:
     fluid = FLUIDS[seed % 4]
     lay = LAYS[(seed // 4) % 4]
     for _ in range(DRAWS):
-        case = _drawn(rng, motion, fluid, lay)
+        case = _drawn(rng, motion, fluid, lay, slight=motion == "rolling" and seed >= SLIGHT_FROM)
         if case is not None:
             return replace(case, facts={"motion": motion, "seed": seed} | case.facts)
     raise RuntimeError(f"no case of {motion}, {fluid}, {lay} is small enough")
 
 
-def _drawn(rng: np.random.Generator, motion: str, fluid: str, lay: str) -> Case | None:
-    """One draw; None where its grid has too many columns."""
+def _drawn(rng: np.random.Generator, motion: str, fluid: str, lay: str, *, slight: bool) -> Case | None:
+    """Return one draw, of ``slight`` sliding as in a bearing; None where its grid has too many columns."""
 
     def between(low: float, high: float) -> float:
         return float(math.exp(rng.uniform(math.log(low), math.log(high))))
@@ -97,6 +104,9 @@ def _drawn(rng: np.random.Generator, motion: str, fluid: str, lay: str) -> Case 
     oil = _oil(rng, fluid, friction)
     ratio = between(*LAMBDA)
     slip = rng.uniform(-2, 2) if motion == "rolling" else 2.0
+    if slight:
+        (least, most) = map(math.log, SLIGHT)
+        slip = math.copysign(math.exp(least + abs(slip) / 2 * (most - least)), slip)
     rough = ("lower", "upper", "both")[int(rng.integers(3))] if motion == "rolling" else "lower"
     hardness = None if rng.random() < 0.5 else between(3e9, 9e9)
     acf = "exponential" if lay == "isotropic" and rng.random() < 0.4 else "gaussian"

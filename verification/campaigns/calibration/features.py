@@ -13,7 +13,7 @@ from lubfric.models.shared import prepare
 from .case import Case
 
 SHIFTS = 4  # places of a moving map
-QUICK = {"model": "load-sharing", "grid": "given", "heat": "off"}
+QUICK = {"model": "paper", "grid": "given", "heat": "off"}
 
 
 def quick(case: Case) -> dict[str, float]:

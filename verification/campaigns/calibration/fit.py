@@ -19,7 +19,7 @@ HOME = Path(lubfric.__path__[0]) / "models/load_sharing/calibration.toml"
 SPREAD = {"rest": ("one", "contrast", "contact"), "rolling": ("one", "contrast", "contact")}
 FREEDOM = 6.0  # of Student's t in the likelihood, so that single cases far off count little
 CONFIDENCE = 0.95
-LEAST_SLIP = 0.03  # slide-roll ratio of a rolling case that counts: below, f is a small difference
+LEAST_SLIP = 0.003  # slide-roll ratio of a rolling case that counts: below, f is a small difference
 QUARTERS = 4  # kinds of load, and of slide-roll ratio
 EDGES = (0.01, 0.99)  # quantiles of the cases: the range of the campaign
 

@@ -67,7 +67,7 @@ def map_facts(case: Case) -> dict[str, float]:
 
 def load_sharing(case: Case) -> dict[str, float]:
     """Means of the numbers of load sharing, of a moving map over its places."""
-    scene = case.scene.with_(numerics={"model": "load-sharing"})
+    scene = case.scene.with_(numerics={"model": "paper"})
     nx = case.surface.shape[0]
     shifts = range(0, nx, nx // SHIFTS) if case.facts["motion"] == "rolling" else (0,)
     rows = []

@@ -22,15 +22,15 @@ def rows(motion: str, folder: Path = TABLES) -> Iterator[dict[str, str]]:
             yield from csv.DictReader(stream)
 
 
-def extend(motion: str, count: int, budget: float, folder: Path = TABLES) -> Iterator[dict[str, Any]]:
-    """Solve the cases below number ``count`` that the table of ``motion`` has not, as long as the processor time of
+def extend(motion: str, count: int, budget: float, folder: Path = TABLES, first: int = 0) -> Iterator[dict[str, Any]]:
+    """Solve the cases from ``first`` to below number ``count`` that the table of ``motion`` has not, as long as the time of
     this process is below ``budget`` [s], and append each as it is solved."""
     assert motion in MOTIONS
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / f"{motion}.csv"
     known = {int(row["seed"]) for row in rows(motion, folder)}
     names = list(COLUMNS)
-    for seed in range(count):
+    for seed in range(first, count):
         if seed in known:
             continue
         if time.process_time() > budget:

@@ -13,7 +13,7 @@ from .measure import point, quartiles
 SURFACES = "Gaussian", "exponential", "ridges along", "plateau"
 SEEDS = {True: (1,), False: (1, 2, 3)}
 WAYS: dict[str, dict] = {
-    "load sharing": {"model": "load-sharing"},
+    "load sharing": {"model": "paper"},
     "deterministic, long cells": {"model": "deterministic", "tolerance": 0.1},
     "deterministic, levels of cells": {"model": "deterministic"},
     "default": {},

@@ -18,7 +18,7 @@ from ...plotting import axes, image
 from .page import picture
 
 OWN = {  # the model, the grid and the film of the paper
-    **{"model": "load-sharing", "grid": "given"},
+    **{"model": "paper", "grid": "given"},
     **{"sampling": "patch", "film_deflection": "hydrodynamic"},
 }
 PAPER = lubfric.load_scene("paper").with_(numerics=OWN)

@@ -42,7 +42,7 @@ READINGS: dict[str, dict[str, Any]] = {  # label: what differs from the base rea
     "L read at 0.1": {"level": 0.1},
 }
 HALF_SPACE = ("half-space", "volume")
-SCENE = lubfric.load_scene("flat").with_(bodies={"hardness": None}, numerics={"model": "load-sharing", "accept": True})
+SCENE = lubfric.load_scene("flat").with_(bodies={"hardness": None}, numerics={"model": "paper", "accept": True})
 
 
 @lru_cache(maxsize=24)

@@ -56,7 +56,7 @@ def random_scene(rng: np.random.Generator, any_material: bool = False) -> lubfri
             "speeds": (),
         },
         numerics={
-            "model": "load-sharing",  # which the judge closes
+            "model": "paper",  # which the judge closes
             "accept": False,
             "tolerance": float(rng.choice(OTHER_TOLERANCES if any_material else (0.01, 0.01, 0.05))),
             "sampling": "strips" if strips else "patch",

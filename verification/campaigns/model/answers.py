@@ -56,7 +56,7 @@ GENERATED = {
 }
 MEASURED = ("ridges at 45 degrees", "plateau", "peaks", "self-affine")
 COLUMNS = ("", "answers", "off by", "interval", "inside", "Eq. (8) off by", "interval ", "inside ")
-WAYS = {"default": {}, "load sharing": {"model": "load-sharing"}}
+WAYS = {"default": {}, "load sharing": {"model": "paper"}}
 
 
 @dataclass(frozen=True)

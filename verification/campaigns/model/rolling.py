@@ -63,7 +63,7 @@ def solved(case: tuple) -> dict[str, Any]:
     scene = roller(pressure).with_(bodies=bodies, motion={"slide_roll_ratio": slip}, numerics={"accept": True})
     surface = rough(kind, sq, length)
     speed = speed_of(scene, ratio * sq)
-    fast = lubfric.friction(lubfric.prepare(scene.with_(numerics={"model": "load-sharing"}), surface), speed)
+    fast = lubfric.friction(lubfric.prepare(scene.with_(numerics={"model": "paper"}), surface), speed)
     load = scene.bodies.load
     numbers = {"f": fast.coefficient, "share": fast.contact_load / load, "ratio": fast.film_to_roughness_ratio}
     numbers |= {"boundary": fast.boundary_force / load, "shear": fast.shear_force / load}

@@ -37,7 +37,7 @@ CHANCE = 2.0  # standard errors of a proportion or ratio of few trials, granted 
 RATIO = 0.15
 BIAS = 0.3
 ENDLESS = "plain balances of long patches"
-SHARED = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing"})
+SHARED = lubfric.load_scene("paper").with_(numerics={"model": "paper"})
 COLUMNS = ("case", "trials", "coverage", "bias")
 
 

@@ -82,7 +82,7 @@ def quantities(level: str, run: Run = Run()) -> Iterator[Item]:
 def beside(number: int) -> dict:
     """(relative deviation, stated error) by quantity of a random patch; None if none is stated, {} if refused."""
     scene = random_scene(np.random.default_rng((11, number))).with_(
-        numerics={"model": "load-sharing", "sampling": "patch", "tolerance": 0.01}
+        numerics={"model": "paper", "sampling": "patch", "tolerance": 0.01}
     )
     try:
         point = lubfric.friction(scene)

@@ -41,7 +41,7 @@ def model_of(name: str, sq: float, shape: int):
     else:
         roughness = {"sq": sq, "correlation_length": 9e-6 * 32 / shape if shape < 48 else 4e-6}
         grid = {"shape": (shape, shape // 2), "spacing": 90e-6 / shape}
-    numerics = {"model": "load-sharing", "sampling": "patch", "accept": True}
+    numerics = {"model": "paper", "sampling": "patch", "accept": True}
     return lubfric.prepare(lubfric.load_scene(name).with_(surface=roughness, contact=grid, numerics=numerics))
 
 

@@ -49,7 +49,7 @@ def roughness() -> Cells:
 def times() -> Cells:
     """CPU seconds of usual jobs, the smallest of three where these take less than a second."""
     paper = lubfric.load_scene("paper")
-    shared = paper.with_(numerics={"model": "load-sharing"})
+    shared = paper.with_(numerics={"model": "paper"})
     speeds = np.geomspace(1e-4, 1.0, 20)
     jobs: dict[str, Callable[[], object]] = {
         "one film": lambda: lubfric.solve_ehl(**case_of_scene(paper, paper.bodies.load, 0.01)),

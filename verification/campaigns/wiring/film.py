@@ -14,7 +14,7 @@ from ...fem.solvers.fluid import Fluid
 OTHER = "differential deflection, called by itself"
 OWN = "own integral over the film that was found"
 FIXED = {
-    "model": "load-sharing",
+    "model": "paper",
     "film_deflection": "hydrodynamic",
     "heat": "off",
     "accept": True,

@@ -21,7 +21,7 @@ DX = 0.8e-6
 DY = 1.3e-6
 OWN = "the file, read and changed by plain NumPy"
 SIZE = (56, 40)
-PATCH = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling": "patch", "grid": "given"})
+PATCH = lubfric.load_scene("paper").with_(numerics={"model": "paper", "sampling": "patch", "grid": "given"})
 
 
 def wiring_maps(level: str) -> Iterator[Check]:

@@ -23,7 +23,7 @@ FINEST = {"quick": 128, "default": 256, "full": 512}
 WIDTHS = (45e-6, 60e-6, 90e-6, 120e-6, 180e-6)
 TOLERANCES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
 TIGHT = {
-    "model": "load-sharing",
+    "model": "paper",
     "tolerance": 1e-4,
     "film_tolerance": 1e-4,
     "balance_tolerance": 1e-6,

@@ -31,7 +31,7 @@ TIGHT = {  # the model of the finite elements: no more and no less
     "balance_tolerance": 1e-6,
     "film_deflection": "hydrodynamic",
     "heat": "off",
-    "model": "load-sharing",
+    "model": "paper",
     "sampling": "patch",
     "grid": "given",
     "accept": True,

@@ -28,7 +28,7 @@ def sampling(level: str) -> Iterator[Check]:
     The scatter of n seeds is known to one part in the square root of 2 (n - 1); twice that is allowed.
     """
     yield from statistics()
-    base = lubfric.load_scene("paper").with_(numerics={"model": "load-sharing", "sampling_tolerance": ASKED})
+    base = lubfric.load_scene("paper").with_(numerics={"model": "paper", "sampling_tolerance": ASKED})
     count = SEEDS[level]
     values = [lubfric.friction(base.with_(surface={"seed": seed}), SPEED) for seed in range(1, count + 1)]
     f, stated = np.array([[p.coefficient, p.uncertainty.sampling] for p in values]).T

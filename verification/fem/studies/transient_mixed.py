@@ -30,7 +30,7 @@ def transient_mixed(level: str):
     contact = {"shape": (n, n), "spacing": 90e-6 / n}
     motion = {"entrainment_speed": LARGEST}
     scene = lubfric.load_scene("paper").with_(
-        contact=contact, motion=motion, numerics={"sampling": "patch", "model": "load-sharing"}
+        contact=contact, motion=motion, numerics={"sampling": "patch", "model": "paper"}
     )
     model = prepare(scene)
     yield from steady(model)
