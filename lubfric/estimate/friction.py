@@ -3,6 +3,7 @@
 import math
 import time
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 
@@ -131,7 +132,7 @@ def _solved(
     if requested == deterministic.name and prepared.sample.is_single_patch:  # a cheaper model has no control for it
         answer = sampled(prepared, speed, deterministic).answer()
         return result_of(prepared, answer, deterministic.name, begun, fine=fine)
-    cheaper = sampled(prepared, speed, paper, native=native)
+    cheaper = cast(LoadSharingSolution, sampled(prepared, speed, paper, native=native))
     if requested == "auto":
         why = cheaper.sufficient()
         if why or any(entry.severe for entry in cheaper.warnings()):
@@ -139,7 +140,7 @@ def _solved(
         if why := deterministic.declines(prepared, speed, cheaper):
             return _by_load_sharing(prepared, cheaper, is_calibrated, begun, fine=fine, why=why)
         if scene.numerics.model_tolerance >= least_half_width():
-            calibrated = CalibratedSolution(cheaper.balanced)  # type: ignore[attr-defined]
+            calibrated = CalibratedSolution(cheaper.balanced)
             if calibrated.applies and calibrated.friction.error <= scene.numerics.model_tolerance:
                 why = "its error is within numerics.model_tolerance"
                 return result_of(prepared, calibrated.answer(), CALIBRATED.name, begun, fine=fine, why=why)

@@ -188,8 +188,8 @@ def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
 
 
 def _record(found: studies.FitResult) -> dict:
-    names = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
-    names = (*names, "describes_data", "other_minima", "starts")
+    of_fit = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
+    names = (*of_fit, "describes_data", "other_minima", "starts")
     return {name: getattr(found, name) for name in names} | {
         "parameters": list(found.parameters),
         "x": found.measured.x,
