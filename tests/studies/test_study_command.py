@@ -44,7 +44,7 @@ def command(*arguments, **options):
 def test_a_study_file_is_carried_out(tmp_path, capsys):
     assert main(["study", written(tmp_path), "--out", str(tmp_path / "out")]) == 0
     said = capsys.readouterr().err
-    assert "12 points" in said and "[12/12]" in said and "wrote study.csv" in said
+    assert "12 points" in said and "[12/12]" in said and "wrote report.html, study.csv" in said
     result = lubfric.open_study(tmp_path / "out")
     scene = lubfric.load_scene(tmp_path / "small.toml")
     pairs = [(1, 1e-7), (2, 1.2e-7)]
