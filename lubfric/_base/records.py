@@ -84,10 +84,10 @@ def _picture_of(shown: Any) -> str:
 
 def changed(part: Any) -> dict[str, Any]:
     """The fields of a dataclass that differ from their defaults, by name."""
-    found = {}
+    values = {}
     for f in fields(part):
         value = getattr(part, f.name)
         default = f.default if f.default_factory is MISSING else f.default_factory()
         if default is MISSING or value != default:
-            found[f.name] = value
-    return found
+            values[f.name] = value
+    return values

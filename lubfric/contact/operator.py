@@ -166,7 +166,8 @@ def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), worke
 
 
 def _padded_length(n: int, kind: str) -> int:
-    """Of a free axis at least 2 n - 1, a multiple of 4 (so that grids can be halved) with small prime factors."""
+    """Return the number of points of a padded axis: ``n`` if it is periodic, else at least 2 n - 1, a multiple of 4 (so
+    that grids can be halved) with small prime factors."""
     return n if kind == "periodic" else 4 * fft.next_fast_len(-(-(2 * n - 1) // 4), real=True)
 
 

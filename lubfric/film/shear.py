@@ -47,8 +47,8 @@ class ShearForce:
         return self.couette + self.rolling
 
     @property
-    def felt(self) -> float:
-        """Sum of the parts without sign [N], by which an error of the film is felt in the force."""
+    def magnitude(self) -> float:
+        """Sum of the absolute parts of the force [N], on which an error of the film acts."""
         return abs(self.couette) + max(abs(self.rolling), self.rolling_parts)
 
 
@@ -140,8 +140,8 @@ def spike_error(x, tau) -> float:
 
 
 def _rolling(p, h, touched, known: tuple[float, float] | None) -> tuple[float, float, float]:
-    """Return ∫ (h/2) dp [N/m] without the share of the width that is ``touched``, the parts by which an error of the
-    film is felt, and the error of the sum."""
+    """Return ∫ (h/2) dp [N/m] without the share of the width that is ``touched``, the parts on which an error of the
+    film acts, and the error of the sum."""
     rolls = 0.25 * (h[1:] + h[:-1]) * np.diff(p)
     force, error = known or (np.sum(rolls), rolling_error(p, h, 1.0))
     taken = np.sum(rolls * touched)

@@ -95,8 +95,8 @@ def info(arguments) -> None:
     speeds = arguments.speeds
     if speeds is not None and scene.transient is not None:
         raise InputError("--speeds is for a curve, and this is a scene with [transient]; leave it out")
-    told = describe_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))
-    answer(told + "\n")
+    description = describe_scene(scene, speeds if speeds == "auto" else parse_speeds("--speeds", speeds))
+    answer(description + "\n")
 
 
 def init(arguments) -> None:

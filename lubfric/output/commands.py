@@ -84,14 +84,14 @@ def printable(text: str, encoding: str | None) -> str:
 
 def paced() -> Callable[[bool], bool]:
     """Says whether progress is to be reported now: a second after the last time, and at the end (``True``)."""
-    told = time.perf_counter()
+    last_report = time.perf_counter()
 
     def due(end: bool) -> bool:
-        nonlocal told
+        nonlocal last_report
         now = time.perf_counter()
-        if not end and now - told < SAY_EVERY:
+        if not end and now - last_report < SAY_EVERY:
             return False
-        told = now
+        last_report = now
         return True
 
     return due
@@ -183,16 +183,16 @@ def read_record(folder: Path) -> dict:
 
 def files_read(paths: Iterable) -> list[Path]:
     """The files among ``paths`` (None and what is no file: left out), and those that the TOML files among them name."""
-    found: dict[Path, None] = {}
+    read: dict[Path, None] = {}
     waiting = [Path(path) for path in paths if path is not None]
     while waiting:
         path = waiting.pop()
-        if path not in found and os.path.isfile(path):
-            found[path] = None
+        if path not in read and os.path.isfile(path):
+            read[path] = None
             with suppress(ValueError, OSError, RecursionError):  # no TOML
                 if path.stat().st_size < MOST_TOML:
                     waiting += [path.parent / word for word in _words(tomllib.loads(path.read_text("utf-8-sig")))]
-    return list(found)
+    return list(read)
 
 
 def _words(value) -> list[str]:

@@ -144,10 +144,10 @@ def _plan(scene: Scene, surface: Surface) -> str:
 def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tuple[list[str], str]:
     """Which model will answer at the ``speeds`` [m/s] and ``ratios``, and why; and the time that all of them cost
     (`lubfric.estimate.friction`)."""
-    asked = scene.numerics.model
+    model = scene.numerics.model
     why = gap_not_resolved(scene)
     unknown = "its model-form error is not known and not in the interval"
-    if scene.transient is not None and asked == "deterministic":
+    if scene.transient is not None and model == "deterministic":
         return ["deterministic model at all times (numerics.model)"], ""
     if scene.transient is not None:
         rows = [f"load-sharing model at all times; {unknown}"]
@@ -158,14 +158,14 @@ def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tu
     points = [(scene, speed) for speed in moving[:: max(1, len(moving) // SOME)]]
     if len(ratios):
         points = [(scene.with_(motion={"slide_roll_ratio": ratio}), speeds[0]) for ratio in ratios]
-    found = [forecast(at, sample, surface, speed) for at, speed in points]
-    resolved = [one.speed for one in found if one.resolved]
-    strip = max((one.moving for one in found), default=0.0)
-    if asked == "deterministic":
+    forecasts = [forecast(at, sample, surface, speed) for at, speed in points]
+    resolved = [one.speed for one in forecasts if one.resolved]
+    strip = max((one.moving for one in forecasts), default=0.0)
+    if model == "deterministic":
         rows = ["deterministic model (numerics.model)"]
-    elif asked == "paper":
+    elif model == "paper":
         rows = [f"load-sharing model of the paper (numerics.model): fast; {unknown if why else 'its interval is wide'}"]
-    elif asked == "load-sharing":
+    elif model == "load-sharing":
         rows = [
             f"load-sharing model, calibrated (numerics.model): fast, with the error of solved cases{why and f'; {unknown}'}"
         ]
@@ -184,13 +184,13 @@ def _model(scene: Scene, sample: Sample, surface: Surface, speeds, ratios) -> tu
         ]
     if strip:
         takes = f"one strip of moving roughness takes about {in_words(strip)} by the deterministic model"
-        if asked == "paper":
+        if model == "paper":
             takes = f"moving roughness is treated as stationary; {takes}"
-        if asked == "auto":
+        if model == "auto":
             takes += f"; where it takes more than {MOST_WORK:g} s, the load-sharing model answers alone"
         rows.append(takes)
     many = len(ratios) or len(moving)
-    return rows, in_words(sum(one.seconds for one in found) * many / len(found)) if found else ""
+    return rows, in_words(sum(one.seconds for one in forecasts) * many / len(forecasts)) if forecasts else ""
 
 
 def _histories(scene: Scene) -> list[str]:
@@ -225,11 +225,11 @@ def _course(scene: Scene, sample: Sample, surface: Surface, speeds) -> tuple[str
     paper's scene took (8 to 17 ms a step on 200 x 200 cells)."""
     plan = scene.transient
     assert plan is not None
-    found = [forecast(scene, sample, surface, speed) for speed in speeds]
+    forecasts = [forecast(scene, sample, surface, speed) for speed in speeds]
     cells = surface.heights.size
     lines = []
     if not sample.is_single_patch and scene.numerics.model != "deterministic":
-        most = max(found, key=lambda one: one.strips)
+        most = max(forecasts, key=lambda one: one.strips)
         cells = round(sample.cells.count * most.length / sample.cells.coarse[1])
         target = f"sampling error of f at most {100 * scene.numerics.sampling_tolerance:g} % at {most.speed:.3g} m/s"
         lines = [f"sample: {counted(most.strips, 'strips')} of the roughness, at all times ({target})"]
@@ -239,7 +239,7 @@ def _course(scene: Scene, sample: Sample, surface: Surface, speeds) -> tuple[str
         tolerance = plan.tolerance or TIME_SHARE * scene.numerics.tolerance_of("film")
         swings = max((_laps(h, plan.duration) or 1.0 for h in plan.histories), default=0.5)
         steps = max(plan.outputs, SWING * swings * (STEP_TOLERANCE / tolerance) ** (1 / 3)) + START
-        seconds = sum(one.seconds for one in found) + steps * (FILM_STEP + CELL_STEP * cells)
+        seconds = sum(one.seconds for one in forecasts) + steps * (FILM_STEP + CELL_STEP * cells)
     top = f"top speed {max(speeds):.4g} m/s" if max(speeds) else "no entrainment"
     course = f"{plan.duration:.4g} s in about {steps:.2g} steps, {counted(plan.outputs, 'outputs')}"
     return f"{top}; {course}; about {in_words(seconds)} of processor time (an order of magnitude)", lines

@@ -424,10 +424,10 @@ def _made(record: dict) -> str:
         ("solver", record["report"]["solver"]),
     ]
     lines = [f'<td>{escape(name)}</td><td class="key">{escape(str(value))}</td>' for name, value in rows]
-    told = (
+    note = (
         "<p>resolved.toml holds the scene with all defaults; lubfric run resolved.toml computes the same numbers.</p>"
     )
-    return told + table(("", ""), lines)
+    return note + table(("", ""), lines)
 
 
 def picture(content: bytes, caption: str) -> str:

@@ -178,16 +178,16 @@ def _point(curve: studies.CurveResult, index: int) -> dict:
     there are none."""
     name = curve.SWEPT[0]
     point = curve.points[index]
-    found = {name: getattr(curve, name)[index], "validity": [asdict(entry) for entry in curve.entries(index)]}
+    swept = {name: getattr(curve, name)[index], "validity": [asdict(entry) for entry in curve.entries(index)]}
     if point is None:
-        return found | {"error": str(curve.errors[index])}
+        return swept | {"error": str(curve.errors[index])}
     more = {
         "uncertainty": asdict(point.uncertainty) | {"text": point.uncertainty.text},
         "errors": asdict(point.errors),
         "report": point.report.as_dict(),
-        "lacks": [effect_in_words(lack) for lack in point.unmodelled_effects],
+        "unmodelled_effects": [effect_in_words(effect) for effect in point.unmodelled_effects],
     }
-    return {number: getattr(point, number) for number in NUMBERS} | found | more
+    return {number: getattr(point, number) for number in NUMBERS} | swept | more
 
 
 def plot_again(arguments) -> None:

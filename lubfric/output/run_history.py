@@ -59,8 +59,8 @@ def run_history(scene: Scene, arguments) -> None:
 def _write(folder: commands.RunFolder, scene: Scene, result: TransientResult, animation: bool) -> None:
     """The table, the fields and the pictures of the run alone."""
     columns = {heading(name): result.columns[name] for name in OF_MOMENT}
-    told = {"validity": [in_a_cell(entries) for entries in result.entries]}
-    folder.contents["history.csv"] = table_bytes(columns | told)
+    warnings = {"validity": [in_a_cell(entries) for entries in result.entries]}
+    folder.contents["history.csv"] = table_bytes(columns | warnings)
     fields = {"time": result.time, "x": result.x, "pressure": result.pressure, "film_thickness": result.film_thickness}
     folder.contents["fields.npz"] = npz_bytes(fields)
     if result.time.size > 1:

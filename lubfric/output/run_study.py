@@ -112,11 +112,11 @@ def _draw_intervals(axes, over: np.ndarray, result: studies.StudyResult, order=s
 
 def _kept(folder: Path) -> str:
     try:
-        found = studies.open_study(folder)
+        study = studies.open_study(folder)
     except InputError:
         return "nothing is solved yet"
-    left = f"{found.missing} {'curves' if found.chosen else 'points'} are left"
-    return f"{found.solved} points are kept in {folder}, {left}"
+    left = f"{study.missing} {'curves' if study.chosen else 'points'} are left"
+    return f"{study.solved} points are kept in {folder}, {left}"
 
 
 def _progress(begun: float, shown: Progress) -> Callable[[int, int], None]:
@@ -130,10 +130,10 @@ def _progress(begun: float, shown: Progress) -> Callable[[int, int], None]:
         shown.update(done, total)
         if due(done == total):
             passed = time.perf_counter() - begun
-            told = f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s"
+            line = f"[{done:>{len(str(total))}}/{total}] {passed:.0f} s"
             if first < done < total:
-                told += f", about {studies.in_words(passed * (total - done) / (done - first))} left"
-            say(told)
+                line += f", about {studies.in_words(passed * (total - done) / (done - first))} left"
+            say(line)
 
     return on_progress
 
@@ -162,41 +162,41 @@ def run_fit(arguments) -> None:
             say(f"curve {done} of about {total}: least deviation so far {off}, at {best}; {passed}")
 
     with keeping(lambda: f"the points solved so far are kept in {arguments.out}"):
-        found = studies.fit(
+        fitted = studies.fit(
             scene, measured, bounds, starts=arguments.starts, store=arguments.out, on_progress=on_progress
         )
-    say(found.explain())
+    say(fitted.explain())
     with run_folder(arguments.out, begun) as folder:
-        folder.contents["fitted.toml"] = found.scene.to_toml().encode()
-        folder.draw("fit.png", _draw, found)
-        folder.contents["fit.json"] = json.dumps(plain(_record(found)), indent=1).encode()
+        folder.contents["fitted.toml"] = fitted.scene.to_toml().encode()
+        folder.draw("fit.png", _draw, fitted)
+        folder.contents["fit.json"] = json.dumps(plain(_record(fitted)), indent=1).encode()
         folder.put()
 
 
 def _bounds(texts: list[str]) -> dict[str, tuple[float, float]]:
-    found: dict[str, tuple[float, float]] = {}
+    bounds: dict[str, tuple[float, float]] = {}
     for text in texts:
         name, _, ends = text.partition("=")
         key = name.strip()
         ways = "write 'section.key=lowest:highest', in SI or with units, once for each key"
         unit = KEYS[key].unit if key in KEYS else "-"
-        if ends.count(":") != 1 or key in found:
+        if ends.count(":") != 1 or key in bounds:
             raise InputError(f" {validate.shown(text)}", "--parameter", way_out=ways)
         (low, high) = numbers_of(f"--parameter {key}", ends.split(":"), [unit, unit])
-        found[key] = (low, high)
-    return found
+        bounds[key] = (low, high)
+    return bounds
 
 
-def _record(found: studies.FitResult) -> dict:
+def _record(fitted: studies.FitResult) -> dict:
     of_fit = ("values", "intervals", "covariance", "moved_by_surface", "undetermined", "at_bounds", "validity")
     names = (*of_fit, "describes_data", "other_minima", "starts")
-    return {name: getattr(found, name) for name in names} | {
-        "parameters": list(found.parameters),
-        "x": found.measured.x,
-        "measured": found.measured.coefficient,
-        "fitted": found.predicted,
-        "report": found.report.as_dict(),
-        "residual_tests": None if found.tests is None else asdict(found.tests),
+    return {name: getattr(fitted, name) for name in names} | {
+        "parameters": list(fitted.parameters),
+        "x": fitted.measured.x,
+        "measured": fitted.measured.coefficient,
+        "fitted": fitted.predicted,
+        "report": fitted.report.as_dict(),
+        "residual_tests": None if fitted.tests is None else asdict(fitted.tests),
     }
 
 

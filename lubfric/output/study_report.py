@@ -37,8 +37,8 @@ def study_page(result: StudyResult, contents: dict[str, bytes], answer: list[str
     if result.failed:
         reasons = "; ".join(f"{count} x {reason}" for reason, count in failed.most_common(3))
         status = f"{result.failed} of {counted(result.solved, 'points')} failed: {reasons}"
-    told = Counter(entry for cell in result.validity.flat if cell for entry in cell.split(" | "))
-    warnings = [f"{entry} ({counted(count, 'points')})" for entry, count in told.most_common()]
+    entries = Counter(entry for cell in result.validity.flat if cell for entry in cell.split(" | "))
+    warnings = [f"{entry} ({counted(count, 'points')})" for entry, count in entries.most_common()]
     rows = min(MOST_ROWS, result.status.size)
     page = Template((files(__package__) / "study_report.html").read_text(encoding="utf-8")).substitute(
         name=escape(result.plan.scene.name),

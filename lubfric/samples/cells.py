@@ -98,7 +98,7 @@ def choose_cells(spacing, lengths, half_width: float, reach: float) -> Cells:
 
 
 def cells_of_a_box(spacing, lengths, half_width: float, shape: tuple[int, int], first: float | None = None) -> Cells:
-    """The same cells over exactly the columns of ``shape``; where ``first`` is given, over exactly its rows too."""
+    """Return the largest cells over exactly the columns of ``shape``; where ``first`` is given, over exactly its rows too."""
     fx, fy = largest_factors(spacing, lengths, half_width)
     while shape[0] % (2 * fx) and fx > 1:
         fx //= 2
@@ -171,12 +171,12 @@ def spread(count: int) -> list[int]:
     return order
 
 
-def starts_of(count: int, window: int, step: int, beyond: int) -> list[int]:
-    """First columns of windows that lie ``step`` apart on a map of ``count`` columns. ``beyond``: how many of them
+def starts_of(count: int, window: int, step: int, overhang: int) -> list[int]:
+    """First columns of windows that lie ``step`` apart on a map of ``count`` columns. ``overhang``: how many of them
     reach over either end."""
-    room = count + 2 * beyond - window
+    room = count + 2 * overhang - window
     most = room // step
-    return [(room - most * step) // 2 - beyond + step * k for k in range(most + 1)]
+    return [(room - most * step) // 2 - overhang + step * k for k in range(most + 1)]
 
 
 def blend_of(correlation: float, step: float) -> int:

@@ -62,17 +62,17 @@ def whole_maps(scene: Scene) -> tuple[Surface, ...]:
     instead, a few of its summits would stand for all."""
     bodies = rough_bodies(scene)
     domain = scene.contact
-    found = {}
+    maps_by_body = {}
     for rough, name in bodies:
         if rough.file is not None:
             with named(name):
-                found[name] = measured_map(rough, name)
-            domain = over(found[name], scene.contact)
+                maps_by_body[name] = measured_map(rough, name)
+            domain = over(maps_by_body[name], scene.contact)
     for rough, name in bodies:
         if rough.file is None:
             with named(name):
-                found[name] = generated_map(rough, domain, name)
-    maps = [found[name] for _, name in bodies]
+                maps_by_body[name] = generated_map(rough, domain, name)
+    maps = [maps_by_body[name] for _, name in bodies]
     return (maps[0],) if len(maps) == 1 else together(maps[0], _beside(scene, maps[1]))
 
 

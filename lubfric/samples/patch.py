@@ -30,7 +30,7 @@ class SinglePatch(Sample):
 
     @property
     def length(self) -> float:  # type: ignore[override]
-        """Of the patch along y [m]."""
+        """Return the length of the patch along y [m]."""
         return self.surface.size[1]
 
     def joined(self, indices: Sequence[int]) -> Surface:
@@ -74,7 +74,7 @@ class UnresolvedSample(FieldsOnly, Sample):
 
     @property
     def length(self) -> float:  # type: ignore[override]
-        """Of the map along y [m]."""
+        """Return the length of the map along y [m]."""
         return self.surface.size[1]
 
     def joined(self, indices: Sequence[int]) -> Surface:

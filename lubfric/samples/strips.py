@@ -250,10 +250,10 @@ def measured_strips(scene: Scene, surface: Surface, *bodies: Surface) -> Measure
         )
     fine = cells.count * cells.coarsening[0]
     step = max(1, round(max(APART * lengths[0], 2 * half_width) / dx))
-    beyond = 0 if extended(scene) else min(max(0, math.floor(0.5 * fine - half_width / dx)), surface.shape[0])
+    overhang = 0 if extended(scene) else min(max(0, math.floor(0.5 * fine - half_width / dx)), surface.shape[0])
     starts = starts_of(surface.shape[0], fine, step, 0)
     if len(starts) < ENOUGH:
-        starts = starts_of(surface.shape[0], fine, step, beyond)
+        starts = starts_of(surface.shape[0], fine, step, overhang)
     kept = surface.shape[1] - min(blend_of(lengths[1], surface.spacing[1]), surface.shape[1] // 4)
     length = kept * surface.spacing[1]
     count = len(starts)

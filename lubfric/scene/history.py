@@ -53,7 +53,7 @@ class History:
 
 @dataclass(frozen=True)
 class Constant(History):
-    """The same ``value`` at all times."""
+    """A history that has one ``value`` at all times."""
 
     value: float
 

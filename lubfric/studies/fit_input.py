@@ -217,14 +217,14 @@ def parameters_of(scene: Scene, bounds) -> dict[str, Between]:
     if not isinstance(bounds, dict) or not bounds:
         raise InputError('parameters must be a dict such as {"bodies.boundary_friction_coefficient": (0.05, 0.2)}')
     check_temperature("parameters", scene, set(bounds))
-    found: dict[str, Between] = {}
+    parameters: dict[str, Between] = {}
     for key, pair in bounds.items():
-        check_key("parameters", scene, key, found, FITTED)
+        check_key("parameters", scene, key, parameters, FITTED)
         if not isinstance(pair, (tuple, list)) or len(pair) != 2:
             raise InputError(f"parameters[{key!r}] = {pair!r}; allowed: a pair (lowest, highest)")
         low = validate.number(f"parameters[{key!r}] lowest", pair[0], unit_of(key))
         high = validate.number(f"parameters[{key!r}] highest", pair[1], unit_of(key), above=low)
         for end in (low, high):
             scene.with_keys({key: end})
-        found[key] = Between(low, high, "log" if low > 0 and high >= LOGARITHMIC * low else "linear")
-    return found
+        parameters[key] = Between(low, high, "log" if low > 0 and high >= LOGARITHMIC * low else "linear")
+    return parameters

@@ -166,16 +166,18 @@ class Interpolant:
         known = np.flatnonzero((s.share > min(LEAST, 0.5 * s.share.max())) & (s.share < 1 - NOTHING))
         if known.size == 0:
             return np.full(speed.shape, float(s.contacts > 0))
-        odds = np.log(1 / s.share[known] - 1)
+        log_load_ratio = np.log(1 / s.share[known] - 1)
         at = np.zeros(speed.shape)
         end = self.lift_off
         if end is None:
-            return 1 / (1 + np.exp(_cubic(np.log(s.speed[known]), odds, np.log(speed), smooth)))
+            return 1 / (1 + np.exp(_cubic(np.log(s.speed[known]), log_load_ratio, np.log(speed), smooth)))
         below = speed < end
         y = s.speed[known] / end
         there = speed[below] / end
         rate = (s.steepness[known] - 1 - self.end * y / (1 - y)) / (EXPONENT * y**EXPONENT)
-        left = _steered(y**EXPONENT, odds - np.log(y) + self.end * np.log1p(-y), rate, there**EXPONENT, smooth)
+        left = _steered(
+            y**EXPONENT, log_load_ratio - np.log(y) + self.end * np.log1p(-y), rate, there**EXPONENT, smooth
+        )
         at[below] = 1 / (1 + np.exp(left) * there / (1 - there) ** self.end)
         return at
 

@@ -147,8 +147,8 @@ class Law(Shown):
             if low == low:  # known
                 bits.append(f"{bit}*({symbol} < {low * (1 - ROUNDED)!r} || {symbol} > {high * (1 + ROUNDED)!r})")
         head = "double friction(double U, double T, double p, int *outside)"
-        told = f"    (void)T;\n    if (outside)\n        *outside = {' + '.join(bits)};\n"
-        return f"/*\n{comment}\n */\n#include <math.h>\n\n{head}\n{{\n{numbers}{told}{lines}    return f;\n}}\n"
+        range_check = f"    (void)T;\n    if (outside)\n        *outside = {' + '.join(bits)};\n"
+        return f"/*\n{comment}\n */\n#include <math.h>\n\n{head}\n{{\n{numbers}{range_check}{lines}    return f;\n}}\n"
 
     def _facts(self) -> dict[str, str]:
         return {"": self.name, "rms": f"{100 * self.rms:.2g} %", "largest": f"{100 * self.largest:.2g} %"}

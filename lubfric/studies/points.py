@@ -86,8 +86,8 @@ def solved_together(tasks: Sequence[tuple[Scene, str, tuple[float, ...]]], folde
 def outcome_of(prepared: Prepared, speed: float, fields: bool = False) -> Outcome:
     """Return the result of `lubfric.friction`, or the `LubfricError` that it raised; without fields unless they are wanted."""
     try:
-        found = friction(prepared, speed, fields=fields)
-        return found if fields else found.without_fields()
+        point = friction(prepared, speed, fields=fields)
+        return point if fields else point.without_fields()
     except ValidityError as error:
         result = None if error.result is None else error.result.without_fields()
         return ValidityError(error.message, error.entries, result)

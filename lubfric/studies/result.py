@@ -79,16 +79,16 @@ class StudyResult(Shown):
     @property
     def coords(self) -> dict[str, tuple[str, np.ndarray]]:
         """{key: (dimension, values along it)} of every varied key and, unless chosen, the speed [m/s]."""
-        found = {}
+        varied = {}
         for axis in self.plan.axes:
             for key, values in zip(axis.keys, zip(*axis.values)):
                 numbers = all(isinstance(v, (int, float)) and not isinstance(v, bool) for v in values)
                 words = [v if isinstance(v, str) else repr(v) if is_dataclass(v) else json.dumps(v) for v in values]
-                found[key] = axis.name, np.array(values, dtype=float) if numbers else np.array(words)
+                varied[key] = axis.name, np.array(values, dtype=float) if numbers else np.array(words)
         if self.paired:
             coordinates = {name: (POINT, np.array(values)) for name, values in self.plan.coordinates.items()}
-            return coordinates | found | {SPEED: (POINT, np.array(self.plan.point_speeds))}
-        return found if self.chosen else found | {SPEED: (SPEED, np.array(self.plan.speeds))}
+            return coordinates | varied | {SPEED: (POINT, np.array(self.plan.point_speeds))}
+        return varied if self.chosen else varied | {SPEED: (SPEED, np.array(self.plan.speeds))}
 
     @property
     def failures(self) -> tuple[str, ...]:
@@ -130,7 +130,7 @@ class StudyResult(Shown):
         return facts | {name: str(count) for name, count in counts.items()}
 
     def speeds(self, index: tuple[int, ...]) -> np.ndarray:
-        """Those [m/s] of the curve at one position along the axes."""
+        """Return the speeds [m/s] of the curve at one position along the axes."""
         if self.paired:
             return np.array(self.plan.point_speeds[index[-1]])
         return self.columns[SPEED][index] if self.chosen else np.array(self.plan.speeds)

@@ -18,7 +18,7 @@ from ..models.shared import (
 from ..quantities import PointQuantities, described_in_doc
 from ..scene import FASTEST, LARGEST_RATIO, Scene
 from .choose import GRID, alike, between, each_once, requested_speeds, span, tolerance_between
-from .curve import CurveResult, columns_of, csv_bytes, judged, parted, report_of
+from .curve import CurveResult, checked_curve, columns_of, csv_bytes, parted, report_of
 from .interpolate import FEWEST, Interpolant, through
 from .law import MORE, Law, conditions_of, law_of
 from .points import Outcome, at_ratios, key_of, outcome_of, solved
@@ -174,7 +174,7 @@ def stribeck(
     except BaseException as fault:
         fault.result = _collected(requested, outcomes, prepared)  # type: ignore[attr-defined]  # beside what it holds
         raise
-    return judged(_collected(requested, outcomes, prepared), raise_on_failure)
+    return checked_curve(_collected(requested, outcomes, prepared), raise_on_failure)
 
 
 def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
@@ -295,4 +295,4 @@ def traction(
             on_point(len(outcomes), ratios.size, ratio, outcomes[-1])
     points, errors = parted(outcomes)
     report = report_of("traction", [f"slide-roll ratio {ratio:g}" for ratio in ratios], "ratios", points, errors)
-    return judged(TractionResult(ratios, float(speed), points, errors, report), raise_on_failure)
+    return checked_curve(TractionResult(ratios, float(speed), points, errors, report), raise_on_failure)

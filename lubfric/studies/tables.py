@@ -304,10 +304,10 @@ def _table_of(ax, x, y, values, bar: str) -> None:
     """Few values (ny, nx) as a table of colours with their numbers: contours would say more than is known."""
     image = ax.imshow(values, origin="lower", aspect="auto", cmap="viridis")
     middle = 0.5 * (np.nanmin(values) + np.nanmax(values))
-    for (row, column), found in np.ndenumerate(values):
-        known = np.isfinite(found)
-        colour = ("k" if found > middle else "w") if known else figures.RED
-        ax.text(column, row, f"{found:.3g}" if known else "no answer", ha="center", va="center", color=colour)
+    for (row, column), value in np.ndenumerate(values):
+        known = np.isfinite(value)
+        colour = ("k" if value > middle else "w") if known else figures.RED
+        ax.text(column, row, f"{value:.3g}" if known else "no answer", ha="center", va="center", color=colour)
     ax.set_xticks(range(x.size), [f"{value:.4g}" for value in x])
     ax.set_yticks(range(y.size), [f"{value:.4g}" for value in y])
     ax.figure.colorbar(image, ax=ax, label=bar)

@@ -226,7 +226,7 @@ class Surface(FrozenArrays, Shown):
         return self._with(self.heights[cut], f"cropped to {shape} from {start}", mask=mask, periodic_axes=closed)
 
     def resampled(self, *, shape=None, spacing=None) -> Surface:
-        """The same area on another grid; give ``shape`` (extent kept) or ``spacing`` [m] (a rest of
+        """Return the map of this area on another grid; give ``shape`` (extent kept) or ``spacing`` [m] (a rest of
         less than one cell is cut off). Periodic axes by Fourier series (exact for a band-limited
         map), others as averages over the new cells; see `regrid.resample_axis`."""
         if (shape is None) == (spacing is None):

@@ -69,7 +69,7 @@ class Setting:
         return self.problem.contact.e_prime * self.problem.film_unit * self.contact.width
 
     def equations(self, time: float, memory: Memory | None = None, spring: Spring | None = None) -> StepEquations:
-        """Those of the step that ends at ``time`` [s], with a ``memory`` in SI units (None: of a steady state), at the
+        """Return the equations of the step that ends at ``time`` [s], with a ``memory`` in SI units (None: of a steady state), at the
         speed, load, curvature and viscosity just before that time."""
         c = self.contact
         reference = self.problem.contact
@@ -179,16 +179,16 @@ def steady_start(setting: Setting, load: float | None = None) -> tuple[Step, flo
     oil = replace(c.lubricant, viscosity=c.viscosity.before(0.0))
     sliding = c.sliding and c.sliding(0.0)
     line = LineContact(load / c.width, c.radius.before(0.0), c.e_prime, c.speed.before(0.0), oil, sliding)
-    found = solve_line_contact(line, Effort(tolerance=0.01))
-    x = found.x / p.length_unit
-    P = found.pressure / p.pressure_unit
-    forwards = found.entrainment_speed > 0
+    steady = solve_line_contact(line, Effort(tolerance=0.01))
+    x = steady.x / p.length_unit
+    P = steady.pressure / p.pressure_unit
+    forwards = steady.entrainment_speed > 0
     guess = np.interp(grid.x, x, P, left=0.0, right=0.0)
     inlet, pressure = (x[0], P[0]) if forwards else (x[-1], P[-1])
-    beyond = grid.x < inlet if forwards else grid.x > inlet
-    guess[beyond] = pressure * (inlet / grid.x[beyond]) ** 3
+    upstream = grid.x < inlet if forwards else grid.x > inlet
+    guess[upstream] = pressure * (inlet / grid.x[upstream]) ** 3
     centre = grid.n // 2
-    z = np.append(guess, found.central_film / p.film_unit - grid.kernel[centre] @ guess)
+    z = np.append(guess, steady.central_film / p.film_unit - grid.kernel[centre] @ guess)
     start = solve_step(replace(equations, load=load / setting.load_unit), z, max_steps=40)
     return start, discretisation(setting, start) if start.status == CONVERGED else math.inf
 
@@ -217,21 +217,21 @@ def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e
     to the one asked for. (With a spring that is not needed.)
     """
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        found = _iterated(equations, z, tolerance, max_steps)
+        solution = _iterated(equations, z, tolerance, max_steps)
         first = float(equations.grid.weights @ z[:-1])
-        if found.status == CONVERGED or equations.spring is not None or not first > 0.0:
-            return found
+        if solution.status == CONVERGED or equations.spring is not None or not first > 0.0:
+            return solution
         done = 0.0
         stage = 0.25
         while done < 1.0 and stage >= SMALLEST_STAGE:
             goal = min(1.0, done + stage)
             staged = replace(equations, load=first * (equations.load / first) ** goal)
-            found = _iterated(staged, z, tolerance, max_steps)
-            if found.status == CONVERGED:
-                done, stage, z = goal, 1.5 * stage, found.z
+            solution = _iterated(staged, z, tolerance, max_steps)
+            if solution.status == CONVERGED:
+                done, stage, z = goal, 1.5 * stage, solution.z
             else:
                 stage *= 0.4
-    return found
+    return solution
 
 
 def _iterated(equations: StepEquations, z: np.ndarray, tolerance: float, max_steps: int) -> Step:

@@ -153,10 +153,10 @@ def steps(solver, plan: Plan, now: Progress) -> Iterator[Progress]:
     time is before ``plan.end``.) A run can continue from any progress, so the caller needs to keep nothing else."""
     for stop in plan.stops:
         while now.time < stop:
-            found = advance(now, stop, solver, plan.tolerance, SHORTEST * plan.end)
-            if found is None:
+            advanced = advance(now, stop, solver, plan.tolerance, SHORTEST * plan.end)
+            if advanced is None:
                 return
-            now = replace(found, at_output=found.time == stop and bool(np.any(plan.times == stop)))
+            now = replace(advanced, at_output=advanced.time == stop and bool(np.any(plan.times == stop)))
             if now.time in plan.jumps:  # the same state without its past
                 now = replace(now, levels=now.levels[-1:], step=plan.first_step)
             yield now
@@ -225,11 +225,11 @@ def advance(now: Progress, until: float, solver, tolerance: float, shortest: flo
         left = until - now.time
         planned = left if step >= left * (1 - 1e-9) else min(step, 0.5 * left)
         end = now.time + planned if planned < left else until
-        found = (_bdf2 if len(now.levels) > 1 else _pair)(now, end, solver)
-        if found is None:
+        attempt = (_bdf2 if len(now.levels) > 1 else _pair)(now, end, solver)
+        if attempt is None:
             step, rejected = FAILED * planned, rejected + 1
             continue
-        levels, solution, error, order = found
+        levels, solution, error, order = attempt
         change = max(SAFETY * (tolerance / max(error, 1e-30)) ** (1 / (order + 1)), SHRINK)
         if error <= tolerance:
             step, error = planned * min(change, GROWTH), error / tolerance

@@ -85,8 +85,8 @@ class WarmInlet(History):
 
     @cached_property
     def _seen(self) -> tuple[float, float]:
-        found = [self._warm(t, side) for t in sampled_times(self.scene) for side in ("before", "at")]
-        return min(found), max(found)
+        temperatures = [self._warm(t, side) for t in sampled_times(self.scene) for side in ("before", "at")]
+        return min(temperatures), max(temperatures)
 
     def _warm(self, time: float, side: str) -> float:
         now = scene_at(self.scene, time, side)

@@ -117,12 +117,12 @@ def _untouched(model: TransientLoadSharing, film: Step) -> Step:
 
 def _flying(model: TransientLoadSharing, film: float) -> Step:
     """No pressure anywhere under a parabola at the height ``film`` [m]."""
-    found = _untouched(model, model.setting.undeformed(film))
-    state = found.payload.state
+    step = _untouched(model, model.setting.undeformed(film))
+    state = step.payload.state
     if state.volume_residual > 0.0:
         said = f": the surfaces touch at {state.mean_film:g} m of mean film"
         raise InputError(said, "transient.initial_film", f"above {state.mean_gap:g} m, or initial = 'rest'")
-    return found
+    return step
 
 
 def _resting(model: TransientLoadSharing) -> Step:
@@ -137,9 +137,9 @@ def _resting(model: TransientLoadSharing) -> Step:
         said = "at rest the contact leaves no room for a film under the undeformed cylinder"
         ways = "initial = 'steady' with an entrainment speed, or transient.initial_film"
         raise InputError(f"{said}; give {ways}")
-    found = setting.undeformed(film)
-    state = replace(state, mean_film=float(model.mean_row @ found.terms.H))
-    return replace(found, payload=Contact(load, state, SOFT * state.mean_gap))
+    undeformed = setting.undeformed(film)
+    state = replace(state, mean_film=float(model.mean_row @ undeformed.terms.H))
+    return replace(undeformed, payload=Contact(load, state, SOFT * state.mean_gap))
 
 
 def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
@@ -161,10 +161,10 @@ def _steady(model: TransientLoadSharing) -> tuple[Step, float]:
     if balance.contact_load == 0.0:
         return _untouched(model, film), error
     state = balance.contact
-    found = model.solve(0.0, None, film.z, Contact(balance.contact_load, state, SOFT * state.mean_gap))
-    if found.status != CONVERGED:
+    step = model.solve(0.0, None, film.z, Contact(balance.contact_load, state, SOFT * state.mean_gap))
+    if step.status != CONVERGED:
         raise ConvergenceError("transient: film and contact of the steady start do not balance on the grid of the run")
-    return found, error
+    return step, error
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -227,20 +227,20 @@ def speeds_of_run(scene: Scene) -> list[float]:
 def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarray:
     """What each steady speed needs, in rows: the number of strips, the relative change of f by their cells (infinite if
     finer ones were needed), and the factors of `TransientLoadSharing`. A speed without a steady solution needs the first strips."""
-    found = []
+    rows = []
     for speed in speeds:
         try:
-            one = _balanced(replace(prepared, sample=sample), speed)
+            balanced = _balanced(replace(prepared, sample=sample), speed)
         except LubfricError:
-            found.append((sample.first, 0.0, math.nan, math.nan))
+            rows.append((sample.first, 0.0, math.nan, math.nan))
             continue
-        plastic = one.solved.contact.plastic_area_fraction
-        corrected = one.balance.contact.plastic_area_fraction
-        area = one.effect.area if one.response is not None else math.nan
-        same = one.sample.cells.coarsening == sample.cells.coarsening
-        by_cells = one.change("gap") if same else math.inf
-        found.append((one.count, by_cells, area, corrected / plastic if plastic else math.nan))
-    return np.array(found, dtype=float).T
+        plastic = balanced.solved.contact.plastic_area_fraction
+        corrected = balanced.balance.contact.plastic_area_fraction
+        area = balanced.effect.area if balanced.response is not None else math.nan
+        same = balanced.sample.cells.coarsening == sample.cells.coarsening
+        by_cells = balanced.change("gap") if same else math.inf
+        rows.append((balanced.count, by_cells, area, corrected / plastic if plastic else math.nan))
+    return np.array(rows, dtype=float).T
 
 
 def _balanced(prepared: Prepared, speed: float) -> BalancedSample:

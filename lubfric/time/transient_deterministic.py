@@ -91,12 +91,12 @@ class TransientDeterministic:
 
     @property
     def x(self) -> np.ndarray:
-        """Of the columns of cells [m]."""
+        """Return the positions of the columns of cells [m]."""
         return self.base.x
 
     @property
     def cells(self) -> str:
-        """Of the grid, in words."""
+        """Return the numbers of cells of the grid, in words."""
         return "{} x {} cells".format(*self.base.heights.shape)
 
     @cached_property
@@ -325,9 +325,9 @@ def deterministic_moment(
     }
     film = result.central_gap
     heat = strip_heat(scene, result)
-    told = [*solver.prepared.known, *of_motion(scene, speed, film), *of_thickness(scene, film)]
+    entries = [*solver.prepared.known, *of_motion(scene, speed, film), *of_thickness(scene, film)]
     lost = max(heat.change, 1 - heat.inlet.factor if heat.inlet else 0.0)
     if lost > scene.numerics.tolerance:
         remedy = "numerics.model = 'load-sharing', which has the heat in time; heat = 'off' leaves it out on purpose"
-        told.append(Validity("loss of film or f by heat", lost, scene.numerics.tolerance, "", ISOTHERMAL, remedy))
-    return row, tuple(told)
+        entries.append(Validity("loss of film or f by heat", lost, scene.numerics.tolerance, "", ISOTHERMAL, remedy))
+    return row, tuple(entries)

@@ -208,7 +208,7 @@ class Patterns:
     @staticmethod
     @lru_cache(maxsize=8)
     def of(nx: int, ny: int) -> Patterns:
-        """Those of a grid (nx, ny)."""
+        """Return the patterns of a grid (nx, ny)."""
         order = nested_dissection(nx, ny)
         column = Stencil.neighbours(nx, ny).reshape(-1, nx * ny)
         row = np.broadcast_to(np.arange(nx * ny), column.shape)
@@ -221,7 +221,7 @@ class Patterns:
         return self._made(csr_matrix, self.by_row, data)
 
     def ordered(self, data) -> csc_matrix:
-        """The same with rows and columns in the order of elimination, without zeros: they would fill in."""
+        """Return the matrix with rows and columns in the order of elimination, without zeros: they would fill in."""
         matrix = self._made(csc_matrix, self.in_order, data).copy()
         matrix.eliminate_zeros()  # in place
         return matrix

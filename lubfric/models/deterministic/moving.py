@@ -188,7 +188,7 @@ class RoughBody(NamedTuple):
 
 
 def travelling(problem: Problem, bodies: Sequence[RoughBody]) -> Callable[[float], Problem]:
-    """Of a time [s], ``problem`` with the heights of ``bodies`` then.
+    """Return the function of a time [s] that gives ``problem`` with the heights of ``bodies`` then.
 
     A map is laid out as by `lay_out`, and `shifted`."""
     shifts = [shifted(problem, body.surface) for body in bodies]

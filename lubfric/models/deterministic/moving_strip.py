@@ -80,9 +80,9 @@ class MovingStrip(Strip):
     - ``rest``: the same strip at rest, from which it started. ``times`` [s] (n,): all moments after it, the first
       ``discarded`` of which count nothing: the film had not passed the contact yet. ``series``: of each the numbers
       `SERIES`: ``share``, of the load that rubs with f_b, ``peak_pressure`` [Pa] of any cell.
-    - ``settled``: the state of the last moment that is discarded, from which `continued_strip` starts; ``early``: the
-      means over the moments that a continuation counts (None: the strip was not solved for one). ``effort`` and
-      ``ends`` [m], of the grid up and down stream: with which it was solved.
+    - ``state_after_discard``: the state of the last moment that is discarded, from which `continued_strip` starts;
+      ``early``: the means over the moments that a continuation counts (None: the strip was not solved for one).
+      ``effort`` and ``ends`` [m], of the grid up and down stream: with which it was solved.
     """
 
     rest: Strip
@@ -91,7 +91,7 @@ class MovingStrip(Strip):
     series: dict[str, np.ndarray] = field(repr=False)
     effort: MovingEffort
     ends: tuple[float, float]
-    settled: State = field(repr=False)
+    state_after_discard: State = field(repr=False)
     early: DeterministicResult | None = field(default=None, repr=False)
 
     @property
@@ -134,12 +134,12 @@ def solve_moving_strip(
     passing = _passing(rest.problem, bodies, speed, step, effort, rest.result.state, 0.0)
     rows: list[dict[str, Any]] = []
     early_result: DeterministicResult | None = None
-    settled = rest.result.state
+    state_after_discard = rest.result.state
     for number, moment in enumerate(islice(passing, 1, 1 + last), 1):
         rows.append(_row(moment))
         report_progress("moving roughness", number, last)
         if number == discarded:
-            settled = moment.at.state
+            state_after_discard = moment.at.state
         if for_continuation and number == discarded + sum(early):
             early_result = _mean(rows[-early[1] :], moment.result)
         if number == discarded + count:
@@ -161,7 +161,7 @@ def solve_moving_strip(
         series={name: np.array([row[name] for row in rows[: discarded + count]]) for name in SERIES},
         effort=effort,
         ends=_ends(scene, bodies, speed, effort),
-        settled=settled,
+        state_after_discard=state_after_discard,
         early=early_result,
     )
 
@@ -173,9 +173,9 @@ def continued_strip(
     ``longer``: on cells twice as long along y, which must divide the map. And the counted work
     [s].
 
-    It goes on from `MovingStrip.settled`, and counts once more when the film has passed the contact: the same moments as
-    `MovingStrip.early`, at which the roughness stands in the same places. So their ratio does not depend on the few
-    places that pass in that time. Raises `ConvergenceError`.
+    It goes on from `MovingStrip.state_after_discard`, and counts once more when the film has passed the contact: the
+    same moments as `MovingStrip.early`, at which the roughness is in the same places. So their ratio does not depend on
+    the few places that pass in that time. Raises `ConvergenceError`.
     """
     rest = strip.rest
     cell = rest.problem.spacing[0]
@@ -183,7 +183,7 @@ def continued_strip(
     factors = (round(cell / dx), round(rest.problem.spacing[1] / dy) * (2 if longer else 1))
     surface, upper = _together(bodies)
     problem = problem_of(scene, surface, speed, factors, upper, strip.ends)
-    state = _on_longer_cells(strip.settled) if longer else strip.settled
+    state = _on_longer_cells(strip.state_after_discard) if longer else strip.state_after_discard
     step = float(strip.times[0])
     early = continued_moments(rest.problem.contact, cell, strip.discarded)
     begun = float(strip.times[strip.discarded - 1])

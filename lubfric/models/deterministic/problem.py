@@ -106,11 +106,11 @@ class Problem(HasLineContact):
         return 4 * self.load / (math.pi * self.e_prime)
 
     def at_load(self, load: float) -> Problem:
-        """The same problem on the same grid under another load [N/m]."""
+        """Return the problem on the same grid under another load [N/m]."""
         return replace(self, contact=replace(self.contact, load_per_width=load))
 
     def at_speed(self, speed: float) -> Problem:
-        """The same problem on the same grid at another U [m/s], with the same ratio of sliding."""
+        """Return the problem on the same grid at another U [m/s], with the same ratio of sliding."""
         faster = replace(self.contact, entrainment_speed=speed)
         return replace(self, contact=faster, sliding=self.sliding * speed / self.speed)
 
@@ -182,8 +182,8 @@ def lay_out(
 
 
 def shifted(problem: Problem, surface: Surface) -> Callable[[float], np.ndarray]:
-    """Of a distance [m] along x by which ``surface`` has moved, its heights [m] on the cells of ``problem``, which are
-    its own or several times as long.
+    """Return the function of a distance [m] along x by which ``surface`` has moved that gives its heights [m] on the
+    cells of ``problem``, which are its own or several times as long.
 
     It is shifted by its Fourier transform along x: by whole cells exactly. One that is not periodic goes on mirrored.
     """

@@ -109,7 +109,7 @@ class DeterministicResult:
 
 
 @dataclass(frozen=True)
-class Rubbing:
+class SurfaceShear:
     """How the fields shear surface 2: bools (nx, ny) of the gaps that are ``thin``, of all ``spots`` where the
     stress is f_b p, and of the ``wet`` rest, fluid under its own law; the ``stress`` [Pa] (nx, ny); and of every column
     along x the forces [N/m] (ny,) on spots (``boundary``) and in the film (``couette``, ``rolling``), with those
@@ -130,7 +130,7 @@ class Rubbing:
         return self.boundary + self.couette + self.rolling
 
 
-def rubbing(at: Iterate, law, film: float) -> Rubbing:
+def surface_shear(at: Iterate, law, film: float) -> SurfaceShear:
     """With a boundary ``film`` [m]. ``law``: the stress [Pa] that the lubricant has by itself (nx, ny)."""
     problem = at.problem
     p = at.state.pressure
@@ -151,7 +151,7 @@ def rubbing(at: Iterate, law, film: float) -> Rubbing:
         """The force [N/m] along x of the pressure on the flanks of ``heights`` [m]; None: there are none."""
         return 0.0 if heights is None else (0.5 * (p[1:] + p[:-1]) * np.diff(heights, axis=0)).sum(axis=0)
 
-    return Rubbing(
+    return SurfaceShear(
         thin=thin,
         spots=spots,
         wet=wet,
@@ -170,13 +170,13 @@ def at_its_limit(lubricant: Lubricant, pressure: np.ndarray, stress: np.ndarray)
     return stress >= (1 - 1e-9) * lubricant.limit.critical(pressure)[0]
 
 
-def with_limit(problem: Problem, rubs: Rubbing, pressure: np.ndarray, law: np.ndarray, limit: float) -> float:
+def with_limit(problem: Problem, sheared: SurfaceShear, pressure: np.ndarray, law: np.ndarray, limit: float) -> float:
     """Return the change of f [-] if the stress of a Newtonian film above `PRESSED` were at most ``limit`` times the
     ``pressure`` [Pa] instead of f_b times it; ``law`` [Pa]: the stress without a limit."""
     if not problem.lubricant.newtonian:
         return 0.0
-    films = (rubs.wet | (rubs.spots & ~rubs.thin)) & (pressure > PRESSED)
-    change = np.where(films, np.minimum(law, limit * pressure) - rubs.stress, 0.0)
+    films = (sheared.wet | (sheared.spots & ~sheared.thin)) & (pressure > PRESSED)
+    change = np.where(films, np.minimum(law, limit * pressure) - sheared.stress, 0.0)
     return float(change.sum()) * problem.spacing[0] / pressure.shape[1] / problem.load
 
 
@@ -192,12 +192,12 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
     fluid = state.kind == FLUID
     with np.errstate(over="ignore"):
         law = shear_stress(problem.sheared or problem.lubricant, p, problem.sliding / h)
-    rubs, *others = (rubbing(at, law, times * problem.boundary_film) for times in (1.0, 0.5, 2.0))
-    coefficients = [float(one.friction.mean()) / problem.load for one in (rubs, *others)]
-    spots = rubs.spots
-    capped = spots & ~rubs.thin
-    saturated = capped | (rubs.wet & at_its_limit(problem.sheared or problem.lubricant, p, law))
-    loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, rubs.thin, capped, saturated))
+    sheared, *others = (surface_shear(at, law, times * problem.boundary_film) for times in (1.0, 0.5, 2.0))
+    coefficients = [float(one.friction.mean()) / problem.load for one in (sheared, *others)]
+    spots = sheared.spots
+    capped = spots & ~sheared.thin
+    saturated = capped | (sheared.wet & at_its_limit(problem.sheared or problem.lubricant, p, law))
+    loads = (float(p[where].sum()) * dx / p.shape[1] for where in (touching, sheared.thin, capped, saturated))
     strip = np.abs(problem.x) <= max(problem.contact.half_width, 0.5001 * problem.spacing[0])
     return DeterministicResult(
         x=problem.x,
@@ -205,31 +205,31 @@ def assemble(at: Iterate, report: Report) -> DeterministicResult:
         pressure=p,
         gap=h,
         fill=state.fill,
-        shear=rubs.stress,
+        shear=sheared.stress,
         touching=touching,
         spots=spots,
-        wet=rubs.wet,
+        wet=sheared.wet,
         dent=state.dent,
         coefficient=coefficients[0],
         at_half_film=coefficients[1],
         at_twice_film=coefficients[2],
-        at_least_limit=coefficients[0] + with_limit(problem, rubs, p, law, LIMIT_RANGE[0]),
-        at_most_limit=coefficients[0] + with_limit(problem, rubs, p, law, LIMIT_RANGE[1]),
-        boundary=float(rubs.boundary.mean()),
-        couette=float(rubs.couette.mean()),
-        rolling=float(rubs.rolling.mean()),
-        rolling_resistance=float(rubs.rolling_resistance.mean()),
+        at_least_limit=coefficients[0] + with_limit(problem, sheared, p, law, LIMIT_RANGE[0]),
+        at_most_limit=coefficients[0] + with_limit(problem, sheared, p, law, LIMIT_RANGE[1]),
+        boundary=float(sheared.boundary.mean()),
+        couette=float(sheared.couette.mean()),
+        rolling=float(sheared.rolling.mean()),
+        rolling_resistance=float(sheared.rolling_resistance.mean()),
         split=LoadSplit(*loads),
         load=problem.load,
         load_at=p.sum(axis=0) * dx + inlet.load,
-        friction_at=rubs.friction,
+        friction_at=sheared.friction,
         speed=problem.speed,
         flow_film=float(inlet.flow.mean()) / problem.speed,
         min_gap=float(h.min()),
         mean_gap=float(h[strip].mean()),
         spot_fraction=float(spots[strip].mean()),
         spot_length=float(spots.sum()) * dx / p.shape[1],
-        top_pressure=float(p[fluid & ~rubs.thin].max(initial=0.0)),
+        top_pressure=float(p[fluid & ~sheared.thin].max(initial=0.0)),
         plastic_fraction=float((state.yielded & (state.dent > 0))[strip].mean()),
         given=float(np.where(touching, np.maximum(at.residual, 0.0), 0.0)[strip].sum())
         * dx

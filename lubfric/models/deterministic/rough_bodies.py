@@ -47,7 +47,7 @@ def bodies_of(prepared: Prepared, index: int, speed: float) -> list[RoughBody]:
 
 
 def maps_of(prepared: Prepared, index: int) -> dict[str, Surface]:
-    """Of strip ``index`` the map of each rough body, by its section."""
+    """Return the map of each rough body on strip ``index``, by its section."""
     moving = [name for name, _ in moving_bodies(prepared.scene)]
     sample = prepared.sample
     if len(moving) < 2 or prepared.joint:  # of a joint map all is that of surface 1

@@ -152,8 +152,8 @@ def _from_faster(problem: Problem, state: State, times: float, tolerance, work: 
 
 
 def _in_time(problem: Problem, state: State, tolerance, work: Work) -> NewtonResult:
-    settled = march(problem, state, work, most=MARCHED)
-    return newton(problem, settled, work, tolerance=tolerance, most=DIRECT)
+    marched = march(problem, state, work, most=MARCHED)
+    return newton(problem, marched, work, tolerance=tolerance, most=DIRECT)
 
 
 def refined_start(coarse: Problem, problem: Problem, result: DeterministicResult) -> tuple[State | None, float]:

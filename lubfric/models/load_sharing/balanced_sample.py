@@ -91,7 +91,7 @@ class BalancedSample:
 
     @property
     def response(self) -> Response | None:
-        """Of the balance as it was solved."""
+        """Return the response of the balance as it was solved."""
         return self.solved.response
 
     @property

@@ -167,7 +167,7 @@ def _by_heat(line: Balance) -> float:
     """Return the relative error of f by what heat does to it, as the load-sharing balance ``line`` knows it."""
     forces = line.forces
     response = line.response
-    by_film = forces.felt if response is None else response.per_film(forces, line.contact.mean_film)
+    by_film = forces.film_sensitivity if response is None else response.per_film(forces, line.contact.mean_film)
     return error_by_heat(forces.heat, 1 - forces.heat.film_factor**by_film)
 
 

@@ -56,7 +56,7 @@ def errors_of(scene: Scene, found: BalancedSample) -> PointErrors:
         why = "no entrainment: there is no film"
         errors |= dict.fromkeys((*depending_on("split"), *depending_on("shear")), 0.0)
     elif response is None:
-        relative += forces.felt * of_film
+        relative += forces.film_sensitivity * of_film
         errors = _given_load(forces, of_film)
         why = "no contact was met: it has no relative error"
         errors |= {"film_load": 0.0}
@@ -70,7 +70,9 @@ def errors_of(scene: Scene, found: BalancedSample) -> PointErrors:
     if not math.isfinite(sampling):
         sampling = math.nan
     of_model, unknown = model_error(found)
-    film_sensitivity = response.per_film(forces, balance.contact.mean_film) if response is not None else forces.felt
+    film_sensitivity = (
+        response.per_film(forces, balance.contact.mean_film) if response is not None else forces.film_sensitivity
+    )
     by_heat = error_by_heat(forces.heat, 1 - forces.heat.film_factor**film_sensitivity)
     of_model = (math.hypot(of_model[0], by_heat), math.hypot(of_model[1], by_heat))
     both = relative if math.isnan(sampling) else math.hypot(relative, sampling)
@@ -111,7 +113,7 @@ def _numerical(found: BalancedSample) -> tuple[float, float, float, float]:
     by_area = 0.0
     if solved.contact.area_error and forces.total:
         open_ = max(1 - solved.contact.real_contact_area_fraction, solved.contact.area_error)
-        by_area = solved.contact.area_error / open_ * forces.shear.felt / forces.total
+        by_area = solved.contact.area_error / open_ * forces.shear.magnitude / forces.total
     return film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read
 
 

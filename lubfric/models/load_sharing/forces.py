@@ -36,9 +36,9 @@ class Forces:
         return abs(self.boundary + self.shear.total)
 
     @property
-    def felt(self) -> float:
+    def film_sensitivity(self) -> float:
         """Relative change of f by a relative change of the film at a given division of the load, at most."""
-        return self.shear.felt / self.total if 0 < self.total < np.inf else 1.0
+        return self.shear.magnitude / self.total if 0 < self.total < np.inf else 1.0
 
 
 def forces(scene: Scene, film: EHLResult | None, contact: ContactState, contact_load: float) -> Forces:

@@ -57,9 +57,9 @@ class Response:
         """Relative change of quantity ``name`` per change of the gap [1/m], for small changes; 0 without a film."""
         return abs(self.rates[name] * self.log_load_ratio_per_gap) if self.rates else 0.0
 
-    def per_film(self, found: Forces, mean_film: float) -> float:
+    def per_film(self, forces: Forces, mean_film: float) -> float:
         """Relative change of f per relative change of the film, of mean thickness ``mean_film`` [m], at most."""
-        return self.per_gap("coefficient") * mean_film + found.felt
+        return self.per_gap("coefficient") * mean_film + forces.film_sensitivity
 
     def relative(self, name: str, gap_error: float) -> float:
         """Relative error [-] of quantity ``name`` for an error of the gap [m]; 0 without a film.

@@ -150,8 +150,8 @@ def _parts(scene: Scene, sq: float, speed: float, film: float = 1.0) -> tuple[fl
     return rubs * share, rubs * share + mu * (1 - share)
 
 
-def effect_in_words(lack: UnmodelledEffect) -> str:
+def effect_in_words(effect: UnmodelledEffect) -> str:
     """Return the effect in one line: what it is, the change of f to two digits, what to do."""
-    what, change, remedy = lack
+    what, change, remedy = effect
     digits = ".0f" if abs(change) >= 0.095 else ".2g"
     return f"{what}: f {'not estimated' if math.isnan(change) else f'{100 * change:+{digits}} %'}; {remedy}"

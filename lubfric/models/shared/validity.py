@@ -40,8 +40,8 @@ class Validity:
         head = "not valid" if self.severe else "warning"
         unit = f" {self.unit}" if self.unit not in ("", "-") else ""
         side = "above" if self.value > self.limit else "below"
-        beyond = f", {side} {self.limit:.3g}{unit}" if math.isfinite(self.limit) else ""
-        numbers = f"{self.value:.3g}{unit}{beyond}"
+        limit = f", {side} {self.limit:.3g}{unit}" if math.isfinite(self.limit) else ""
+        numbers = f"{self.value:.3g}{unit}{limit}"
         return f"{head}: {self.what} is {numbers}. {sentence(self.consequence)} Recommendation: {self.remedy}."
 
 
@@ -65,8 +65,8 @@ def refused(entries: tuple[Validity, ...], accept: bool, result=None) -> None:
 def entries_of(point: Any, error: Exception | None) -> tuple[Validity, ...]:
     """Violated assumptions at ``point`` of a curve (None: failed), or at the result that ``error`` refused."""
     refused = error.result if point is None and isinstance(error, ValidityError) else None
-    found = point if refused is None else refused
-    return () if found is None else found.validity
+    checked = point if refused is None else refused
+    return () if checked is None else checked.validity
 
 
 def in_a_cell(entries: Iterable[Validity]) -> str:
@@ -80,12 +80,12 @@ def gathered(points, unit: str = "m/s", name: str = "speeds") -> tuple[str, ...]
 
     ``points``: pairs (value of the swept quantity, entries of that point).
     """
-    found: dict[tuple[str, bool], list[tuple[float, Validity]]] = {}
+    groups: dict[tuple[str, bool], list[tuple[float, Validity]]] = {}
     for value, entries in points:
         for entry in entries:
-            found.setdefault((entry.what, entry.severe), []).append((value, entry))
+            groups.setdefault((entry.what, entry.severe), []).append((value, entry))
     lines = []
-    for group in found.values():
+    for group in groups.values():
         worst = max((entry for _, entry in group), key=_distance)
         values = sorted(value for value, _ in group)
         if len(group) == 1:
