@@ -57,7 +57,7 @@ class OutputError(LubfricError, OSError):
 
 
 class ConvergenceError(LubfricError, RuntimeError):
-    """A solver stopped before it reached the tolerance that was asked for.
+    """A solver stopped before it reached the requested tolerance.
 
     ``report`` is the solver's `lubfric.Report`. ``result`` is what the solver had when it stopped (or ``None``), so
     that nothing computed is lost. Both survive pickling.
@@ -185,7 +185,7 @@ class Report:
 
 
 def returned(result: T, raise_on_failure: bool = True) -> T:
-    """``result``, which has a ``report``; where that failed and it is asked for, the `ConvergenceError` that carries
+    """``result``, which has a ``report``; where that failed and an exception is requested, the `ConvergenceError` that carries
     both."""
     if raise_on_failure:
         result.report.raise_if_failed(result)

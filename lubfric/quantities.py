@@ -250,7 +250,7 @@ OF_STUDY = {f"uncertainty_{name}": q for name, q in OF_UNCERTAINTY.items()} | { 
     "uncertainty_low": INTERVAL["interval_low"],
     "uncertainty_high": INTERVAL["interval_high"],
     "uncertainty_freedom": Quantity("-", "degrees of freedom of the standard error of f"),
-    "uncertainty_tolerance": Quantity("-", "relative standard error of f that was asked for"),
+    "uncertainty_tolerance": Quantity("-", "requested relative standard error of f"),
 }
 COLUMNS = (
     OF_MOMENT

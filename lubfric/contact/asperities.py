@@ -103,17 +103,17 @@ class AsperityContact(FieldsOnly, RoughContact):
     def grid(self) -> tuple[int, int]:
         return self.heights.shape
 
-    def _state(self, film, separation, found: AsperityResult | None) -> ContactState:
+    def _state(self, film, separation, asperities: AsperityResult | None) -> ContactState:
         gap = separation - self.heights
         if self.asperity_separation == "volume":
             gap = np.maximum(gap, 0.0)
         fraction = np.zeros(self.x.size)
         plastic = 0.0
-        if found is not None:
-            fraction = self._contact_fraction(found)
+        if asperities is not None:
+            fraction = self._contact_fraction(asperities)
         touching = weighted_mean(fraction, self.weight)
-        if found is not None and found.contact_area > 0:
-            plastic = found.plastic_area_fraction * touching / found.contact_area_fraction
+        if asperities is not None and asperities.contact_area > 0:
+            plastic = asperities.plastic_area_fraction * touching / asperities.contact_area_fraction
         return ContactState(
             mean_gap=weighted_mean(gap.mean(axis=1), self.weight),
             mean_film=weighted_mean(film, self.weight),
@@ -123,11 +123,11 @@ class AsperityContact(FieldsOnly, RoughContact):
             plastic_area_fraction=plastic,
         )
 
-    def _contact_fraction(self, found: AsperityResult) -> np.ndarray:
+    def _contact_fraction(self, asperities: AsperityResult) -> np.ndarray:
         """Return the share of the width inside the contact discs, column by column; 1 if overlapping discs add up to
         more."""
-        centre = self.x[found.index[:, 0]]
-        radius = np.sqrt(found.radii * found.overlap)
+        centre = self.x[asperities.index[:, 0]]
+        radius = np.sqrt(asperities.radii * asperities.overlap)
         edges = np.append(self.x - self.spacing[0] / 2, self.x[-1] + self.spacing[0] / 2)
         s = np.clip((edges[:, None] - centre) / radius, -1.0, 1.0)
         area = (s * np.sqrt(1 - s**2) + np.arcsin(s)) * radius**2  # of the disc left of the edge, + pi/2

@@ -255,7 +255,7 @@ class FlatContact(RoughContact):
         pressure = load / self.area
         heaviest = float(self.curve.mean_pressure[0])
         if pressure > heaviest * (1 + 1e-12):
-            raise ConvergenceError(f"the contact model carries {self.capacity:.4g} N at most, asked for {load:.4g} N")
+            raise ConvergenceError(f"the contact model carries {self.capacity:.4g} N at most; the load is {load:.4g} N")
         gap, touching, plastic = self.curve.at(min(pressure, heaviest))
         gap_error, area_error = self.curve.errors_at(pressure)
         return ContactState(

@@ -83,13 +83,13 @@ def contact_problem(
     if operator is None:
         operator = half_space(gap0.shape, spacing, e_prime, boundary)
     else:
-        asked = {
+        required = {
             "shape": gap0.shape,
             "spacing": validate.spacing("spacing", spacing),
             "e_prime": validate.positive("e_prime", e_prime, "Pa"),
             "boundary": (boundary, boundary) if isinstance(boundary, str) else tuple(boundary),
         }
-        for name, value in asked.items():
+        for name, value in required.items():
             if (built := getattr(operator, name)) != value:
                 said = f"operator was built for {name} = {built}, the contact has {value}"
                 raise InputError(said, way_out="they must be the same")

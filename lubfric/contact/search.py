@@ -182,15 +182,15 @@ class CandidateSearch:
         """Go from the known pressure towards the trial, by the step that is exact along that change."""
         self._try()
         way = np.subtract(self.trial, self.known, out=self.residue)
-        asked = self.trial - self.change
+        gradient_change = self.trial - self.change
         answer = self._answer(way)
-        slope = dot(self.before, asked)
-        curvature = dot(asked, answer) * self.compliance
+        slope = dot(self.before, gradient_change)
+        curvature = dot(gradient_change, answer) * self.compliance
         step = -slope / curvature if curvature > 0 else 1.0
         step = min(max(step, STEPS[0] if self.given else 0.0), STEPS[1])
         self.pace *= max(step, STEPS[0]) ** LEARNING
-        self.known += np.multiply(way, np.float32(step), out=asked)
-        self.gap += np.multiply(answer, np.float32(step * self.compliance), out=asked)
+        self.known += np.multiply(way, np.float32(step), out=gradient_change)
+        self.gap += np.multiply(answer, np.float32(step * self.compliance), out=gradient_change)
         self._limit(self.known, self.change)
         np.copyto(self.change, self.lower, where=self.trial <= self.lower)  # cells that the trial unloads stay so
         if self.plastic:

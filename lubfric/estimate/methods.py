@@ -27,7 +27,7 @@ def _model(prepared: Prepared, result: FrictionResult) -> dict[str, bool]:
     own = result.contact_load > 0 and not whole and prepared.contact.name in OWN[model]
     return {
         "load sharing": not whole,
-        "one gap": whole,
+        "deterministic model": whole,
         "half-space contact": own and model == "half-space",
         "summits": own and model == "summits",
         "patches": own and model == "patches",

@@ -74,14 +74,14 @@ def forecast(scene: Scene, sample: Sample, surface: Surface, speed: float) -> Fo
         return Forecast(speed, touching, math.nan, 1, math.nan, resolved, seconds + work, moving)
     (lx, ly) = sample.lengths
     first = sample.first * sample.length
-    asked = scene.numerics.sampling_tolerance
+    target = scene.numerics.sampling_tolerance
     error = 0.0
     if speed and film <= CLEAR * sq:
         gap = GAP * sq + RISE * film
         share = min(film / gap, 1.0)
         scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
         error = scatter / gap * share / (1 - share + FLOOR)
-    count = math.ceil(sample.first * max(1.0, SAFETY * (error / asked) ** 2 if error > asked else 1.0))
+    count = math.ceil(sample.first * max(1.0, SAFETY * (error / target) ** 2 if error > target else 1.0))
     count = min(count, sample.available)
     cells = sample.cells
     (fx, fy) = cells.coarsening

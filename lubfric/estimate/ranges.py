@@ -13,7 +13,7 @@ from .result import FrictionResult
 from .uncertainty import Uncertainty
 
 HARDNESS = "bodies.hardness"
-LEAST = 5e-4  # of f: a smaller change is not told
+LEAST = 5e-4  # of f: a smaller change is not reported
 
 
 def with_ranges(prepared: Prepared, result: FrictionResult, answer: ModelAnswer) -> FrictionResult:

@@ -1,4 +1,4 @@
-"""How many strips a point takes, and on which cells: asked of a model's solution until it needs no more."""
+"""How many strips a point takes, and on which cells: as a model's solution requires, until it needs no more."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ class Uncertainty(UncertaintyQuantities[float]):
     ----------
     interval : 95 % interval of f, (low, high), from ``numerical``, ``sampling`` and ``model`` where that is known; by
         Student's t with ``freedom`` degrees of freedom
-    tolerance : relative standard error asked for
+    tolerance : relative requested standard error
     notes : what a reader should know of these errors
     largest_in_model : what the largest part of ``model`` is, and what narrows it; "" where it has one part
     largest_input : the input whose range changes f most

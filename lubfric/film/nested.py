@@ -1,4 +1,4 @@
-"""Solutions on nested grids, from a warm or a cold start, each as accurate as asked."""
+"""Solutions on nested grids, from a warm or a cold start, each to the requested tolerance."""
 
 import math
 from dataclasses import dataclass, replace
@@ -42,7 +42,7 @@ NestedSolutions = tuple[
 
 @dataclass(frozen=True)
 class Effort:
-    """The accuracy asked for and the effort allowed: relative ``tolerance`` of the films (1e-5 to 0.1), cells before
+    """The requested accuracy and the allowed effort: relative ``tolerance`` of the films (1e-5 to 0.1), cells before
     rupture that are used even if the films need fewer, and Newton steps per grid."""
 
     tolerance: float = 3e-3
@@ -103,7 +103,7 @@ def coarsest(problem: FilmProblem) -> int:
 
 
 def _ascend(problem: FilmProblem, effort: Effort, state: FilmState, n: int, fewest: int) -> list[FilmSolution]:
-    """Solutions on grids of n, 2n, ... cells, at least ``fewest`` of them, until they are as accurate as asked."""
+    """Solutions on grids of n, 2n, ... cells, at least ``fewest`` of them, until they meet the tolerance."""
     rupture = rupture_guess(problem)
     levels: list[FilmSolution] = []
     while True:

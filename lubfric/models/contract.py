@@ -154,7 +154,7 @@ class SampleSolution(ABC):
         return required_strips(self.count, self.sample.first, self.sample.available, self.sampling_error, tolerance)
 
     def is_too_coarse(self) -> bool:
-        """Return whether the cells of the sample have to be shorter; never asked on native ones."""
+        """Return whether the cells of the sample have to be shorter; never called on native ones."""
         return False
 
     def takes_more_strips_first(self) -> bool:

@@ -70,8 +70,8 @@ def run(arguments) -> None:
     from . import run_curve, run_history
 
     scene = scene_of(arguments)
-    asked = arguments.sampling_tolerance
-    changed = {} if asked is None else {"sampling_tolerance": number_of("--sampling-tolerance", asked, "-")}
+    requested = arguments.sampling_tolerance
+    changed = {} if requested is None else {"sampling_tolerance": number_of("--sampling-tolerance", requested, "-")}
     if changed and not takes_strips(scene):
         raise InputError(
             "--sampling-tolerance is for a rough cylinder on strips of its roughness (numerics.sampling = 'strips'), "

@@ -236,7 +236,7 @@ class RunFolder:
         self.failures: list[str] = []
 
     def draw(self, name: str, plot: Callable, *arguments) -> None:
-        """Add the picture that ``plot(path, *arguments)`` saves. One that cannot be drawn is told of at the end."""
+        """Add the picture that ``plot(path, *arguments)`` saves. One that cannot be drawn is reported at the end."""
         try:
             self.contents[name] = made(name, plot, *arguments)
         except Exception as problem:  # of any kind: a picture must not cost the numbers

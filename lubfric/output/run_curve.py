@@ -41,7 +41,7 @@ PATIENCE = 5.0  # s between two lines on how far a point is
 
 def run_sweep(scene: Scene, arguments) -> None:
     """Compute a curve, and write stribeck.csv, stribeck.png, fields.npz, contact.png, surface.png, report.html,
-    resolved.toml and, last, result.json to the folder ``arguments.out``; where strips with one gap corrected it,
+    resolved.toml and, last, result.json to the folder ``arguments.out``; where the deterministic model corrected it,
     sharing.png, the same contact without them; where the curve has a formula, law.json and law.c; with ``.vtk`` also
     contact_0.vtk ... for ParaView.
 
@@ -126,7 +126,7 @@ def _write(
     estimate: SceneEstimate,
     chosen: list[float],
 ) -> None:
-    """The table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what was asked for beside.
+    """The table, the law, the fields of the ``chosen`` speeds, the pictures, the record; and what else was requested.
     ``estimate``: before it was solved."""
     name = "traction" if curve.SWEPT[0] == "ratio" else "stribeck"
     contents = folder.contents

@@ -201,9 +201,9 @@ def _record(fitted: studies.FitResult) -> dict:
 
 
 @figures.styled
-def _draw(path: Path, found: studies.FitResult) -> None:
+def _draw(path: Path, fitted: studies.FitResult) -> None:
     figure = figures.new_figure(figsize=(7, 6.5))
     top, bottom = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [3, 1.5]})
-    found.plot(top).set_xlabel("")
-    found.plot_residuals(bottom)
+    fitted.plot(top).set_xlabel("")
+    fitted.plot_residuals(bottom)
     figure.savefig(path)

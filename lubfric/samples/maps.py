@@ -146,7 +146,7 @@ def generated_map(rough: Roughness, domain: ContactDomain, name: str = "surface"
 
 
 def statistics(rough: Roughness) -> dict[str, Any]:
-    """What `generate_surface` is told of a roughness."""
+    """Return the arguments of `generate_surface` for a roughness."""
     honed = ("sk", "spk", "svk", "honing_angle", "groove_width")
     return {name: getattr(rough, name) for name in ("sq", "correlation_length", "acf", "decay_level", *honed)}
 

@@ -1,4 +1,4 @@
-"""What is asked: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
+"""The scene: bodies, surfaces, lubricant, motion and numerics, from a file or from Python."""
 
 from .bodies import FASTEST, FRICTION, FRICTION_OVER, LARGEST_RATIO, Bodies, ContactDomain, FrictionTable, Motion
 from .file import builtin_scenes, given_tables, load_scene, read_toml, write_template

@@ -17,7 +17,7 @@ HEAT = 0.2  # what leaving the heat of film and surfaces out changes of f
 INLET = 2e-3  # what leaving the heat of the inlet out changes of the film: it costs nothing, and parts of f may cancel
 CURVE = 0.3  # interpolation of a contact curve
 
-# what a solver is never asked for, however little or much of its error reaches f
+# what is never required of a solver, however little or much of its error reaches f
 LOOSEST_FILM = 0.03
 TIGHTEST_FILM = 2e-4
 # the first of the central film, if that is thinner than the mean one

@@ -30,7 +30,7 @@ class Numerics(Shown):
     film_deflection : which pressure deforms the film: the whole load, by Johnson's scaled modulus E' F_H/F_T
         ("scaled"); its own ("hydrodynamic", the paper)
     model : "load-sharing": film and contact share the load, Eq. (8), with a calibrated error; "paper": the same with the
-        friction of Eq. (9) on a smooth film; "deterministic": one gap and one pressure
+        friction of Eq. (9) on a smooth film; "deterministic": the deterministic model
         (docs/deterministic.md); "auto": the cheapest that is within ``model_tolerance`` (docs/uncertainty.md)
     grid : "auto": cells of the contact as long as the tolerance allows; "given": the scene's own
     heat : whether the heat of inlet, film and surfaces is modelled: "auto" (if it matters, and the lubricant says how

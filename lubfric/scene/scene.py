@@ -41,7 +41,7 @@ class Scene(Shown):
         contact
     transient : what changes in time, a `lubfric.Transient`, or None
     name : for titles
-    ranges : (section.key, lowest, highest) of the values that are known to a range only; f is told for both ends
+    ranges : (section.key, lowest, highest) of the values that are known to a range only; f is reported for both ends
     """
 
     bodies: Bodies
@@ -216,9 +216,9 @@ def value_of(scene: Scene, name: str) -> Any:
     return getattr(getattr(scene, section), key)
 
 
-def as_ranges(found: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
+def as_ranges(ends: dict[str, Any]) -> tuple[tuple[str, float, float], ...]:
     """`Scene.ranges` of the ends by name, None where a value has no range."""
-    return tuple((name, *found[name]) for name in sorted(found) if found[name] is not None)
+    return tuple((name, *ends[name]) for name in sorted(ends) if ends[name] is not None)
 
 
 def gap_not_resolved(scene: Scene, given: bool = False) -> str:

@@ -111,7 +111,7 @@ def distinct(candidates: list[Candidate]) -> list[Candidate]:
 def _next_position(units: np.ndarray, residuals: np.ndarray, tried: np.ndarray) -> np.ndarray | None:
     """Return the lowest minimum of the interpolated sum of squares that is no curve yet; None if there is none.
 
-    ``units`` (m, p) and ``residuals`` (m, n): of the curves; ``tried`` (k, p): all positions that were asked of the
+    ``units`` (m, p) and ``residuals`` (m, n): of the curves; ``tried`` (k, p): all positions that were requested of the
     model.
     """
     from scipy.interpolate import RBFInterpolator

@@ -178,7 +178,7 @@ def stribeck(
 
 
 def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
-    """The speeds [m/s] that were asked for, one or many, or those of the scene (none: chosen ones); and those whose
+    """Return the requested speeds [m/s], one or many, or those of the scene (none: chosen ones); and those whose
     film and contact are kept."""
     kept = []
     if not isinstance(fields, (bool, type(None))) and np.size(fields):
@@ -196,7 +196,7 @@ def _asked(speeds, fields, scene: Scene) -> tuple[list[float], list[float]]:
 
 
 def _collected(requested: list[float], outcomes: dict[float, Outcome], prepared: Prepared) -> StribeckResult:
-    """The curve of the outcomes ``found`` at the speeds ``asked`` for [m/s], or at chosen ones (none). Those that are
+    """Return the curve of the ``outcomes`` at the ``requested`` speeds [m/s], or at chosen ones (none). Those that are
     missing have neither point nor error."""
     points, errors = parted([outcomes.get(speed) for speed in requested or sorted(outcomes)])
     speeds = np.array(requested or sorted(outcomes))

@@ -70,7 +70,7 @@ def generate_surface(
 
     Raises
     ------
-    InputError : before generating, when the expected length is more than 10 % off the one asked (a map shorter than
+    InputError : before generating, when the expected length is more than 10 % off the requested one (a map shorter than
         about 10 lengths for "exponential", 5 for "gaussian"), or when the grid has fewer than 2 cells per length at 1/e
     """
     seed = validate.integer("seed", seed, minimum=0, maximum=LARGEST_SEED)
@@ -136,7 +136,7 @@ def surface_generator(
     source = f"generated, {acf} ACF"
     stated = [
         f"correlation length along {name} at level {level:.4g}: "
-        f"asked {worded(length, 'm')}, expected {worded(float(there), 'm')}"
+        f"requested {worded(length, 'm')}, expected {worded(float(there), 'm')}"
         for name, length, there in zip("xy", lengths, expected)
     ]
 

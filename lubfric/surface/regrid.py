@@ -102,9 +102,9 @@ def fitted(surface: Surface, axis: int, count: int) -> Surface:
         note = f"{'repeated' if count > n else 'cut'} along {'xy'[axis]} from {n} to {count} points"
         return changed(surface, axis, np.take(surface.heights, pick, axis), note, closed=count % n == 0, mask=mask)
     if count > n:
-        asked = f"{count} points along {'xy'[axis]} ({count * surface.spacing[axis]:g} m)"
+        extent = f"{count} points along {'xy'[axis]} ({count * surface.spacing[axis]:g} m)"
         allowed = f"up to {n} ({surface.size[axis]:g} m), or a periodic map"
-        raise InputError(f"patch of {asked} needs as many of the map", allowed=allowed)
+        raise InputError(f"patch of {extent} needs as many of the map", allowed=allowed)
     shape = list(surface.shape)
     shape[axis] = count
     return surface.cropped(shape)

@@ -98,8 +98,8 @@ def solve_transient_ehl(
 
 
 def _start(contact: ContactHistory, tolerance: float) -> tuple[Setting, Step, dict[str, Residual]]:
-    """Setting, state at t = 0 and residual of its grid. The grid is refined until a steady start is as accurate as
-    asked."""
+    """Setting, state at t = 0 and residual of its grid. The grid is refined until a steady start meets the
+    tolerance."""
     if contact.initial_film is not None:
         setting = make_setting(contact, tolerance)
         return setting, setting.undeformed(contact.initial_film), {}

@@ -212,9 +212,9 @@ def discretisation(setting: Setting, solution: Step) -> float:
 def solve_step(equations: StepEquations, z: np.ndarray, *, tolerance: float = 1e-7, max_steps: int = 25) -> Step:
     """Solve the complementarity equations from z until ``equations.residual`` <= tolerance.
 
-    A node counts as cavitated when the pressure that its own equation asks for, P - r/(dr/dP), is negative. This
+    A node counts as cavitated when the pressure that its own equation requires, P - r/(dr/dP), is negative. This
     primal-dual active set is a semismooth Newton method. If it fails, the load is changed in stages from the load of z
-    to the one asked for. (With a spring that is not needed.)
+    to the requested one. (With a spring that is not needed.)
     """
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         solution = _iterated(equations, z, tolerance, max_steps)

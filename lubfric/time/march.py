@@ -127,10 +127,10 @@ def plan_of(
     return Plan(times, tuple(stops.tolist()), frozenset(jumps.tolist()), first_step, tolerance)
 
 
-def _onto(known: np.ndarray, found: list[float]) -> np.ndarray:
-    """The times ``found`` [s], rising. One that differs only by rounding from one of ``known``, or from the one before
+def _onto(known: np.ndarray, candidates: list[float]) -> np.ndarray:
+    """The times ``candidates`` [s], rising. One that differs only by rounding from one of ``known``, or from the one before
     it, is replaced by that."""
-    times = np.unique(np.array(found, float))
+    times = np.unique(np.array(candidates, float))
     times = times[np.diff(times, prepend=-np.inf) > ROUNDING * np.abs(times)]
     right = np.clip(np.searchsorted(known, times), 1, max(known.size - 1, 1))
     for near in (known[right - 1], known[np.minimum(right, known.size - 1)]):

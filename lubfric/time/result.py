@@ -65,7 +65,7 @@ class TransientResult(Shown):
         estimated relative error of f by the sum of the film's shear stress; edge_load [-], the share of the contact's
         load on the edge columns of its patch
     x : (nx,) [m]
-    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]; with one gap, means over y
+    pressure, film_thickness : of the smooth film at the output times, (nt, nx) [Pa, m]; in the deterministic model, means over y
     report : how the run ended
     entries : the assumptions that do not hold at each output (`lubfric.Validity`); ``validity`` gathers them
     inputs : how far the range of f_b moves f down and up at every time [-], (2, nt)

@@ -1,4 +1,4 @@
-"""A run in time with one gap and one pressure: the rough surfaces move through the film, each by the integral of its
+"""A run in time by the deterministic model: the rough surfaces move through the film, each by the integral of its
 own speed, while load, speed, radius and viscosity change.
 
 It is a solver of `march`, whose y is the mass rho θ h of the cells. A step ends whenever the fastest rough body has

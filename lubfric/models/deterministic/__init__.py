@@ -1,4 +1,4 @@
-"""One gap and one pressure: the film between rough surfaces in its own gap (docs/deterministic.md)."""
+"""The deterministic mixed-lubrication model: the film between rough surfaces in its own gap (docs/deterministic.md)."""
 
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
 from .levels import DIFFERENCE, mean

@@ -53,7 +53,7 @@ OF_MODEL = (
 OF_LIMIT = "the limiting stress of the oil, which is not given: lubricant.limiting_stress_coefficient narrows it"
 LIMITED = ("coefficient", "at_least_limit", "at_most_limit")
 LOOSER = "a larger numerics.tolerance"
-# lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: told above
+# lubricant drawn from touching cells, load of a Newtonian film sheared beyond f_b p: reported above
 DRAWN = 0.1
 CUT = 0.1
 
@@ -212,10 +212,10 @@ def _recommendation(prepared: Prepared) -> str:
 def _sample_notes(prepared: Prepared, sampling: float, length: float) -> tuple[str, ...]:
     """What a reader should know of the ``sampling`` error of strips of this ``length`` [m]."""
     sample = prepared.sample
-    asked = prepared.scene.numerics.sampling_tolerance
+    tolerance = prepared.scene.numerics.sampling_tolerance
     if math.isnan(sampling):
         return TOO_SHORT.format(length / sample.lengths[1]), BIASED
-    return (f"the surface leaves more than the {percent(asked)} asked",) if sampling > asked else ()
+    return (f"the sampling error is above the requested {percent(tolerance)}",) if sampling > tolerance else ()
 
 
 def _words_of_levels(levels: Levels) -> str:

@@ -99,11 +99,11 @@ class TwoLevelEstimate:
     def wanted(self, numerics: Numerics, count: int, most: int) -> int:
         """Number of strips of the second level, at most ``most``, that the tolerances need; there are ``count``."""
         f = abs(self.numbers["coefficient"])
-        asked = numerics.sampling_tolerance
+        tolerance = numerics.sampling_tolerance
         if not self.line:
-            return required_strips(count, 1, most, self.whole, f * asked, growth=GROWTH, spare=SPARE)
+            return required_strips(count, 1, most, self.whole, f * tolerance, growth=GROWTH, spare=SPARE)
         allowed = f * DIFFERENCE * numerics.model_tolerance / student(self.difference.freedom)
-        errors = (self.whole, math.hypot(f * asked, allowed)), (self.difference, allowed)
+        errors = (self.whole, math.hypot(f * tolerance, allowed)), (self.difference, allowed)
         return max(required_strips(count, 1, most, error, limit, growth=GROWTH, spare=SPARE) for error, limit in errors)
 
 

@@ -1,4 +1,4 @@
-"""The deterministic model as a `lubfric.models.Model`: one gap and one pressure on each strip by itself."""
+"""The deterministic model as a `lubfric.models.Model`: film and contact solved together on each strip by itself."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is solved: two bodies with one gap and one pressure between them, their roughness at rest (in time: `moving`).
+"""The problem: two bodies, the gap and the pressure between them, their roughness at rest (in time: `moving`).
 
 On a grid of cells (nx, ny), x along the motion, periodic along y:
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...oil import Lubricant, density_ratio, log_viscosity_ratio
 
-THICKEST = 300.0  # of ln(eta/eta0): the exponential beyond it is not told from a solid's
+THICKEST = 300.0  # of ln(eta/eta0): the exponential beyond it is not distinguished from a solid's
 
 
 @dataclass(frozen=True)

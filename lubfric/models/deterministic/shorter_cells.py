@@ -89,7 +89,7 @@ def on_shorter_cells(
     else:
         pieces, error = _at_fixed_speed(prepared, speed)
     changes = [piece[-1].result.coefficient / piece[1].result.coefficient - 1 for piece in pieces]
-    change = abs(float(np.mean(changes)))  # its error is told
+    change = abs(float(np.mean(changes)))  # its error is reported
     left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
     spent = sum(pair.resolved.work for pair in pairs) + sum(strip.work for piece in pieces for strip in piece)
     short = SHORTEST * sample.lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
@@ -171,11 +171,11 @@ def _pieces(prepared: Prepared, speed: float, first: StripOnTwoGrids | None) -> 
     """Pieces at ``speed`` [m/s] until the standard error of their mean relative change of f is small; ``first``: the
     strip that is the first of them (None: all are pieces)."""
     sample = prepared.sample
-    asked = CELLS * prepared.scene.numerics.sampling_tolerance
+    tolerance = CELLS * prepared.scene.numerics.sampling_tolerance
     pieces: list[Piece] = []
     error = BlockError(math.inf, 0)
     spent = 0.0
-    while len(pieces) < min(sample.pieces, MOST_PIECES) and not (error.error <= asked or spent > PIECES_WORK):
+    while len(pieces) < min(sample.pieces, MOST_PIECES) and not (error.error <= tolerance or spent > PIECES_WORK):
         slope = pieces[0][1].slope if pieces else None
         pieces.append(_refined(prepared, speed, len(pieces), None if pieces else first, slope))
         error, spent = _error(pieces, sample), spent + sum(strip.work for strip in pieces[-1])

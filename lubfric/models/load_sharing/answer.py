@@ -22,77 +22,79 @@ from .scatter import film_stress
 CLOSER = "f is good to that error; a tighter numerics.tolerance or a larger map makes it smaller"
 
 
-def answer_of(found: BalancedSample) -> ModelAnswer:
-    """Return the answer of ``found``."""
-    scene = found.prepared.scene
-    numbers = _numbers(found)
-    errors = errors_of(scene, found)
-    factors, _ = _cells(found)
-    sample = {"coarsening": factors, "strips": found.count, "change_by_cells": found.change("gap")}
+def answer_of(balanced: BalancedSample) -> ModelAnswer:
+    """Return the answer of ``balanced``."""
+    scene = balanced.prepared.scene
+    numbers = _numbers(balanced)
+    errors = errors_of(scene, balanced)
+    factors, _ = _cells(balanced)
+    sample = {"coarsening": factors, "strips": balanced.count, "change_by_cells": balanced.change("gap")}
     oil = scene.lubricant.oil
     temperature = scene.lubricant.temperature
     estimated = () if oil is None or temperature is None else (estimate_in_words(oil, temperature),)
-    report = found.balance.report
+    report = balanced.balance.report
     return ModelAnswer(
         numbers=numbers,
         numerical=errors.numerical,
         sampling=errors.sampling,
         model_error=errors.model,
         report=replace(report, notes=(*report.notes, *estimated)),
-        decision=decided(scene, found.contact, found.balance, numbers["clearance"], "", **sample),
+        decision=decided(scene, balanced.contact, balanced.balance, numbers["clearance"], "", **sample),
         errors=errors.errors,
         why_no_error=errors.why_not,
         reasons=errors.reasons,
-        length=found.scatter.length,
-        spots=found.scatter.spots,
+        length=balanced.scatter.length,
+        spots=balanced.scatter.spots,
         area_needed=errors.area_needed,
         notes=errors.notes,
-        warnings=(*limits_of(found), *_finer(found.change("finer_grid_change"), scene.numerics.tolerance)),
+        warnings=(*limits_of(balanced), *_finer(balanced.change("finer_grid_change"), scene.numerics.tolerance)),
         recommendation=CLOSER,
-        fields=fields_of(found),
-        fine_fields=partial(fine_fields_of, found) if found.sample.is_resolved else None,
-        details=replace(found.balance, contact=replace(found.balance.contact, fields=found.solved.contact.fields)),
-        at_inputs=lambda: _at_inputs(found),
+        fields=fields_of(balanced),
+        fine_fields=partial(fine_fields_of, balanced) if balanced.sample.is_resolved else None,
+        details=replace(
+            balanced.balance, contact=replace(balanced.balance.contact, fields=balanced.solved.contact.fields)
+        ),
+        at_inputs=lambda: _at_inputs(balanced),
     )
 
 
-def limits_of(found: BalancedSample) -> tuple[Validity, ...]:
-    """Return an entry for every limit of load sharing that ``found`` exceeds."""
-    return limits_exceeded(found.prepared, found.speed, found.balance, _cells(found)[1])
+def limits_of(balanced: BalancedSample) -> tuple[Validity, ...]:
+    """Return an entry for every limit of load sharing that ``balanced`` exceeds."""
+    return limits_exceeded(balanced.prepared, balanced.speed, balanced.balance, _cells(balanced)[1])
 
 
-def fields_of(found: BalancedSample) -> ContactFields | None:
+def fields_of(balanced: BalancedSample) -> ContactFields | None:
     """Return the fields of the contact as it was solved; None if it has no cells.
 
     Where nothing touches, the gap is that of the undeformed surface below the film.
     """
-    if not found.sample.is_resolved:
+    if not balanced.sample.is_resolved:
         return None
-    solved = found.solved
-    contact = on_stack(found.prepared, found.sample, found.count)
-    return fields_on(contact, solved, solved.contact.fields, found.prepared.scene, _where(found))
+    solved = balanced.solved
+    contact = on_stack(balanced.prepared, balanced.sample, balanced.count)
+    return fields_on(contact, solved, solved.contact.fields, balanced.prepared.scene, _where(balanced))
 
 
-def fine_fields_of(found: BalancedSample) -> ContactFields:
+def fine_fields_of(balanced: BalancedSample) -> ContactFields:
     """Return the fields of a piece of the surface on cells fine enough to look at, under the film and the load of the
     whole sample."""
-    prepared = found.prepared
+    prepared = balanced.prepared
     scene = prepared.scene
-    sample = found.sample
+    sample = balanced.sample
     cells = (1, 1) if sample.is_single_patch else sample.cells.to_look_at(scene.bodies.half_width)
     contact = on_piece(prepared, sample, 0, cells)
-    balance = found.balance
+    balance = balanced.balance
     if balance.film is None:
         state = contact.close(contact.x**2 / (2 * scene.bodies.radius), balance.contact_load)
     else:
-        state = found.point.pressed(contact, balance.film, balance.contact_load, None)
+        state = balanced.point.pressed(contact, balance.film, balance.contact_load, None)
     where = "the patch" if sample.is_single_patch else "a piece of the surface"
     words = f"{where}, on cells of {contact.spacing[0] * 1e6:.3g} x {contact.spacing[1] * 1e6:.3g} µm"
     return fields_on(contact, balance, state.fields, scene, words)
 
 
-def _where(found: BalancedSample) -> str:
-    return "the patch" if found.sample.is_single_patch else f"the first {found.count} strips, joined"
+def _where(balanced: BalancedSample) -> str:
+    return "the patch" if balanced.sample.is_single_patch else f"the first {balanced.count} strips, joined"
 
 
 def fields_on(
@@ -123,13 +125,13 @@ def fields_on(
     )
 
 
-def _at_inputs(found: BalancedSample) -> AtInputs:
+def _at_inputs(balanced: BalancedSample) -> AtInputs:
     """Return f at other inputs, on the first strips or on the only contact."""
-    prepared = found.prepared
+    prepared = balanced.prepared
     sample = prepared.sample
     surface = prepared.surface
     contact = contact_on(prepared, sample, sample.first)
-    start = solve_balance(prepared.scene, found.speed, contact, surface.sq)
+    start = solve_balance(prepared.scene, balanced.speed, contact, surface.sq)
 
     def coefficient(scene: Scene) -> float:
         there: RoughContact = contact
@@ -138,18 +140,18 @@ def _at_inputs(found: BalancedSample) -> AtInputs:
                 there = replace(on_stack(prepared, sample, sample.first), hardness=scene.bodies.hardness)
             else:
                 there = prepare(scene, surface).contact
-        return solve_balance(scene, found.speed, there, surface.sq, start).forces.coefficient
+        return solve_balance(scene, balanced.speed, there, surface.sq, start).forces.coefficient
 
     return AtInputs(middle=coefficient(prepared.scene), coefficient=coefficient)
 
 
-def _cells(found: BalancedSample) -> tuple[tuple[int, int], float]:
+def _cells(balanced: BalancedSample) -> tuple[tuple[int, int], float]:
     """Length of the cells that were solved, in cells of the map, along each axis; and the share of the load on the edge
     columns, on the map's own cells."""
-    factors = found.sample.cells.coarsening
-    if found.sample.is_single_patch and factors != (1, 1):
-        return factors, found.effect.edge_load_ratio
-    return factors, found.contact.on_the_ends(found.solved.contact) / factors[0]
+    factors = balanced.sample.cells.coarsening
+    if balanced.sample.is_single_patch and factors != (1, 1):
+        return factors, balanced.effect.edge_load_ratio
+    return factors, balanced.contact.on_the_ends(balanced.solved.contact) / factors[0]
 
 
 def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
@@ -162,38 +164,38 @@ def _finer(change: float, tolerance: float) -> tuple[Validity, ...]:
     return (Validity(what, 100 * change, 100 * tolerance, "%", consequence, remedy),)
 
 
-def _numbers(found: BalancedSample) -> dict[str, float]:
+def _numbers(balanced: BalancedSample) -> dict[str, float]:
     """Return all numbers of the sample that load sharing has, by name."""
-    prepared = found.prepared
+    prepared = balanced.prepared
     scene = prepared.scene
-    balance = found.balance
+    balance = balanced.balance
     sq = prepared.surface.sq
     contact = balance.contact
     film = balance.film
     loads = (balance.film_load, balance.contact_load)
     separated = balance.contact_load == 0
-    touched = touched_length(contact) * found.effect.touched / found.effect.area
+    touched = touched_length(contact) * balanced.effect.touched / balanced.effect.area
     numbers = quantities(balance.forces, film, loads, contact.mean_film if separated else contact.mean_gap)
     return numbers | {
-        "speed": found.speed,
+        "speed": balanced.speed,
         "real_contact_area_fraction": contact.real_contact_area_fraction,
         "real_contact_area": touched * scene.bodies.width,
         "plastic_area_fraction": contact.plastic_area_fraction,
         "film_to_roughness_ratio": numbers["central_film"] / sq if sq > 0 else math.inf,
         "load_residual": (sum(loads) - scene.bodies.load) / scene.bodies.load,
-        "volume_residual": 0.0 if film is None or separated else found.solved.contact.volume_residual,
+        "volume_residual": 0.0 if film is None or separated else balanced.solved.contact.volume_residual,
         "clearance": (contact.mean_film - contact.mean_gap) / max(sq, 1e-12) if separated else math.nan,
-        "steepness": _steepness(found),
+        "steepness": _steepness(balanced),
     }
 
 
-def _steepness(found: BalancedSample) -> float:
+def _steepness(balanced: BalancedSample) -> float:
     """d ln(F_H/F_C)/d ln U: at a given division of the load the film grows as U^e, by closed forms at F_H. NaN where
     film and contact do not share the load."""
-    response = found.response
-    balance = found.balance
+    response = balanced.response
+    balance = balanced.balance
     if response is None or balance.film is None or balance.contact_load == 0:
         return math.nan
-    scene = found.prepared.scene
-    line = replace(scene.line_contact(found.speed), load_per_width=balance.film_load / scene.bodies.width)
+    scene = balanced.prepared.scene
+    line = replace(scene.line_contact(balanced.speed), load_per_width=balance.film_load / scene.bodies.width)
     return -exponents(line)[2] * response.log_load_ratio_per_gap * balance.contact.mean_film

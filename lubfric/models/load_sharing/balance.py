@@ -132,7 +132,7 @@ def _certainly_touching(scene: Scene, speed: float, contact: RoughContact) -> bo
 
 def _in_contact(point: Point, sq: float, start: Balance | None, alone: EHLResult | None) -> Balance:
     """Film and contact, solved again until the settings are those that the balance shows to be needed. Where a balance
-    cannot be closed as tightly as needed, because f jumps with single cells, the last one stands: its error is told."""
+    cannot be closed as tightly as needed, because f jumps with single cells, the last one is kept and its error reported."""
     log_load_ratio, slope, step, last = _beginning(point, sq, start)
     if last is None and alone is not None:
         last = Trial(alone, point.contact.close(alone.film_at(point.contact.x), 0.0), 0.0, 0.0)

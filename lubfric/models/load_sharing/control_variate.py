@@ -37,14 +37,16 @@ def control_for(solution: BalancedSample) -> ControlVariate | None:
     return control_variate_of(prepared, solution) if same_strips and math.isfinite(solution.sampling) else None
 
 
-def control_variate_of(prepared: Prepared, found: BalancedSample) -> ControlVariate:
-    """Return the differences of the strips of ``found`` from their line. Where nothing touches, strips do not differ."""
-    solved = found.solved
-    response = found.response
+def control_variate_of(prepared: Prepared, balanced: BalancedSample) -> ControlVariate:
+    """Return the differences of the strips of ``balanced`` from their line. Where nothing touches, strips do not differ."""
+    solved = balanced.solved
+    response = balanced.response
     load = prepared.scene.bodies.load
-    contact: Any = found.contact  # of cells, as there are strips
+    contact: Any = balanced.contact  # of cells, as there are strips
     rows = on_strip(prepared, prepared.sample, 0).heights.shape[1]
-    starts = np.arange(found.count) * contact.heights.shape[1] // found.count  # a measured line may have some more
+    starts = (
+        np.arange(balanced.count) * contact.heights.shape[1] // balanced.count
+    )  # a measured line may have some more
 
     def of_strips(places: np.ndarray) -> np.ndarray:
         return np.array([places[start : start + rows] for start in starts]) - places.mean()
@@ -52,7 +54,7 @@ def control_variate_of(prepared: Prepared, found: BalancedSample) -> ControlVari
     places = of_strips(solved.forces.coefficient * friction_influence(prepared.scene, contact, solved))
     numbers = {"coefficient": places.mean(axis=1)}
     if response is None or response.rates is None:
-        return ControlVariate(places, numbers, BlockError(found.sampling, ORDER))
+        return ControlVariate(places, numbers, BlockError(balanced.sampling, ORDER))
     gap, loads = (of(contact, solved.contact) for of in (strip_gap, line_load))
     influence = gap_influence(gap, loads, response.slopes.gap)
     moved = response.log_load_ratio_per_gap * of_strips(influence).mean(axis=1)  # of ln(F_H/F_C)
@@ -67,4 +69,4 @@ def control_variate_of(prepared: Prepared, found: BalancedSample) -> ControlVari
         numbers[name] = value * response.rates[name] * moved
     numbers["shear_force"] = load * numbers["coefficient"] - numbers["boundary_force"]
     numbers["couette_force"] = numbers["shear_force"] - numbers["rolling_force"]
-    return ControlVariate(places, numbers, BlockError(found.sampling, found.friction_error.freedom))
+    return ControlVariate(places, numbers, BlockError(balanced.sampling, balanced.friction_error.freedom))

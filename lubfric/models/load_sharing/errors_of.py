@@ -40,14 +40,14 @@ class PointErrors:
     area_needed: float
 
 
-def errors_of(scene: Scene, found: BalancedSample) -> PointErrors:
-    """Return the errors of ``found``."""
-    balance = found.balance
-    response = found.response
-    (of_film, of_gap, relative, of_area) = _numerical(found)
+def errors_of(scene: Scene, balanced: BalancedSample) -> PointErrors:
+    """Return the errors of ``balanced``."""
+    balance = balanced.balance
+    response = balanced.response
+    (of_film, of_gap, relative, of_area) = _numerical(balanced)
     forces = balance.forces
-    scatter = found.scatter
-    sampling = found.sampling
+    scatter = balanced.scatter
+    sampling = balanced.sampling
     error = BlockError(0.0, ORDER)
     why = "there was none of it, or too little to tell"
     if balance.film is None:
@@ -61,15 +61,15 @@ def errors_of(scene: Scene, found: BalancedSample) -> PointErrors:
         why = "no contact was met: it has no relative error"
         errors |= {"film_load": 0.0}
     else:
-        error = found.friction_error
+        error = balanced.friction_error
         mean_film = balance.contact.mean_film
         relative += response.per_film(forces, mean_film) * of_film
         relative += response.relative("coefficient", of_gap)
-        errors = _contact_errors(scene, found, of_film, of_gap, of_area)
-    notes = _notes(found, scene, sampling)
+        errors = _contact_errors(scene, balanced, of_film, of_gap, of_area)
+    notes = _notes(balanced, scene, sampling)
     if not math.isfinite(sampling):
         sampling = math.nan
-    of_model, unknown = model_error(found)
+    of_model, unknown = model_error(balanced)
     film_sensitivity = (
         response.per_film(forces, balance.contact.mean_film) if response is not None else forces.film_sensitivity
     )
@@ -85,28 +85,28 @@ def errors_of(scene: Scene, found: BalancedSample) -> PointErrors:
         why_not=why,
         reasons=left_out,
         notes=(*notes, *unknown),
-        area_needed=_area_needed(found, scene),
+        area_needed=_area_needed(balanced, scene),
     )
 
 
-def _numerical(found: BalancedSample) -> tuple[float, float, float, float]:
+def _numerical(balanced: BalancedSample) -> tuple[float, float, float, float]:
     """The errors of solvers and grids: of the film, relative; of the mean gap at given load [m], by the closing of the
     volume and by the cells of the contact; of the film's shear stress, by its sum over nodes and by the heat left out
     of it, relative to f; of the contact area, relative."""
-    balance = found.balance
-    effect = found.effect
-    solved = found.solved
+    balance = balanced.balance
+    effect = balanced.effect
+    solved = balanced.solved
     film = 0.0
     if balance.film is not None:
         residuals = balance.film.report.residuals
         film = max(residuals.get("discretisation", 0.0), residuals.get("domain", 0.0))
     forces = balance.forces
     gap = 0.0
-    if found.response is not None and balance.film is not None:
+    if balanced.response is not None and balance.film is not None:
         gap = (
             effect.remaining_change
-            + found.second_order
-            + (budget.SLOPE * abs(found.corrected_gap) or abs(found.left_by_root))
+            + balanced.second_order
+            + (budget.SLOPE * abs(balanced.corrected_gap) or abs(balanced.left_by_root))
             + solved.contact.gap_error
         )
     read = solved.contact.area_error / max(solved.contact.real_contact_area_fraction, 1e-300)
@@ -117,28 +117,28 @@ def _numerical(found: BalancedSample) -> tuple[float, float, float, float]:
     return film, gap, forces.quadrature + forces.heat.left_out + by_area, effect.area_error + read
 
 
-def _contact_errors(scene: Scene, found: BalancedSample, film: float, gap: float, area: float) -> dict[str, float]:
+def _contact_errors(scene: Scene, balanced: BalancedSample, film: float, gap: float, area: float) -> dict[str, float]:
     """Relative errors where film and contact share the load, by the names of `FrictionResult`: the root of the sum of
     squares of the standard error by the surface and of the estimated error by solvers and grids.
 
     An error of the gap changes the division of the load, and everything with it (`Response.rates`). Films also have the
     error of the film solve. The area also has its own scatter at given load, and what its cells may change.
     """
-    balance = found.balance
-    response = found.response
+    balance = balanced.balance
+    response = balanced.response
     assert response is not None
-    scattered = found.gap_error.error if math.isfinite(found.gap_error.error) else 0.0
+    scattered = balanced.gap_error.error if math.isfinite(balanced.gap_error.error) else 0.0
     gap = math.hypot(scattered, gap + film * balance.contact.mean_film)
     errors = {name: response.relative(name, gap) for name in response.rates or ()}
     errors["film_to_roughness_ratio"] = errors.get("central_film", 0.0)
     for name, at_given_load in _given_load(balance.forces, film).items():
         errors[name] = errors.get(name, 0.0) + at_given_load
     by_load = errors.get("contact_load", 0.0)
-    for name, error in _area_errors(scene, balance, found.scatter).items():
+    for name, error in _area_errors(scene, balance, balanced.scatter).items():
         errors[name] = math.hypot(by_load, error, area)
     if balance.contact.plastic_area_fraction > 0:
-        change = found.effect.plastic / balance.contact.plastic_area_fraction
-        counted = found.scatter.spots**-0.5 if found.scatter.spots else PLASTIC * math.hypot(by_load, area)
+        change = balanced.effect.plastic / balance.contact.plastic_area_fraction
+        counted = balanced.scatter.spots**-0.5 if balanced.scatter.spots else PLASTIC * math.hypot(by_load, area)
         errors["plastic_area_fraction"] = math.hypot(counted, change)
     return errors
 
@@ -177,19 +177,19 @@ def _shear_errors(friction: Forces, film: float) -> dict[str, float]:
     return {n: (error + shear.quadrature) / abs(value) if value else 0.0 for n, (value, error) in parts.items()}
 
 
-def model_error(found: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
+def model_error(balanced: BalancedSample) -> tuple[tuple[float, float], tuple[str, ...]]:
     """Relative error of f by load sharing itself, at 95 %, below and above f; where it is not known NaN, and why."""
-    balance = found.balance
-    scene = found.prepared.scene
+    balance = balanced.balance
+    scene = balanced.prepared.scene
     if balance.film is None:
         fed = scene.lubricant.inlet_film
         return (NONE, ()) if fed is None else (starved_error(fed, balance.contact.mean_gap), (EMPTY,))
-    if not found.sample.is_resolved:
+    if not balanced.sample.is_resolved:
         return UNKNOWN, (NOT_STUDIED,)
     if why := gap_not_resolved(scene):
         return UNKNOWN, (MODEL_UNKNOWN.format(why),)
 
-    sq = float(found.contact.heights.std())  # type: ignore[attr-defined]
+    sq = float(balanced.contact.heights.std())  # type: ignore[attr-defined]
     film = balance.film.central_film
     share = balance.contact_load / scene.bodies.load
     forces = balance.forces
@@ -208,33 +208,35 @@ def model_error(found: BalancedSample) -> tuple[tuple[float, float], tuple[str, 
     return (min(down, 1.0), up), ()
 
 
-def _area_needed(found: BalancedSample, scene: Scene) -> float:
+def _area_needed(balanced: BalancedSample, scene: Scene) -> float:
     """How many times more of a map that ends would be needed (1: enough, or there is more of it; NaN: not known)."""
-    sample = found.sample
-    ends = sample.windows and found.count == sample.available
-    needed = (found.sampling / scene.numerics.sampling_tolerance) ** 2 if ends else 1.0
+    sample = balanced.sample
+    ends = sample.windows and balanced.count == sample.available
+    needed = (balanced.sampling / scene.numerics.sampling_tolerance) ** 2 if ends else 1.0
     return 1.0 if needed < 1 else needed if math.isfinite(needed) else math.nan
 
 
-def _notes(found: BalancedSample, scene: Scene, sampling: float) -> tuple[str, ...]:
-    asked = scene.numerics.sampling_tolerance
-    sample = found.sample
+def _notes(balanced: BalancedSample, scene: Scene, sampling: float) -> tuple[str, ...]:
+    tolerance = scene.numerics.sampling_tolerance
+    sample = balanced.sample
     notes = []
-    needed = _area_needed(found, scene)
+    needed = _area_needed(balanced, scene)
     if not math.isfinite(sampling):
         if not sample.is_resolved:
             return (NO_CELLS,)
-        if found.response is None:
+        if balanced.response is None:
             return (MISSED,)
-        return (TOO_SHORT.format(found.scatter.length / sample.lengths[1]),)
-    if sampling > asked and needed > 1:
+        return (TOO_SHORT.format(balanced.scatter.length / sample.lengths[1]),)
+    if sampling > tolerance and needed > 1:
         times = float(f"{needed:.2g}")
-        notes.append(f"the map ends before the {percent(asked)} asked: that would take about {times:g} times its area")
-    elif sampling > asked:
-        notes.append(f"more than the {percent(asked)} asked")
-    if too_few(found.scatter.spots, sampling, asked):
         notes.append(
-            f"few spots carry the load (as {found.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
+            f"the map ends before the requested {percent(tolerance)}: that would take about {times:g} times its area"
+        )
+    elif sampling > tolerance:
+        notes.append(f"more than the requested {percent(tolerance)}")
+    if too_few(balanced.scatter.spots, sampling, tolerance):
+        notes.append(
+            f"few spots carry the load (as {balanced.scatter.spots:.2g} equal ones would, fewer than {FEW:g}): the "
             "interval is too narrow more often than it says"
         )
     return tuple(notes)

@@ -87,7 +87,7 @@ def _elastic(scene: Scene, film: EHLResult, contact: ContactState, contact_load:
 def _shear(
     scene: Scene, film: EHLResult, contact: ContactState, elastic: ElasticContact | None, warm=None, stress=None
 ) -> ShearForce:
-    with np.errstate(over="ignore", invalid="ignore"):  # stresses far above the range of the law, told by `excess`
+    with np.errstate(over="ignore", invalid="ignore"):  # stresses far above the range of the law, reported by `excess`
         return shear_force(
             film,
             scene.lubricant,

@@ -14,14 +14,14 @@ OVERLAP = math.gamma(2.5)  # mean of (excess/scale)^1.5 of an exponential excess
 EULER = 0.5772156649
 
 
-def undetected_contact(scene, contact, film, found, correlation_length: float) -> float:
+def undetected_contact(scene, contact, film, forces, correlation_length: float) -> float:
     """Relative effect of `undetected_load` on f; NaN if ``contact`` has no cells, or too few along y."""
-    if contact.grid is None or not found.coefficient:
+    if contact.grid is None or not forces.coefficient:
         return math.nan
     under = film.film_at(contact.x)
     bodies = scene.bodies
     load = undetected_load(contact.heights, contact.spacing, under, bodies.e_prime, bodies.width, correlation_length)
-    return _share(scene, load, found)
+    return _share(scene, load, forces)
 
 
 def undetected_load(heights, spacing, film, e_prime: float, width: float, correlation_length: float) -> float:
@@ -49,20 +49,20 @@ def undetected_load(heights, spacing, film, e_prime: float, width: float, correl
     return rate * spot / (size * step) * width
 
 
-def hidden_contact(scene, contact, found, depth: float) -> float:
+def hidden_contact(scene, contact, forces, depth: float) -> float:
     """Relative effect on f of the highest summit of ``contact``, a piece, that is pressed ``depth`` [m] into a body, if
     every such piece has one."""
     bodies = scene.bodies
     length = contact.heights.shape[1] * contact.spacing[1]
     load = _spot(contact.heights, contact.spacing, bodies.e_prime, depth) / length * bodies.width
-    return _share(scene, load, found)
+    return _share(scene, load, forces)
 
 
-def _share(scene, load: float, found) -> float:
+def _share(scene, load: float, forces) -> float:
     """Relative effect of a contact ``load`` [N] on f: by its own friction, where the surfaces slide, or by the load
     that the film loses, to whose friction that is at most in proportion."""
     bodies = scene.bodies
-    friction = abs(found.coefficient)
+    friction = abs(forces.coefficient)
     own = bodies.boundary_friction_coefficient if scene.motion.slide_roll_ratio else 0.0
     return load / bodies.load * max(own / friction, 1.0) if friction else math.inf
 

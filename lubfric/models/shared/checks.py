@@ -222,5 +222,5 @@ def of_typical_heat(scene, change: float) -> Iterator[Validity]:
 def of_error(error: float | None, tolerance: float, remedy: str) -> Iterator[Validity]:
     """A warning if the estimated numerical ``error`` of f, relative, is above the tolerance (None, NaN: not known)."""
     if error is not None and error > tolerance:
-        why = "the solve leaves more than the tolerance asked"
+        why = "the error of the solve is above the requested tolerance"
         yield Validity("estimated numerical error of f", 100 * error, 100 * tolerance, "%", why, remedy)

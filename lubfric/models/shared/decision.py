@@ -10,7 +10,7 @@ class Decision:
     """The models of film and contact, and the sample, of one operating point.
 
     - ``model``: "load sharing" or "deterministic"; ``film``, ``contact``: in words.
-    - ``tolerance``: the one asked for, on f; ``film_tolerance``: of the film (0: no film).
+    - ``tolerance``: the requested one, on f; ``film_tolerance``: of the film (0: no film).
     - ``cells``: (nx, ny) of the contact (None: none was solved on cells); ``coarsening``: length of its cells in cells
       of the scene's map, along each axis; ``strips``: number of strips of the surface that were solved.
     - ``change_by_cells``: relative change of f by the scene's own cells, for which it is corrected.

@@ -225,9 +225,9 @@ def at_tolerance(scene: Scene | Prepared, tolerance: float | None, model: str | 
     changed = {name: value for name, value in (("tolerance", tolerance), ("model", model)) if value is not None}
     if not changed and isinstance(scene, Prepared):
         return scene
-    asked = scene_of(scene).with_(numerics=changed)
+    requested = scene_of(scene).with_(numerics=changed)
     ready = scene if isinstance(scene, Prepared) else None
-    return ready if ready is not None and asked == ready.scene else prepare(asked, like=ready)
+    return ready if ready is not None and requested == ready.scene else prepare(requested, like=ready)
 
 
 def at_speed(prepared: Prepared, speed: float) -> Prepared:

@@ -83,34 +83,33 @@ def required_strips(
     first: int,
     available: int,
     error: BlockError,
-    asked: float,
+    target: float,
     enough: float = 0.0,
     *,
     growth: tuple[float, float] = GROWTH,
     spare: tuple[float, float] = (SAFETY, LEAST),
 ) -> int:
-    """Number of strips at which a standard ``error`` on ``count`` of them falls to the one ``asked``: ``count`` if it
-    has, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
+    """Number of strips at which a standard ``error`` on ``count`` of them falls to ``target``: ``count`` if it does, at most ``available``; at least ``enough`` times as many (0: whatever the error needs).
 
-    It is (reached/asked)² times the present number, with some to ``spare`` (1.3 times that, and at least 1.5 times the
+    It is (reached/target)² times the present number, with some to ``spare`` (1.3 times that, and at least 1.5 times the
     present number), and at most ``growth`` times as many: of the ``first``, and of a later one. A standard error from
     few blocks is itself known to 1/sqrt(2 nu) only, with nu degrees of freedom. If a sample counted as long enough
     whenever its blocks happen to scatter little, the stated error would be too small. So the first one counts as long
-    enough only if even 1 + 1/sqrt(nu) times its error is within what is asked.
+    enough only if even 1 + 1/sqrt(nu) times its error is within the target.
     """
     doubt = 1 / math.sqrt(error.freedom) if count == first and error.freedom > 0 else 0.0
     reached = error.error * (1 + doubt)
-    if reached <= asked and not enough:
+    if reached <= target and not enough:
         return count
     most = growth[count > first]
-    times = spare[0] * max((reached / asked) ** 2, enough) if math.isfinite(reached) else most
+    times = spare[0] * max((reached / target) ** 2, enough) if math.isfinite(reached) else most
     return min(available, math.ceil(min(max(times, spare[1]), most) * count - 1e-9))
 
 
-def too_few(spots: float, reached: float, asked: float) -> bool:
+def too_few(spots: float, reached: float, target: float) -> bool:
     """Whether so few spots carry the load that an interval is too narrow more often than it says, and the standard
-    error ``reached`` is not small beside the one ``asked``. 0 spots: nothing touches."""
-    return 0 < spots < FEW and reached > MATTERS * asked
+    error ``reached`` is not small compared with ``target``. 0 spots: nothing touches."""
+    return 0 < spots < FEW and reached > MATTERS * target
 
 
 def student(freedom: float) -> float:

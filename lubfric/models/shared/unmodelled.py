@@ -41,7 +41,7 @@ def unmodelled_effects(
     scene: Scene, sq: float, speed: float, known: tuple[float, float] | None = None
 ) -> tuple[UnmodelledEffect, ...]:
     """What ``scene``, whose surface has the standard deviation ``sq`` [m], leaves out at ``speed`` [m/s], the largest
-    change of f first, what is not known last. What would change f by less than ``numerics.tolerance`` is not told.
+    change of f first, what is not known last. What would change f by less than ``numerics.tolerance`` is not reported.
 
     ``known``: the friction [-] of asperities alone and of all, of a result there, if there is one.
     """
