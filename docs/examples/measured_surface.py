@@ -6,7 +6,7 @@ import lubfric
 
 
 def solve():
-    rng = np.random.default_rng(5)  # stands in for an instrument's file
+    rng = np.random.default_rng(5)  # replaces the file of an instrument
     ridges = np.sin(np.arange(180) * 0.9)[:, None] + 0.3 * rng.standard_normal((180, 160))
     np.save("map.npy", 60e-9 * ridges)
 

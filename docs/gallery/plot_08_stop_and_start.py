@@ -2,7 +2,7 @@
 A contact that stops and starts
 ===============================
 
-The speed falls to zero and rises again within 20 ms. While the bodies stand still nothing slides, and the coefficient
+The speed falls to zero and rises again within 20 ms. While the bodies are at rest nothing slides, and the coefficient
 is zero. Friction on the way down and on the way up is not the same: the film that is left between the surfaces is
 squeezed out during the stop. Drawn over the speed, the two ways make a loop.
 """
