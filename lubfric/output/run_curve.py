@@ -277,7 +277,7 @@ def _doubts(scene: Scene, curve: studies.CurveResult) -> list[str]:
         at, worst = max(noted, key=lambda p: p[1].sampling if math.isfinite(p[1].sampling) else math.inf)
         others = counted(len(noted) - 1, f"more {plural}")
         more = f" (the largest; result.json has {others})" if len(noted) > 1 else ""
-        said.append(f"sampling error of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{more}")
+        said.append(f"uncertainty of f at {at:.4g} {unit}: {'; '.join(worst.notes)}{more}")
         if few and few != [at]:
             where = ", ".join(f"{value:.4g}" for value in few)
             said.append(f"few asperity contacts carry the load at {where} {unit}: these intervals are too narrow")

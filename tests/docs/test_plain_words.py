@@ -5,7 +5,7 @@ import re
 from pages import ROOT
 
 # Words of README and docs without the tables that a command writes. Such a table is data, and grows with what is checked.
-MOST_WORDS = 23_600
+MOST_WORDS = 23_200
 WRITTEN_TABLE = re.compile(r"<!-- table:.*?<!-- end of table -->", re.DOTALL)
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("**/*.md"))]
 
