@@ -30,7 +30,7 @@ MODELS = (LoadSharing(), Deterministic())  # the cheapest first
 TIMES_ESTIMATE = 10.0
 
 # Least counted work [s] that a point may take where numerics.max_work does not say.
-LEAST_WORK = 30.0
+LEAST_WORK = 120.0
 
 
 @releasing_memory

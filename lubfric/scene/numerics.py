@@ -39,7 +39,7 @@ class Numerics(Shown):
     cavitated_shear : "none", or "striated": shear of the streamers behind the rupture
     max_work : counted work [s of a usual core] that one point may take. A point that would take more is answered by
         load sharing, with its interval, where the model is "auto", and refused otherwise. None: ten times the estimate
-        of `lubfric info`, at least 30 s
+        of `lubfric info`, at least 120 s
     workers : threads of the Fourier transforms
     """
 

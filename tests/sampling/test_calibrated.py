@@ -83,10 +83,10 @@ def test_bounds_widen_outside_the_campaign_and_the_result_says_so():
 
 def test_the_spread_grows_with_the_contrast_of_film_and_boundary_friction():
     fit = calibration()["rest"]
-    widths = [half_width(numbers_of(0.05, share, 0.12, 0.5, 0.0), fit) for share in (0.0, 0.1, 0.4)]
+    widths = [half_width(numbers_of(0.05, share, 0.12, 0.5, 0.0, 2.0), fit) for share in (0.0, 0.1, 0.4)]
     assert widths[0] < widths[1] < widths[2]
-    alike = half_width(numbers_of(0.12, 0.4, 0.12, 0.5, 0.0), fit)
-    assert alike == pytest.approx(half_width(numbers_of(0.12, 0.0, 0.12, 0.5, 0.0), fit))
+    alike = half_width(numbers_of(0.12, 0.4, 0.12, 0.5, 0.0, 2.0), fit)
+    assert alike == pytest.approx(half_width(numbers_of(0.12, 0.0, 0.12, 0.5, 0.0, 2.0), fit))
 
 
 def test_the_fit_finds_a_known_bias_and_spread():

@@ -41,6 +41,10 @@ from .strip_on_two_grids import strip_of
 DRAWN_LENGTH = 10.0  # half-widths of the Hertz strip along y that are solved again for a picture
 LEAST_DRAWN = 8.0  # correlation lengths along y of the same, at least
 FEW_STRIPS = "not known from fewer than three strips"
+UNSOLVED_CELLS = (
+    "shorter cells did not converge within the work of a point: the numerical error is twice the estimate from longer "
+    "cells; a larger numerics.max_work narrows it"
+)
 ONE_HEAT = "heat is found on one strip"
 BIASED = "a short patch, which balances the load by itself, is biased too: about lift-off f is some 10 % too low"
 BY_FILM = "f by half the boundary film {:+.2g} %, by twice {:+.2g} %"
@@ -93,7 +97,11 @@ def answer_of(prepared: Prepared, speed: float, levels: Levels) -> ModelAnswer:
         why_no_error=FEW_STRIPS,
         reasons=reasons,
         length=levels.length,
-        notes=(*_sample_notes(prepared, sampling, levels.length), *filter(None, [limit_in_words(by_limit)])),
+        notes=(
+            *_sample_notes(prepared, sampling, levels.length),
+            *filter(None, [limit_in_words(by_limit)]),
+            *([UNSOLVED_CELLS] if levels.has_unsolved_cells else []),
+        ),
         warnings=(
             *_entries(prepared, numbers, results, heat),
             *_of_model(model, scene.numerics.model_tolerance),

@@ -67,7 +67,8 @@ class Levels:
     - ``line``: number of strips of the first level (0: it was left out); ``pairs``: the strips of the second;
       ``pieces``: of the third, each on shorter and shorter cells; ``shortest``: that of the fourth (empty: none).
     - relative errors of f: ``sampling``, standard, by the number of strips; ``difference``, standard, by that between
-      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips.
+      the models; ``numerical``, by the cells of the last level. ``length`` [m]: of all strips;
+      ``has_unsolved_cells``: whether shorter cells were needed and did not converge.
     """
 
     numbers: dict[str, float]
@@ -83,6 +84,7 @@ class Levels:
     difference: BlockError
     numerical: float
     length: float
+    has_unsolved_cells: bool = False
 
 
 @dataclass(frozen=True)
@@ -139,7 +141,7 @@ def two_levels(
 def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids], estimate: TwoLevelEstimate) -> Levels:
     """Return the sum over levels at ``speed`` [m/s]: the ``estimate`` from these strips, changed by shorter cells if the
     change of f from longer ones is not within ``numerics.tolerance``. Raises `ConvergenceError`."""
-    pieces, shortest, by_cells, numerical = on_shorter_cells(prepared, speed, pairs)
+    pieces, shortest, by_cells, numerical, has_unsolved_cells = on_shorter_cells(prepared, speed, pairs)
     numbers = changed(prepared, estimate.numbers, [(piece[1], piece[-1]) for piece in pieces])
     numbers = changed(prepared, numbers, [shortest[-2:]] if shortest else [])
     f = abs(numbers["coefficient"])
@@ -165,6 +167,7 @@ def levels_of(prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
         line=estimate.line,
         pairs=tuple(pairs),
         pieces=pieces,
+        has_unsolved_cells=has_unsolved_cells,
         shortest=shortest,
         sampling=sampling,
         difference=difference,

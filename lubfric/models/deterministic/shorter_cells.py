@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..._base import limited_work, work_left
 from ...errors import ConvergenceError, LubfricError
 from ...samples import Sample
 from ...scene import moves
@@ -57,15 +58,22 @@ SMOOTH = 3.0  # mean square of the change of heights over two cells, over that o
 OFF = 0.5  # of what a piece as short as that changes: how far that may be from the mean
 FIXED = 2.0  # ratio of the expected films at neighbouring fixed speeds
 
+# Part of the work that a point has left, which its pieces may take: the rest is for the ends of input ranges.
+PIECES_SHARE = 0.6
+
+# Factor on the estimated effect of shorter cells where these were not solved.
+UNSOLVED = 2.0
+
 Piece = tuple[Strip, ...]  # on shorter and shorter cells
 
 
 def on_shorter_cells(
     prepared: Prepared, speed: float, pairs: Sequence[StripOnTwoGrids]
-) -> tuple[tuple[Piece, ...], Piece, BlockError, float]:
+) -> tuple[tuple[Piece, ...], Piece, BlockError, float, bool]:
     """Solve the third and fourth level beside ``pairs``, as far as needed, if the roughness rests: the pieces of both,
     the standard error of the mean relative change of f on those of the third, and the relative error that the last
-    cells leave. Raises `ConvergenceError`.
+    cells leave. Where pieces do not converge, or take too much work, there are none, that error is `UNSOLVED` times what
+    the change from longer cells lets expect, and the last value is True. Raises `ConvergenceError` for a single patch only.
 
     There is a fourth level where the third leaves more than ``numerics.tolerance``, and `MOST_WORK` allows it. What it
     tells from one short piece may be off by half.
@@ -80,14 +88,18 @@ def on_shorter_cells(
     enough = enough and (sample.is_single_patch or _smooth(sample))
     own = sample.cells.is_native and cells_of(scene, sample) == (1, 1)
     if enough or own or moves(scene):
-        return (), (), BlockError(0.0, 1), left
+        return (), (), BlockError(0.0, 1), left, False
     if sample.is_single_patch:
         patch = _refined(prepared, speed, 0, pairs[0])
-        return (patch,), (), BlockError(0.0, 1), max(estimate(changes_of(patch)), SOLVED)
-    if sample.length < SHORT * sample.lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
-        pieces, error = _pieces(prepared, speed, pairs[0])
-    else:
-        pieces, error = _at_fixed_speed(prepared, speed)
+        return (patch,), (), BlockError(0.0, 1), max(estimate(changes_of(patch)), SOLVED), False
+    try:
+        with limited_work(PIECES_SHARE * work_left()):
+            if sample.length < SHORT * sample.lengths[1] and strip_of(prepared, 0)[1] != (1, 1):
+                pieces, error = _pieces(prepared, speed, pairs[0])
+            else:
+                pieces, error = _at_fixed_speed(prepared, speed)
+    except ConvergenceError:
+        return (), (), BlockError(0.0, 1), UNSOLVED * left, True
     changes = [piece[-1].result.coefficient / piece[1].result.coefficient - 1 for piece in pieces]
     change = abs(float(np.mean(changes)))  # its error is reported
     left = max(estimate((by_longer, change), max(halvings - 1, 1)), SOLVED)
@@ -95,13 +107,17 @@ def on_shorter_cells(
     short = SHORTEST * sample.lengths[1] / (pieces[0][-1].result.load_at.size * pieces[0][-1].result.spacing[1])
     dear = spent + 4 * min(short, 1.0) * pieces[0][-1].work > MOST_WORK  # a short map is all of both pieces
     if left <= scene.numerics.tolerance or halvings < 2 or dear:
-        return pieces, (), error, left
-    shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=SHORTEST)
+        return pieces, (), error, left, False
+    try:
+        with limited_work(PIECES_SHARE * work_left()):
+            shortest = _refined(prepared, speed, 0, None, pairs[0].resolved.slope, times=4, length=SHORTEST)
+    except ConvergenceError:
+        return pieces, (), error, UNSOLVED * left, True
     coarse, fine = (strip.result for strip in shortest[-2:])
     further = abs(1 - coarse.coefficient / fine.coefficient)
     scatter = math.sqrt(max(changes_of(shortest[-2:])[0] ** 2 - further**2, 0.0))  # of its mean over places
     left = math.hypot(max(estimate((change, further), max(halvings - 2, 1)), OFF * further, SOLVED), scatter)
-    return pieces, shortest, error, left
+    return pieces, shortest, error, left, False
 
 
 def _coarse(prepared: Prepared) -> float:

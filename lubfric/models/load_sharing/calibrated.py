@@ -25,6 +25,8 @@ from .rough_film import RoughFilm, RoughMap, rough_film
 
 MOST = 1.5  # of the features "contrast" and "rolling", which grow without end where f tends to 0
 ROLLING = 8.0  # of the rolling part of f: what pressure on the flanks of moving roughness may add (docs/uncertainty.md)
+SLIGHT = 0.1  # slide-roll ratio below which pressure on the flanks of the roughness counts in f
+MOST_SLIGHT = 4.0  # of the feature "slight", ln(SLIGHT/slip), which grows without end where slip tends to 0
 FLANKS = 1.5  # lambda ratio from which on that falls, with the square of it
 
 
@@ -111,15 +113,18 @@ def rough_maps(prepared: Prepared, sample: Sample, heights: np.ndarray, speed: f
 
 def features(scene: Scene, film: RoughFilm) -> dict[str, float]:
     """Return what σ depends on, by name: the ``contrast`` between f_b and the friction of the film, which an error of
-    the load on the boundary film exchanges; the load ratio of the ``contact``; and the part of ``rolling`` in f."""
+    the load on the boundary film exchanges; the load ratio of the ``contact``; the part of ``rolling`` in f; and how ``slight`` the sliding is, ln(SLIGHT/slip)."""
     f = abs(film.coefficient)
     friction = scene.bodies.boundary_friction_coefficient * (scene.motion.slide_roll_ratio != 0)
-    return numbers_of(film.coefficient, film.asperity, friction, film.contact, film.rolling / max(f, 1e-12))
+    slip = scene.motion.slide_roll_ratio
+    return numbers_of(film.coefficient, film.asperity, friction, film.contact, film.rolling / max(f, 1e-12), slip)
 
 
-def numbers_of(f: float, boundary: float, friction: float, contact: float, rolling: float) -> dict[str, float]:
+def numbers_of(
+    f: float, boundary: float, friction: float, contact: float, rolling: float, slip: float
+) -> dict[str, float]:
     """Return the features of a film with the coefficient ``f``, of which a share ``boundary`` of the load rubs with
-    ``friction``; ``rolling``: over f."""
+    ``friction``; ``rolling``: over f; ``slip``: the slide-roll ratio."""
     share = min(max(boundary, 0.0), 1.0)
     exchanged = abs(friction - f) / max(abs(f), 1e-12) * math.sqrt(share / (1 - share)) if share < 1 else 0.0
     return {
@@ -127,6 +132,7 @@ def numbers_of(f: float, boundary: float, friction: float, contact: float, rolli
         "contrast": min(exchanged, MOST),
         "contact": contact,
         "rolling": min(abs(rolling), MOST),
+        "slight": min(max(math.log(SLIGHT / max(abs(slip), 1e-12)), 0.0), MOST_SLIGHT),
     }
 
 

@@ -16,7 +16,7 @@ from .features import quick
 from .table import TABLES, as_text, rows
 
 HOME = Path(lubfric.__path__[0]) / "models/load_sharing/calibration.toml"
-SPREAD = {"rest": ("one", "contrast", "contact"), "rolling": ("one", "contrast", "contact")}
+SPREAD = {"rest": ("one", "contrast", "contact"), "rolling": ("one", "contrast", "contact", "slight")}
 FREEDOM = 6.0  # of Student's t in the likelihood, so that single cases far off count little
 CONFIDENCE = 0.95
 LEAST_SLIP = 0.003  # slide-roll ratio of a rolling case that counts: below, f is a small difference
@@ -37,7 +37,9 @@ class Solved:
         """What σ may depend on."""
         n = self.numbers
         rolling = n["rolling"] / n["coefficient"]
-        return numbers_of(n["coefficient"], n["asperity"], float(self.row["friction"]), n["contact"], rolling)
+        return numbers_of(
+            n["coefficient"], n["asperity"], float(self.row["friction"]), n["contact"], rolling, float(self.row["slip"])
+        )
 
 
 def cases(motion: str, folder: Path = TABLES) -> Iterator[Solved]:
