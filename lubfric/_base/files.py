@@ -31,7 +31,7 @@ PART = ".part-"  # begins the name of a file that is being written
 _HELD: weakref.WeakSet = weakref.WeakSet()  # by this process; a forked child must not hold them too
 
 
-def write_whole(path, *content, sync: bool = True) -> None:
+def write_whole(path: str | Path, *content, sync: bool = True) -> None:
     """Replace ``path`` by ``content``, bytes in one or several pieces. Whoever reads the file, even after a kill, sees
     either the old one or the new one, complete.
 
@@ -74,7 +74,7 @@ def _part(drawn: str, name: str) -> str:
     return f"{PART}{drawn}-{hashlib.sha256((drawn + name).encode()).hexdigest()[:8]}-{name}"
 
 
-def write_checked(path, *content, sync: bool = True) -> None:
+def write_checked(path: Path, *content, sync: bool = True) -> None:
     """`write_whole`, with a checksum in front for `read_checked`."""
     checksum = hashlib.sha256()
     for piece in content:
@@ -82,7 +82,7 @@ def write_checked(path, *content, sync: bool = True) -> None:
     write_whole(path, MARK + checksum.hexdigest().encode() + b"\n", *content, sync=sync)
 
 
-def read_checked(path) -> bytes | None:
+def read_checked(path: Path) -> bytes | None:
     """What `write_checked` wrote, or None if the file has been cut off or overwritten since."""
     with saying(f"{path} was not read"):
         data = Path(path).read_bytes()
@@ -103,7 +103,7 @@ def saying(what: str):
         raise OutputError(f"{what}: {error.strerror or error}") from error
 
 
-def clear_parts(folder) -> None:
+def clear_parts(folder: Path) -> None:
     """Remove the half-written files of killed writers in ``folder``. Only the holder of its lock may do this."""
     for path in Path(folder).glob(f"{PART}*"):
         drawn, _, rest = path.name.removeprefix(PART).partition("-")

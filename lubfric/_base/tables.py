@@ -34,7 +34,7 @@ def packaged(package: str, name: str) -> dict[str, Any]:
     return tomllib.loads((resources.files(package) / name).read_text(encoding="utf-8"))
 
 
-def plain(value):
+def plain(value: Any):
     """JSON types only: numpy scalars and tuples unpacked, NaN and infinity as null."""
     if isinstance(value, dict):
         return {str(k): plain(v) for k, v in value.items()}
@@ -47,7 +47,7 @@ def plain(value):
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def read_json(path, remedy: str) -> Any:
+def read_json(path: Path, remedy: str) -> Any:
     """What is in a JSON file. Raises `InputError`, which ends with the ``remedy``, if it cannot be read, is cut off,
     nested too deeply or binary."""
     if not Path(path).is_file():  # nor is one waited for that is no file, such as a pipe

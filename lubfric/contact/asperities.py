@@ -50,7 +50,9 @@ class AsperityContact(FieldsOnly, RoughContact):
     asperity_separation: str
     tolerance: float
 
-    def close(self, film, load, start=None, shape=None) -> ContactState:
+    def close(
+        self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None
+    ) -> ContactState:
         """Offset at which the asperities carry ``load`` [N] on the whole width; ``start`` is not needed.
 
         The load of patches jumps where two of them join. Then the offset of the jump is taken, at which the gap is

@@ -87,7 +87,7 @@ def _joined(label, periodic) -> np.ndarray:
     return np.concatenate([[0], connected_components(graph, directed=False)[1] + 1])[label]
 
 
-def ridges(heights, bearing: float, periodic) -> int:
+def ridges(heights: np.ndarray, bearing: float, periodic: tuple[bool, bool]) -> int:
     """Return how many patches have no ends: above the separation at which ``bearing`` of the map touches, a way along
     them leads to the same cell of another period."""
     label = _labelled(heights > np.quantile(heights, 1 - bearing))

@@ -249,7 +249,9 @@ class FlatContact(RoughContact):
     area: float
     columns: np.ndarray
 
-    def close(self, film, load, start=None, shape=None) -> ContactState:
+    def close(
+        self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None
+    ) -> ContactState:
         """Read from the curve; ``start`` and ``shape`` are not needed. Raises `ConvergenceError` for a load that the
         contact model of the curve cannot carry."""
         pressure = load / self.area

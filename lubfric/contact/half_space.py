@@ -36,7 +36,9 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
     hardness: float | None
     tolerance: float
 
-    def close(self, film, load, start=None, shape=None) -> ContactState:
+    def close(
+        self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None
+    ) -> ContactState:
         """Return the surface, loaded under the film's shape, by `lubfric.solve_contact`."""
         under = film if shape is None else shape
         if load == 0:

@@ -140,7 +140,13 @@ class HalfSpace(FrozenArrays, FieldsOnly):
         return replace(self, shape=shape, padded=padded, spacing=spacing, symbol=symbol)
 
 
-def half_space(shape, spacing, e_prime, boundary=("periodic", "periodic"), workers=None) -> HalfSpace:
+def half_space(
+    shape: tuple[int, int],
+    spacing,
+    e_prime: float | None,
+    boundary: str | tuple[str, str] = ("periodic", "periodic"),
+    workers: int | None = None,
+) -> HalfSpace:
     """Return the deflection operator of a grid of ``shape`` (nx, ny) cells of ``spacing`` [m] (one number or (dx, dy)).
 
     e_prime [Pa]: ``2/E' = sum (1 - nu^2)/E``. Each axis of ``boundary`` is "periodic" or "free":

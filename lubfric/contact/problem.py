@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import validate
 from ..errors import InputError
@@ -61,14 +63,14 @@ class ContactProblem:
 
 
 def contact_problem(
-    gap0,
+    gap0: ArrayLike,
     spacing,
-    e_prime,
-    hardness=None,
-    boundary=("periodic", "periodic"),
-    tolerance=1e-6,
-    operator=None,
-    max_iterations=2000,
+    e_prime: float | None,
+    hardness: float | None = None,
+    boundary: str | tuple[str, str] = ("periodic", "periodic"),
+    tolerance: float = 1e-6,
+    operator: HalfSpace | None = None,
+    max_iterations: int = 2000,
 ) -> ContactProblem:
     """Check a problem; builds the operator if none is given, else checks that it fits."""
     if hasattr(gap0, "heights"):
@@ -98,7 +100,7 @@ def contact_problem(
     return ContactProblem(gap0, offset, float(gap0.std()), operator, hardness, tolerance, max_iterations)
 
 
-def on_grid(name: str, value, shape, unit: str) -> np.ndarray:
+def on_grid(name: str, value: Any, shape: tuple[int, int], unit: str) -> np.ndarray:
     """Return a number, one for each x, (nx,), or one for each cell, on all cells of ``shape``."""
     try:
         field = np.asarray(value, dtype=float)

@@ -15,7 +15,8 @@ import numpy as np
 from .._base import Shown
 from ..errors import CONVERGED, ITERATION_LIMIT, STAGNATED, Report, worst
 from .candidate_cells import CandidateCells
-from .problem import dot, rescaled, zero_level
+from .operator import HalfSpace
+from .problem import ContactProblem, dot, rescaled, zero_level
 from .search import FIRST_PACE, CandidateSearch
 
 # Gap over the deepest overlap [-] below which a cell may come into contact. Halved and doubled by `python -m
@@ -125,7 +126,13 @@ class SearchResult:
     notes: Sequence[str] = ()
 
 
-def length_scale(pressure, displacement, gap0, operator, roughness: float | None = None) -> float:
+def length_scale(
+    pressure: np.ndarray,
+    displacement: np.ndarray,
+    gap0: np.ndarray,
+    operator: HalfSpace,
+    roughness: float | None = None,
+) -> float:
     """Return the length L [m] in which gap residuals are measured.
 
     ``max(min(Σ p u / Σ p, max(d, r)), min(d, r))`` with the ``roughness`` r (None: rms of gap0) and the deflection
@@ -147,7 +154,7 @@ def length_scale(pressure, displacement, gap0, operator, roughness: float | None
     return float(max(min(work / total, larger), smaller, 1e-9 * ripple))
 
 
-def contact_residuals(pressure, gap, scale: float, hardness: float) -> dict[str, float]:
+def contact_residuals(pressure: np.ndarray, gap: np.ndarray, scale: float, hardness: float) -> dict[str, float]:
     """Complementarity and penetration residuals, dimensionless; see `ContactResult` for formulas."""
     loaded, gap = np.flatnonzero(pressure > 0), gap.ravel()
     carried = pressure.ravel()[loaded]
@@ -163,13 +170,17 @@ def contact_residuals(pressure, gap, scale: float, hardness: float) -> dict[str,
     return {"complementarity": dot(carried, apart) / (carried.sum() * scale), "penetration": max(0.0, -lowest) / scale}
 
 
-def evaluate(problem, operator, pressure, level=None) -> TrialContact:
+def evaluate(
+    problem: ContactProblem, operator: HalfSpace, pressure: np.ndarray, level: float | None = None
+) -> TrialContact:
     """Return the `TrialContact` of ``pressure`` by one application of ``operator``; ``level`` [m]: a prescribed
     approach."""
     return trial_contact(problem, pressure, operator.apply(pressure), level)
 
 
-def trial_contact(problem, pressure, displacement, level=None) -> TrialContact:
+def trial_contact(
+    problem: ContactProblem, pressure: np.ndarray, displacement: np.ndarray, level: float | None = None
+) -> TrialContact:
     """Return the `TrialContact` of ``pressure``, the ``displacement`` [m] of which is known."""
     gap = np.add(problem.gap0, displacement, out=np.empty_like(displacement), casting="same_kind")
     if level is None:
@@ -183,7 +194,14 @@ def trial_contact(problem, pressure, displacement, level=None) -> TrialContact:
     return TrialContact(pressure, displacement, gap, level, scale, residuals)
 
 
-def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> SearchResult:
+def refine(
+    problem: ContactProblem,
+    pressure: np.ndarray,
+    *,
+    load: float | None = None,
+    level: float | None = None,
+    pace: float = FIRST_PACE,
+) -> SearchResult:
     """Solve from ``pressure`` [Pa] for a total ``load`` [Pa cells] or an approach ``level`` [m]."""
     state = evaluate(problem, problem.operator.single, pressure, level)
     status = None
@@ -218,7 +236,9 @@ def refine(problem, pressure, *, load=None, level=None, pace=FIRST_PACE) -> Sear
     return SearchResult(state, status, iterations, convolutions, (*history, state.residual), pace)
 
 
-def contact_result(problem, search: SearchResult, control: dict[str, float], failed: str) -> ContactResult:
+def contact_result(
+    problem: ContactProblem, search: SearchResult, control: dict[str, float], failed: str
+) -> ContactResult:
     """Return the result of a solve, judged by the residuals of its state and of its ``control``, that of what was
     prescribed. If it ended for another reason than a limit with one of them above the tolerance, its status is
     ``failed``."""

@@ -45,7 +45,7 @@ class ContactState:
         """Return (gap - film)/(gap + film): zero in balance, increasing with the film's share of the load."""
         return (self.mean_gap - self.mean_film) / (abs(self.mean_gap) + self.mean_film)
 
-    def touching(self, x) -> np.ndarray:
+    def touching(self, x: np.ndarray) -> np.ndarray:
         """Return the share of the width in contact (n - 1,), averaged over each cell between neighbouring ``x`` (n,)
         [m], either way. (The columns of the contact are finer than the cells of a film, and vary from one to the
         next.)"""
@@ -70,7 +70,9 @@ class RoughContact:
         """Return the contact in words."""
         raise NotImplementedError
 
-    def close(self, film, load: float, start: ContactState | None = None, shape=None) -> ContactState:
+    def close(
+        self, film: np.ndarray, load: float, start: ContactState | None = None, shape: np.ndarray | None = None
+    ) -> ContactState:
         """The contact that carries ``load`` [N] (0: first touch) under ``film`` [m] (nx,).
 
         ``shape`` [m] (nx,): what the surface is pressed under, up to a constant, if it is not the film itself;
@@ -126,6 +128,6 @@ def area_weight(region: str, half_width: float, x: np.ndarray, step: float) -> n
     return weight
 
 
-def weighted_mean(values, weight) -> float:
+def weighted_mean(values: np.ndarray, weight: np.ndarray) -> float:
     """Return the mean of ``values`` over the area A, by ``weight``."""
     return float(np.dot(values, weight) / weight.sum())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from ..models.shared import Decision, UnmodelledEffect, Validity
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex
 from .uncertainty import FieldErrors, Uncertainty
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 @described_in_doc
@@ -115,7 +119,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         """Gap of the rough contact [m], (nx, ny)."""
         return self._field("gap")
 
-    def plot_contact(self, ax=None, rows=slice(None)):
+    def plot_contact(self, ax: "Axes | None" = None, rows: slice = slice(None)):
         """The pressure of the rough contact in the plane, in some ``rows`` along the line; returns the axes. Needs
         ``fields=True``, and contact."""
         axes = figures.axes_or_new(ax)

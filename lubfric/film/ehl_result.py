@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import Shown
 from ..errors import Report
@@ -90,7 +91,7 @@ class EHLResult(Shown, HasLineContact):
             "status": self.report.status,
         }
 
-    def film_at(self, x) -> np.ndarray:
+    def film_at(self, x: ArrayLike) -> np.ndarray:
         """Return the film thickness [m] at any positions ``x`` [m], any shape.
 
         Between the nodes the deflection is interpolated by cubics; outside it is the line kernel

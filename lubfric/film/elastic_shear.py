@@ -19,6 +19,7 @@ method: both sides are explicit in τ, and rise with it, so that each step is on
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -127,7 +128,7 @@ class _Laws:
         self.modulus = lubricant.shear_modulus
         self.viscosity = viscosity(lubricant, pressure)
         self.flow = lubricant.flow_law
-        self.critical = None
+        self.critical: Any = None
         if self.flow is not None:
             self.critical = np.broadcast_to(self.flow.critical(pressure)[0], pressure.shape)
         limit = lubricant.limit

@@ -13,7 +13,7 @@ from .._base import validate
 ELASTIC_PIEZOVISCOUS = 1.311
 
 
-def moes_film(m, l) -> float:
+def moes_film(m: float, l: float) -> float:
     """H in Moes units where dp/dx = 0 (the *flow* film), incompressible lubricant; M > 0, L >= 0.
 
     Joins the four asymptotes H_RI = 3/M, H_EI = 2.621 M^(-1/5), H_RP = 1.287 L^(2/3) and
@@ -34,7 +34,7 @@ def moes_film(m, l) -> float:
     return larger * (1.0 + (smaller / larger) ** s) ** (1.0 / s)
 
 
-def thinned_share(number, exponent, slide_roll_ratio) -> float:
+def thinned_share(number: float, exponent: float, slide_roll_ratio: float) -> float:
     """Return the film of a Carreau fluid over the Newtonian one h: ``(1 + 0.79 ((1 + S) N)^(1/(1 + 0.2 S)))^(-3.6 (1 -
     n)^1.7)`` with ``number`` N = eta0 U/(h G), ``exponent`` n and the slide-roll ratio S.
 
@@ -46,7 +46,7 @@ def thinned_share(number, exponent, slide_roll_ratio) -> float:
     return (1.0 + thinning) ** (-3.6 * (1.0 - exponent) ** 1.7)
 
 
-def starved_share(inlet, length, half_width) -> float:
+def starved_share(inlet: float, length: float, half_width: float) -> float:
     """Return the film of a contact over the flooded one where its lubricant begins ``inlet`` upstream of the centre.
     ``length``: l = √(2 R h_flooded), ``half_width``: b of the dry contact. ``1 - (1 + X/c)^-2`` with X = (inlet - b)/s,
     s of `flooded_inlet` and c from 1 (b far below l) to 0.39: within 0.12 of own solutions at b/l = 0.03 to 13."""
@@ -54,19 +54,19 @@ def starved_share(inlet, length, half_width) -> float:
     return 1.0 - (1.0 + x / _narrowness(length, half_width)) ** -2
 
 
-def starved_inlet(share, length, half_width) -> float:
+def starved_inlet(share: float, length: float, half_width: float) -> float:
     """Return where the lubricant begins for a ``share`` of the flooded film, below 1: the inverse of
     `starved_share`."""
     x = _narrowness(length, half_width) * ((1.0 - share) ** -0.5 - 1.0)
     return half_width + x * flooded_inlet(length, half_width)
 
 
-def flooded_inlet(length, half_width) -> float:
+def flooded_inlet(length: float, half_width: float) -> float:
     """Return how far upstream of the dry contact a flooded film builds up: ``3.52 (R h_flooded)^(2/3) b^(-1/3)`` (L. D.
     Wedeven, D. Evans, A. Cameron, J. Lubr. Technol. 93 (1971) 349-363; the number is cited from memory) where
     the half-width b is far above l = √(2 R h_flooded) (``length``); b + l takes the place of b."""
     return 3.52 * 0.25 ** (1 / 3) * length * (length / (length + half_width)) ** (1 / 3)
 
 
-def _narrowness(length, half_width) -> float:
+def _narrowness(length: float, half_width: float) -> float:
     return 1.0 / (1.0 + 1.54 * half_width / (half_width + length))

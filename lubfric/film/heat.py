@@ -39,6 +39,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.linalg import solve_triangular
 
 from ..errors import CONVERGED, ITERATION_LIMIT, InputError, Report, returned
@@ -126,7 +127,9 @@ def flash_matrix(x: np.ndarray, carried: float) -> np.ndarray:
     return matrix / (np.sqrt(np.pi) * carried)
 
 
-def isothermal_heat(lubricant: Lubricant, x, pressure, film, around: Surroundings) -> FilmHeat:
+def isothermal_heat(
+    lubricant: Lubricant, x: np.ndarray, pressure: np.ndarray, film: np.ndarray, around: Surroundings
+) -> FilmHeat:
     """Return an upper estimate of the temperatures in one pass: the surfaces as hot as the stress of the unheated film
     makes them, and the stress of the film between such surfaces.
 
@@ -142,7 +145,15 @@ def isothermal_heat(lubricant: Lubricant, x, pressure, film, around: Surrounding
     return FilmHeat(left, wall, rise, Report("heat, one pass", CONVERGED, 1, 0.0, math.inf))
 
 
-def heated_film(lubricant: Lubricant, x, pressure, film, around: Surroundings, *, raise_on_failure=True) -> FilmHeat:
+def heated_film(
+    lubricant: Lubricant,
+    x: np.ndarray,
+    pressure: np.ndarray,
+    film: np.ndarray,
+    around: Surroundings,
+    *,
+    raise_on_failure: bool = True,
+) -> FilmHeat:
     """Return the stress and temperatures of a film. ``x`` (n,) [m] rises downstream; ``pressure`` [Pa] and ``film`` [m]
     are at its nodes.
 
@@ -205,7 +216,13 @@ class InletHeat:
 
 
 def inlet_heat(
-    *, viscosity, temperature_coefficient, conductivity, speed, slide_roll_ratio, pressure_ratio
+    *,
+    viscosity: float,
+    temperature_coefficient: float,
+    conductivity: float,
+    speed: float,
+    slide_roll_ratio: float,
+    pressure_ratio: float,
 ) -> InletHeat:
     """Factors at eta0 [Pa s], beta [1/K], k [W/(m K)], entrainment speed U [m/s], slide-roll ratio [-] and p_h/E'
     [-]."""
@@ -235,7 +252,9 @@ def viscosity_at(lubricant: Lubricant, pressure, temperature) -> tuple[np.ndarra
     return over_pole - ROELANDS_LOG_VISCOSITY, over_pole * power / above
 
 
-def heated_stress(lubricant: Lubricant, pressure, film, sliding: float, wall) -> tuple[np.ndarray, np.ndarray]:
+def heated_stress(
+    lubricant: Lubricant, pressure: ArrayLike, film: ArrayLike, sliding: float, wall: ArrayLike
+) -> tuple[np.ndarray, np.ndarray]:
     """Return the shear stress [Pa], with the sign of ``sliding`` [m/s], and mean rise of the film over its walls [K].
 
     ``pressure`` [Pa], ``film`` thickness [m] and temperature of the ``wall`` [K]: arrays (n,). By bisection on ln(tau),

@@ -12,6 +12,7 @@ from functools import cached_property
 from operator import attrgetter
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import validate
 from ..errors import InputError
@@ -22,7 +23,7 @@ from . import formulas
 RIGID = 4.894968493913369
 
 
-def composite_modulus(young_1, poisson_1, young_2, poisson_2) -> float:
+def composite_modulus(young_1: float, poisson_1: float, young_2: float, poisson_2: float) -> float:
     """E' [Pa] of two bodies with Young's moduli [Pa] and Poisson ratios [-]:
     ``2/E' = (1 - nu1^2)/E1 + (1 - nu2^2)/E2``.
 
@@ -36,23 +37,23 @@ def composite_modulus(young_1, poisson_1, young_2, poisson_2) -> float:
     return 2 / validate.positive("compliance of the two bodies (1 - nu^2)/E", compliance, "1/Pa")
 
 
-def line_half_width(load_per_width, radius, e_prime):
+def line_half_width(load_per_width: float, radius: float, e_prime: float):
     """b [m] = sqrt(8 w R / (pi E')); w [N/m], R [m], E' [Pa]."""
     return np.sqrt(8 * load_per_width * radius / (np.pi * e_prime))
 
 
-def line_peak_pressure(load_per_width, radius, e_prime):
+def line_peak_pressure(load_per_width: float, radius: float, e_prime: float):
     """p_h [Pa] = 2 w / (pi b)."""
     return 2 * load_per_width / (np.pi * line_half_width(load_per_width, radius, e_prime))
 
 
-def line_pressure(x, load_per_width, radius, e_prime):
+def line_pressure(x: ArrayLike, load_per_width: float, radius: float, e_prime: float):
     """p(x) [Pa] = p_h sqrt(1 - x^2/b^2) inside, 0 outside; x [m] from the centre line."""
     ratio = np.asarray(x) / line_half_width(load_per_width, radius, e_prime)
     return line_peak_pressure(load_per_width, radius, e_prime) * np.sqrt(np.maximum(1 - ratio**2, 0))
 
 
-def line_gap(x, load_per_width, radius, e_prime):
+def line_gap(x: ArrayLike, load_per_width: float, radius: float, e_prime: float):
     """Gap [m] of the loaded contact, 0 inside; with X = |x|/b >= 1,
     ``g = b^2/(2R) [X sqrt(X^2-1) - ln(X + sqrt(X^2-1))]``."""
     b = line_half_width(load_per_width, radius, e_prime)

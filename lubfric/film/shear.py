@@ -1,9 +1,11 @@
 """Tangential force of the film on the upper surface (paper, Eqs. 10-12)."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..oil import Lubricant, carried_stress, shear_stress
 from .ehl_result import EHLResult
@@ -58,7 +60,7 @@ def shear_force(
     *,
     slide_roll_ratio: float,
     width: float,
-    contact_fraction,
+    contact_fraction: Callable[[np.ndarray], np.ndarray],
     cavitated: str = "none",
     warm=None,
     heated=None,
@@ -120,7 +122,7 @@ def shear_force(
     return replace(ShearForce(*forces), stress_ratio=ratio, sense=sense, asperity_share=asperity_share)
 
 
-def above_carried(pressure, tau, lengths) -> tuple[float, float]:
+def above_carried(pressure: np.ndarray, tau: np.ndarray, lengths: np.ndarray) -> tuple[float, float]:
     """Return the largest stress over what oils carry, and the force per width [N/m] of all stress above it, over the
     ``lengths`` [m] of the n - 1 cells that a film fills."""
     carried = carried_stress(pressure)
@@ -128,7 +130,7 @@ def above_carried(pressure, tau, lengths) -> tuple[float, float]:
     return float(np.max(np.abs(tau) / carried)), float(np.sum(0.5 * (above[1:] + above[:-1]) * lengths))
 
 
-def spike_error(x, tau) -> float:
+def spike_error(x: np.ndarray, tau: np.ndarray) -> float:
     """Possible error of a sum over nodes if a spike stands between them.
 
     It is an eighth of the second-order error estimate from the sum over every second node. A spike makes that estimate
@@ -148,7 +150,7 @@ def _rolling(p, h, touched, known: tuple[float, float] | None) -> tuple[float, f
     return force - taken, abs(force) + abs(taken), error + rolling_error(p, h, touched)
 
 
-def rolling_error(p, h, share) -> float:
+def rolling_error(p: np.ndarray, h: np.ndarray, share: ArrayLike) -> float:
     """Return a third of the change of ∫ (h/2) share dp when every second node is left out: an error of second order.
     ``share``: of the width of each of the n - 1 cells."""
     last = 2 * ((p.size + 1) // 2) - 1  # an odd number of nodes, so that both sums end at the same one

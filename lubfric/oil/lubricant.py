@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import Shown, validate
 from ..errors import InputError
@@ -166,7 +167,7 @@ class Lubricant(Shown):
         return self.pressure_viscosity_coefficient * ROELANDS_PRESSURE / pole
 
 
-def log_viscosity_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:
+def log_viscosity_ratio(lubricant: Lubricant, pressure: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """ln(eta/eta0) [-] and its derivative [1/Pa] at each pressure [Pa], any shape."""
     p = np.asarray(pressure, dtype=float)
     alpha = lubricant.pressure_viscosity_coefficient
@@ -181,12 +182,12 @@ def log_viscosity_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.
     return np.where(p > 0.0, value, alpha * p), slope
 
 
-def viscosity(lubricant: Lubricant, pressure) -> np.ndarray:
+def viscosity(lubricant: Lubricant, pressure: ArrayLike) -> np.ndarray:
     """Return the dynamic viscosity eta(p) [Pa s] at each pressure [Pa]."""
     return lubricant.viscosity * np.exp(log_viscosity_ratio(lubricant, pressure)[0])
 
 
-def density_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarray]:
+def density_ratio(lubricant: Lubricant, pressure: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """rho/rho0 [-] and its derivative [1/Pa] at each pressure [Pa], any shape."""
     p = np.asarray(pressure, dtype=float)
     if lubricant.density_law == "constant":
@@ -195,7 +196,7 @@ def density_ratio(lubricant: Lubricant, pressure) -> tuple[np.ndarray, np.ndarra
     return 1.0 + 0.34 * p / d, 0.34 * DENSITY_PRESSURE / d**2
 
 
-def shear_stress(lubricant: Lubricant, pressure, shear_rate) -> np.ndarray:
+def shear_stress(lubricant: Lubricant, pressure: ArrayLike, shear_rate: ArrayLike) -> np.ndarray:
     """Return the shear stress [Pa] of a simple shear flow at pressure [Pa] and signed shear rate [1/s].
 
     Newtonian ``eta(p) shear_rate``, thinned and cut by the laws of the lubricant (`lubfric.oil.shear_laws`).
@@ -206,6 +207,6 @@ def shear_stress(lubricant: Lubricant, pressure, shear_rate) -> np.ndarray:
     return tau
 
 
-def carried_stress(pressure) -> np.ndarray:
+def carried_stress(pressure: ArrayLike) -> np.ndarray:
     """What an oil carries at most [Pa] at ``pressure`` [Pa], any shape: 5 MPa + 0.12 p."""
     return CARRIED_AT_REST + CARRIED * np.maximum(pressure, 0.0)

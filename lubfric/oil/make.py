@@ -1,6 +1,7 @@
 """Ways to an `Oil`: two viscosities, an ISO VG grade and a viscosity index, a table, a name; and an oil in words."""
 
 import re
+from collections.abc import Sequence
 from typing import Any
 
 from .._base import packaged, validate
@@ -22,7 +23,7 @@ OILS = packaged(__package__, "oils.toml")["oils"]
 FILM_EXPONENT = 0.56
 
 
-def from_viscosities(nu40: float, nu100: float, **properties) -> Oil:
+def from_viscosities(nu40: float, nu100: float, **properties: Any) -> Oil:
     """Return an `Oil` from its kinematic viscosities [m²/s] at 40 and 100 °C, by ASTM D341 (constant 0.7).
 
     ``properties``: fields of `Oil` (base, density, alpha, ...). Raises `InputError` for values out of range.
@@ -31,7 +32,7 @@ def from_viscosities(nu40: float, nu100: float, **properties) -> Oil:
     return _through(nu40, nu100, {"nu40": nu40, "nu100": nu100}, properties)
 
 
-def from_index(nu40: float, viscosity_index: float, **properties) -> Oil:
+def from_index(nu40: float, viscosity_index: float, **properties: Any) -> Oil:
     """Return an `Oil` from its kinematic viscosity [m²/s] at 40 °C and its viscosity index (ASTM D2270 inverted, then
     D341)."""
     nu40 = _viscosity("nu40", nu40)
@@ -39,7 +40,7 @@ def from_index(nu40: float, viscosity_index: float, **properties) -> Oil:
     return _through(nu40, nu100, {"nu40": nu40, "viscosity_index": float(viscosity_index)}, properties)
 
 
-def from_grade(grade: str, viscosity_index: float, **properties) -> Oil:
+def from_grade(grade: str, viscosity_index: float, **properties: Any) -> Oil:
     """Return an `Oil` of an ISO viscosity grade ("ISO VG 68": 68 mm²/s at 40 °C in the middle of its +-10 %, ISO 3448)
     and a viscosity index (ASTM D2270 inverted, then D341)."""
     nu40 = grade_viscosity(grade)
@@ -53,7 +54,7 @@ def _through(nu40: float, nu100: float, said: dict, properties: dict) -> Oil:
     return Oil(walther((AT_40, nu40), (AT_100, nu100), **said), **properties)
 
 
-def from_table(temperatures, viscosities, **properties) -> Oil:
+def from_table(temperatures: Sequence[float], viscosities: Sequence[float], **properties: Any) -> Oil:
     """Return an `Oil` from pairs of temperature [K], rising, and kinematic viscosity [m²/s]; D341 between
     neighbours."""
     rising = validate.array("temperatures", temperatures, "K", ndim=1).tolist()
@@ -61,7 +62,7 @@ def from_table(temperatures, viscosities, **properties) -> Oil:
     return Oil(table, **properties)
 
 
-def named_oil(name: str, **properties) -> Oil:
+def named_oil(name: str, **properties: Any) -> Oil:
     """Return one of the ``OILS``, by its name ("FVA 3", "mineral-100"). ``properties`` replace its fields."""
     spelled = {_letters(known): known for known in OILS}
     if _letters(name) not in spelled:

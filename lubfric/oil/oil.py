@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import Shown, validate
 from ..errors import InputError
@@ -65,11 +66,11 @@ class Oil(Shown):
         if self.estimate == "so-klaus" and self.base != "mineral":
             raise InputError(f"estimate = 'so-klaus' is for mineral oils, base = {self.base!r}; allowed: 'gold'")
 
-    def kinematic_viscosity(self, temperature):
+    def kinematic_viscosity(self, temperature: ArrayLike):
         """nu [m²/s] at ``temperature`` [K], one or an array of them."""
         return at_each(self.viscosity_law, temperature)
 
-    def density_at(self, temperature):
+    def density_at(self, temperature: ArrayLike):
         """Return density rho [kg/m³] at ``temperature`` [K], one or an array of them.
 
         It is the density at 15 °C, less ``density_slope`` times the distance from 15 °C. This straight line is good to
@@ -89,7 +90,7 @@ class Oil(Shown):
         GPa)."""
         return BASES[self.base]["conductivity"] if self.conductivity is None else self.conductivity
 
-    def viscosity(self, temperature):
+    def viscosity(self, temperature: ArrayLike):
         """Return the dynamic viscosity eta = nu rho [Pa s] at ``temperature`` [K], one or an array of them."""
         return self.kinematic_viscosity(temperature) * self.density_at(temperature)
 
@@ -147,12 +148,12 @@ class Oil(Shown):
         """Return viscosity index [-] (ASTM D2270), from the law at 40 and 100 °C."""
         return viscosity_index(self.kinematic_viscosity(40 + CELSIUS), self.kinematic_viscosity(100 + CELSIUS))
 
-    def with_(self, **changed) -> Oil:
+    def with_(self, **changed: Any) -> Oil:
         """Return a copy with fields replaced."""
         return replace(self, **changed)
 
 
-def at_each(function: Callable[[float], float], temperature) -> Any:
+def at_each(function: Callable[[float], float], temperature: Any) -> Any:
     """Return ``function`` of one temperature [K], as a float, or of an array of them, as an array of its shape."""
     if np.ndim(temperature) == 0:
         return function(temperature)

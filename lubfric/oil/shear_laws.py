@@ -12,6 +12,7 @@ What a law leaves out and a model asks for is refused with an `InputError`. CONT
 from typing import Any, NoReturn
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import validate
 from ..errors import InputError
@@ -39,15 +40,15 @@ class ShearLaw:
         """Return the ``value`` of the key, checked beyond what keys.toml says of it."""
         return value
 
-    def critical(self, pressure) -> tuple:
+    def critical(self, pressure: ArrayLike) -> tuple:
         """tau_c [Pa] at each pressure [Pa], and its change with the pressure [-]; both numbers if that is 0."""
         self.refuse("critical", "everything", "leave the key out")
 
-    def warmth(self, temperature):
+    def warmth(self, temperature: ArrayLike):
         """tau_c at a temperature [K] over that at the temperature of the lubricant."""
         self.refuse("warmth", "the heat of the film", "set numerics.heat = 'off'")
 
-    def critical_at(self, pressure, temperature):
+    def critical_at(self, pressure: ArrayLike, temperature: ArrayLike):
         """tau_c [Pa] at pressure [Pa] and temperature [K]."""
         return self.critical(pressure)[0] * self.warmth(temperature)
 
@@ -56,31 +57,31 @@ class ShearLaw:
         said = f" has a shear law without {part}, which {model} needs"
         raise InputError(said, f"lubricant.{self.key}", way_out=f"give it in lubfric/oil/shear_laws.py, or {way_out}")
 
-    def f(self, s):
+    def f(self, s: float | np.ndarray):
         """tau/tau_c, odd in s."""
         self.refuse("f", "everything", "leave the key out")
 
-    def tangent(self, s) -> tuple:
+    def tangent(self, s: float | np.ndarray) -> tuple:
         """Φ = 1/f' and s dΦ/ds, at s >= 0."""
         self.refuse("tangent", "the deterministic model", "set numerics.model = 'load-sharing'")
 
-    def inverse(self, x):
+    def inverse(self, x: float | np.ndarray):
         """s of tau/tau_c = x, odd in x."""
         self.refuse("inverse", "the heat of the film", "set numerics.heat = 'off'")
 
-    def as_temperature(self, temperature):
+    def as_temperature(self, temperature: ArrayLike):
         """Return the `warmth` of a tau_c that is proportional to the temperature."""
         return np.asarray(temperature) / self.oil.temperature
 
-    def stress(self, newtonian, critical):
+    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray):
         """Return the stress [Pa] at the ``newtonian`` one."""
         return critical * self.f(newtonian / critical)
 
-    def newtonian(self, stress, critical):
+    def newtonian(self, stress: float | np.ndarray, critical: float | np.ndarray):
         """Return the Newtonian stress [Pa] at the ``stress`` that there is."""
         return critical * self.inverse(stress / critical)
 
-    def thinning(self, s, along: bool) -> tuple:
+    def thinning(self, s: float | np.ndarray, along: bool) -> tuple:
         """Φ and s dΦ/ds of a small pressure flow beside the sliding: by the tangent 1/f' along it, by the secant s/f
         across (perturbation of a Couette flow: T. F. Conry, S. Wang, C. Cusano, J. Tribol. 109 (1987) 648-654,
         doi:10.1115/1.3261526)."""
@@ -99,17 +100,17 @@ class Eyring(ShearLaw):
     thins = True
     warmth = ShearLaw.as_temperature
 
-    def critical(self, pressure):
+    def critical(self, pressure: ArrayLike):
         return self.oil.eyring_stress, 0.0
 
-    def f(self, s):
+    def f(self, s: float | np.ndarray):
         return np.arcsinh(s)
 
-    def tangent(self, s):
+    def tangent(self, s: float | np.ndarray):
         factor = np.hypot(1.0, s)
         return factor, s * (s / factor)
 
-    def inverse(self, x):
+    def inverse(self, x: float | np.ndarray):
         return np.sinh(x)
 
 
@@ -127,19 +128,19 @@ class Carreau(ShearLaw):
         G = validate.positive("carreau (G)", value[0], "Pa")
         return G, validate.number("carreau (n)", value[1], "(-)", minimum=0.1, maximum=0.999)
 
-    def critical(self, pressure):
+    def critical(self, pressure: ArrayLike):
         return self.oil.carreau[0], 0.0
 
-    def f(self, s):
+    def f(self, s: float | np.ndarray):
         return s * (1 + s**2) ** (0.5 * (self.oil.carreau[1] - 1))
 
-    def tangent(self, s):
+    def tangent(self, s: float | np.ndarray):
         n = self.oil.carreau[1]
         square = s**2
         factor = (1 + square) ** ((3 - n) / 2) / (1 + n * square)
         return factor, factor * ((3 - n) * square / (1 + square) - 2 * n * square / (1 + n * square))
 
-    def inverse(self, x):
+    def inverse(self, x: float | np.ndarray):
         n = self.oil.carreau[1]
         log_x = np.log(np.maximum(np.abs(x), 1e-300))
         y = log_x + 0.5 * (1 / n - 1) * np.logaddexp(0, 2 * log_x)  # ln s by a law alike
@@ -156,26 +157,26 @@ class LimitingStress(ShearLaw):
     key = "limiting_stress_coefficient"
     others = ("limiting_stress_offset",)
 
-    def critical(self, pressure):
+    def critical(self, pressure: ArrayLike):
         slope = self.oil.limiting_stress_coefficient
         return self.oil.limiting_stress_offset + slope * np.maximum(pressure, 0.0), slope
 
-    def warmth(self, temperature):
+    def warmth(self, temperature: ArrayLike):
         return np.exp(LIMIT_ACTIVATION * (1 / np.asarray(temperature) - 1 / self.oil.temperature))
 
     def twice(self) -> dict[str, Any]:
         """Return fields of a lubricant with twice this tau_c: those that it is proportional to."""
         return {key: 2 * getattr(self.oil, key) for key in (self.key, *self.others)}
 
-    def stress(self, newtonian, critical):
+    def stress(self, newtonian: float | np.ndarray, critical: float | np.ndarray):
         """Return the stress [Pa] at the ``newtonian`` one."""
         return np.clip(newtonian, -critical, critical)
 
-    def newtonian(self, stress, critical):
+    def newtonian(self, stress: float | np.ndarray, critical: float | np.ndarray):
         """Return the Newtonian stress [Pa] at the ``stress`` >= 0 that there is; infinite above what it bears."""
         return np.where(stress > critical, np.inf, stress)
 
-    def thinning(self, s, along: bool) -> tuple:
+    def thinning(self, s: float | np.ndarray, along: bool) -> tuple:
         """Φ and s dΦ/ds by the secant of ``1/eta_eff = 1/eta + Δu/(h tau_c)``, 1 + s, in both directions. (The tangent
         of a fluid at its limit is infinite.)"""
         return 1.0 + s, s

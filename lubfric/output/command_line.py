@@ -1,6 +1,7 @@
 """The ``lubfric`` command. What one of the commands in commands.toml needs is imported when it runs."""
 
 import argparse
+from collections.abc import Sequence
 from importlib import import_module
 from pathlib import Path
 
@@ -16,7 +17,7 @@ FOR = {"ratios": RATIOS, "animation": IN_TIME} | dict.fromkeys(("speeds", "field
 KINDS: dict[str, dict] = {"path": {"type": Path}, "count": {"type": int}, "switch": {"action": "store_true"}}
 
 
-def main(argv=None) -> int:
+def main(argv: Sequence[str] | None = None) -> int:
     """Entry point; returns the exit code: 0 done, 1 a solve failed, 2 bad input or a file that cannot
     be written, 130 interrupted, 143 terminated."""
     arguments = parser().parse_args(argv)

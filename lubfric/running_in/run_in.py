@@ -6,7 +6,7 @@ First the dry cylinder moves along the map, step by step, and pass by pass, unti
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,6 +17,9 @@ from ..samples import contact_maps, cylinder_of, measured, whole_maps
 from ..scene import Scene
 from ..surface import Surface
 from .wear import Wear, worn_in
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Positions of the contact within a half-width of the Hertz strip: an asperity misses 3 % of the highest pressure.
 STEPS = 2.0
@@ -64,7 +67,7 @@ class RunIn(FrozenArrays, Shown):
         level = before.mean()
         return (np.arange(before.size) + 0.5) / before.size, before - level, after - level
 
-    def plot(self, ax=None):
+    def plot(self, ax: "Axes | None" = None):
         """The bearing curves before and after, on ``ax`` or new axes, which are returned."""
         axes = figures.axes_or_new(ax)
         (share, *heights) = self.bearing()

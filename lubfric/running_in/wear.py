@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -35,6 +35,9 @@ from ..models.shared import prepare
 from ..samples import cylinder_of, flat_contact_of, half_space_contact_of
 from ..scene import Scene
 from ..surface import Surface
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 LIFT_OFF = 0.01  # asperity load ratio at which a surface counts as lifted off
 VANISHED = 1e-3  # asperity load ratio below which wear ends: what is left would take as long as all before
@@ -93,7 +96,7 @@ class Wear(FrozenArrays, Shown):
     stopped: str
     notes: tuple[str, ...] = ()
 
-    def plot(self, ax=None):
+    def plot(self, ax: "Axes | None" = None):
         """Draw Sq and lift-off speed over the distance, each over its first value, on ``ax`` or new axes."""
         axes = figures.axes_or_new(ax)
         axes.plot(self.distance, self.sq / self.sq[0], "o-", color=figures.GREY, label="Sq")

@@ -91,7 +91,7 @@ class Scene(Shown):
             for end in (low, high):
                 replace(getattr(self, section), **{key: end})  # refuses an end that is no value of it
 
-    def with_(self, **sections) -> Scene:
+    def with_(self, **sections: Any) -> Scene:
         """A copy with some fields of its sections replaced: ``scene.with_(bodies={"load": 10.0})``.
 
         The short forms of scene files may be used as well: ``scene.with_(lubricant={"temperature_celsius": 90})``.

@@ -127,7 +127,7 @@ def _of_surface_speeds(speeds, *_) -> dict:
     return {"entrainment_speed": (u1 + u2) / 2, "slide_roll_ratio": 2 * (u2 - u1) / (u1 + u2)}
 
 
-def speeds_of_range(name: str, value) -> tuple[float, ...]:
+def speeds_of_range(name: str, value: Any) -> tuple[float, ...]:
     """The speeds [m/s] of [lowest, highest, count], in a geometric series; ``name``: of the key."""
     if not isinstance(value, (list, tuple)) or len(value) != 3:
         raise InputError(f"{name} = {validate.shown(value)} must be [lowest, highest, count] in m/s, m/s, (-)")

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 from .._base import read_columns, validate
 from ..errors import InputError
@@ -105,7 +106,9 @@ def history(name: str, given, unit: str | None = None, folder: Path = Path()) ->
         raise
 
 
-def read_history(path, column: str, *, time_column: str = "time", repeat: bool = False, unit=None) -> Table:
+def read_history(
+    path: str | Path, column: str, *, time_column: str = "time", repeat: bool = False, unit: str | None = None
+) -> Table:
     """The `Table` in two columns of a CSV file whose first row names the columns.
 
     Headings may carry units (``time [ms]``, ``load (kN)``); without them times are in s and values in SI. ``unit``: SI
@@ -122,7 +125,7 @@ def _word(name: str, value) -> str:
     return value
 
 
-def checked_history(name: str, value, unit: str, duration: float, *, positive: bool = True) -> History:
+def checked_history(name: str, value: Any, unit: str, duration: float, *, positive: bool = True) -> History:
     """A number or a history as a history that lasts for ``duration`` [s] and stays in its range."""
     given = history(name, value, unit)
     if isinstance(given, Table):

@@ -67,7 +67,7 @@ def decode(content: bytes, classes: dict[str, type], kind: Any = Any):
     return value
 
 
-def fits(value, kind) -> bool:
+def fits(value: Any, kind: Any) -> bool:
     """Whether ``value`` has the type ``kind``, as in an annotation, and so have its parts. Fields of dataclasses were
     looked at when these were built, and a named tuple is stored as a plain one. ``kind`` may also be a dict of kinds,
     for a dict that has these keys at least, and a list of one kind."""

@@ -1,6 +1,7 @@
 """What a fit is given: a measured curve of friction with its units, and the numbers of a scene that are sought."""
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -8,6 +9,9 @@ from .._base import figures, read_columns, validate, with_default_errors
 from ..errors import InputError
 from ..scene import Scene
 from .vary import FITTED, Between, check_key, check_temperature, unit_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 SPEED = "speed"
 SLIP = "slide_roll_ratio"
@@ -101,18 +105,18 @@ class Measured:
         """What misfits are counted in: the deviations, or the coefficients themselves, (n,)."""
         return self.coefficient if self.deviation is None else self.deviation
 
-    def draw(self, axes) -> None:
+    def draw(self, axes: "Axes") -> None:
         """The points on ``axes``, with their 95 % intervals, over the magnitude of what they are over."""
         error = None if self.deviation is None else 1.96 * self.deviation
         for place, number in enumerate(self.branches):
             there = slice(None) if self.branch is None else self.branch == number
             ramp = f", ramp {number + 1}" if len(self.branches) > 1 else ""
-            style = {"fmt": MARKS[place % len(MARKS)], "ms": 4, "color": "k", "mfc": "none", "lw": 1}
+            style: dict[str, Any] = {"fmt": MARKS[place % len(MARKS)], "ms": 4, "color": "k", "mfc": "none", "lw": 1}
             label = figures.plain_words(self.source) + ramp
             of_ramp = None if error is None else error[there]
             axes.errorbar(np.abs(self.x[there]), self.coefficient[there], of_ramp, label=label, **style)
 
-    def label(self, axes) -> None:
+    def label(self, axes: "Axes") -> None:
         """The axis of what they are over."""
         if self.over == SPEED:
             axes.set(xscale="log", xlabel=figures.speed_label(self.x))

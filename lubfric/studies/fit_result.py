@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +19,9 @@ from .fit_checks import ResidualTests
 from .fit_input import SPEED, Measured, values_at
 from .fit_search import SAME_MINIMUM, Candidate
 from .vary import Between
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Probability of the intervals.
 LEVEL = 0.95
@@ -208,7 +212,7 @@ class FitResult(Shown):
         facts |= {"undetermined": ", ".join(self.undetermined) or "none"}
         return facts if self.describes_data else {"": "does not describe the data"} | facts
 
-    def plot(self, ax=None):
+    def plot(self, ax: "Axes | None" = None):
         """Measured points, fitted curve and its 95 % band; returns the axes."""
         axes = figures.axes_or_new(ax)
         (low, high) = self.band
@@ -221,7 +225,7 @@ class FitResult(Shown):
         axes.legend(frameon=False)
         return axes
 
-    def plot_residuals(self, ax=None):
+    def plot_residuals(self, ax: "Axes | None" = None):
         """Deviation of the points from the fitted curve, relative; returns the axes."""
         axes = figures.axes_or_new(ax)
         miss = 100 * (self.measured.coefficient / self.predicted - 1)

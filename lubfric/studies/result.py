@@ -10,6 +10,7 @@ from dataclasses import dataclass, is_dataclass
 from functools import partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import Shown, validate, with_default_errors
 from .._base.processes import checked_executor, checked_workers, pool, spread
@@ -135,7 +136,7 @@ class StudyResult(Shown):
             return np.array(self.plan.point_speeds[index[-1]])
         return self.columns[SPEED][index] if self.chosen else np.array(self.plan.speeds)
 
-    def at(self, speed) -> np.ndarray:
+    def at(self, speed: ArrayLike) -> np.ndarray:
         """f of every curve at ``speed`` [m/s], one or several, interpolated as in `StribeckResult.at`: an array over
         the axes and, for several speeds, over these. NaN outside the speeds for which a curve is known, and in the
         other direction."""

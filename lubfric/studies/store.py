@@ -142,7 +142,7 @@ def _error(stored: Failure) -> LubfricError:
     return ConvergenceError(stored.message, stored.report) if kind is ConvergenceError else kind(stored.message)
 
 
-def fingerprint(*parts) -> str:
+def fingerprint(*parts: Any) -> str:
     """Return the SHA-256, hexadecimal, of ``parts`` and of all else that their numbers depend on (`arithmetic`).
 
     Parts are numbers, texts, arrays, dataclasses and collections of these. Of a scene everything counts except its
@@ -152,13 +152,13 @@ def fingerprint(*parts) -> str:
     return digest([*arithmetic(), *parts])
 
 
-def fingerprint_without_files(*parts) -> str:
+def fingerprint_without_files(*parts: Any) -> str:
     """Return the `fingerprint` of ``parts`` among which are the heights that were read: files of maps do not count, as
     they may have changed since."""
     return _digest([*arithmetic(), *parts], _counted_without_files)
 
 
-def digest(value) -> str:
+def digest(value: Any) -> str:
     """Return the SHA-256, hexadecimal, of a value: equal for equal numbers, to the last bit, in every process."""
     return _digest(value, _counted)
 

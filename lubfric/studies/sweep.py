@@ -2,8 +2,10 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .._base import validate, with_default_errors, write_whole
 from .._base.jobs import parts_on
@@ -53,13 +55,13 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
 
     plot = curve_axes
 
-    def at(self, speed) -> np.ndarray:
+    def at(self, speed: ArrayLike) -> np.ndarray:
         """f at any speeds [m/s] between the slowest and the fastest, interpolated (`lubfric.studies.interpolate`). They
         have the direction of the curve: a finite piece of a surface slides differently back and forth."""
         contact, film = self.parts_at(speed)
         return contact + film
 
-    def parts_at(self, speed) -> tuple[np.ndarray, np.ndarray]:
+    def parts_at(self, speed: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
         """Return the two parts of f, from the asperity contacts and from the film, at any speeds [m/s], as `at`."""
         curve = self._curve
         at = validate.array("speed", validate.listed(speed), "m/s", ndim=1)
@@ -109,7 +111,7 @@ class StribeckResult(PointQuantities[np.ndarray], CurveResult):
         curves = [(conditions_of(self.scene), self._curve)]
         return law_of(self.scene, curves, self.coefficient, low, high, self.uncertainty.model)
 
-    def to_csv(self, path) -> None:
+    def to_csv(self, path: str | Path) -> None:
         """The table that ``lubfric run`` writes as stribeck.csv: one row a speed, the unit in the heading."""
         write_whole(path, csv_bytes(self))
 

@@ -2,6 +2,7 @@
 
 import io
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
@@ -14,6 +15,9 @@ from .choose import between
 from .curve import numbers_of
 from .interpolate import through
 from .points import SPEED, STATUS, UNUSED, VALIDITY
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 OF_INTERVAL = (("model_error", 1.0, "--"), ("sampling_error", 2.0, ":"))  # column, times it in the interval, line
 BAND = "95 % interval"
@@ -50,7 +54,7 @@ def to_frame(result):
     return validate.installed("pandas", "study").DataFrame(columns_of_study(result))
 
 
-def to_parquet(result, path) -> None:
+def to_parquet(result, path: str | Path) -> None:
     """The table of `to_frame` as a Parquet file. Needs the ``study`` extra."""
     frame = to_frame(result)
     buffer = io.BytesIO()
@@ -59,7 +63,7 @@ def to_parquet(result, path) -> None:
     write_whole(path, buffer.getvalue())
 
 
-def to_netcdf(result, path) -> None:
+def to_netcdf(result, path: str | Path) -> None:
     """The Dataset of `to_xarray` as a NetCDF file, which appears whole. Needs the ``study`` extra."""
     data = to_xarray(result)
     validate.installed("netCDF4", "study")
@@ -67,7 +71,7 @@ def to_netcdf(result, path) -> None:
         data.to_netcdf(part, engine="netcdf4")
 
 
-def to_csv(result, path) -> None:
+def to_csv(result, path: str | Path) -> None:
     """One row a point, the unit in the heading; nothing beyond the standard library needed."""
     write_whole(path, table_bytes({heading(name): values for name, values in columns_of_study(result).items()}))
 
@@ -86,7 +90,7 @@ def columns_of_study(result) -> dict[str, np.ndarray]:
     return {name: values[used] for name, values in columns.items()}
 
 
-def plot(result, ax=None, **style):
+def plot(result, ax: "Axes | None" = None, **style: Any):
     """f over speed, a line for each curve, on ``ax`` or new axes, which are returned; ``style``: of the lines. Many
     curves are coloured by the first number that is varied. Where speeds were chosen, the lines are interpolated."""
     from matplotlib import colormaps
@@ -129,7 +133,7 @@ def plot(result, ax=None, **style):
     return axes
 
 
-def plot_points(result, quantity: str = "coefficient", ax=None, **style):
+def plot_points(result, quantity: str = "coefficient", ax: "Axes | None" = None, **style: Any):
     """Draw a number of the operating points of a study with its 95 % interval over their position, angle or time, or
     over their number; one line for each combination of what else is varied. Returns the axes."""
     axes = figures.axes_or_new(ax)
@@ -179,7 +183,7 @@ def check_tools(netcdf: bool, parquet: bool) -> None:
         validate.installed(name, "study")
 
 
-def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
+def interval_band(ax: "Axes", over: np.ndarray, columns, line=None) -> None:
     """The intervals of f as one band ``over`` speeds or ratios, if ``columns`` have them, with thin lines for what the
     model and the finite surface leave by themselves. ``line``: (speeds, f) of a smooth curve to draw them about."""
     unknown = np.full(over.shape, np.nan)
@@ -206,7 +210,7 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
     for name, times, dashes in OF_INTERVAL:
         error = at(times * columns.get(name, unknown))
         if np.nanmax(error, initial=0.0) > 0:
-            thin = {"color": figures.BLUE, "lw": 0.6, "ls": dashes}
+            thin: dict[str, Any] = {"color": figures.BLUE, "lw": 0.6, "ls": dashes}
             within = np.maximum(y * (1 - error), ends[0]), np.minimum(y * (1 + error), ends[1])  # a part of the whole
             wide, *sides = figures.widened(x, *within)
             ax.plot(wide, sides[0], **thin)
@@ -215,7 +219,7 @@ def interval_band(ax, over: np.ndarray, columns, line=None) -> None:
             )
 
 
-def friction_over_speed(axes, columns: dict[str, np.ndarray], **style) -> np.ndarray:
+def friction_over_speed(axes: "Axes", columns: dict[str, np.ndarray], **style: Any) -> np.ndarray:
     """Friction over the magnitude of the speed with its parts and the band of its intervals, by the ``columns`` of a
     `lubfric.StribeckResult`; between its points where f is `KNOWN` there. Returns the indices of the points drawn, in
     order: those that failed, and rest, are left out."""

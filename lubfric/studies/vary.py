@@ -47,7 +47,7 @@ class Between:
         low = validate.number("low", self.low, "(of the key)", above=0.0 if self.scale == "log" else -math.inf)
         validate.number("high", self.high, "(of the key)", above=low)
 
-    def at(self, share):
+    def at(self, share: float):
         """Values at ``share`` in [0, 1] of the range, a number or an array."""
         if self.scale == "linear":
             return self.low + share * (self.high - self.low)

@@ -153,7 +153,14 @@ def surface_generator(
     return made
 
 
-def honing_of(sk, spk, svk, angle, groove_width, lengths: tuple[float, float]) -> Honing | None:
+def honing_of(
+    sk: float | None,
+    spk: float | None,
+    svk: float | None,
+    angle: float | None,
+    groove_width: float | None,
+    lengths: tuple[float, float],
+) -> Honing | None:
     """Return the honing of these parameters, None where no Sk, Spk, Svk is given. Raise `InputError` where some are."""
     given = {name: value for name, value in (("sk", sk), ("spk", spk), ("svk", svk)) if value is not None}
     if not given:

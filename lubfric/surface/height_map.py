@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,6 +13,9 @@ from .._base import FrozenArrays, Shown, figures, validate
 from ..errors import InputError
 from . import prepare, regrid, statistics
 from .bearing import Bearing, bearing
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 HIGHEST = 1e3  # m, of any height
 LEAST_CELLS = 5  # of the nesting index of a filter: fewer do not resolve the weights
@@ -98,7 +101,7 @@ class Surface(FrozenArrays, Shown):
         )
         return f"{self.source}: {text}" if self.source else text
 
-    def plot(self, ax=None):
+    def plot(self, ax: "Axes | None" = None):
         """The heights in the plane, on ``ax`` or new axes, which are returned. The colours leave out single spikes,
         which the title then tells."""
         axes = figures.axes_or_new(ax, "compressed")

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +21,9 @@ from ..scene import value_of
 from ..units import worded
 from .march import Plan, Progress, Residual, grid_residual, report_of
 from .model import Output, TimeModel
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 MANY = 30  # blocks less one: of a strip
 NOT_IN = "not in the interval, as a run in time is solved with its value alone; solve it with both ends to see"
@@ -148,7 +152,7 @@ class TransientResult(Shown):
             text=tuple("; ".join((f"surface {percent(each)}", *self.not_in)) for each in error),
         )
 
-    def plot(self, ax=None):
+    def plot(self, ax: "Axes | None" = None):
         """Friction over time, with its parts, on ``ax`` or new axes, which are returned."""
         axes = figures.axes_or_new(ax)
         (low, high) = self.uncertainty.interval.T
@@ -159,7 +163,7 @@ class TransientResult(Shown):
         friction_over_time(axes, self.columns)
         return axes
 
-    def plot_loop(self, ax=None):
+    def plot_loop(self, ax: "Axes | None" = None):
         """Friction over speed, the hysteresis loop with its start marked, on ``ax`` or new axes, which are returned.
         At a standstill no friction coefficient is defined, and none is drawn."""
         axes = figures.axes_or_new(ax)
@@ -247,7 +251,7 @@ def in_motion(c: dict[str, np.ndarray]) -> np.ndarray:
     return (c["entrainment_speed"] != 0) | (c["sliding_speed"] != 0)
 
 
-def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
+def friction_over_time(axes: "Axes", c: dict[str, np.ndarray]) -> None:
     """Friction over time with its parts, by the ``c`` of a `lubfric.TransientResult`. At rest there is none."""
     sense = np.where(c["sliding_speed"] != 0, c["sliding_speed"], c["entrainment_speed"])
     sense = np.where(sense < 0, -1.0, 1.0)  # of the coefficient
@@ -257,7 +261,7 @@ def friction_over_time(axes, c: dict[str, np.ndarray]) -> None:
     parts = c["coefficient"], c["boundary_force"] * sense / c["load"], film
     figures.friction_lines(axes, c["time"] * scale, [np.where(moving, part, np.nan) for part in parts])
     if not moving.all():
-        rest = {"where": ~moving, "transform": axes.get_xaxis_transform(), "label": "at rest: no f"}
+        rest: dict[str, Any] = {"where": ~moving, "transform": axes.get_xaxis_transform(), "label": "at rest: no f"}
         axes.fill_between(c["time"] * scale, 0, 1, color=figures.GREY, alpha=0.2, lw=0, **rest)
     axes.set(xlabel=f"time ({unit})", ylabel=figures.FRICTION)
     figures.key_above(axes)

@@ -130,7 +130,7 @@ class SurfaceShear:
         return self.boundary + self.couette + self.rolling
 
 
-def surface_shear(at: Iterate, law, film: float) -> SurfaceShear:
+def surface_shear(at: Iterate, law: np.ndarray, film: float) -> SurfaceShear:
     """With a boundary ``film`` [m]. ``law``: the stress [Pa] that the lubricant has by itself (nx, ny)."""
     problem = at.problem
     p = at.state.pressure
