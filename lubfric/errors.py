@@ -154,7 +154,7 @@ class Report:
     advice: str = ""
     summary: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if self.converged:  # nothing is to be done
             object.__setattr__(self, "advice", "")
 

@@ -15,6 +15,7 @@ Under a cylinder the contact load does not flatten the surface as a whole: its s
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -105,7 +106,7 @@ class AsperityContact(FieldsOnly, RoughContact):
     def grid(self) -> tuple[int, int]:
         return self.heights.shape
 
-    def _state(self, film, separation, asperities: AsperityResult | None) -> ContactState:
+    def _state(self, film: np.ndarray, separation: Any, asperities: AsperityResult | None) -> ContactState:
         gap = separation - self.heights
         if self.asperity_separation == "volume":
             gap = np.maximum(gap, 0.0)

@@ -102,7 +102,7 @@ class HalfSpaceContact(FieldsOnly, RoughContact):
         pressure = state.fields.pressure
         return float((pressure[0].sum() + pressure[-1].sum()) / pressure.sum())
 
-    def _first_touch(self, film, under) -> ContactState:
+    def _first_touch(self, film: np.ndarray, under: np.ndarray) -> ContactState:
         """Without load: the gap is open everywhere, and zero at one cell."""
         mean, highest = self.profiles
         return ContactState(

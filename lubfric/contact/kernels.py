@@ -10,7 +10,7 @@ STEP = 0.26
 POINTS = 18
 
 
-def love_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
+def love_coefficients(shape: tuple[int, int], spacing: tuple[float, float], e_prime: float) -> np.ndarray:
     """Return the deflection [m/Pa] at cell centres (i, j) cells away from a cell under 1 Pa; (i, j) < ``shape``.
 
     ``2/(pi E') ∬ dx' dy'/r`` over the cell, exact. With F(X, Y) = X ln(Y + r) + Y ln(X + r) it is the
@@ -37,7 +37,7 @@ def line_coefficients(count: int, spacing: float, e_prime: float, reference_leng
     return -4 / (np.pi * e_prime) * spacing * cells
 
 
-def semiperiodic_coefficients(shape, spacing, e_prime: float) -> np.ndarray:
+def semiperiodic_coefficients(shape: tuple[int, int], spacing: tuple[float, float], e_prime: float) -> np.ndarray:
     """Return the deflection [m/Pa] (nx, ny//2 + 1): cells away along the free axis x, wavenumber index along y.
 
     ``(4/(pi E')) ∫ K0(|k_y (x - x')|) dx'`` over a cell of width dx, and for k_y = 0 the line kernel

@@ -264,7 +264,9 @@ def contact_result(
     )
 
 
-def _begun(problem, state: TrialContact, load, pace: float, exact: bool) -> CandidateSearch:
+def _begun(
+    problem: ContactProblem, state: TrialContact, load: float | None, pace: float, exact: bool
+) -> CandidateSearch:
     """Return a search from ``state`` on the cells that are loaded, or may come into touch."""
     operator = problem.operator.single
     if np.isfinite(state.scale):
@@ -277,7 +279,7 @@ def _begun(problem, state: TrialContact, load, pace: float, exact: bool) -> Cand
     return CandidateSearch(problem, CandidateCells.flagged(operator, flags), state, load, pace, exact or rigid)
 
 
-def _carrying(new_pressure, old_pressure, load, hardness) -> np.ndarray:
+def _carrying(new_pressure: np.ndarray, old_pressure: np.ndarray, load: float | None, hardness: float) -> np.ndarray:
     """Return ``new_pressure`` [Pa], made to carry the load. If single precision has lost the load, the pressure with
     which the search had ``old_pressure``."""
     total = new_pressure.sum()

@@ -119,7 +119,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
         """Gap of the rough contact [m], (nx, ny)."""
         return self._field("gap")
 
-    def plot_contact(self, ax: "Axes | None" = None, rows: slice = slice(None)):
+    def plot_contact(self, ax: "Axes | None" = None, rows: slice = slice(None)) -> "Axes":
         """The pressure of the rough contact in the plane, in some ``rows`` along the line; returns the axes. Needs
         ``fields=True``, and contact."""
         axes = figures.axes_or_new(ax)

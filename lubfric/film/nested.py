@@ -49,7 +49,7 @@ class Effort:
     least_cells: int = 0
     max_iterations: int = 60
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.number("tolerance", self.tolerance, "", minimum=1e-5, maximum=0.1)
         validate.integer("least_cells", self.least_cells, minimum=0)
         validate.integer("max_iterations", self.max_iterations, minimum=1)

@@ -90,7 +90,7 @@ class Lubricant(Shown):
     carreau: tuple[float, float] | None = None
     shear_modulus: float | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         stated = self._state_limit()
         validate.python_fields(self, "lubricant")
         validate.in_range("lubricant", self, prefix="")

@@ -93,7 +93,7 @@ class ViscosityTable:
     temperatures: tuple[float, ...]
     viscosities: tuple[float, ...]
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if len(self.temperatures) != len(self.viscosities) or len(self.temperatures) < 2:
             said = f"a viscosity table of {len(self.temperatures)} temperatures and {len(self.viscosities)} viscosities"
             raise InputError(said, allowed="as many of both, at least two")

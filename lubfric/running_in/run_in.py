@@ -67,7 +67,7 @@ class RunIn(FrozenArrays, Shown):
         level = before.mean()
         return (np.arange(before.size) + 0.5) / before.size, before - level, after - level
 
-    def plot(self, ax: "Axes | None" = None):
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
         """The bearing curves before and after, on ``ax`` or new axes, which are returned."""
         axes = figures.axes_or_new(ax)
         (share, *heights) = self.bearing()

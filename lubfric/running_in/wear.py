@@ -96,7 +96,7 @@ class Wear(FrozenArrays, Shown):
     stopped: str
     notes: tuple[str, ...] = ()
 
-    def plot(self, ax: "Axes | None" = None):
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw Sq and lift-off speed over the distance, each over its first value, on ``ax`` or new axes."""
         axes = figures.axes_or_new(ax)
         axes.plot(self.distance, self.sq / self.sq[0], "o-", color=figures.GREY, label="Sq")

@@ -82,7 +82,7 @@ class Roughness(Shown):
     honing_angle: float | None = None
     groove_width: float | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         validate.python_fields(self, "surface")
         if self.file is None and any(getattr(self, name) is not None for name in HONED):
             object.__setattr__(self, "sq", self._honed_sq())

@@ -55,7 +55,7 @@ class Scene(Shown):
     counterface: Roughness | None = None
     ranges: tuple[tuple[str, float, float], ...] = ()
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not isinstance(self.name, str) or _halved(self.name) or len(self.name) > LONGEST_NAME:
             allowed = f"words of up to {LONGEST_NAME} whole characters (no surrogates)"
             raise InputError(f" = {validate.shown(self.name)}", "name", allowed)

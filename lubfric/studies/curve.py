@@ -96,12 +96,12 @@ def without_rolling(point: FrictionResult) -> float:
     return (point.boundary_force + point.couette_force) / (point.contact_load + point.film_load)
 
 
-def columns_of(points) -> dict[str, np.ndarray]:
+def columns_of(points: Sequence) -> dict[str, np.ndarray]:
     """Every number of ``points`` by name, NaN where one is None."""
     return {name: np.array([np.nan if p is None else getattr(p, name) for p in points]) for name in NUMBERS}
 
 
-def report_of(solver: str, names: list[str], plural: str, points, errors: dict[int, Exception]) -> Report:
+def report_of(solver: str, names: list[str], plural: str, points: Sequence, errors: dict[int, Exception]) -> Report:
     """The largest residual of the points over the largest of their tolerances, with a note for each that failed;
     ``names`` of the points."""
     status = ITERATION_LIMIT if errors else CONVERGED

@@ -212,7 +212,7 @@ class FitResult(Shown):
         facts |= {"undetermined": ", ".join(self.undetermined) or "none"}
         return facts if self.describes_data else {"": "does not describe the data"} | facts
 
-    def plot(self, ax: "Axes | None" = None):
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Measured points, fitted curve and its 95 % band; returns the axes."""
         axes = figures.axes_or_new(ax)
         (low, high) = self.band
@@ -225,7 +225,7 @@ class FitResult(Shown):
         axes.legend(frameon=False)
         return axes
 
-    def plot_residuals(self, ax: "Axes | None" = None):
+    def plot_residuals(self, ax: "Axes | None" = None) -> "Axes":
         """Deviation of the points from the fitted curve, relative; returns the axes."""
         axes = figures.axes_or_new(ax)
         miss = 100 * (self.measured.coefficient / self.predicted - 1)

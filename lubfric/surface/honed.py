@@ -81,7 +81,9 @@ def honed_heights(
     return made
 
 
-def _oriented(shape, spacing, turn: float, along: float, across: float) -> np.ndarray:
+def _oriented(
+    shape: tuple[int, int], spacing: tuple[float, float], turn: float, along: float, across: float
+) -> np.ndarray:
     """Return the amplitudes (nx, ny//2 + 1) of a field with a Gaussian autocorrelation, long in the direction at
     ``turn`` [rad] from the y axis."""
     from scipy import fft

@@ -253,7 +253,9 @@ def _division(results: Sequence[DeterministicResult]) -> str:
     )
 
 
-def _entries(prepared: Prepared, numbers, results: Sequence[DeterministicResult], heat: Heat) -> Iterator[Validity]:
+def _entries(
+    prepared: Prepared, numbers: dict[str, float], results: Sequence[DeterministicResult], heat: Heat
+) -> Iterator[Validity]:
     """Entries for all assumptions that are violated; those about bodies and map first."""
     scene = prepared.scene
     speed = numbers["speed"]

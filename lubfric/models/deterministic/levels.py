@@ -11,7 +11,7 @@ doi:10.1287/opre.1070.0496).
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -193,7 +193,7 @@ def _sum(prepared: Prepared, pairs: Sequence[StripOnTwoGrids], line: ControlVari
     return TwoLevelEstimate(line.count, numbers, whole, _scatter(pairs, prepared.sample, line, 1.0), between)
 
 
-def mean(values) -> float:
+def mean(values: Iterable[float]) -> float:
     """Return the mean of any iterable."""
     return float(np.mean(list(values)))
 

@@ -198,7 +198,7 @@ def change_of(coarse: DeterministicResult, fine: DeterministicResult) -> float:
     return math.hypot(fine.coefficient - coarse.coefficient, scatter) / abs(fine.coefficient)
 
 
-def _blocks(values, count: int) -> np.ndarray:
+def _blocks(values: np.ndarray, count: int) -> np.ndarray:
     """Means of ``values`` over ``count`` equal parts of their length."""
     sums = np.append(0.0, np.cumsum(values)) / values.size
     ends = np.interp(np.linspace(0, 1, count + 1), np.linspace(0, 1, values.size + 1), sums)

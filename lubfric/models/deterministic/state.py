@@ -145,7 +145,7 @@ def _resorted(at: Iterate) -> State:
     )
 
 
-def _opened(touching, surplus, pull) -> np.ndarray:
+def _opened(touching: np.ndarray, surplus: np.ndarray, pull: float | np.ndarray) -> np.ndarray:
     """The touching cells that open: those with a ``surplus`` of inflow [m/s] above ``pull``, and those behind them that
     it reaches. It is handed on along x, and what a cell gives off is taken from it.
 

@@ -9,7 +9,7 @@ prediction). calibration.toml has the numbers. Outside the range of the campaign
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
@@ -163,7 +163,7 @@ def out_of_range(scene: Scene, sq: float, speed: float, known: Mapping[str, Any]
     return words
 
 
-def widening(distances) -> float:
+def widening(distances: Iterable[float]) -> float:
     """Return the factor on the bounds at ``distances`` outside the range of the campaign, in ln: 1 + their sum, at most
     3. Nothing was measured there."""
     return min(1.0 + sum(distances), 3.0)

@@ -1,6 +1,7 @@
 """What was modelled by load sharing, in words."""
 
 import math
+from typing import Any
 
 from ...contact import RoughContact
 from ...scene import Scene, budget
@@ -8,7 +9,9 @@ from ..shared import Decision
 from .balance import Balance
 
 
-def decided(scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample) -> Decision:
+def decided(
+    scene: Scene, contact: RoughContact, balance: Balance, clearance: float, why: str, **sample: Any
+) -> Decision:
     """The decision behind ``balance`` on ``contact``. ``clearance`` [Sq]: between the film and the highest summits, NaN
     in contact; ``why``: the reason for this model; ``sample``: further fields of `Decision`."""
     tolerance = scene.numerics.tolerance

@@ -32,7 +32,7 @@ class BlockError:
     freedom: int
 
 
-def block_error(values, step: float, correlation_length: float, exact=None) -> BlockError:
+def block_error(values: np.ndarray, step: float, correlation_length: float, exact=None) -> BlockError:
     """Standard error of the mean of ``values`` (ny,), on cells of ``step`` [m], from block means.
 
     It is s/sqrt(n (1 - 0.56/b)) with n = 8 to 32 blocks, each at least b = 9 correlation lengths [m] long. If the line
@@ -63,7 +63,7 @@ def block_error(values, step: float, correlation_length: float, exact=None) -> B
     return BlockError(math.sqrt(square / (freedom * count * (1 - ENDS / length))), freedom)
 
 
-def means_of_blocks(values, count: int) -> np.ndarray:
+def means_of_blocks(values: np.ndarray, count: int) -> np.ndarray:
     size = values.size // count
     return values[: size * count].reshape(count, size).mean(axis=1)
 
