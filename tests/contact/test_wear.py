@@ -220,7 +220,7 @@ def test_a_flat_contact_wears_too(monkeypatch):
         ({"motion": {"slide_roll_ratio": 0.0}}, {}, "rolling"),
         ({"motion": {"entrainment_speed": 0.0}}, {}, "entrainment_speed"),
         ({"contact": {"model": "summits"}}, {}, "half-space"),
-        ({"numerics": {"model": "deterministic"}}, {}, "paper"),
+        ({"numerics": {"model": "deterministic"}}, {}, "load-sharing"),
     ],
 )
 def test_bad_wear_is_refused(changes, options, said):
