@@ -469,7 +469,7 @@ def test_tolerances_and_grid_reach_the_solvers(mode):
     assert abs(_volume(tight, mode)) <= 1.5e-6
     with pytest.raises(lubfric.ValidityError):
         _volume(NEWTONIAN, mode)
-    assert np.isfinite(_volume(NEWTONIAN.with_(numerics={"accept": True}), mode))
+    assert np.isfinite(answer(NEWTONIAN.with_(numerics={"accept": True}), mode))
 
 
 def _cells(scene, mode):
@@ -555,6 +555,44 @@ def test_the_boundary_film_is_the_gap_below_which_the_bodies_rub():
     assert lubfric.friction(other).coefficient == pytest.approx(fields.at_twice_film, rel=1e-6)
     with pytest.raises(lubfric.InputError, match="bodies.boundary_film.*30 nm"):
         scene.with_(bodies={"boundary_film": 30.0})
+
+
+@pytest.mark.parametrize("mode", ["steady", "sweep"])
+def test_the_friction_of_the_paper_is_not_the_calibrated_one(mode):
+    """Friction is f_b F_C and the shear of the film in both; "paper" shears the smooth film of Eq. (9), by quadrature."""
+    scene = lubfric.load_scene("paper").with_(motion={"entrainment_speed": 0.03, "speeds": ()})
+    paper = scene.with_(numerics={"model": "paper"})
+    calibrated = scene.with_(numerics={"model": "load-sharing"})
+    assert abs(answer(calibrated, mode) / answer(paper, mode) - 1) > MOVES
+    load = scene.bodies.load
+    for variant in (paper, calibrated):
+        result = lubfric.friction(variant)
+        boundary = scene.bodies.boundary_friction_coefficient * result.contact_load
+        assert answer(variant, mode) * load == pytest.approx(boundary + result.shear_force, rel=1e-6)
+
+
+@pytest.mark.parametrize("mode", ["steady", "sweep", "transient"])
+def test_a_stated_limit_of_f_b_leaves_f_and_narrows_what_is_not_known(mode):
+    """Films of a Newtonian oil are limited to f_b p anyway: the statement changes no f, and takes the unknown limit out
+    of the model-form uncertainty. A limit of half that slope is another oil: less friction."""
+    rough_gap = paper_scene(
+        motion={"entrainment_speed": 0.01, "speeds": ()},
+        contact={"shape": (24, 24), "spacing": 90e-6 / 24},
+        numerics={"model": "deterministic", "grid": "given", "accept": True, "sampling": "patch"},
+    )
+    scene = BASE if mode == "transient" else rough_gap
+    stated = scene.with_(lubricant={"limiting_stress_coefficient": "f_b"})
+    assert answer(stated, mode) == answer(scene, mode)
+    if mode == "transient":
+        return
+    half = scene.bodies.boundary_friction_coefficient / 2
+    other = scene.with_(lubricant={"limiting_stress_coefficient": half, "limiting_stress_offset": 1e3})
+    assert answer(other, mode) < answer(stated, mode) * (1 - MOVES)
+    uncertain, certain = (
+        lubfric.stribeck(s, [0.01]).points[0] if mode == "sweep" else lubfric.friction(s) for s in (scene, stated)
+    )
+    assert certain.uncertainty.fluid == 0 < uncertain.uncertainty.fluid
+    assert certain.uncertainty.model < uncertain.uncertainty.model
 
 
 # --- the list -------------------------------------------------------------------------------------
