@@ -42,6 +42,8 @@ def made_section(section: str, given: dict, old: Any = None) -> Any:
     with naming_slips(section, dict(given)), named(section):
         given = {key: read_value(section, key, value)[0] for key, value in given.items()}
         plain = {key: tuple(v) if isinstance(v, list) else v for key, v in resolve(section, given, old).items()}
+        if old is None and (missing := _missing_fields(section, plain)):
+            raise InputError(f"[{section}] needs {missing}")
         return SECTIONS[section](**plain) if old is None else replace(old, **plain)
 
 
@@ -109,8 +111,17 @@ def _missing(section: str, table: dict) -> str:
         return "" if "file" in given or height and "correlation_length" in given else NEEDED
     try:
         plain = resolve(section, given)
-    except InputError:
+    except InputError:  # values still to be read, such as "6 mm": `made_section` sees what is missing
         return ""
-    needed = [f.name for f in fields(SECTIONS[section]) if f.default is MISSING and f.name not in plain]
+    return _missing_fields(section, plain)
+
+
+def _missing_fields(section: str, plain: dict) -> str:
+    """Return the fields without a default that the ``plain`` values of a ``section`` leave out, in words; "" for none."""
+    needed = [
+        f.name
+        for f in fields(SECTIONS[section])
+        if f.default is MISSING and f.default_factory is MISSING and f.name not in plain
+    ]
     words = packaged(__package__, "other_words.toml")["missing"]
     return "; ".join(f"{name!r} {words.get(f'{section}.{name}', '')}".rstrip() for name in needed)

@@ -187,3 +187,15 @@ def test_every_model_of_the_scene_has_an_estimate_and_a_run_in_time():
         prepared = lubfric.prepare(PAPER.with_(numerics={"model": model}))
         seconds[model] = forecast(prepared.scene, prepared.sample, prepared.surface, 0.03).seconds
     assert seconds["load-sharing"] == seconds["paper"] < seconds["deterministic"]
+
+
+def test_friction_tends_to_that_of_the_boundary_as_the_film_vanishes():
+    """Asperities carry the whole load then, and no part of the friction force changes its sign."""
+    scene = PAPER.with_(numerics={"model": "load-sharing"})
+    slow = lubfric.friction(scene, 1e-5)
+    assert slow.coefficient == pytest.approx(scene.bodies.boundary_friction_coefficient, rel=0.01)
+    assert slow.contact_load == pytest.approx(scene.bodies.load, rel=0.01)
+    results = [lubfric.friction(scene, speed) for speed in (1e-3, 3e-3, 1e-2, 3e-2)]
+    coefficients = [result.coefficient for result in results]
+    assert coefficients == sorted(coefficients, reverse=True)
+    assert all(result.shear_force >= 0 for result in results)

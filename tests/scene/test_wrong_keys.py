@@ -92,3 +92,21 @@ def test_a_slide_roll_ratio_in_percent_is_questioned_and_still_solved():
     assert told and all("warning" in text for text in told) and "3 % = 0.03" in told[0] and "slip_percent" in told[0]
     usual = lubfric.friction(asked.with_(motion={"slide_roll_ratio": 2.0}, numerics={"tolerance": 0.1}), 0.1)
     assert not any("slide" in entry.what for entry in usual.validity)
+
+
+@pytest.mark.parametrize("key", ["width", "load", "boundary_friction_coefficient"])
+def test_a_forgotten_key_beside_values_with_units_is_named(key):
+    bodies = {
+        "radii": ["6 mm", "30 mm"],
+        "width": "14 mm",
+        "load": "2 kN",
+        "material": "100Cr6",
+        "boundary_friction_coefficient": 0.1,
+    }
+    lubricant = {"viscosity": 0.02, "pressure_viscosity_coefficient": 2e-8}
+    surface = {"sq": 1e-7, "correlation_length": 1e-5}
+    tables = {"bodies": bodies, "lubricant": lubricant, "surface": surface, "motion": {"entrainment_speed": 1.0}}
+    tables["contact"] = {"shape": (64, 64), "spacing": 2e-6}
+    del bodies[key]
+    with pytest.raises(lubfric.InputError, match=f"needs '{key}'"):
+        lubfric.load_scene(tables)

@@ -40,6 +40,7 @@ class CalibratedFriction:
     by_heat : relative error of f by what heat does to it (`lubfric.models.shared.error_by_heat`)
     by_limit : how much lower and higher f is with the limiting stress of a Newtonian oil at the ends of what oils have;
         zeros where that does not matter
+    weight : of this f in the answer; below 1 where the lambda ratio is below that of the campaign (`weight_of`)
     cases : number of solved cases behind the bounds; outside : what is outside of their range, in words
     """
 
@@ -50,6 +51,7 @@ class CalibratedFriction:
     by_film: tuple[float, float]
     by_heat: float
     by_limit: tuple[float, float]
+    weight: float
     cases: int
     outside: tuple[str, ...] = ()
 
@@ -97,6 +99,7 @@ def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: 
         by_film=(0.0, 0.0) if scene.bodies.boundary_film is not None else _changes(film),
         by_heat=_by_heat(line),
         by_limit=limit_bounds(scene, film.saturated_film, film.coefficient, (film.at_least_limit, film.at_most_limit)),
+        weight=weight_of(scene, prepared.surface.sq, speed, fit["range"]["lambda"][0]),
         cases=fit["cases"],
         outside=tuple(outside),
     )
@@ -161,6 +164,16 @@ def out_of_range(scene: Scene, sq: float, speed: float, known: Mapping[str, Any]
         elif value > high:
             words[f"{text.format(value)}, above {high:.3g}"] = math.log(value / high)
     return words
+
+
+def weight_of(scene: Scene, sq: float, speed: float, least: float) -> float:
+    """Return the weight of calibrated friction beside Eq. (9), which is right where asperities carry the whole load.
+
+    It is 1 from the ``least`` lambda ratio of the campaign on, falls linearly in its logarithm, and is 0 below half of
+    it.
+    """
+    ratio = scene.line_contact(abs(speed)).moes_film / sq
+    return min(max(1.0 + math.log(ratio / least) / math.log(2.0), 0.0), 1.0)
 
 
 def widening(distances: Iterable[float]) -> float:

@@ -16,6 +16,7 @@ from .calibrated import CalibratedFriction, calibrated_friction
 from .model import LoadSharing, LoadSharingSolution
 
 IN_WORDS = "load sharing, calibrated"
+BOUNDARY = "the lambda ratio is below that of the solved cases behind the calibration: f of Eq. (9), the paper{}"
 ELASTIC = "elastic shear (lubricant.shear_modulus) is not calibrated: friction by Eq. (9)"
 NOT_FLOODED = (
     "f of Eq. (9) with the error of load sharing: the campaign behind the calibration has flooded contacts only"
@@ -74,21 +75,40 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
     scene = prepared.scene
     load = scene.bodies.load
     film = friction.film
+    weight = friction.weight
+    if weight == 0.0:
+        return replace(answer, notes=(*answer.notes, BOUNDARY.format("")))
+    scale = (
+        friction.coefficient / film.coefficient if film.coefficient > 0 else 1.0
+    )  # so that both parts of f keep their sign
     force = friction.coefficient * load
-    thin = min(film.boundary_film, 1.0) * load
+    thin = min(film.boundary_film * scale, 1.0) * load
+    saturated = min(film.saturated_film * scale, 1.0 - thin / load) * load
     boundary = scene.bodies.boundary_friction_coefficient * thin * (scene.motion.slide_roll_ratio != 0)
-    numbers = {
+    calibrated = {
         "coefficient": friction.coefficient,
         "contact_load": thin,
         "film_load": load - thin,
         "boundary_film_load": thin,
-        "saturated_film_load": film.saturated_film * load,
+        "saturated_film_load": saturated,
         "boundary_force": boundary,
         "shear_force": force - boundary,
         "couette_force": force - boundary - answer.numbers["rolling_force"],
         "load_residual": 0.0,
     }
+    by_equation = {name: answer.numbers.get(name, 0.0) for name in calibrated}
+    by_equation |= {"boundary_film_load": by_equation["contact_load"], "saturated_film_load": 0.0}
+    numbers = {name: weight * value + (1 - weight) * by_equation[name] for name, value in calibrated.items()}
+    f = numbers["coefficient"]
+    both = ((friction.coefficient, friction.sides), (by_equation["coefficient"], answer.model_error))
+    below, above = (
+        sum(part * abs(value) * sides[k] for part, (value, sides) in zip((weight, 1 - weight), both, strict=True))
+        / max(abs(f), 1e-12)
+        for k in (0, 1)
+    )
     notes = list(answer.notes)
+    if weight < 1.0:
+        notes.append(BOUNDARY.format(f" with a weight of {1 - weight:.2f}"))
     if friction.outside:
         outside = "; ".join(friction.outside)
         notes.append(f"outside the range of the solved cases behind the model-form error, which is widened: {outside}")
@@ -97,7 +117,7 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
     return replace(
         answer,
         numbers=answer.numbers | numbers,
-        model_error=friction.sides,
+        model_error=(below, above),
         by_limit=max(friction.by_limit),
         largest_in_model=_largest(friction),
         notes=tuple(notes),
