@@ -249,6 +249,6 @@ def _expected_lengths(spectrum, shape, spacing, lengths, level) -> list[float]:
 
 def _found_length(surface, axis, level) -> str:
     try:
-        return f"{correlation_length(surface, axis, level):.4e} m"
+        return worded(correlation_length(surface, axis, level), "m")
     except InputError:
         return "longer than half the map"

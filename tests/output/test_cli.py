@@ -109,12 +109,12 @@ def test_a_refused_point_is_said_kept_and_can_be_accepted(tmp_path, capsys):
     assert main([*command, str(tmp_path / "o")]) == 1
     said = capsys.readouterr().err
     assert said.index("estimate: ") < said.index("not valid") < said.index("[1/1]")
-    assert "Newtonian shear asks" in said and "eyring_stress" in said and "--accept" in said
+    assert "Newtonian shear reaches" in said and "eyring_stress" in said and "--accept" in said
     record = json.loads((tmp_path / "o" / "result.json").read_text())
     assert record["points"][0]["validity"][0]["severe"] in (True, False) and "not valid" in record["points"][0]["error"]
     assert "not valid" in (tmp_path / "o" / "stribeck.csv").read_text()
     assert main([*command, str(tmp_path / "a"), "--accept"]) == 0
-    assert "accepted although" in capsys.readouterr().err
+    assert "accepted outside the range of the model" in capsys.readouterr().err
     accepted = json.loads((tmp_path / "a" / "result.json").read_text())
     assert accepted["points"][0]["coefficient"] > 0 and accepted["scene"]["numerics"]["accept"] is True
     assert any("not valid" in text for text in accepted["validity"])
@@ -137,7 +137,7 @@ def test_the_error_of_the_model_is_a_column_inside_the_interval(tmp_path, capsys
     assert np.all(0 < table["model_error"]) and np.all(table["model_error"] < half)
     said = capsys.readouterr().err
     assert (tmp_path / "sharing.png").is_file()  # what the strips with one gap correct
-    assert f"model {100 * table['model_error'][0]:.2g} %" in said
+    assert f"model-form {100 * table['model_error'][0]:.2g} %" in said
     assert main(["info", "paper", "--speeds", "0.001,0.3"]) == 0
     assert f"estimate: {capsys.readouterr().out.partition('cost: ')[2].splitlines()[0]}\n" in said
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 import tempfile
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -15,7 +16,6 @@ from pictures import stand_in
 from scene_text import BODIES_AND_OIL, paper_scene
 
 import lubfric
-from lubfric.models.shared import effect_in_words
 from lubfric.output import main
 
 SCENE = BODIES_AND_OIL + "[motion]\nentrainment_speed = 0.01\nspeeds = [0.01, 0.3]\n"
@@ -59,10 +59,15 @@ def test_the_report_stands_alone_and_holds_the_numbers(run):
     images = [attrs["src"] for tag, attrs in page.seen if tag == "img"]
     assert len(images) == 3 and all(src.startswith("data:image/png;base64,iVBOR") for src in images)
     text = " ".join(page.text)
-    f = lubfric.stribeck(lubfric.load_scene(run.parent / "s.toml"), fields=[0.01]).coefficient
-    for words in (*(f"{value:.4g}" for value in f), "a < b & c", "360\xa0mPa\xa0s", "231\xa0GPa", lubfric.__version__):
+    curve = lubfric.stribeck(lubfric.load_scene(run.parent / "s.toml"), fields=[0.01])
+    rows = text.partition("Operating points")[2].partition("F_C/F_T")[2]
+    for speed, f, point in zip(curve.speed, curve.coefficient, curve.points):
+        shown = re.search(rf" {speed:.4g}\s+(\S+)\s", rows)[1]
+        low, high = point.uncertainty.interval  # f has as many digits as its error leaves, three if that is not known
+        assert abs(float(shown) - f) <= (0.005 * f if np.isnan(high) else 0.05 * (high - low)), (speed, shown, f)
+    for words in ("a < b & c", "360 mPa s", "231 GPa", lubfric.__version__):
         assert words in text, words
-    assert "(95 %)" in text and "Errors of f" in text
+    assert "at 95 %" in text and "Uncertainty budget" in text
 
 
 def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undrawn):
@@ -76,11 +81,15 @@ def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undr
         page = Balanced()
         page.feed((out / "report.html").read_text(encoding="utf-8"))
         text = " ".join(page.text)
-        assert all(effect_in_words(lack) in text for lack in curve.points[0].unmodelled_effects)
-        assert "How it was solved" in text and f"for {len(speeds)} speeds" in text
-        assert ("touch at all of them" in text) == (len(speeds) == 3)
+        effects = re.sub(r"\s+", " ", text.partition("Effects not modelled")[2].partition("Inputs")[0]).lower()
+        assert curve.points[0].unmodelled_effects
+        for what, change, advice in curve.points[0].unmodelled_effects:
+            assert f"{what}. {100 * change:+.2g} % {advice}".lower() in effects
+        assert "Method and sources" in text and f"for {len(speeds)} speeds" in text
+        assert ("lift-off speed is above the speeds solved" in text) == (len(speeds) == 3)
         assert (out / "law.json").exists() == (out / "law.c").exists() == (len(speeds) > 2)
-        if "None was fitted: 2 speeds are solved" in text and len(speeds) == 2:
+        if len(speeds) == 2:
+            assert "No formula was fitted: 2 speeds are solved" in text
             continue
         law = json.loads((out / "law.json").read_text())
         assert f"at most {100 * law['largest']:.2g} %" in text
@@ -90,8 +99,12 @@ def test_the_page_tells_lift_off_the_formula_and_what_is_left_out(tmp_path, undr
                 names[name] = eval(expression, {}, names)
             assert abs(names["f"] / f - 1) <= law["largest"] * 1.001 < 0.05
         assert f"f = {names['f']:.4g} at U = {speeds[-1]:.4g} m/s" in text
-        told = "U = {:.4g} m/s, {:.4g} to {:.4g} m/s".format(curve.lift_off or 0, *curve.lift_off_range)
-        assert (told in text) == (curve.lift_off is not None) == (len(speeds) == 9)
+        shown = re.search(r"separates the surfaces, is (\S+) \((\S+) to (\S+)\) m/s", text)
+        assert (shown is not None) == (curve.lift_off is not None) == (len(speeds) == 9)
+        if shown:
+            low, high = curve.lift_off_range
+            values = [float(value) for value in shown.groups()]
+            np.testing.assert_allclose(values, [curve.lift_off, low, high], rtol=0, atol=0.05 * (high - low))
 
 
 def test_the_file_for_paraview_is_read_back_by_another_reader(run):
@@ -178,7 +191,7 @@ def test_a_picture_that_fails_costs_nothing_else(tmp_path, monkeypatch, capsys, 
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 0
     (tmp_path / "s.toml").write_text(SCENE.replace("0.36", "0.3"))
 
-    def broken(*_):
+    def broken(*_, **__):
         raise ZeroDivisionError("no picture")
 
     monkeypatch.setattr("lubfric.output.run_curve.plot_stribeck", broken)
@@ -197,7 +210,7 @@ def test_a_page_that_cannot_be_made_leaves_the_earlier_run(tmp_path, monkeypatch
     assert main(["run", str(tmp_path / "s.toml"), "--out", str(out)]) == 0
     before = {path.name: path.read_bytes() for path in out.iterdir()}
 
-    def broken(*_):
+    def broken(*_, **__):
         raise ZeroDivisionError("no page")
 
     monkeypatch.setattr("lubfric.output.commands.report_page", broken)

@@ -163,7 +163,7 @@ def of_shear(scene, shear, film_load: float, friction_force: float) -> Iterator[
             share,
             SHARE if severe else tolerance,
             "",
-            f"{law} asks up to {shear.stress_ratio:.2g} times 5 MPa + 0.12 p of the film, and gives it a friction "
+            f"{law} reaches {shear.stress_ratio:.2g} times the 5 MPa + 0.12 p that an oil carries, and gives the film a friction "
             f"coefficient of {friction:.2g}",
             remedy,
             severe,

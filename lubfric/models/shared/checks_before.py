@@ -23,6 +23,7 @@ STEEP = 0.5
 STEEPEST = 1.5
 NOISE = 0.8  # cells in a correlation length (white noise: 0.63)
 FILTERED = "lines in the right order, or surface.s_filter"
+CHECK = "check the value and its unit"
 FEW = 10  # correlation lengths that a patch should be wide
 YIELDED = 4.5e9  # Pa, peak Hertz pressure that hard steel does not carry elastically
 
@@ -30,7 +31,7 @@ YIELDED = 4.5e9  # Pa, peak Hertz pressure that hard steel does not carry elasti
 def beforehand(scene, surface) -> tuple[Validity, ...]:
     """Entries for values far from the usual, for the bodies and for the map."""
     unusual = [
-        Validity(name, value, limit, unit, "unusual", meant or "check the value and its unit")
+        Validity(name, value, limit, unit, "the value is unusual", "; ".join(filter(None, (CHECK, meant))))
         for name, value, limit, unit, meant in unusual_values(scene)
     ]
     cells = [_cells_of_length(surface, axis) for axis in (0, 1)]
