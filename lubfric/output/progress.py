@@ -15,11 +15,11 @@ from ..studies import in_words
 REFRESH = 1.0  # s between two drawings of the line
 CLEAR = "\r\033[K"  # to the begin of the line, and nothing on it
 
-_active: Progress | None = None
+_active: ProgressLine | None = None
 
 
-class Progress:
-    """Use as ``with Progress("points") as progress: progress.update(done, total)``.
+class ProgressLine:
+    """Use as ``with ProgressLine("points") as progress: progress.update(done, total)``.
 
     The line is a bar of tqdm where that is installed (``pip install 'lubfric[progress]'``), else plain text.
     """
@@ -35,7 +35,7 @@ class Progress:
         self._lock = threading.RLock()
         self._thread: threading.Thread | None = None
 
-    def __enter__(self) -> Progress:
+    def __enter__(self) -> ProgressLine:
         global _active
         if sys.stderr is not None and sys.stderr.isatty():
             with suppress(ImportError):

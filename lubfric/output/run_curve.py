@@ -29,7 +29,7 @@ from .commands import RunFolder, check_outputs, made, read_record, run_begun, sa
 from .describe import SceneEstimate
 from .fields import fields_bytes, vtk_bytes
 from .pictures import PANELS, PictureOptions, plot_compared, plot_contact, plot_history, plot_stribeck, plot_traction
-from .progress import Progress
+from .progress import ProgressLine
 
 SCALES = ("linear", "log")  # of an axis
 NARROWEST = 0.05  # m: width of a picture
@@ -71,7 +71,11 @@ def run_sweep(scene: Scene, arguments) -> None:
     else:
         workers = _default_workers(scene, speeds)
     speeds_apart = speeds != studies.AUTO and len(speeds) >= max(2, workers)  # else the parts of each point are
-    with Progress("speeds") as shown, studies.pool(workers) as executor, parts_on(None if speeds_apart else executor):
+    with (
+        ProgressLine("speeds") as shown,
+        studies.pool(workers) as executor,
+        parts_on(None if speeds_apart else executor),
+    ):
         begun = run_begun(scene, arguments, names, kept, speeds, chosen, speeds=speeds)
         with begun as (folder, prepared, estimate), progress_to(_moments_told()):
             options = {"fields": chosen, "store": folder.unfinished, "on_point": on_point, "raise_on_failure": False}
@@ -97,7 +101,7 @@ def run_traction(scene: Scene, arguments) -> None:
     names = ["traction.csv", "traction.png"]
     begun = run_begun(scene, arguments, names, None, ratios, "traction", ratios=ratios)
     progress = _progress("slide-roll ratio {:<9.4g}")
-    with Progress("ratios") as shown, begun as (folder, prepared, estimate):
+    with ProgressLine("ratios") as shown, begun as (folder, prepared, estimate):
 
         def on_point(*point):
             shown.update(point[0], point[1])

@@ -9,7 +9,7 @@ from ..time import TransientResult, transient
 from . import commands
 from .fields import npz_bytes
 from .pictures import animate, plot_history
-from .progress import Progress
+from .progress import ProgressLine
 
 
 def run_history(scene: Scene, arguments) -> None:
@@ -40,7 +40,7 @@ def run_history(scene: Scene, arguments) -> None:
         return f"the state at t = {reached:.5g} s is kept in {arguments.out}"
 
     begun = commands.run_begun(scene, arguments, names, kept)
-    with Progress("s") as shown, begun as (folder, prepared, estimate):
+    with ProgressLine("s") as shown, begun as (folder, prepared, estimate):
         if folder.unfinished.is_dir():
             commands.say(f"the run continues from {folder.unfinished}")
         try:

@@ -16,7 +16,7 @@ from ..quantities import KEYS, axis_label, counted
 from ..units import numbers_of
 from .command_line import scene_of
 from .commands import answer, check_outputs, keeping, made, paced, run_folder, say
-from .progress import Progress
+from .progress import ProgressLine
 from .study_report import answer_lines, study_page
 
 
@@ -37,7 +37,7 @@ def run_study(arguments) -> None:
     say(plan.explain(arguments.out))
     begun = time.perf_counter()
     workers_of = studies.pool(workers) if arguments.cluster is None else studies.cluster(arguments.cluster)
-    with Progress("points") as shown, keeping(lambda: _kept(arguments.out)), workers_of as executor:
+    with ProgressLine("points") as shown, keeping(lambda: _kept(arguments.out)), workers_of as executor:
         result = studies.study(plan, executor=executor, store=arguments.out, on_progress=_progress(begun, shown))
     writers = {"csv": result.to_csv, "nc": result.to_netcdf, "parquet": result.to_parquet}
     with run_folder(arguments.out, begun) as folder:
@@ -119,7 +119,7 @@ def _kept(folder: Path) -> str:
     return f"{study.solved} points are kept in {folder}, {left}"
 
 
-def _progress(begun: float, shown: Progress) -> Callable[[int, int], None]:
+def _progress(begun: float, shown: ProgressLine) -> Callable[[int, int], None]:
     """Return what reports how many points are solved: on ``shown``, and once in a while in a line."""
     due = paced()
     first = -1

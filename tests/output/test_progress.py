@@ -11,7 +11,7 @@ from scene_text import BODIES_AND_OIL, SMALL_PATCH
 from lubfric.output import main
 from lubfric.output import progress as module
 from lubfric.output.commands import say
-from lubfric.output.progress import CLEAR, Progress
+from lubfric.output.progress import CLEAR, ProgressLine
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -31,7 +31,7 @@ def test_the_time_left_is_that_of_the_points_left(monkeypatch):
     """Points that the store held took no time: 2 of 10 at the begin, 4 more in 8 s, so that 4 take about 8 s."""
     now = [100.0]
     monkeypatch.setattr(module.time, "monotonic", lambda: now[0])
-    shown = Progress("points")
+    shown = ProgressLine("points")
     shown.update(3, 10)  # the first point that was solved is reported when it ends
     now[0] += 8.0
     shown.update(6, 10)
@@ -43,7 +43,7 @@ def test_the_time_left_is_that_of_the_points_left(monkeypatch):
 def test_a_terminal_sees_a_line_that_other_lines_replace(monkeypatch, quick):
     stream = Terminal()
     monkeypatch.setattr(sys, "stderr", stream)
-    with Progress("points") as shown:
+    with ProgressLine("points") as shown:
         shown.update(1, 4)
         time.sleep(0.1)
         say("a finished line")
@@ -71,7 +71,7 @@ def test_a_bar_of_tqdm_takes_its_place_where_it_is_installed(monkeypatch):
     monkeypatch.setattr(module, "REFRESH", 0.02)
     stream = Terminal()
     monkeypatch.setattr(sys, "stderr", stream)
-    with Progress("points") as shown:
+    with ProgressLine("points") as shown:
         shown.update(1, 4)
         time.sleep(0.1)
         say("a finished line")
