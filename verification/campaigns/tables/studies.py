@@ -146,7 +146,7 @@ def authors(source: Source) -> str:
 
 
 TABLES: dict[str, Callable[[], Cells]] = {
-    "paper": load_sharing,
+    "load-sharing": load_sharing,
     "publications": publications,
     **{f"published-{part.name}": partial(rows_beside, part.name) for part in PUBLISHED},
     "published-sources": sources_of,
