@@ -574,7 +574,7 @@ def test_the_friction_of_the_paper_is_not_the_calibrated_one(mode):
 @pytest.mark.parametrize("mode", ["steady", "sweep", "transient"])
 def test_a_stated_limit_of_f_b_leaves_f_and_narrows_what_is_not_known(mode):
     """Films of a Newtonian oil are limited to f_b p anyway: the statement changes no f, and takes the unknown limit out
-    of the model-form uncertainty. A limit of half that slope is another oil: less friction."""
+    of the model-form uncertainty."""
     rough_gap = paper_scene(
         motion={"entrainment_speed": 0.01, "speeds": ()},
         contact={"shape": (24, 24), "spacing": 90e-6 / 24},
@@ -585,9 +585,6 @@ def test_a_stated_limit_of_f_b_leaves_f_and_narrows_what_is_not_known(mode):
     assert answer(stated, mode) == answer(scene, mode)
     if mode == "transient":
         return
-    half = scene.bodies.boundary_friction_coefficient / 2
-    other = scene.with_(lubricant={"limiting_stress_coefficient": half, "limiting_stress_offset": 1e3})
-    assert answer(other, mode) < answer(stated, mode) * (1 - MOVES)
     uncertain, certain = (
         lubfric.stribeck(s, [0.01]).points[0] if mode == "sweep" else lubfric.friction(s) for s in (scene, stated)
     )

@@ -226,7 +226,8 @@ def test_a_roller_bearing_in_the_words_of_its_drawing(tmp_path):
     assert math.hypot(scene.surface.sq, scene.counterface.sq) == pytest.approx(math.sqrt(0.05 * math.pi / 2) * 1e-6)
     curve = lubfric.stribeck(scene, [3.0])
     low, high = curve.uncertainty.interval[0]
-    assert 0.015 < low < 0.03 < 0.042 < curve.coefficient[0] < 0.052 < 0.08 < high < 0.1  # load sharing alone: wide
+    # the roughness moves, and eyring_stress by its word is known to a factor: wide
+    assert 0.008 < low < 0.02 < 0.033 < curve.coefficient[0] < 0.042 < 0.055 < high < 0.1
     assert curve.report.converged and abs(low - curve.coefficient[0]) < abs(high - curve.coefficient[0])
     assert 100 < curve.in_unit("central_film", "nm")[0] < 400
     assert curve.plot().lines
