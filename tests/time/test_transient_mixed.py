@@ -248,7 +248,7 @@ def test_the_command_writes_history_figure_and_animation(tmp_path, capsys, monke
     assert main(["plot", str(tmp_path / "out")]) == 0 and (tmp_path / "out" / "history.png").is_file()
     drawn = (tmp_path / "out" / "history.png").read_bytes()
 
-    def full_disk(path, *_):
+    def full_disk(path, *_, **_options):
         Path(path).write_bytes(b"half")
         raise OSError(28, "No space left on device")
 
