@@ -35,7 +35,8 @@ class CalibratedFriction:
     """f by calibrated load sharing, and its error.
 
     coefficient : f, with the bias taken away; film : the rough film behind it
-    bounds : 95 % bounds of f by the model, relative, below and above; bias : that was taken away, of ln f
+    bounds : 95 % bounds of f by the model, relative, below and above; least_bounds : those that a contact in the range of the campaign
+        would have; bias : that was taken away, of ln f
     by_film : relative change of f by half and by twice the boundary film
     by_heat : relative error of f by what heat does to it (`lubfric.models.shared.error_by_heat`)
     by_limit : how much lower and higher f is with the limiting stress of a Newtonian oil at the ends of what oils have;
@@ -47,6 +48,7 @@ class CalibratedFriction:
     coefficient: float
     film: RoughFilm
     bounds: tuple[float, float]
+    least_bounds: tuple[float, float]
     bias: float
     by_film: tuple[float, float]
     by_heat: float
@@ -88,13 +90,15 @@ def calibrated_friction(prepared: Prepared, sample: Sample, speed: float, line: 
     bias = fit["bias"]
     f = film.coefficient * of_line * math.exp(bias) * (1 - heat)
     outside = out_of_range(scene, prepared.surface.sq, speed, fit["range"])
-    width = half_width(x, fit) * widening(outside.values())
+    in_range = half_width(x, fit)
+    width = in_range * widening(outside.values())
     flanks = _by_flanks(scene, film, prepared.surface.sq, speed)
     bounds = (math.hypot(-math.expm1(-width), flanks), math.hypot(math.expm1(width), flanks))
     return CalibratedFriction(
         coefficient=f,
         film=film,
         bounds=bounds,
+        least_bounds=(-math.expm1(-in_range), math.expm1(in_range)),
         bias=bias,
         by_film=(0.0, 0.0) if scene.bodies.boundary_film is not None else _changes(film),
         by_heat=_by_heat(line),

@@ -106,6 +106,13 @@ def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: Calibra
         / max(abs(f), 1e-12)
         for k in (0, 1)
     )
+    if (
+        friction.outside and f > 0
+    ):  # the bounds of Eq. (9) hold there too: the narrower of both, but not below those inside
+        lowest = by_equation["coefficient"] * (1 - answer.model_error[0])
+        highest = by_equation["coefficient"] * (1 + answer.model_error[1])
+        below = min(below, max(1 - lowest / f, friction.least_bounds[0]))
+        above = min(above, max(highest / f - 1, friction.least_bounds[1]))
     notes = list(answer.notes)
     if weight < 1.0:
         notes.append(BOUNDARY.format(f" with a weight of {1 - weight:.2f}"))
