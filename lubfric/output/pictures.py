@@ -265,7 +265,7 @@ def _two_pressures(prepared, point, fields):
     figure = figures.new_figure(figsize=(5.5 * sum(ratios), 5.0))
     axes = list(figure.subplots(1, sum(panels), squeeze=False, width_ratios=ratios).flat)
     both = worded(point.balance.contact_load, "N"), worded(point.balance.film_load, "N")
-    loads = "U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
+    loads = "load-sharing model, Eq. (8): U = {:g} m/s, $F_C$ = {}, $F_H$ = {}".format(point.speed, *both)
     if touching:
         pressure, unit = figures.in_unit_for(fields.pressure[:, part], "Pa")
         label = f"contact pressure ({unit})"

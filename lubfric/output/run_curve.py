@@ -114,6 +114,8 @@ def run_traction(scene: Scene, arguments) -> None:
 
 def _on_fine_cells(prepared: Prepared, point: FrictionResult) -> FrictionResult:
     """Return ``point`` with fields on cells fine enough to look at, for which a part of the surface is solved again."""
+    if moves(prepared.scene) and point.deterministic is not None:
+        return point  # moving roughness is not solved on finer cells: the fields are those of its own cells
     try:
         again = friction(prepared, point.speed, fields="fine", raise_on_failure=False)
     except LubfricError as error:
