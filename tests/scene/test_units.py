@@ -215,6 +215,7 @@ START = (Path(__file__).parents[2] / "docs" / "start.md").read_text(encoding="ut
 BEARING = next(block for block in START.split("```") if "anti-wear" in block).removeprefix("toml\n")
 
 
+@pytest.mark.slow
 def test_a_roller_bearing_in_the_words_of_its_drawing(tmp_path):
     """A roller of 12 mm on a ring of 60 mm, as docs/start.md has it: in 15 lines to an answer, interval and picture."""
     (tmp_path / "bearing.toml").write_text(BEARING, encoding="utf-8")
