@@ -37,9 +37,9 @@ PERIODS = (2.0, 1.0)  # of the roughness along and across, in half-widths
 WAVES = 2  # harmonics each way
 SEED = 3
 PACE = 0.75  # speed of the roughness over that of the film: surface 1 at a slide-roll ratio of 0.5
-GRIDS = {"quick": ((64, 8), (64, 8)), "default": ((64, 8), (96, 12)), "full": ((96, 12), (144, 16))}
+GRIDS = {"quick": ((64, 8), (96, 12)), "default": ((64, 8), (96, 12)), "full": ((96, 12), (144, 16))}
 # cells of lubfric in a half-width: at rest (a fraction of a second), and moving
-CELLS = {"quick": (24, 48), "default": (32, 64), "full": (48, 96)}
+CELLS = {"quick": (32, 64), "default": (32, 64), "full": (48, 96)}
 MOVING_CELLS = {"default": (24, 36), "full": (32, 48)}
 SWEEP = 3.0  # half-widths that the film travels before a moving surface counts
 MOMENTS = 8  # of a period that are compared
