@@ -59,9 +59,8 @@ def friction(
     scene : from `lubfric.load_scene`, or from `lubfric.prepare` for many speeds
     speed : entrainment speed U [m/s]; None: the scene's own
     tolerance : relative, on f; None: ``numerics.tolerance``. Nothing is modelled that it does not need (docs/levels.md)
-    model : "load-sharing", "paper", "deterministic", or "auto": the cheapest that is good enough; None: the
-        scene's. Or a
-        `lubfric.models.Model` of your own
+    model : "load-sharing", with a calibrated error; "paper", Eqs. (8) and (9); "deterministic"; or "auto": the cheapest
+        that is good enough; None: the scene's. Or a `lubfric.models.Model` of your own
     fields : True: a single patch is solved on its own cells, so that ``result.fields`` are on them (on strips: on theirs);
         "fine": a part of the surface is solved once more, on some 40 cells across the Hertz strip, for ``result.fields``
     raise_on_failure : False: return a result even if unbalanced or refused. A failed film or contact still raises

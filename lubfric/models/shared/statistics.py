@@ -64,6 +64,7 @@ def block_error(values: np.ndarray, step: float, correlation_length: float, exac
 
 
 def means_of_blocks(values: np.ndarray, count: int) -> np.ndarray:
+    """Return the means of ``values`` over ``count`` blocks of equal length; a remainder at the end is left out."""
     size = values.size // count
     return values[: size * count].reshape(count, size).mean(axis=1)
 
