@@ -8,7 +8,7 @@ import pytest
 
 import lubfric
 from lubfric.errors import CONVERGED, Report
-from lubfric.models import Deterministic, LoadSharing, Model, ModelAnswer, SampleSolution
+from lubfric.models import DeterministicModel, Model, ModelAnswer, PaperModel, SampleSolution
 from lubfric.models.shared import BlockError, Decision
 from lubfric.samples import Sample
 
@@ -67,7 +67,7 @@ class TestSample:
 
 
 class TestModel:
-    @pytest.mark.parametrize("model", [LoadSharing(), Deterministic()], ids=lambda model: model.name)
+    @pytest.mark.parametrize("model", [PaperModel(), DeterministicModel()], ids=lambda model: model.name)
     def test_a_solution_says_all_that_the_estimate_asks(self, model):
         prepared = lubfric.prepare(PAPER)
         count = model.first_strips(prepared.sample)
@@ -84,8 +84,8 @@ class TestModel:
 
     def test_neither_model_has_an_answer_without_its_needs(self):
         flat = lubfric.prepare(lubfric.load_scene("flat"))
-        assert LoadSharing().unable(flat, 0.0) == "" and Deterministic().unable(flat, 0.03)
-        assert Deterministic().unable(lubfric.prepare(PAPER), 0.0)
+        assert PaperModel().unable(flat, 0.0) == "" and DeterministicModel().unable(flat, 0.03)
+        assert DeterministicModel().unable(lubfric.prepare(PAPER), 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,8 +11,8 @@ from .._base import limited_work, releasing_memory, unlimited_work, validate, wi
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
 from ..errors import ConvergenceError, InputError
-from ..models import Deterministic, LoadSharing, Model
-from ..models.load_sharing import Calibrated, CalibratedSolution, LoadSharingSolution, least_half_width
+from ..models import DeterministicModel, Model, PaperModel
+from ..models.load_sharing import LoadSharingModel, LoadSharingSolution, PaperSolution, least_half_width
 from ..models.shared import Prepared, at_speed, at_tolerance, refused, unmodelled_effects
 from ..scene import BY_LOAD_SHARING, FASTEST, Scene, gap_not_resolved, warn_unusual_values
 from .answer import result_of
@@ -23,8 +23,8 @@ from .power import with_power_loss
 from .result import FrictionResult
 from .sampled import sampled
 
-CALIBRATED = Calibrated()
-MODELS = (LoadSharing(), Deterministic())  # the cheapest first
+LOAD_SHARING = LoadSharingModel()
+MODELS = (PaperModel(), DeterministicModel())  # the cheapest first
 
 # Times the estimate of a point: the counted work that it may take where numerics.max_work does not say.
 TIMES_ESTIMATE = 10.0
@@ -125,13 +125,13 @@ def _solved(
     unable = deterministic.unable(prepared, speed)
     is_calibrated = not unable and not gap_not_resolved(scene, prepared.given)
     if requested in BY_LOAD_SHARING or unable:
-        cheap = CALIBRATED if requested == CALIBRATED.name and is_calibrated else paper
+        cheap = LOAD_SHARING if requested == LOAD_SHARING.name and is_calibrated else paper
         answer = sampled(prepared, speed, cheap, native=native).answer()
         return result_of(prepared, answer, cheap.name, begun, fine=fine)
     if requested == deterministic.name and prepared.sample.is_single_patch:  # a cheaper model has no control for it
         answer = sampled(prepared, speed, deterministic).answer()
         return result_of(prepared, answer, deterministic.name, begun, fine=fine)
-    cheaper = cast(LoadSharingSolution, sampled(prepared, speed, paper, native=native))
+    cheaper = cast(PaperSolution, sampled(prepared, speed, paper, native=native))
     if requested == "auto":
         why = cheaper.sufficient()
         if why or any(entry.severe for entry in cheaper.warnings()):
@@ -139,10 +139,10 @@ def _solved(
         if why := deterministic.declines(prepared, speed, cheaper):
             return _by_load_sharing(prepared, cheaper, is_calibrated, begun, fine=fine, why=why)
         if scene.numerics.model_tolerance >= least_half_width():
-            calibrated = CalibratedSolution(cheaper.balanced)
+            calibrated = LoadSharingSolution(cheaper.balanced)
             if calibrated.applies and calibrated.friction.error <= scene.numerics.model_tolerance:
                 why = "its error is within numerics.model_tolerance"
-                return result_of(prepared, calibrated.answer(), CALIBRATED.name, begun, fine=fine, why=why)
+                return result_of(prepared, calibrated.answer(), LOAD_SHARING.name, begun, fine=fine, why=why)
     try:
         answer = sampled(prepared, speed, deterministic, control=cheaper.control()).answer()
     except ConvergenceError as error:
@@ -156,13 +156,13 @@ def _solved(
 
 
 def _by_load_sharing(
-    prepared: Prepared, solution: LoadSharingSolution, is_calibrated: bool, begun: float, *, fine: bool, why: str
+    prepared: Prepared, solution: PaperSolution, is_calibrated: bool, begun: float, *, fine: bool, why: str
 ) -> FrictionResult:
     """Return the result of load sharing in the place of the deterministic model, for the reason ``why``."""
     if is_calibrated:
-        answer = CalibratedSolution(solution.balanced).answer()
-        return result_of(prepared, answer, CALIBRATED.name, begun, fine=fine, why=why)
-    return result_of(prepared, solution.answer(), LoadSharing().name, begun, fine=fine, why=why)
+        answer = LoadSharingSolution(solution.balanced).answer()
+        return result_of(prepared, answer, LOAD_SHARING.name, begun, fine=fine, why=why)
+    return result_of(prepared, solution.answer(), PaperModel().name, begun, fine=fine, why=why)
 
 
 def most_work(prepared: Prepared, speed: float) -> float:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from ..models import LoadSharing, Model, SampleSolution
+from ..models import Model, PaperModel, SampleSolution
 from ..models.shared import ControlVariate, Prepared
 from ..samples import Sample
 
-LOAD_SHARING = LoadSharing()
+PAPER = PaperModel()
 
 
 def sampled(
     prepared: Prepared,
     speed: float,
-    model: Model = LOAD_SHARING,
+    model: Model = PAPER,
     *,
     native: bool = False,
     control: ControlVariate | None = None,

@@ -9,7 +9,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.estimate import forecast, sampled
-from lubfric.models import Deterministic
+from lubfric.models import DeterministicModel
 from lubfric.output.describe import describe_scene
 from verification.campaigns.hostile.soak_force import friction_force
 
@@ -185,7 +185,7 @@ def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(samp
     for speed in speeds:
         one = forecast(prepared.scene, prepared.sample, prepared.surface, speed)
         control = sampled(prepared, speed).control()
-        levels = sampled(prepared, speed, Deterministic(), control=control).levels
+        levels = sampled(prepared, speed, DeterministicModel(), control=control).levels
         solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]
         counted += sum(strip.work for strip in [*solved, *(strip for piece in levels.pieces for strip in piece)])
         told += one.seconds

@@ -2,7 +2,7 @@
 
 from .heat import LEAST_FILM, MOST_CHANGE, strip_heat, too_hot, warmed
 from .levels import DIFFERENCE, mean
-from .model import Deterministic, DeterministicSolution
+from .model import DeterministicModel, DeterministicSolution
 from .moving import Moment, RoughBody, moments, travelling
 from .moving_strip import (
     ECONOMICAL,

@@ -49,7 +49,7 @@ class DeterministicSolution(SampleSolution):
         return answer_of(self.prepared, self.speed, self.levels)
 
 
-class Deterministic(Model):
+class DeterministicModel(Model):
     """The film between rough surfaces in its own gap (docs/deterministic.md)."""
 
     @property

@@ -8,13 +8,13 @@ assumptions of the model that a balance violates.
 from .balance import Balance, solve_balance
 from .balanced_sample import BalancedSample
 from .calibrated import CalibratedFriction, calibrated_friction, least_half_width
-from .calibrated_model import Calibrated, CalibratedSolution
 from .control_variate import control_for
 from .decision import decided
 from .forces import Forces, forces
 from .limits import limits_exceeded
-from .model import LoadSharing, LoadSharingSolution
+from .load_sharing_model import LoadSharingModel, LoadSharingSolution
 from .model_error import load_sharing_error
+from .paper_model import PaperModel, PaperSolution
 from .point import Point
 from .response import Response, Slopes, loads_at, quantities, touched_length, with_contact_area_scaled
 from .rough_film import RoughFilm, RoughMap, rough_film

@@ -1,4 +1,4 @@
-"""Load sharing, calibrated, as a `lubfric.models.Model`: the balance of the paper, with f and the error of `calibrated`.
+"""The calibrated load-sharing model as a `lubfric.models.Model`: the balance of the paper, with f and error of `calibrated`.
 
 It answers for ``numerics.model = "load-sharing"``; "paper" keeps the friction of the paper, Eq. (9) on a smooth film.
 """
@@ -13,7 +13,7 @@ from ..contract import Model, ModelAnswer, SampleSolution
 from ..shared import ControlVariate, Prepared, limit_in_words, percent
 from .answer import answer_of
 from .calibrated import CalibratedFriction, calibrated_friction
-from .model import LoadSharing, LoadSharingSolution
+from .paper_model import PaperModel, PaperSolution
 
 IN_WORDS = "load sharing, calibrated"
 BOUNDARY = "the lambda ratio is below that of the solved cases behind the calibration: f of Eq. (9), the paper{}"
@@ -24,7 +24,7 @@ NOT_FLOODED = (
 
 
 @dataclass(frozen=True)
-class CalibratedSolution(LoadSharingSolution):
+class LoadSharingSolution(PaperSolution):
     """The strips by load sharing; f of their `RoughFilm`, with the error that the campaign gives it."""
 
     @property
@@ -38,8 +38,8 @@ class CalibratedSolution(LoadSharingSolution):
         """Return f and its error."""
         return calibrated_friction(self.prepared, self.sample, self.speed, self.balanced.balance)
 
-    def corrected(self) -> CalibratedSolution:
-        return CalibratedSolution(self.balanced.corrected())
+    def corrected(self) -> LoadSharingSolution:
+        return LoadSharingSolution(self.balanced.corrected())
 
     def answer(self) -> ModelAnswer:
         if not self.applies:
@@ -49,7 +49,7 @@ class CalibratedSolution(LoadSharingSolution):
         return calibrated_answer(self.prepared, answer_of(self.balanced), self.friction)
 
 
-class Calibrated(Model):
+class LoadSharingModel(Model):
     """Load sharing by Eq. (8), with the roughness that the film flattens, its shear summed over cells, and a calibrated
     error."""
 
@@ -66,8 +66,8 @@ class Calibrated(Model):
         *,
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
-    ) -> CalibratedSolution:
-        return CalibratedSolution(LoadSharing().solve(prepared, sample, count, speed, start=start).balanced)
+    ) -> LoadSharingSolution:
+        return LoadSharingSolution(PaperModel().solve(prepared, sample, count, speed, start=start).balanced)
 
 
 def calibrated_answer(prepared: Prepared, answer: ModelAnswer, friction: CalibratedFriction) -> ModelAnswer:

@@ -1,4 +1,4 @@
-"""The load-sharing model as a `lubfric.models.Model`: film and contact of a line of strips share one load."""
+"""The model of the paper as a `lubfric.models.Model`: film and contact of a line of strips share one load."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .errors_of import model_error
 
 
 @dataclass(frozen=True)
-class LoadSharingSolution(SampleSolution):
+class PaperSolution(SampleSolution):
     """The first strips joined to one line, with one film and one approach: a `BalancedSample`."""
 
     balanced: BalancedSample
@@ -52,8 +52,8 @@ class LoadSharingSolution(SampleSolution):
     def takes_more_strips_first(self) -> bool:
         return self.balanced.takes_more_strips_first()
 
-    def corrected(self) -> LoadSharingSolution:
-        return LoadSharingSolution(self.balanced.corrected())
+    def corrected(self) -> PaperSolution:
+        return PaperSolution(self.balanced.corrected())
 
     def control(self) -> ControlVariate | None:
         return control_for(self.balanced)
@@ -74,7 +74,7 @@ class LoadSharingSolution(SampleSolution):
         return answer_of(self.balanced)
 
 
-class LoadSharing(Model):
+class PaperModel(Model):
     """The paper: film and asperity contacts share the load, Eq. (8); friction by Eq. (9) (Akchurin et al. 2015,
     doi:10.1007/s11249-015-0536-z)."""
 
@@ -91,6 +91,6 @@ class LoadSharing(Model):
         *,
         start: SampleSolution | None = None,
         control: ControlVariate | None = None,
-    ) -> LoadSharingSolution:
-        begin = start.balanced if isinstance(start, LoadSharingSolution) else None
-        return LoadSharingSolution(solve_sample(prepared, sample, count, speed, begin))
+    ) -> PaperSolution:
+        begin = start.balanced if isinstance(start, PaperSolution) else None
+        return PaperSolution(solve_sample(prepared, sample, count, speed, begin))
