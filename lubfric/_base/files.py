@@ -1,5 +1,5 @@
-"""Files that appear whole or not at all, files that tell when they were damaged, one writer a folder, and what in a
-folder is ours: only that is ever replaced or removed."""
+"""Files that appear whole or not at all, files that show when they were damaged, one writer a folder, and the files of
+a folder that lubfric wrote: only these are ever replaced or removed."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import os
 import stat
 import uuid
 import weakref
+from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from fnmatch import fnmatch
 from pathlib import Path
@@ -23,15 +24,21 @@ except ImportError:  # Windows has no fcntl: there the locking of msvcrt serves
 
     fcntl = None  # type: ignore[assignment]
 
-MARK = b"lubfric 1 "  # of a checked file, before the SHA-256 of the rest and a line feed
+# Begins a checked file; the SHA-256 of its content and a line feed follow.
+MARK = b"lubfric 1 "
+# Bytes before the content of a checked file: the mark, 64 hexadecimal digits, the line feed.
 HEAD = len(MARK) + 65
-LOCK = ".lubfric.lock"  # the file in a folder that its writer holds locked
-RECORD = ".lubfric"  # in a folder: the files that were written to it, with their checksums
-PART = ".part-"  # begins the name of a file that is being written
-_HELD: weakref.WeakSet = weakref.WeakSet()  # by this process; a forked child must not hold them too
+# The file in a folder that its writer holds locked.
+LOCK = ".lubfric.lock"
+# The file in a folder that names the files which lubfric wrote there, with their checksums.
+MARKER = ".lubfric"
+# Begins the name of a file that is being written.
+PART = ".part-"
+# The locks that this process holds; a forked child must not hold them too.
+_HELD: weakref.WeakSet[FolderLock] = weakref.WeakSet()
 
 
-def write_whole(path: str | Path, *content, sync: bool = True) -> None:
+def write_whole(path: str | Path, *content: bytes, sync: bool = True) -> None:
     """Replace ``path`` by ``content``, bytes in one or several pieces. Whoever reads the file, even after a kill, sees
     either the old one or the new one, complete.
 
@@ -44,9 +51,9 @@ def write_whole(path: str | Path, *content, sync: bool = True) -> None:
 
 
 @contextmanager
-def whole_file(path, *, sync: bool = True):
-    """The path of a temporary file in the folder of ``path``. When the block ends well, it is forced to the disk and
-    renamed to ``path``.
+def whole_file(path: str | Path, *, sync: bool = True) -> Iterator[Path]:
+    """Yield the path of a temporary file in the folder of ``path``. When the block ends well, it is forced to the disk
+    and renamed to ``path``.
 
     It has the same suffix. Missing folders are made. When the disk is full or the folder is not writable, `OutputError`
     is raised and the old file stays as it was.
@@ -70,12 +77,12 @@ def whole_file(path, *, sync: bool = True):
 
 
 def _part(drawn: str, name: str) -> str:
-    """The name of a file that is being written: it tells by a checksum that it is one, and not a file of the user."""
+    """Return the name of a file that is being written. A checksum in it shows that it is no file of the user."""
     return f"{PART}{drawn}-{hashlib.sha256((drawn + name).encode()).hexdigest()[:8]}-{name}"
 
 
-def write_checked(path: Path, *content, sync: bool = True) -> None:
-    """`write_whole`, with a checksum in front for `read_checked`."""
+def write_checked(path: Path, *content: bytes, sync: bool = True) -> None:
+    """Write as `write_whole` does, with a checksum in front for `read_checked`."""
     checksum = hashlib.sha256()
     for piece in content:
         checksum.update(piece)
@@ -83,7 +90,7 @@ def write_checked(path: Path, *content, sync: bool = True) -> None:
 
 
 def read_checked(path: Path) -> bytes | None:
-    """What `write_checked` wrote, or None if the file has been cut off or overwritten since."""
+    """Return what `write_checked` wrote, or None if the file has been cut off or overwritten since."""
     with saying(f"{path} was not read"):
         data = Path(path).read_bytes()
     content = data[HEAD:]
@@ -93,7 +100,7 @@ def read_checked(path: Path) -> bytes | None:
 
 
 @contextmanager
-def saying(what: str):
+def saying(what: str) -> Iterator[None]:
     """Turn an operating system's error into one `OutputError` that begins with ``what``."""
     try:
         yield
@@ -112,7 +119,7 @@ def clear_parts(folder: Path) -> None:
 
 
 def is_checked(path: Path) -> bool:
-    """Whether `write_checked` wrote ``path`` and nobody changed it since. A link to such a file does not count."""
+    """Return whether `write_checked` wrote ``path`` and nobody changed it since. A link to such a file does not count."""
     return path.is_file() and not path.is_symlink() and read_checked(path) is not None
 
 
@@ -145,7 +152,7 @@ class FolderLock:
     The lock is held by the open file. So a killed process leaves no lock behind; only its file stays.
     """
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | Path):
         self.path = Path(folder) / LOCK
         self._file: Any = None
 
@@ -170,7 +177,7 @@ class FolderLock:
         _HELD.add(self)
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: object) -> None:
         if fcntl is not None:
             self.path.unlink(missing_ok=True)
         self.drop()
@@ -198,7 +205,7 @@ class FolderLock:
             ) from None
 
     def _holder(self) -> str | None:
-        """The process that is written in the file; None where it holds something else."""
+        """Return the process that is written in the file; None where it holds something else."""
         self._file.seek(0)
         words = self._file.read(80).split()
         return words[1] if len(words) == 2 and words[0] == "lubfric" else None if words else ""
@@ -220,63 +227,74 @@ if hasattr(os, "register_at_fork"):
 
 
 class OwnFiles:
-    """The files of ``folder`` that this package wrote there, by the record in it.
+    """The files of ``folder`` that lubfric wrote, and the rule by which a command spares all others:
 
-    A file that somebody changed or put in their place since, or a link, is not ours any more: it is neither replaced
-    nor removed. Raises `InputError` if the record is damaged, or is none.
+    1. The marker ``.lubfric`` of a folder names each file that a command wrote there, with the checksum of its content.
+    2. A command replaces and removes only files that the marker names and that still have this content: no other file,
+       none that was changed since, no link.
+    3. Where one of its results would take the name of another file, or of one of its inputs, a command is refused before
+       any work.
+    4. The new results are complete on the disk, and the marker names old and new ones, before the first old one goes:
+       what a kill or a full disk leaves is still ours, and ``result.json`` stands only beside all files that it names.
+    5. One command at a time writes to a folder (`FolderLock`).
     """
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | Path):
         self.folder = Path(folder)
-        self._known: dict[str, list[str]] = {}
-        record = self.folder / RECORD
-        if os.path.lexists(record):
+        self._checksums: dict[str, list[str]] = {}  # of the contents that are ours, by the name of the file
+        marker = self.folder / MARKER
+        if os.path.lexists(marker):
             try:
-                known: Any = json.loads(read_checked(record) or b"") if is_checked(record) else None
-                self._known = {str(name): list(sums) for name, sums in known.items() if Path(name).name == name}
+                named: Any = json.loads(read_checked(marker) or b"") if is_checked(marker) else None
+                self._checksums = {str(name): list(sums) for name, sums in named.items() if Path(name).name == name}
             except (ValueError, TypeError, AttributeError, RecursionError):
-                said = f"{record} is damaged, or no record of lubfric"
-                raise InputError(f"{said}; remove it, or give another folder") from None
+                message = f"{marker} is damaged, or no marker of lubfric"
+                raise InputError(f"{message}; remove it, or give another folder") from None
 
-    def among(self, patterns) -> list[str]:
-        """The names that match one of ``patterns`` (as of a shell) and are ours."""
-        return [name for name in self._known if any(fnmatch(name, p) for p in patterns) and self._owns(name)]
+    def among(self, patterns: Iterable[str]) -> list[str]:
+        """Return the names of our files that match one of ``patterns`` (as of a shell)."""
+        patterns = list(patterns)
+        return [name for name in self._checksums if any(fnmatch(name, p) for p in patterns) and self._owns(name)]
 
     def _owns(self, name: str) -> bool:
         path = self.folder / name
         if path.is_symlink() or not path.is_file():
             return False
-        return hashlib.sha256(path.read_bytes()).hexdigest() in self._known.get(name, ())
+        return _checksum(path.read_bytes()) in self._checksums.get(name, ())
 
-    def check(self, names, inputs=()) -> None:
-        """Raise `InputError` if one of the files ``names`` is there and not ours, or one of the ``inputs``."""
+    def check(self, names: Iterable[str], inputs: Iterable[str | Path] = ()) -> None:
+        """Raise `InputError` if one of the files ``names`` is there and not ours, or is one of the ``inputs``."""
+        inputs = list(inputs)
         for path in (self.folder / name for name in names):
-            if any(path.exists() and os.path.samefile(path, given) for given in inputs):
+            if any(path.exists() and os.path.samefile(path, read) for read in inputs):
                 raise InputError(f"{path} is read by this command and would be replaced; give another folder")
             if os.path.lexists(path) and not self._owns(path.name):
-                said = f"{path} is no file that lubfric wrote, or was changed since, and would be replaced"
-                raise InputError(f"{said}; move it away, or give another folder")
+                message = f"{path} is no file that lubfric wrote, or was changed since, and would be replaced"
+                raise InputError(f"{message}; move it away, or give another folder")
 
-    def replace(self, contents: dict[str, bytes], patterns=()) -> None:
-        """Put ``contents`` by name in the folder, in their order, and remove what else of ours matches ``patterns``.
+    def replace(self, contents: dict[str, bytes], patterns: Iterable[str] = ()) -> None:
+        """Put ``contents`` by name in the folder, in their order, and remove our other files that match ``patterns``.
 
-        Nothing is replaced before all of it is on the disk. The last of ``contents`` says that the others are complete:
-        it is removed first, and appears last. Only the holder of the folder's lock may do this. Raises `OutputError`.
+        The last of ``contents`` says that the others are complete: it is removed first, and appears last. Only the
+        holder of the folder's lock may do this. Raises `OutputError`.
         """
         self.check(contents)
-        new = {name: [hashlib.sha256(content).hexdigest()] for name, content in contents.items()}
         stale = self.among(patterns)
+        new = {name: [_checksum(content)] for name, content in contents.items()}
         last = list(contents)[-1]
         with ExitStack() as written:  # its files appear in the opposite order
             for name in reversed(contents):
                 written.enter_context(whole_file(self.folder / name)).write_bytes(contents[name])
-            self._note(self._known | {name: [*self._known.get(name, ()), *new[name]] for name in new})
+            self._mark(self._checksums | {name: self._checksums.get(name, []) + new[name] for name in new})
             for name in sorted(stale, key=lambda name: name != last):
                 if name == last or name not in new:
                     (self.folder / name).unlink()
-        kept = {name: sums for name, sums in self._known.items() if name not in stale and name not in new}
-        self._note(kept | new)
+        self._mark({name: sums for name, sums in self._checksums.items() if name not in stale} | new)
 
-    def _note(self, known: dict[str, list[str]]) -> None:
-        write_checked(self.folder / RECORD, json.dumps(known, indent=0).encode())
-        self._known = known
+    def _mark(self, checksums: dict[str, list[str]]) -> None:
+        write_checked(self.folder / MARKER, json.dumps(checksums, indent=0).encode())
+        self._checksums = checksums
+
+
+def _checksum(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()

@@ -10,7 +10,7 @@ import pytest
 from scene_text import BODIES_AND_OIL, SMALL_PATCH
 
 import lubfric
-from lubfric._base import FolderLock, write_checked
+from lubfric._base import FolderLock, OwnFiles, write_checked
 from lubfric.output import main
 
 pytestmark = pytest.mark.usefixtures("undrawn")
@@ -21,31 +21,27 @@ HISTORY = '[transient]\nduration = 1e-4\noutputs = 2\nspeed = { kind = "file", f
 STUDY = 'scene = "base.toml"\n[vary]\n"motion.slide_roll_ratio" = [1.0, 2.0]\n'
 MEASURED = "U [m/s],f\n0.1,0.05\n0.2,0.05\n0.3,0.05\n0.5,0.052\n"
 FIT = ["--coefficient", "f", "--speed", "U", "--parameter", "lubricant.viscosity=0.2:0.6"]
-NAMES = {  # of files of the user in the folder of the results: (refused with these, beside these), by kind of command
-    "run": (
-        "stribeck.csv stribeck.png fields.npz contact.png surface.png law.json law.c report.html result.json "
-        "sharing.png resolved.toml .lubfric .lubfric.lock unfinished",
-        "history.csv history.png animation.gif traction.csv traction.png contact_0.vtk contact_user.vtk .lock "
-        ".part-mine .part-12345678-stribeck.csv study.csv fit.json notes.txt unfinished/notes.bin "
-        "checkpoint/state.bin points/a.bin",
-    ),
-    "history": (
-        "history.csv history.png fields.npz surface.png report.html resolved.toml result.json unfinished",
-        "stribeck.csv law.c animation.gif contact.png .lock .part-x unfinished/notes.bin checkpoint",
-    ),
-    "study": ("study.csv .lubfric", "study.nc study.parquet result.json .part-x points/notes.txt .lock fitted.toml"),
-    "fit": ("fitted.toml fit.png fit.json", ""),
+# Files of the user in the folder of the results, by kind of command: their names make the command refused.
+IN_THE_WAY = {
+    "run": "stribeck.csv stribeck.png fields.npz contact.png surface.png law.json law.c report.html result.json "
+    "sharing.png resolved.toml .lubfric .lubfric.lock unfinished",
+    "history": "history.csv history.png fields.npz surface.png report.html resolved.toml result.json unfinished",
+    "study": "study.csv .lubfric",
+    "fit": "fitted.toml fit.png fit.json",
 }
-CASES = [
-    (kind, name, refused)
-    for kind, both in NAMES.items()
-    for refused, names in zip((True, False), both)
-    for name in names.split()
-]
+# Files of the user that stand beside the results.
+BESIDE = {
+    "run": "history.csv history.png animation.gif traction.csv traction.png contact_0.vtk contact_user.vtk .lock "
+    ".part-mine .part-12345678-stribeck.csv study.csv fit.json notes.txt unfinished/notes.bin checkpoint/state.bin "
+    "points/a.bin",
+    "history": "stribeck.csv law.c animation.gif contact.png .lock .part-x unfinished/notes.bin checkpoint",
+    "study": "study.nc study.parquet result.json .part-x points/notes.txt .lock fitted.toml",
+}
 
 
 def command(kind, folder, *more):
-    """The command of a ``kind`` on small inputs in ``folder``."""
+    """Return the command of a ``kind`` on small inputs in ``folder``."""
+    folder.mkdir(exist_ok=True)
     (folder / "base.toml").write_text(SCENE)
     if kind == "study":
         (folder / "s.toml").write_text(STUDY)
@@ -60,7 +56,7 @@ def command(kind, folder, *more):
 
 
 def everything(folder):
-    """What stands in a folder, by name; a link by where it points to."""
+    """Return what stands in a folder, by name; a link by where it points to."""
     return {
         str(path.relative_to(folder)): os.readlink(path) if path.is_symlink() else path.read_bytes()
         for path in sorted(folder.rglob("*"))
@@ -68,76 +64,91 @@ def everything(folder):
     }
 
 
-@pytest.mark.parametrize("spelling", ["plain", "link"])
-@pytest.mark.parametrize("kind, name, refused", CASES)
-def test_no_file_that_is_not_ours_changes(tmp_path, capsys, kind, name, refused, spelling):
-    out = tmp_path / "out"
-    user = tmp_path / "user" / "file"
-    user.parent.mkdir()
-    user.write_bytes(b"the user's own\n")
-    (out / name).parent.mkdir(parents=True)
+def put(path, spelling):
+    """Put a file of the user, or a link to one, at ``path``."""
+    path.parent.mkdir(parents=True, exist_ok=True)
     if spelling == "link":
-        (out / name).symlink_to(user)
+        user = path.parents[1] / "user" if path.parent.name == "out" else path.parents[2] / "user"
+        user.write_bytes(b"the user's own\n")
+        path.symlink_to(user)
     else:
-        (out / name).write_bytes(b"the user's own\n")
-    before = everything(out)
-    code = main(command(kind, tmp_path, "--out", str(out)))
-    after = everything(out)
-    assert user.read_bytes() == b"the user's own\n"
-    assert {key: after.get(key) for key in before} == before
-    assert (code == 2) == refused, capsys.readouterr().err
-    if refused:
-        assert after == before
+        path.write_bytes(b"the user's own\n")
 
 
-INPUTS = [  # (kind, the input that an output of the same command is called like)
-    *(("scene", name) for name in ("result.json", "stribeck.csv", "contact.png", ".lubfric", ".lubfric.lock")),
-    *(("map", name) for name in ("stribeck.csv", "fields.npz", "contact.png")),
-    *(("history", name) for name in ("history.csv", "result.json")),
-    *(("fit", name) for name in ("fitted.toml", "fit.json")),
-    *(("measured", name) for name in ("fit.json", "fitted.toml")),
-    ("study", "study.csv"),
-]
+@pytest.mark.parametrize("spelling", ["plain", "link"])
+@pytest.mark.parametrize("kind", IN_THE_WAY)
+def test_a_file_of_the_user_in_the_way_is_never_replaced(tmp_path, capsys, kind, spelling):
+    for name in IN_THE_WAY[kind].split():
+        work = tmp_path / name.strip(".")
+        put(work / "out" / name, spelling)
+        before = everything(work)
+        assert main(command(kind, work, "--out", str(work / "out"))) == 2, capsys.readouterr().err
+        assert {key: everything(work)[key] for key in before} == before
+        assert everything(work / "out").keys() == {name}
 
 
-@pytest.mark.parametrize("out", [".", "link", "../here"])
-@pytest.mark.parametrize("kind, name", INPUTS)
-def test_an_input_is_never_an_output(tmp_path, monkeypatch, capsys, kind, name, out):
-    here = tmp_path / "here"
-    here.mkdir()
-    (here / "link").symlink_to(here)
-    monkeypatch.chdir(here)
+@pytest.mark.parametrize("spelling", ["plain", "link"])
+@pytest.mark.parametrize("kind", BESIDE)
+def test_files_of_the_user_beside_the_results_stay(tmp_path, capsys, kind, spelling):
+    for name in BESIDE[kind].split():
+        put(tmp_path / "out" / name, spelling)
+    before = everything(tmp_path)
+    assert main(command(kind, tmp_path, "--out", str(tmp_path / "out"))) == 0, capsys.readouterr().err
+    assert {key: everything(tmp_path)[key] for key in before} == before
+
+
+# An input of each kind, and the outputs of the same command whose names it takes.
+INPUTS = {
+    "scene": "result.json stribeck.csv contact.png .lubfric .lubfric.lock",
+    "map": "stribeck.csv fields.npz contact.png",
+    "history": "history.csv result.json",
+    "fit": "fitted.toml fit.json",
+    "measured": "fit.json fitted.toml",
+    "study": "study.csv",
+}
+
+
+def command_that_reads(kind, name):
+    """Write an input of ``kind`` called ``name``, and what else its command reads, to this folder; return the command."""
     text = SCENE
     if kind == "map":
-        np.savetxt(here / name, np.random.default_rng(1).normal(size=(64, 64)) * 1e-7, delimiter=",")
+        np.savetxt(name, np.random.default_rng(1).normal(size=(64, 64)) * 1e-7, delimiter=",")
         text = MAPPED.replace("MAP", name)
     elif kind == "history":
-        (here / name).write_text("time [s],U [m/s]\n0,0.3\n1,0.3\n")
+        Path(name).write_text("time [s],U [m/s]\n0,0.3\n1,0.3\n")
         text += HISTORY.replace("FILE", name)
     elif kind == "measured":
-        (here / name).write_text(MEASURED)
+        Path(name).write_text(MEASURED)
     elif kind == "study":
-        (here / name).write_text(STUDY)
+        Path(name).write_text(STUDY)
     scene = name if kind in ("scene", "fit") else "base.toml"
-    (here / scene).write_text(text)
+    Path(scene).write_text(text)
     if kind == "study":
-        given = ["study", name]
-    elif kind in ("fit", "measured"):
-        (here / "m.csv").write_text(MEASURED)
-        given = ["fit", scene, "--measured", name if kind == "measured" else "m.csv", *FIT]
-    else:
-        given = ["run", scene]
-    before = everything(here)
-    assert main([*given, "--out", out]) == 2
-    assert everything(here) == before and "give another folder" in capsys.readouterr().err
+        return ["study", name]
+    if kind in ("fit", "measured"):
+        Path("m.csv").write_text(MEASURED)
+        return ["fit", scene, "--measured", name if kind == "measured" else "m.csv", *FIT]
+    return ["run", scene]
+
+
+@pytest.mark.parametrize("kind", INPUTS)
+def test_an_input_is_never_an_output(tmp_path, monkeypatch, capsys, kind):
+    for name in INPUTS[kind].split():
+        here = tmp_path / name.strip(".") / "here"
+        here.mkdir(parents=True)
+        (here / "link").symlink_to(here)
+        monkeypatch.chdir(here)
+        words = command_that_reads(kind, name)
+        before = everything(here)
+        for out in (".", "link", "../here"):
+            assert main([*words, "--out", out]) == 2
+            assert everything(here) == before and "give another folder" in capsys.readouterr().err
 
 
 def test_a_file_of_ours_that_is_an_input_stays(tmp_path, capsys):
     """fitted.toml of an earlier fit as the scene of the next one, also through a hard link; as the base of a study."""
     run = command("fit", tmp_path, "--out", str(tmp_path / "out"))
     (tmp_path / "out").mkdir()
-    from lubfric._base import OwnFiles
-
     with FolderLock(tmp_path / "out"):
         OwnFiles(tmp_path / "out").replace({"fitted.toml": SCENE.encode(), "fit.json": b"{}"})
     os.link(tmp_path / "out" / "fitted.toml", tmp_path / "other.toml")
@@ -184,7 +195,7 @@ def test_commands_share_a_folder_and_take_only_their_own(tmp_path):
 
 
 @pytest.mark.parametrize("content", ["", "[]", "{}", '{"stribeck.csv": 3}', "[" * 9999, '{"../m.csv": ["0"]}'])
-def test_a_record_that_is_none_is_refused_or_owns_nothing(tmp_path, capsys, content):
+def test_a_marker_that_is_none_is_refused_or_owns_nothing(tmp_path, capsys, content):
     out = tmp_path / "out"
     run = command("run", tmp_path, "--out", str(out))
     assert main(run) == 0
@@ -194,31 +205,34 @@ def test_a_record_that_is_none_is_refused_or_owns_nothing(tmp_path, capsys, cont
     assert everything(out) == before
 
 
-@pytest.mark.parametrize("at", range(1, 9))
-def test_a_run_stopped_while_it_replaces_another_goes_on(tmp_path, monkeypatch, at):
+def test_a_run_stopped_while_it_replaces_another_goes_on(tmp_path, monkeypatch):
     """A kill between any two of the files that appear: all is ours still, and result.json stands for a whole run."""
-    out = tmp_path / "out"
-    run = command("run", tmp_path, "--out", str(out))
+    run = command("run", tmp_path, "--out", str(tmp_path / "first"))
     real = os.replace
-    count = [0]
     assert main([*run, "--ratios", "0.5,1"]) == 0
-
-    def killed(part, path):
-        count[0] += 1
-        if count[0] == at:
-            raise KeyboardInterrupt
-        real(part, path)
-
     (tmp_path / "base.toml").write_text(SCENE.replace("0.36", "0.3"))
-    monkeypatch.setattr(os, "replace", killed)
-    main(run)
-    monkeypatch.setattr(os, "replace", real)
-    if (out / "result.json").exists():
-        record = json.loads((out / "result.json").read_text())
-        assert all((out / name).is_file() for name in record["files"])
-    assert main(run) == 0
-    assert not (out / "traction.csv").exists() and not list(out.glob(".part-*"))
-    assert json.loads((out / "result.json").read_text())["scene"]["lubricant"]["viscosity"] == 0.3
+    for left in range(1, 99):
+        out = tmp_path / str(left)
+        shutil.copytree(tmp_path / "first", out)
+        files = iter(range(left))
+
+        def killed(part, path):
+            if next(files, None) is None:
+                raise KeyboardInterrupt
+            real(part, path)
+
+        monkeypatch.setattr(os, "replace", killed)
+        code = main([*run[:-1], str(out)])
+        monkeypatch.setattr(os, "replace", real)
+        if (out / "result.json").exists():
+            record = json.loads((out / "result.json").read_text())
+            assert all((out / name).is_file() for name in record["files"])
+        if code == 0:
+            break
+        assert main([*run[:-1], str(out)]) == 0
+        assert not (out / "traction.csv").exists() and not list(out.glob(".part-*"))
+        assert json.loads((out / "result.json").read_text())["scene"]["lubricant"]["viscosity"] == 0.3
+    assert left > 8
 
 
 def test_a_checkpoint_leaves_what_is_not_its_own(tmp_path):
