@@ -15,7 +15,7 @@ from . import frame
 from .catalogue import STUDIES
 
 # packages with a COMMAND of their own, imported only when the command is typed
-CAMPAIGNS = ("figures", "model", "sampling", "charts", "stability", "tables", "calibration")
+CAMPAIGNS = ("figures", "model", "sampling", "charts", "stability", "tables", "calibration", "mutants")
 SUBCOMMANDS = {"published": "verification.fem.published"} | {
     name: f"verification.campaigns.{name}" for name in CAMPAIGNS
 }

@@ -95,10 +95,4 @@ STUDIES: tuple[Study, ...] = (
     study("transient", "Smooth contact in time: squeeze, stops, jumps"),
     study("sharing_in_time", "Load sharing in time, both halves by finite elements"),
     study("transient_mixed", "Load sharing in time", ("default", "full")),
-    Study(
-        "mutants",
-        "verification.campaigns.mutants:mutants",
-        "Mistakes in the text of lubfric, which tests and studies have to notice",
-        ("default", "full"),
-    ),
 )

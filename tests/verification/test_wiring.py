@@ -17,7 +17,7 @@ def test_every_option_arrives(study):
 
 
 def test_a_lost_option_is_noticed():
-    """One of them; ``python -m verification --only mutants`` tries all."""
+    """One of them; ``python -m verification mutants`` tries all."""
     study = "wiring_contact"
     assert trial(next(mutant for mutant in table() if study in mutant.noticed_by), (study,)) == FAILED
 

@@ -1,4 +1,4 @@
-"""Mistakes in the text of `lubfric`, one at a time, each of which tests or studies have to notice.
+"""``python -m verification mutants``: mistakes in the text of `lubfric`, one at a time, which tests or studies must notice.
 
 The table `mutants.txt` has a mutant a line: ``place | text | what is put there | who notices``. The place is a file or
 folder below `lubfric`, which holds the text once. Who notices are tests, as files below `tests` or ``file::test``, or
@@ -13,15 +13,16 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from .. import frame
 from ..check import AT_LEAST, AT_MOST, Check
+from ..kept import Run
 
 ROOT = Path(__file__).parents[2]
 TABLE = Path(__file__).with_suffix(".txt")
-LONGEST = 600  # s
+LONGEST = 1800  # s: a trial that takes longer is no catch
 # as pytest returns them; BROKEN: neither, such as a test that cannot be loaded
 PASSED = 0
 FAILED = 1
@@ -79,18 +80,26 @@ def table(text: str | None = None) -> list[Mutant]:
     return [Mutant(place, right, wrong, tuple(by.split())) for place, right, wrong, by in parts]
 
 
-def mutants(level: str) -> Iterator[Check]:
-    """Mistakes in the text of `lubfric`, one at a time. Each has to make a test or a check of a study fail, or a study
-    end with an error that `lubfric` raises on purpose. A test that cannot be loaded, and any other error, is no catch.
-    The library as it is has to pass all of them."""
+def mutants(level: str, run: Run = Run()) -> Iterator[Check]:
+    """Try every mutant of the table. Each has to make a test or a check of a study fail, or a study end with an error
+    that `lubfric` raises on purpose. A test that cannot be loaded, and any other error, is no catch. The library as it
+    is has to pass all of them. A mutant that was tried is not tried again while `lubfric` and its line stay the same."""
     known = table()
     everyone = dict.fromkeys(each for mutant in known for each in mutant.noticed_by)
-    for what, chosen in (("tests", True), ("studies", False)):
-        names = tuple(each for each in everyone if is_test(each) == chosen)
-        yield verdict(f"the library as it is: {what}", trial(None, names), PASSED)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for mutant, result in zip(known, pool.map(lambda m: trial(m, m.noticed_by), known)):
-            yield verdict(mutant.name, result, FAILED)
+    untouched = {
+        f"the library as it is: {what}": (None, tuple(each for each in everyone if is_test(each) == chosen))
+        for what, chosen in (("tests", True), ("studies", False))
+    }
+    for (_, names), code in run.solved(untouched, tried, "untouched"):
+        yield verdict(f"the library as it is: {'tests' if is_test(names[0]) else 'studies'}", code, PASSED)
+    cases = {f"{mutant.name} | {' '.join(mutant.noticed_by)}": (mutant, mutant.noticed_by) for mutant in known}
+    for (mutant, _), code in run.solved(cases, tried):
+        yield verdict(mutant.name, code, FAILED)
+
+
+def tried(case: tuple[Mutant | None, tuple[str, ...]]) -> int:
+    """Return what came of a case: a mutant (None: the library as it is), and the tests or studies."""
+    return trial(*case)
 
 
 def is_test(name: str) -> bool:
@@ -142,3 +151,6 @@ def verdict(name: str, code: int, wanted: int) -> Check:
     kind = AT_LEAST if wanted == FAILED else AT_MOST
     value = float("nan") if refused else code
     return Check(f"{name}: something fails", value, wanted, 0.0, "tests and studies", kind, refused=refused)
+
+
+COMMAND = frame.campaign("mutants", __doc__, [("mutants", "mutants:mutants", "Mistakes in the text of lubfric", {})])
