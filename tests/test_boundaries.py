@@ -4,6 +4,7 @@ import ast
 import importlib
 import subprocess
 import sys
+import tomllib
 from functools import cache
 from pathlib import Path
 
@@ -83,6 +84,30 @@ def test_load_sharing_is_compared_with_a_kernel_of_its_own():
     names = imported(ROOT / "verification" / "fem" / "studies" / "load_sharing.py")
     assert not {n for n in names if n.endswith(("semiperiodic_coefficients", "even_transform"))}
     assert not {n for n in names if n.startswith("lubfric.contact.")} - {"lubfric.contact.HalfSpace"}
+
+
+def test_the_estimate_knows_the_contract_of_a_model_and_no_model():
+    """Models come from their registry; only a type checker sees what two of them keep of a solve."""
+    models = ["lubfric.models.load_sharing", "lubfric.models.deterministic"]
+    assert offenders("lubfric/estimate", models) == []
+    contract = {"AUTO", "MODELS", "ContactFields", "Model", "ModelAnswer", "SampleSolution", "models_up_to"}
+    names = set()
+    for file in sorted((ROOT / "lubfric" / "estimate").rglob("*.py")):
+        typed = set()
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        for node in ast.walk(tree):
+            if isinstance(node, ast.If) and getattr(node.test, "id", "") == "TYPE_CHECKING":
+                typed |= {*ast.walk(node)}
+        nodes = [node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == "models"]
+        names |= {alias.name for node in nodes if node not in typed for alias in node.names}
+    assert "Model" in names and names <= contract
+
+
+def test_the_registry_of_models_has_the_names_that_a_scene_may_give():
+    from lubfric.models import AUTO, MODELS
+
+    keys = tomllib.loads((ROOT / "lubfric" / "keys.toml").read_text(encoding="utf-8"))
+    assert {AUTO, *(model.name for model in MODELS)} == set(keys["numerics"]["model"]["one_of"])
 
 
 def test_only_one_file_knows_meshio():

@@ -5,10 +5,10 @@ import time
 from dataclasses import replace
 from typing import Any
 
-from ..models import ModelAnswer
 from ..models.shared import Prepared, of_error
 from ..quantities import NUMBERS
 from ..scene import Scene
+from .choice import Choice
 from .ranges import with_ranges
 from .result import FrictionResult
 from .uncertainty import Uncertainty, field_errors_of, interval
@@ -16,23 +16,21 @@ from .uncertainty import Uncertainty, field_errors_of, interval
 ONE_STANDS_STILL = 2.0  # slide-roll ratio, without its sign
 
 
-def result_of(
-    prepared: Prepared,
-    answer: ModelAnswer,
-    name: str,
-    begun: float,
-    *,
-    fine: bool = False,
-    why: str = "",
-    cheaper: tuple[str, ModelAnswer] | None = None,
-) -> FrictionResult:
-    """Return the result of the ``answer`` of the model ``name``.
+def result_of(prepared: Prepared, choice: Choice, begun: float, *, fine: bool = False) -> FrictionResult:
+    """Return the result of the solution that was chosen.
 
     ``begun``: the starting time, by `time.perf_counter`; ``fine``: whether its fields are solved again on cells fine
-    enough to look at; ``why``: the reason for this model, in words; ``cheaper``: name
-    and answer of the model whose strips it took as control.
+    enough to look at.
     """
     scene = prepared.scene
+    answer = choice.solution.answer()
+    compared_fields = None
+    details = {}
+    if choice.compared is not None:
+        model, solution = choice.compared
+        compared = solution.answer()
+        compared_fields = compared.fields
+        details[model.name] = compared.details
     numerics = scene.numerics
     f = answer.numbers["coefficient"]
     sampling = answer.sampling.error
@@ -52,13 +50,12 @@ def result_of(
         notes=answer.notes,
     )
     decision = answer.decision
-    if why:
-        decision = replace(decision, notes=(*decision.notes, why))
+    if choice.why:
+        decision = replace(decision, notes=(*decision.notes, choice.why))
     validity = (*answer.warnings, *of_error(answer.numerical, numerics.tolerance, answer.recommendation))
     notes = (*answer.report.notes, decision.text, *(entry.text for entry in validity), uncertainty.text)
     numbers: dict[str, Any] = dict.fromkeys(NUMBERS, math.nan) | answer.numbers
     numbers["seconds"] = time.perf_counter() - begun
-    details = {} if cheaper is None else {cheaper[0]: cheaper[1].details}
     result = FrictionResult(
         **numbers,
         report=replace(answer.report, notes=notes),
@@ -67,8 +64,8 @@ def result_of(
         decision=decision,
         validity=validity,
         fields=answer.fine_fields() if fine and answer.fine_fields is not None else answer.fields,
-        compared_fields=None if cheaper is None else cheaper[1].fields,
-        details=details | {name: answer.details},
+        compared_fields=compared_fields,
+        details=details | {choice.model.name: answer.details},
     )
     return not_negative(scene, with_ranges(prepared, result, answer))
 

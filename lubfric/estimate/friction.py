@@ -2,29 +2,25 @@
 
 import math
 import time
+from contextlib import nullcontext
 from dataclasses import replace
-from typing import cast
 
 import numpy as np
 
 from .._base import limited_work, releasing_memory, unlimited_work, validate, with_default_errors
 from .._base.jobs import current_executor, parts_on
 from .._base.processes import MOST_WORKERS, pool
-from ..errors import ConvergenceError, InputError
-from ..models import DeterministicModel, Model, PaperModel
-from ..models.load_sharing import LoadSharingModel, LoadSharingSolution, PaperSolution, least_half_width
+from ..errors import InputError
+from ..models import Model
 from ..models.shared import Prepared, at_speed, at_tolerance, refused, unmodelled_effects
-from ..scene import BY_LOAD_SHARING, FASTEST, Scene, gap_not_resolved, warn_unusual_values
+from ..scene import FASTEST, Scene, warn_unusual_values
 from .answer import result_of
+from .choice import choose
 from .full_load import full_load_numbers
 from .methods import with_methods
 from .outlook import forecast
 from .power import with_power_loss
 from .result import FrictionResult
-from .sampled import sampled
-
-LOAD_SHARING = LoadSharingModel()
-MODELS = (PaperModel(), DeterministicModel())  # the cheapest first
 
 # Times the estimate of a point: the counted work that it may take where numerics.max_work does not say.
 TIMES_ESTIMATE = 10.0
@@ -76,7 +72,6 @@ def friction(
     ValidityError : f means nothing, because an assumption fails, and ``numerics.accept`` is false; carries the result
     """
     begun = time.perf_counter()
-    chosen = model if isinstance(model, Model) else None
     prepared = at_tolerance(scene, tolerance, None if isinstance(model, Model) else model)
     speed = prepared.scene.motion.entrainment_speed if speed is None else speed
     speed = validate.number("speed", speed, "m/s", minimum=-FASTEST, maximum=FASTEST)
@@ -89,7 +84,10 @@ def friction(
     limit = most_work(prepared, speed)
     with warn_unusual_values(prepared.scene), pool(workers) as executor, parts_on(executor or current_executor()):
         with limited_work(limit):
-            result = _solved(prepared, speed, chosen, native=bool(fields), fine=fine, begun=begun)
+            requested = model if isinstance(model, Model) else numerics.model
+            choice = choose(prepared, speed, requested, native=bool(fields))
+            with unlimited_work() if choice.gave_up else nullcontext():
+                result = result_of(prepared, choice, begun, fine=fine)
         result = with_methods(prepared, result)
     if not math.isfinite(result.coefficient):
         raise InputError(
@@ -105,64 +103,6 @@ def friction(
         result.report.raise_if_failed(result)
         refused(result.validity, numerics.accept, result)
     return result
-
-
-def _solved(
-    prepared: Prepared, speed: float, model: Model | None, *, native: bool, fine: bool, begun: float
-) -> FrictionResult:
-    """Return the result of the cheapest model that is good enough.
-
-    Load sharing gives it without entrainment, where its own error is within ``numerics.model_tolerance``, and where the
-    deterministic model has no answer; that model gives it otherwise. ``model``: takes their place.
-    """
-    if model is not None:
-        return result_of(
-            prepared, sampled(prepared, speed, model, native=native).answer(), model.name, begun, fine=fine
-        )
-    scene = prepared.scene
-    requested = scene.numerics.model
-    paper, deterministic = MODELS
-    unable = deterministic.unable(prepared, speed)
-    is_calibrated = not unable and not gap_not_resolved(scene, prepared.given)
-    if requested in BY_LOAD_SHARING or unable:
-        cheap = LOAD_SHARING if requested == LOAD_SHARING.name and is_calibrated else paper
-        answer = sampled(prepared, speed, cheap, native=native).answer()
-        return result_of(prepared, answer, cheap.name, begun, fine=fine)
-    if requested == deterministic.name and prepared.sample.is_single_patch:  # a cheaper model has no control for it
-        answer = sampled(prepared, speed, deterministic).answer()
-        return result_of(prepared, answer, deterministic.name, begun, fine=fine)
-    cheaper = cast(PaperSolution, sampled(prepared, speed, paper, native=native))
-    if requested == "auto":
-        why = cheaper.sufficient()
-        if why or any(entry.severe for entry in cheaper.warnings()):
-            return result_of(prepared, cheaper.answer(), paper.name, begun, fine=fine, why=why)
-        if why := deterministic.declines(prepared, speed, cheaper):
-            return _by_load_sharing(prepared, cheaper, is_calibrated, begun, fine=fine, why=why)
-        if scene.numerics.model_tolerance >= least_half_width():
-            calibrated = LoadSharingSolution(cheaper.balanced)
-            if calibrated.applies and calibrated.friction.error <= scene.numerics.model_tolerance:
-                why = "its error is within numerics.model_tolerance"
-                return result_of(prepared, calibrated.answer(), LOAD_SHARING.name, begun, fine=fine, why=why)
-    try:
-        answer = sampled(prepared, speed, deterministic, control=cheaper.control()).answer()
-    except ConvergenceError as error:
-        if requested == deterministic.name:
-            raise
-        why = f"the {deterministic.name} model was not solved ({error})"
-        with unlimited_work():
-            return _by_load_sharing(prepared, cheaper, is_calibrated, begun, fine=fine, why=why)
-    compared = None if prepared.sample.is_single_patch else (paper.name, cheaper.answer())
-    return result_of(prepared, answer, deterministic.name, begun, fine=fine, cheaper=compared)
-
-
-def _by_load_sharing(
-    prepared: Prepared, solution: PaperSolution, is_calibrated: bool, begun: float, *, fine: bool, why: str
-) -> FrictionResult:
-    """Return the result of load sharing in the place of the deterministic model, for the reason ``why``."""
-    if is_calibrated:
-        answer = LoadSharingSolution(solution.balanced).answer()
-        return result_of(prepared, answer, LOAD_SHARING.name, begun, fine=fine, why=why)
-    return result_of(prepared, solution.answer(), PaperModel().name, begun, fine=fine, why=why)
 
 
 def most_work(prepared: Prepared, speed: float) -> float:

@@ -5,15 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from .._base import Renamed, Shown, figures, packaged, validate
 from ..errors import InputError, Report
 from ..models import ContactFields
-from ..models.deterministic import DeterministicResult
-from ..models.load_sharing import Balance
 from ..models.shared import Decision, UnmodelledEffect, Validity
 from ..quantities import PointQuantities, described_in_doc, in_words
 from .bibtex import bibtex
@@ -21,6 +19,8 @@ from .uncertainty import FieldErrors, Uncertainty
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from ..models import Balance, DeterministicResult
 
 
 @described_in_doc
@@ -59,7 +59,7 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     methods: tuple[str, ...] = ()
     fields: ContactFields | None = None
     compared_fields: ContactFields | None = None
-    details: dict[str, Balance | DeterministicResult | None] = field(default_factory=dict)
+    details: dict[str, Any] = field(default_factory=dict)
     _RENAMED = {"lacks": "unmodelled_effects"}
 
     def without_fields(self) -> FrictionResult:
@@ -82,12 +82,12 @@ class FrictionResult(Renamed, PointQuantities[float], Shown):
     @property
     def balance(self) -> Balance | None:
         """The balance of film and contact by load sharing, if there is one."""
-        return next((detail for detail in self.details.values() if isinstance(detail, Balance)), None)
+        return self.details.get("paper", self.details.get("load-sharing"))
 
     @property
     def deterministic(self) -> DeterministicResult | None:
         """What the deterministic model solved, if it gives the answer."""
-        return next((detail for detail in self.details.values() if isinstance(detail, DeterministicResult)), None)
+        return self.details.get("deterministic")
 
     @property
     def shows_contact(self) -> bool:

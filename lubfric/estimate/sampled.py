@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from ..models import Model, PaperModel, SampleSolution
+from ..models import Model, SampleSolution
 from ..models.shared import ControlVariate, Prepared
 from ..samples import Sample
-
-PAPER = PaperModel()
 
 
 def sampled(
     prepared: Prepared,
     speed: float,
-    model: Model = PAPER,
+    model: Model,
     *,
     native: bool = False,
     control: ControlVariate | None = None,

@@ -1,5 +1,13 @@
-"""The two models of a mixed-lubricated contact, under one contract: load sharing after the paper, and deterministic."""
+"""The models of a mixed-lubricated contact, under one contract.
 
-from .contract import ContactFields, Model, ModelAnswer, SampleSolution
-from .deterministic import DeterministicModel
-from .load_sharing import PaperModel
+`contract` says what a model is: it solves strips of a sample at one speed. `registry` names the models there are:
+``"paper"``, film and contact that share one load, with the friction of Eq. (9) (`load_sharing.paper_model`);
+``"load-sharing"``, the same balance with a calibrated friction and error (`load_sharing.load_sharing_model`); and
+``"deterministic"``, the film between the rough surfaces in its own gap (`deterministic.model`). `shared` is what they
+have in common: the scene made ready, heat, limits of validity, statistics.
+"""
+
+from .contract import ContactFields, Model, ModelAnswer, SampleSolution, WorkEstimate
+from .deterministic import DeterministicModel, DeterministicResult
+from .load_sharing import Balance, LoadSharingModel, PaperModel
+from .registry import AUTO, MODELS, models_up_to

@@ -19,6 +19,7 @@ import numpy as np
 from ..errors import Report
 from ..samples import Sample
 from ..scene import Scene
+from ..surface import Surface
 from .shared import BlockError, ControlVariate, Decision, Heat, Prepared, Validity, required_strips
 
 
@@ -125,6 +126,30 @@ class ModelAnswer:
     ends_without_change: Callable[[str, tuple[Scene, ...]], bool] = lambda name, ends: False
 
 
+@dataclass(frozen=True, kw_only=True)
+class WorkEstimate:
+    """What a model will take at one operating point, from closed forms and to an order of magnitude.
+
+    Attributes
+    ----------
+    strips : number of strips that the tolerances need; 0: the model is not asked
+    seconds : processor time [s] of all of it, beyond that of the cheaper models
+    strip_seconds : processor time [s] of one strip, where its roughness moves; 0 where it does not, or hardly matters
+    length : of the strips [m]; NaN: there is one patch
+    sampling : relative standard error of f after the first strips; NaN: there is one patch
+    model_error : relative model-form error of f
+    touching : whether asperities touch: "touching", "none or a few summits", or "none"
+    """
+
+    strips: int
+    seconds: float
+    strip_seconds: float = 0.0
+    length: float = math.nan
+    sampling: float = math.nan
+    model_error: float = math.nan
+    touching: str = ""
+
+
 class SampleSolution(ABC):
     """The first ``count`` strips of a sample, solved by a model. Means over them are the answer.
 
@@ -170,7 +195,7 @@ class SampleSolution(ABC):
         return None
 
     def sufficient(self) -> str:
-        """Return why no dearer model is needed, in words; "" if one is."""
+        """Return why numerics.model = "auto" needs no dearer model, in words; "" if it does."""
         return ""
 
     def heat(self) -> Heat | None:
@@ -211,9 +236,27 @@ class Model(ABC):
         """Return the number of strips that are solved first."""
         return sample.first
 
+    def estimate(
+        self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
+    ) -> WorkEstimate:
+        """Return what a point at ``speed`` [m/s] will take, without a solve.
+
+        ``surface``: the map that is solved first; ``cheaper``: what the next cheaper model will take; None: there is
+        none. A model that says nothing about its work takes the first strips in no time.
+        """
+        return WorkEstimate(strips=self.first_strips(sample), seconds=0.0)
+
     def unable(self, prepared: Prepared, speed: float) -> str:
         """Return why the model has no answer at all at ``speed`` [m/s], in words; "" if it has one."""
         return ""
+
+    def takes_control(self, sample: Sample) -> bool:
+        """Return whether a `ControlVariate` of a cheaper model spares strips of ``sample``."""
+        return False
+
+    def adopt(self, cheaper: SampleSolution) -> SampleSolution | None:
+        """Return the solution of this model on what ``cheaper`` has solved; None if it needs a solve of its own."""
+        return None
 
     def declines(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
         """Return why numerics.model = "auto" keeps the ``cheaper`` solution, in words; "" if it takes this model."""

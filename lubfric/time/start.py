@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import CONVERGED, ConvergenceError, InputError, LubfricError
 from ..estimate import sampled
-from ..models.load_sharing import BalancedSample, PaperSolution, solve_balance
+from ..models.load_sharing import BalancedSample, PaperModel, PaperSolution, solve_balance
 from ..models.shared import (
     Prepared,
     on_stack,
@@ -245,7 +245,7 @@ def _needs(prepared: Prepared, sample: Sample, speeds: list[float]) -> np.ndarra
 
 def _balanced(prepared: Prepared, speed: float) -> BalancedSample:
     """Return the strips that load sharing needs at ``speed`` [m/s], in steady balance."""
-    solution = sampled(prepared, speed)
+    solution = sampled(prepared, speed, PaperModel())
     assert isinstance(solution, PaperSolution)
     return solution.balanced
 

@@ -9,7 +9,7 @@ from scene_text import paper_scene
 
 import lubfric
 from lubfric.estimate import forecast, sampled
-from lubfric.models import DeterministicModel
+from lubfric.models import DeterministicModel, PaperModel
 from lubfric.output.describe import describe_scene
 from verification.campaigns.hostile.soak_force import friction_force
 
@@ -184,7 +184,7 @@ def test_the_work_of_the_deterministic_model_is_forecast_to_a_factor_of_two(samp
     told = counted = 0.0
     for speed in speeds:
         one = forecast(prepared.scene, prepared.sample, prepared.surface, speed)
-        control = sampled(prepared, speed).control()
+        control = sampled(prepared, speed, PaperModel()).control()
         levels = sampled(prepared, speed, DeterministicModel(), control=control).levels
         solved = [*(pair.resolved for pair in levels.pairs), *levels.shortest]
         counted += sum(strip.work for strip in [*solved, *(strip for piece in levels.pieces for strip in piece)])

@@ -6,10 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ...samples import Sample
-from ...scene import gap_not_resolved
-from ..contract import Model, ModelAnswer, SampleSolution
-from ..shared import BlockError, ControlVariate, Prepared
+from ...scene import Scene, gap_not_resolved
+from ...surface import Surface
+from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
+from ..shared import BlockError, ControlVariate, Prepared, no_rough_film
 from .answer import answer_of
+from .estimated_work import estimated_work
 from .heat import too_hot
 from .levels import Levels, TwoLevelEstimate, levels_of, solve_strips, two_levels
 from .rough_bodies import too_costly
@@ -45,6 +47,10 @@ class DeterministicSolution(SampleSolution):
         """The sum over levels, with the effect of shorter cells, which takes solves of its own."""
         return levels_of(self.prepared, self.speed, self.strips, self.estimate)
 
+    def corrected(self) -> DeterministicSolution:
+        _ = self.levels  # solved here, so that shorter cells that do not converge are a failure of the solve
+        return self
+
     def answer(self) -> ModelAnswer:
         return answer_of(self.prepared, self.speed, self.levels)
 
@@ -58,6 +64,14 @@ class DeterministicModel(Model):
 
     def first_strips(self, sample: Sample) -> int:
         return 1
+
+    def estimate(
+        self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
+    ) -> WorkEstimate:
+        return estimated_work(scene, sample, surface, speed, cheaper)
+
+    def takes_control(self, sample: Sample) -> bool:
+        return not sample.is_single_patch
 
     def solve(
         self,
@@ -77,11 +91,7 @@ class DeterministicModel(Model):
         )
 
     def unable(self, prepared: Prepared, speed: float) -> str:
-        if speed == 0:
-            return "nothing is entrained"
-        if not prepared.sample.is_resolved:
-            return "the contact has no cells to solve strip by strip"
-        return "the surfaces are smooth" if prepared.surface.sq == 0 else ""
+        return no_rough_film(prepared, speed)
 
     def declines(self, prepared: Prepared, speed: float, cheaper: SampleSolution) -> str:
         heat = cheaper.heat()

@@ -9,10 +9,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from ...samples import Sample
-from ..contract import Model, ModelAnswer, SampleSolution
-from ..shared import ControlVariate, Prepared, limit_in_words, percent
+from ...scene import Scene, gap_not_resolved
+from ...surface import Surface
+from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
+from ..shared import ControlVariate, Prepared, limit_in_words, no_rough_film, percent
 from .answer import answer_of
-from .calibrated import CalibratedFriction, calibrated_friction
+from .calibrated import CalibratedFriction, calibrated_friction, least_half_width
+from .estimated_work import estimated_work
 from .paper_model import PaperModel, PaperSolution
 
 IN_WORDS = "load sharing, calibrated"
@@ -41,6 +44,12 @@ class LoadSharingSolution(PaperSolution):
     def corrected(self) -> LoadSharingSolution:
         return LoadSharingSolution(self.balanced.corrected())
 
+    def sufficient(self) -> str:
+        tolerance = self.prepared.scene.numerics.model_tolerance
+        if tolerance < least_half_width() or not self.applies or self.friction.error > tolerance:
+            return ""
+        return "its error is within numerics.model_tolerance"
+
     def answer(self) -> ModelAnswer:
         if not self.applies:
             answer = answer_of(self.balanced)
@@ -56,6 +65,18 @@ class LoadSharingModel(Model):
     @property
     def name(self) -> str:
         return "load-sharing"
+
+    def estimate(
+        self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
+    ) -> WorkEstimate:
+        alone = estimated_work(scene, sample, surface, speed)
+        return alone if cheaper is None else replace(alone, seconds=0.0)
+
+    def unable(self, prepared: Prepared, speed: float) -> str:
+        return no_rough_film(prepared, speed) or gap_not_resolved(prepared.scene, prepared.given)
+
+    def adopt(self, cheaper: SampleSolution) -> LoadSharingSolution | None:
+        return LoadSharingSolution(cheaper.balanced) if isinstance(cheaper, PaperSolution) else None
 
     def solve(
         self,

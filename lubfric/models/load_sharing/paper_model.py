@@ -5,12 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...samples import Sample
-from ..contract import Model, ModelAnswer, SampleSolution
+from ...scene import Scene
+from ...surface import Surface
+from ..contract import Model, ModelAnswer, SampleSolution, WorkEstimate
 from ..shared import BlockError, ControlVariate, Heat, Prepared, Validity
 from .answer import answer_of, limits_of
 from .balanced_sample import BalancedSample, solve_sample
 from .control_variate import control_for
 from .errors_of import model_error
+from .estimated_work import estimated_work
 
 
 @dataclass(frozen=True)
@@ -81,6 +84,11 @@ class PaperModel(Model):
     @property
     def name(self) -> str:
         return "paper"
+
+    def estimate(
+        self, scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
+    ) -> WorkEstimate:
+        return estimated_work(scene, sample, surface, speed)
 
     def solve(
         self,

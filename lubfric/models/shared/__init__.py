@@ -28,6 +28,7 @@ from .prepared import (
     at_speed,
     at_tolerance,
     contact_on,
+    no_rough_film,
     on_piece,
     on_stack,
     on_strip,

@@ -149,6 +149,15 @@ def _given(scene: Scene, surface: Surface | None, counterface: Surface | None) -
     return together(surface, counterface)
 
 
+def no_rough_film(prepared: Prepared, speed: float) -> str:
+    """Return why no film flows between rough surfaces on cells at ``speed`` [m/s], in words; "" if one does."""
+    if speed == 0:
+        return "nothing is entrained"
+    if not prepared.sample.is_resolved:
+        return "the contact has no cells to solve strip by strip"
+    return "the surfaces are smooth" if prepared.surface.sq == 0 else ""
+
+
 def contact_on(prepared: Prepared, sample: Sample, count: int) -> RoughContact:
     """Return the contact on the first ``count`` strips of ``sample``; of an unresolved one the only contact."""
     return on_stack(prepared, sample, count) if sample.is_resolved else prepared.contact

@@ -7,6 +7,7 @@ import numpy as np
 
 import lubfric
 from lubfric.estimate import sampled
+from lubfric.models import PaperModel
 from lubfric.models.load_sharing import RoughMap, rough_film
 from lubfric.models.shared import prepare
 
@@ -29,7 +30,7 @@ def quick(case: Case) -> dict[str, float]:
 def _places(case: Case, scene: lubfric.Scene, places) -> Iterator[dict[str, float]]:
     for place in places:
         prepared = prepare(scene, case.widened(place))
-        solution = sampled(prepared, case.speed).balanced  # type: ignore[attr-defined]
+        solution = sampled(prepared, case.speed, PaperModel()).balanced  # type: ignore[attr-defined]
         contact = solution.contact
         times = contact.heights.shape[0] // case.surface.shape[0]
         maps = [

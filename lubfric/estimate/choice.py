@@ -1,0 +1,77 @@
+"""Which model answers at one speed, and why: the cheapest that is good enough."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..errors import ConvergenceError
+from ..models import AUTO, Model, SampleSolution, models_up_to
+from ..models.shared import Prepared
+from .sampled import sampled
+
+
+@dataclass(frozen=True, kw_only=True)
+class Choice:
+    """The solution that answers, and how it was chosen.
+
+    Attributes
+    ----------
+    model, solution : the model that answers, and its solution
+    why : the reason for this model, in words; "" where it was requested, or is the dearest
+    compared : the cheaper model whose strips were its control, and its solution, if there is one
+    gave_up : whether a dearer model was tried in vain, so that the work of the point may be spent
+    """
+
+    model: Model
+    solution: SampleSolution
+    why: str = ""
+    compared: tuple[Model, SampleSolution] | None = None
+    gave_up: bool = False
+
+
+def choose(prepared: Prepared, speed: float, requested: str | Model, *, native: bool = False) -> Choice:
+    """Solve ``prepared`` at ``speed`` [m/s] by the ``requested`` model, or by the cheapest that is good enough.
+
+    Where the requested model has no answer at all (`Model.unable`), the dearest of the cheaper ones that has one answers
+    in its place. ``native``: a single patch is solved on its own cells. Raises `ConvergenceError`.
+    """
+    if isinstance(requested, Model):
+        return Choice(model=requested, solution=sampled(prepared, speed, requested, native=native))
+    able = [model for model in models_up_to(requested) if not model.unable(prepared, speed)]
+    if requested == AUTO:
+        return _cheapest(prepared, speed, able, native=native)
+    *cheaper, model = able
+    if not cheaper or not model.takes_control(prepared.sample):
+        return Choice(model=model, solution=sampled(prepared, speed, model, native=native))
+    beside = sampled(prepared, speed, cheaper[0], native=native)
+    solution = sampled(prepared, speed, model, native=native, control=beside.control())
+    return Choice(model=model, solution=solution, compared=(cheaper[0], beside))
+
+
+def _cheapest(prepared: Prepared, speed: float, models: list[Model], *, native: bool) -> Choice:
+    """Return the solution of the cheapest of ``models`` that is good enough.
+
+    From the cheapest on, a solution answers if it suffices (`SampleSolution.sufficient`), if f means nothing anyway
+    (a severe warning), or if the next model declines (`Model.declines`) or does not converge. The strips of the first
+    are the control of those that take one.
+    """
+    first = sampled(prepared, speed, models[0], native=native)
+    choice = Choice(model=models[0], solution=first)
+    for model in models[1:]:
+        solution = choice.solution
+        why = solution.sufficient()
+        if why or any(entry.severe for entry in solution.warnings()):
+            return Choice(model=choice.model, solution=solution, why=why)
+        if why := model.declines(prepared, speed, solution):
+            return Choice(model=choice.model, solution=solution, why=why)
+        if (adopted := model.adopt(solution)) is not None:
+            choice = Choice(model=model, solution=adopted)
+            continue
+        try:
+            solution = sampled(prepared, speed, model, native=native, control=first.control())
+        except ConvergenceError as error:
+            why = f"the {model.name} model was not solved ({error})"
+            return Choice(model=choice.model, solution=choice.solution, why=why, gave_up=True)
+        compared = (models[0], first) if model.takes_control(prepared.sample) else None
+        choice = Choice(model=model, solution=solution, compared=compared)
+    return choice

@@ -1,0 +1,83 @@
+"""What a point by the deterministic model will take, from closed forms and the counted work of its steps
+(`counted_work`). Nothing is solved."""
+
+import math
+
+from ...samples import Sample
+from ...scene import FRICTION, Scene, gap_not_resolved, moves
+from ...surface import Surface
+from ..contract import WorkEstimate
+from ..shared import ORDER, SAFETY, student
+from .counted_work import work_of_steps
+from .levels import DIFFERENCE
+from .problem import reach
+from .rough_bodies import MOST_WORK, moving_point_work
+from .shorter_cells import SHORT
+from .strip_on_two_grids import cells_of
+
+# Newton steps on a strip, about.
+STEPS = 9
+
+# Newton steps on cells half as long, which begin there.
+FINER_STEPS = 6
+
+# Newton steps on cells a quarter as long, on which a map shorter than a piece is solved as a whole.
+LAST_STEPS = 20
+
+# Newton steps on a strip whose neighbour is solved: at an end of the range of an input.
+AGAIN = 4
+
+# Processor time of moving roughness over its counted work, which is that of the systems alone.
+IN_MOTION = 1.1
+
+# Scatter of the difference between the models over that of f.
+UNLIKE = 0.65
+
+# What is not solved takes nothing.
+NOTHING = WorkEstimate(strips=0, seconds=0.0)
+
+
+def estimated_work(
+    scene: Scene, sample: Sample, surface: Surface, speed: float, cheaper: WorkEstimate | None
+) -> WorkEstimate:
+    """Return what a point at ``speed`` [m/s] will take beside the strips of the ``cheaper`` model, if there is one."""
+    numerics = scene.numerics
+    sq = surface.sq
+    if speed == 0 or sq == 0 or not sample.is_resolved:
+        return NOTHING
+    both = cells_of(scene, sample)
+    one_strip = moving_point_work(scene, sample, sq, speed, both) if moves(scene) else 0.0
+    if scene.transient is not None or gap_not_resolved(scene):
+        return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
+    scatter = 0.0
+    if numerics.model == "auto" and cheaper is not None and cheaper.model_error <= numerics.model_tolerance:
+        return NOTHING
+    if cheaper is not None and math.isfinite(cheaper.sampling):
+        scatter = cheaper.sampling * math.sqrt(sample.first)
+    allowed = math.hypot(DIFFERENCE * numerics.model_tolerance / student(ORDER), numerics.sampling_tolerance)
+    count = min(max(1, math.ceil(SAFETY * (UNLIKE * scatter / allowed) ** 2)), sample.available)
+    if moves(scene):
+        if one_strip > MOST_WORK and numerics.model == "auto":
+            return WorkEstimate(strips=0, seconds=0.0, strip_seconds=one_strip)
+        count = min(count, max(1, int(MOST_WORK / one_strip)))  # no more are solved
+        return WorkEstimate(strips=count, seconds=IN_MOTION * count * one_strip, strip_seconds=one_strip)
+    ends = 2 * sum(name != FRICTION for name, *_ in scene.ranges)
+    return WorkEstimate(strips=count, seconds=_work_at_rest(scene, sample, sq, speed, count, ends))
+
+
+def _work_at_rest(scene: Scene, sample: Sample, sq: float, speed: float, count: int, ends: int) -> float:
+    """Return the counted work [s] of ``count`` strips whose roughness rests, of shorter cells, and of so many ``ends``
+    of input ranges."""
+    (fx, fy) = cells_of(scene, sample)
+    (dx, dy) = sample.cells.coarse
+    (ux, uy) = sample.cells.coarsening
+    cells = sum(reach(scene.line_contact(abs(speed)), sq)) / (fx * dx) * sample.length / (fy * dy)
+    if sample.is_single_patch:  # it may be solved down to its own cells, and the ends on the same
+        finer = 0.5 * cells * fx * fy * ux * uy
+        again = work_of_steps(finer, AGAIN) * (ends + (ends > 0))
+        return work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again
+    finer = 0.5 * cells * fx * fy
+    again = work_of_steps(cells, AGAIN) * (ends + (ends > 0))
+    short = sample.length < SHORT * sample.lengths[1] and fx * ux >= 4 <= fy * uy
+    shorter = work_of_steps(4 * cells, FINER_STEPS) + work_of_steps(16 * cells, LAST_STEPS) if short else 0.0
+    return count * work_of_steps(cells, STEPS) + work_of_steps(finer, FINER_STEPS) + again + shorter

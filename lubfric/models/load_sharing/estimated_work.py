@@ -1,0 +1,115 @@
+"""What a point by load sharing will take, from closed forms: whether asperities touch, how many strips are solved, and
+how long that takes. Nothing is solved."""
+
+import math
+
+from ...film import LineContact, flooded_inlet
+from ...oil import shear_stress
+from ...samples import Sample
+from ...scene import Scene, moves
+from ...surface import Surface
+from ..contract import WorkEstimate
+from ..shared import SAFETY
+from .model_error import load_sharing_error
+
+# Processor time [s] of a cell of the strips in balance, about.
+CELL_SECONDS = 1.3e-6
+
+# Processor time [s] of a cell of a piece on finer and finer cells, counted on the finest.
+PIECE_SECONDS = 0.7e-6
+
+# Processor time [s] of the contact on a map that is solved whole, however small.
+PATCH_SECONDS = 0.03
+
+# Processor time [s] of each cell of such a map.
+MAP_SECONDS = 4e-8
+
+# Processor time [s] of the films of a point without heat.
+FILM_SECONDS = 0.015
+
+# Factor on that with heat.
+HOT = 5.0
+
+# Mean gap of a contact that carries most of the load, in Sq, about.
+GAP = 1.6
+
+# Part of the film of the whole load by which it is wider, about.
+RISE = 0.4
+
+# Friction where the film carries most of the load, over f_b, about.
+FLOOR = 0.25
+
+# Film that hardly meets an asperity, in Sq.
+CLEAR = 3.5
+
+# Factor between the expected film and any film: outside of it contact or separation is certain.
+SURE = 2.0
+
+
+def estimated_work(scene: Scene, sample: Sample, surface: Surface, speed: float) -> WorkEstimate:
+    """Return what a point at ``speed`` [m/s] will take; ``surface``: the map that is solved first.
+
+    The mean gap over a line of length L and half-width b scatters as a mean of L (2b + sqrt(pi) lx)/(pi lx ly)
+    independent heights. The effect on f follows from the share of the load that the rigid film of the whole load would
+    carry if it were as thick as the gap.
+    """
+    film = scene.line_contact(speed).expected_film if speed else 0.0
+    sq = surface.sq
+    summit = float(surface.heights.max() - surface.heights.mean())
+    seconds = FILM_SECONDS * (HOT if scene.lubricant.heats and scene.numerics.heat != "off" else 1.0)
+    touching = "touching" if SURE * film < summit else "none" if film > SURE * summit else "none or a few summits"
+    error_of_model = expected_model_error(scene, film, sq, speed)
+    if sample.is_single_patch:
+        if touching != "none":
+            seconds += PATCH_SECONDS + MAP_SECONDS * surface.heights.size
+        return WorkEstimate(strips=1, seconds=seconds, model_error=error_of_model, touching=touching)
+    (lx, ly) = sample.lengths
+    first = sample.first * sample.length
+    target = scene.numerics.sampling_tolerance
+    error = 0.0
+    if speed and film <= CLEAR * sq:
+        gap = GAP * sq + RISE * film
+        share = min(film / gap, 1.0)
+        scatter = sq * math.sqrt(math.pi * lx * ly / (first * (2 * scene.bodies.half_width + math.sqrt(math.pi) * lx)))
+        error = scatter / gap * share / (1 - share + FLOOR)
+    count = math.ceil(sample.first * max(1.0, SAFETY * (error / target) ** 2 if error > target else 1.0))
+    count = min(count, sample.available)
+    cells = sample.cells
+    (fx, fy) = cells.coarsening
+    (_, dy) = cells.coarse
+    piece = 0.0 if cells.is_native else cells.count * fx * fy * sample.length / dy / 2
+    if touching != "none":
+        seconds += CELL_SECONDS * cells.count * count * sample.length / dy + PIECE_SECONDS * piece
+    return WorkEstimate(
+        strips=count,
+        seconds=seconds,
+        length=count * sample.length,
+        sampling=error,
+        model_error=error_of_model,
+        touching=touching,
+    )
+
+
+def expected_model_error(scene: Scene, film: float, sq: float, speed: float) -> float:
+    """Return the expected model-form error of f under a ``film`` [m] on roughness of ``sq`` [m], relative, if asperities
+    carry nothing; 0 without roughness, NaN without entrainment."""
+    if sq == 0:
+        return 0.0
+    if speed == 0:
+        return math.nan
+    rolling = rolling_share(scene.line_contact(speed), scene.bodies.mean_hertz_pressure) if moves(scene) else 0.0
+    return load_sharing_error(film / sq, 0.0, 0.0, 1.0, rolling)[1]
+
+
+def rolling_share(line: LineContact, pressure: float) -> float:
+    """Return the expected share of rolling in the friction of the film of ``line`` under a mean ``pressure`` [Pa], to a
+    factor of two: pressure builds up in the inlet, and the Hertz strip and the film about it are sheared."""
+    oil = line.lubricant
+    film = line.expected_film
+    b = line.half_width
+    sliding = abs(line.sliding or 0.0)
+    length = math.sqrt(2 * line.radius * film)
+    eta = oil.viscosity
+    rolling = eta * abs(line.entrainment_speed) * flooded_inlet(length, b)
+    sheared = film * float(shear_stress(oil, pressure, sliding / film)) * b + eta * sliding * length
+    return rolling / (rolling + sheared)
